@@ -1,5 +1,5 @@
-/* Edits of a scene, field by field: what changes its sign, its side or its place, and what stays.
- */
+/* Edits of a scene, field by field: fields that change their sign, side or position, and fields
+ * that do not change. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 #include "cases/scene/scene.h"
 #include "cases/test/refuse.h"
 
-/* A member with names of warping, divisions, and a load along it in its own axes that follows. */
+/* Makes a member with warping names, divisions, and a follower load along it in its own axes. */
 static void make(scene *s)
 {
     const double path[] = {0, 1, 2}, factor[] = {0, 3, 4};
@@ -66,7 +66,7 @@ static void reversed(void)
 }
 
 /* A full stiffness and mass of a section: entries between a resultant along or about z and one
- * along or about x or y change sign, others stay. */
+ * along or about x or y change sign; others do not. */
 static void reversed_section(void)
 {
     scene s;
@@ -91,12 +91,12 @@ static void reversed_section(void)
     scene_free(&s);
 }
 
-/* Loads on parts of a member of length 2, along x, that is turned round or cut in two. */
+/* Loads on parts of a member of length 2 along x that is reversed or split in two. */
 static const struct {
     scene_load_kind kind;
-    double from, to, last;      /* 1 at the begin; last 0: it does not vary */
-    double turned[3];           /* from, to, and what it is at the begin */
-    double first[4], second[4]; /* cut at 0.25: likewise, and at the end */
+    double from, to, last;      /* 1 at the start; last 0: it does not vary */
+    double turned[3];           /* from, to, and the value at the start */
+    double first[4], second[4]; /* split at 0.25: likewise, and at the end */
 } on_part[] = {
     {SCENE_DISTRIBUTED, 0, 1, 0, {0, 1, 1}, {0, 1, 1, 1}, {0, 1, 1, 1}},
     {SCENE_DISTRIBUTED, 0, 1, 5, {0, 1, 5}, {0, 1, 1, 2}, {0, 1, 2, 5}},
@@ -108,7 +108,7 @@ static const struct {
     {SCENE_MEMBER_MOMENT, 0.625, 0.625, 0, {0.375, 0.375, 1}, {-1}, {0.5, 0.5, 1, 1}},
 };
 
-/* The load on a member, as expected; none where that begins with -1. */
+/* Checks the load on a member; there is none if the expected range starts with -1. */
 static void is_on(const scene *s, int member, const double expected[4], const char *what)
 {
     int found = 0;
@@ -204,7 +204,7 @@ static void unchanged(scene *s)
     (void)s;
 }
 
-/* Changes of a scene that are not defined for it. */
+/* Edits that are not defined for the scene are rejected. */
 static void refused(void)
 {
     static const struct {
@@ -232,7 +232,7 @@ static void refused(void)
     }
 }
 
-/* An edited scene is a scene. */
+/* An edited scene is a valid scene. */
 static void stay_scenes(void)
 {
     static const scene_edit edit[] = {
@@ -247,7 +247,7 @@ static void stay_scenes(void)
     }
 }
 
-/* A motion in millimetres: newtons and seconds stay. */
+/* A motion in millimetres: newtons and seconds do not change. */
 static void in_millimetres(void)
 {
     static const struct {
@@ -286,8 +286,8 @@ static void in_millimetres(void)
     scene_free(&s);
 }
 
-/* A place keeps its side of what jumps there, seen from the other end the other one; where the
- * member is split there the side says of which half it is. */
+/* A position keeps its side of a discontinuity; seen from the other end it is the other side. If
+ * the member is split there, the side determines the half. */
 static void sides(void)
 {
     static const struct {
@@ -331,7 +331,7 @@ static void edit_tests(void)
     stay_scenes();
 }
 
-/* What is derived from the tables of entries: other units, ranges, comparison, exchanged ends. */
+/* Results of the entry tables: other units, ranges, comparison, exchanged ends. */
 
 static void has_powers(void)
 {
@@ -425,8 +425,8 @@ static void entry_tests(void)
     is_mirrored();
 }
 
-/* Functions of time in pieces: where one ends the next begins, which of them hang together, and
- * which are finite. */
+/* Functions of time in pieces: where one ends, the next begins; which pieces are smooth, and which
+ * are finite. */
 
 static scene_function pieces(int count, const double until[], const char *const text[])
 {
@@ -476,7 +476,7 @@ static void check_order(void)
     function_free(&f);
 }
 
-/* Two pieces that meet at 1 s; derivative -1: smooth. */
+/* Checks two pieces that meet at 1 s; derivative -1: smooth. */
 static void check_joint(const char *before, const char *behind, double end, int derivative)
 {
     const double until[] = {1, 0};
@@ -498,7 +498,7 @@ static void check_joints(void)
     check_joint("t^2", "2*t - 1", 2, -1);
     check_joint("t^2", "2*t - 1.1", 2, 0);
     check_joint("t^2", "t", 2, 1);
-    check_joint("t^2", "t", 1, -1); /* nothing comes behind the joint */
+    check_joint("t^2", "t", 1, -1); /* nothing follows the joint */
     check_joint("t^2", "7", 0.5, -1);
 }
 

@@ -1,5 +1,5 @@
-/* Formulas of the time: values and derivatives against differences, points without derivatives, and
- * what is refused at which character. */
+/* Formulas of time: values and derivatives compared with differences, points without derivatives,
+ * and rejected texts with the position of the character. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <signal.h>
@@ -22,7 +22,7 @@ static int at(const char *text, double t, double out[3])
     return 1;
 }
 
-/* Derivatives of sixth order by differences. */
+/* Computes derivatives by sixth-order differences. */
 static void check_differences(const char *text, double t)
 {
     static const double first[] = {-1. / 60, 3. / 20, -3. / 4, 0, 3. / 4, -3. / 20, 1. / 60};
@@ -80,7 +80,7 @@ static void check_value(const char *text, double t, double expected)
         gsl_test_rel(out[0], expected, 1e-15, "%s at %g", text, t);
 }
 
-/* As in the other expressions of scene files. */
+/* Precedence is that of the other expressions in scene files. */
 static void check_binding(void)
 {
     check_value("-2^2", 0, -4);
@@ -99,7 +99,7 @@ static void check_binding(void)
     check_value("sinh(atan2(0, 1)) + t", 3, 3);
 }
 
-/* 1: finite, 0: not, of value, velocity and acceleration. */
+/* Expected 1: finite, 0: not, for value, velocity and acceleration. */
 static void check_edge(const char *text, double t, int value, int velocity, int acceleration)
 {
     const int expected[3] = {value, velocity, acceleration};
@@ -125,12 +125,12 @@ static void check_edges(void)
     check_edge("exp(1000*t)", 1, 0, 0, 0);
     check_edge("asin(t)", 1, 1, 0, 0);
     check_edge("sqrt(t - 2)", 1, 0, 0, 0);
-    /* of constants the derivatives are zero, also where those of the function are not */
+    /* the derivatives of constants are zero, even where those of the function are not finite */
     check_edge("t*sqrt(0)", 1, 1, 1, 1);
     check_edge("t + asin(1)", 1, 1, 1, 1);
 }
 
-/* The place counted from 1, and words of the line. */
+/* Checks the position, counted from 1, and words of the line. */
 static void check_refused(const char *text, int character, const char *words)
 {
     formula *f = NULL;
@@ -194,9 +194,9 @@ static void formula_tests(void)
     check_refusals();
 }
 
-/* What a section of a scene comes to follows its description. */
+/* Computed constants of a section follow changes of its description. */
 
-/* However often it was asked for. */
+/* The constants are updated, however often they were requested. */
 static void constants_follow(void)
 {
     scene s;
@@ -219,7 +219,7 @@ static void constants_tests(void)
     constants_follow();
 }
 
-/* What one kind of analysis or quantity has cannot be read from another kind: the program ends. */
+/* Data of one kind of analysis or quantity cannot be read from another kind: the program ends. */
 
 typedef void kinds_reader(const void *analysis_or_quantity);
 
@@ -270,7 +270,7 @@ static void read_driver(const void *q)
     scene_driver_of(q);
 }
 
-/* One scene with every kind. */
+/* Makes one scene with every kind. */
 static void everything(scene *s)
 {
     const double end = 1;
@@ -305,7 +305,7 @@ static void kinds_tests(void)
     static const struct {
         const char *name;
         kinds_reader *read;
-        unsigned analyses, quantities; /* kinds that have it; 0: it is not asked of them */
+        unsigned analyses, quantities; /* kinds that have it; 0: not applicable */
     } row[] = {
         {"walk", read_walk, 1 << SCENE_STATIC | 1 << SCENE_ROTATION, 0},
         {"compliance", read_compliance, 1 << SCENE_COMPLIANCE, 0},

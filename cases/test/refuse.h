@@ -1,4 +1,4 @@
-/* Scenes that are refused, made from one that is not. */
+/* Rejected scenes, made from a valid one. */
 #ifndef BEAMWORK_TEST_REFUSE_H
 #define BEAMWORK_TEST_REFUSE_H
 
@@ -11,7 +11,7 @@ enum { ROOT, TIP, BODY };
 
 static const double y_axis[3] = {0, 1, 0};
 
-/* A cantilever with a body at its tip that is driven along y, and a static path. */
+/* Makes a cantilever with a body at its tip that is driven along y, and a static path. */
 static inline void refuse_sound(scene *s)
 {
     const double station[2] = {0, 1};
@@ -33,7 +33,7 @@ typedef void spoil(scene *);
 
 typedef struct refusal {
     spoil *how;
-    const char *culprit, *words; /* how its line starts, and what it says */
+    const char *culprit, *words; /* how its line starts, and the words it contains */
 } refusal;
 
 static inline void refuse_one_line(const char *what, const fault *f)
@@ -43,8 +43,8 @@ static inline void refuse_one_line(const char *what, const fault *f)
     gsl_test(strchr(f->text, ';') == NULL, "%s: says what to do: %s", what, f->text);
 }
 
-/* Refused, with the culprit at the start of the line; the scene that it was made from is accepted.
- */
+/* Checks that the scene is rejected with the cause at the start of the line, and that the scene
+ * from which it was made is accepted. */
 static inline void refuse_scene(const refusal *r)
 {
     scene s;

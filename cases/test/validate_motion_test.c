@@ -1,10 +1,10 @@
-/* What motions in time may not be, and their functions. */
+/* Rejected motions in time, and their functions. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "cases/test/refuse.h"
 
-/* From the end of the static path, where the driver is at 1 m. */
+/* Adds a motion from the end of the static path, where the driver is at 1 m. */
 static scene_motion *moves_from(scene *s, int follows)
 {
     const double station[] = {0.5, 2};
@@ -21,7 +21,7 @@ static scene_motion *moves(scene *s)
     return moves_from(s, 0);
 }
 
-/* Driven in time, from 1 s on by another function; NULL: by one alone. */
+/* Drives in time, from 1 s on by another function; NULL: by a single function. */
 static void drives(scene *s, const char *first, const char *then)
 {
     moves(s);
@@ -254,7 +254,7 @@ static void goes_on(scene *s)
     scene_load_piece(s, 0, 0, "sqrt(t)");
 }
 
-/* Conditional: where alpha is another integrator's it is not looked at. */
+/* alpha is ignored for other integrators. */
 static void without_alpha(scene *s)
 {
     scene_motion *m = moves(s);
@@ -286,8 +286,8 @@ static void validate_motion_tests(void)
     accepts(weighs_at_a_node, "a mass at a node only");
 }
 
-/* What nodes may not be: every refusal names its culprit and says what to do, in one
- * line; and what is refused is one thing only: the scene it was made from is accepted. */
+/* Rejected nodes: every rejection names its cause and the remedy in one line. Each invalid scene
+ * has a single fault: the scene from which it was made is accepted. */
 
 static const double x_axis[3] = {1, 0, 0}, zero[3] = {0, 0, 0};
 
@@ -406,8 +406,8 @@ static void validate_node_tests(void)
     refuse_all(sizeof node_refusals / sizeof node_refusals[0], node_refusals);
 }
 
-/* What analyses and quantities may not be: every refusal names its culprit and says what to do, in
- * one line; and what is refused is one thing only: the scene it was made from is accepted. */
+/* Rejected analyses and quantities: every rejection names its cause and the remedy in one line.
+ * Each invalid scene has a single fault: the scene from which it was made is accepted. */
 
 /* The path of an unknown load factor, which changes loads only. */
 static void driven(scene *s)

@@ -1,6 +1,5 @@
-/* What springs, members, motions and loads may not be: every refusal names its culprit and says
- * what to do, in one line; and what is refused is one thing only: the scene it was made from is
- * accepted. */
+/* Rejected springs, members, motions and loads: every rejection names its cause and the remedy in
+ * one line. Each invalid scene has a single fault: the scene from which it was made is accepted. */
 #include <math.h>
 
 #include "cases/scene/scene.h"
@@ -73,7 +72,7 @@ static void load(scene *s)
     s->load[0].vector[2] = NAN;
 }
 
-/* Along the member from one part of it to another. */
+/* Adds a load along part of the member. */
 static scene_load *spread(scene *s, double from, double to)
 {
     s->load[0] = scene_load_of(SCENE_DISTRIBUTED, 0, 0, 1, 0);
@@ -350,7 +349,7 @@ static void says_that_memory_ran_out(void)
     scene_free(&s);
 }
 
-/* Only a path finds what is unknown. */
+/* Only a path can determine unknown drivers. */
 static void says_what_is_sought_along_paths(void)
 {
     scene s;
@@ -366,7 +365,7 @@ static void says_what_is_sought_along_paths(void)
     scene_free(&s);
 }
 
-/* What is whole, and what is not a mistake. */
+/* Loads on the whole member and other valid loads are accepted. */
 static void accepts(void)
 {
     static const double place[] = {0, 0.5, 1};
@@ -390,7 +389,7 @@ static void accepts(void)
     }
 }
 
-/* A load that is nothing where it begins acts, and turns the tangent. */
+/* A load that is zero at its start still acts, and makes the tangent unsymmetric. */
 static void acts_where_it_ends(void)
 {
     scene_load l = scene_load_of(SCENE_DISTRIBUTED, 0, 0, 0, 0);

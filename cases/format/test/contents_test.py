@@ -1,4 +1,4 @@
-"""What scene files hold: their contents as read, the examples, and scenes with closed forms."""
+"""Tests the contents of scene files: contents as read, the examples, and scenes with closed-form solutions."""
 import json
 import pathlib
 import re
@@ -9,9 +9,9 @@ from harness.tools.kit.program import ProgramTest, ROOT
 from harness.tools.kit.scenes import LEAF
 
 
-# What a scene file can hold: loads, sections, resultants, bodies; written with the same bits.
+# Possible contents of a scene file: loads, sections, resultants, bodies; written with the same bits.
 
-# Every way to give a section; the constants of three place a node.
+# Every way to define a section; the constants of three sections position a node.
 SHAPES = """\
 beamwork: 1
 parameters: {h: {value: 0.2, unit: m}}
@@ -71,7 +71,7 @@ omit: [wagner_torque]
         return self.scene(text, name)
 
     def test_loads(self):
-        """Loads of every kind and key: written and read they give the same bits; a turned structure moves as before."""
+        """Loads of every kind and key keep their bits when written and read; a rotated structure moves as before."""
         first = self.loads("first.yaml", TIP="[1, 0, 0]", Y="[0, 1, 0]", FORCE="[1, 2, 3]", AT="[0.1, 0.2, 0.3]", TURN="[0, 4, 1]",
                            GRAVITY="[0, 0, -9.81]", X="ux", Z="uz")
         turned = self.loads("turned.yaml", TIP="[0, 1, 0]", Y="[0, 0, 1]", FORCE="[3, 1, 2]", AT="[0.3, 0.1, 0.2]", TURN="[1, 0, 4]",
@@ -85,7 +85,7 @@ omit: [wagner_torque]
                 self.assertGreater(abs(value), 1e-4)
 
     def test_shapes(self):
-        """Shapes by sizes, tubes and cells: written with the same bits; their constants are names."""
+        """Shapes given by dimensions, tubes and cells are written with the same bits; their constants are names."""
         path = self.scene(SHAPES, "shapes.yaml")
         text = self.answered("scene", "--scene", path).stdout
         again = self.scene(text, "again.yaml")
@@ -93,7 +93,7 @@ omit: [wagner_torque]
         where = ("-f", "collocation", "-n", 1)
         once, twice = (values(self.record("solve", "--scene", p, *where)) for p in (path, again))
         self.assertEqual(once, twice)
-        # e = 3 b^2 t_f/(h t_w + 6 b t_f) of a channel by its mid-lines; a ring; a polygon of Bredt's
+        # e = 3 b^2 t_f/(h t_w + 6 b t_f) for a channel by its mid-lines; a ring; a polygon from Bredt's formula
         height, width, flange, web = 0.2, 0.06, 6e-3, 4e-3
         centre = 3*width**2*flange/(height*web + 6*width*flange)
         ring = (0.05**4 - 0.044**4)*3.141592653589793/32
@@ -126,7 +126,8 @@ quantities:
 """
 
     def test_internal(self):
-        """Resultants at both ends by statics, of every formulation that takes a channel; the same bits when written."""
+        """Resultants at both ends follow from statics, for every formulation that supports a channel; written scenes
+        give the same bits."""
         path = self.scene(self.INTERNAL, "internal.yaml")
         exact = {"N": (5, 5), "Qy": (0.7, 0.7), "Qz": (0.7, 0.3), "Mx": (1, 1), "My": (-1, 0), "Mz": (1.4, 0)}
         for formulation in ("collocation", "geometrically_exact", "beamw", "beamw_consistent"):
@@ -140,7 +141,7 @@ quantities:
                     inside = {"Qy": 0.7, "Qz": 0.3 + 0.2*b, "Mx": 1, "My": -0.3*b - 0.1*b*b}
                     for name, value in inside.items():
                         self.assertAlmostEqual(got[f"{name}_at_{place}"], value, delta=1e-10)
-                    # the parts: of the torque about the shear centre
+                    # the parts of the torque about the shear centre
                     self.assertAlmostEqual(got[f"Mx_saint_venant_at_{place}"] + got[f"Mx_warping_at_{place}"] +
                                            got["ys"]*inside["Qz"] - got["zs"]*inside["Qy"], 1, delta=1e-9)
                 for name, value in {"My_max": 0, "My_min": -1, "My_largest": 1, "Qz_max": 0.7, "Qz_min": 0.3}.items():
@@ -170,7 +171,8 @@ quantities:
 """
 
     def test_stress(self):
-        """A box, free to warp, pulled and twisted: Bredt's flow and what varies through its thinnest wall; the same bits when written."""
+        """A box, free to warp, under tension and torsion: Bredt's flow and the part that varies through its thinnest
+        wall; a written scene gives the same bits."""
         area, swept, perimeter = 2*(0.1*3e-3 + 0.06*2e-3), 2*0.1*0.06, 2*(0.1/3e-3 + 0.06/2e-3)
         It = swept**2/perimeter + 2*(0.1*3e-3**3 + 0.06*2e-3**3)/3
         tau = max(300/It*(swept/perimeter/t + t) for t in (2e-3, 3e-3))
@@ -188,7 +190,7 @@ quantities:
         self.assertEqual(values(self.record("solve", "--scene", again, "-f", formulation, "-n", 2)), got)
 
     def test_sections_by_sizes(self):
-        """Channel, Z, I and angle by their sizes are the walls that one would write."""
+        """Channel, Z, I and angle sections given by dimensions equal the corresponding walls."""
         sizes = {"channel_portal": "channel: {depth: depth, flange: flange, flange_thickness: t_f, "
                                    "web_thickness: t_w}",
                  "zed_purlin": "zed: {depth: depth, flange: flange, flange_thickness: thickness, "
@@ -200,7 +202,7 @@ quantities:
             written = [re.sub("p[0-9]+", "p", self.answered("scene", "--scene", path).stdout)
                        for path in (EXAMPLES / f"{name}.yaml", self.scene(short))]
             self.assertEqual(*written)
-        # an I under a tip force along its web, rigid in shear: P L^3/3 E I
+        # an I-section under a tip force along its web, rigid in shear: P L^3/3 E I
         text = LEAF.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}",
                              "i: {depth: 0.2, flange: 0.1, flange_thickness: 8e-3, "
                              "web_thickness: 5e-3}")
@@ -218,7 +220,8 @@ quantities:
         self.assertEqual(*written)
 
     def test_weight_of_a_body(self):
-        """A force at its centre of mass, which turns with it: P L^3/3 E I + P a L^2/2 E I, and the bits of that force."""
+        """A weight at the centre of mass, which rotates with the body, gives P L^3/3 E I + P a L^2/2 E I, and the bits
+        of the same force."""
         heavy = LEAF.replace("  push: {force: [0, 1, 0], on: tip}", "  weight: {gravity: [0, -9.81, 0], on: tip}")
         body = heavy.replace("tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}")
         self.assertNotIn("push", body)
@@ -234,7 +237,8 @@ quantities:
             self.refused(2, words, "scene", "--scene", self.scene(body.replace(*change)))
 
     def test_weight_of_all(self):
-        """Members that have a density and bodies that have a mass, each once; a massless member stays weightless."""
+        """Gravity on all acts on members with a density and bodies with a mass, each once; a massless member stays
+        weightless."""
         one = LEAF.replace("push: {force: [0, 1, 0], on: tip}", "weight: {gravity: [0, -9.81, 0], on: all}").replace(
             "tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}\n  end:  {at: [0.2, 0, 0]}").replace(
             "loads:", "  more: {from: tip, to: end, section: light, y: [0, 1, 0]}\nloads:").replace(
@@ -254,7 +258,7 @@ quantities:
             self.refused(2, words, "scene", "--scene", self.scene(text))
 
     def test_the_analysis_that_was_made_up(self):
-        """Said where the scene states none."""
+        """The default analysis is reported if the scene has none."""
         where = ("-f", "collocation", "-n", 1)
         done = self.answered("solve", "--scene", self.scene(LEAF), *where)
         self.assertIn("has no analysis; a linear one is run", done.stderr)
@@ -266,7 +270,7 @@ quantities:
         self.assertEqual(done.stderr, "")
 
 
-# The examples: they pass together, with the values that they are known for.
+# The examples: they pass together, with their known values.
 class ExamplesTest(SceneCase):
 
     def test_examples_are_understood(self):
@@ -274,7 +278,7 @@ class ExamplesTest(SceneCase):
             self.answered("list", "--scene", path)
 
     def test_folder(self):
-        """All examples at once, every formulation as expected; a case beside them; names once."""
+        """All examples at once, with a case, give the expected verdict for every formulation; names are unique."""
         verdicts = self.folder / "verdicts.json"
         done = self.answered("verify", "--scene", EXAMPLES, "-v", "--json", verdicts)
         judged = {v["case"] for v in json.loads(verdicts.read_text(encoding="utf-8"))["verdicts"]}
@@ -303,7 +307,8 @@ class ExamplesTest(SceneCase):
         self.refused(2, "would replace", "verify", "--scene", self.folder, "-o", taken)
 
     def test_leaf_spring_guide(self):
-        """Stiffnesses at rest by hand, those of the pushed stage by the deriving program."""
+        """Stiffnesses at rest are those computed by hand; those of the displaced stage come from the deriving
+        program."""
         path = EXAMPLES / "leaf_spring_guide.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 4))
         self.assertAlmostEqual(got["k_drive"] / 2624.536778, 1, delta=1e-9)
@@ -313,7 +318,7 @@ class ExamplesTest(SceneCase):
         self.assertIn("5 pass", done.stdout)
 
     def test_double_cross(self):
-        """Stiffness out of the plane leaves the sixteen frequencies in it alone."""
+        """Stiffness out of the plane does not change the sixteen frequencies in it."""
         path, count = EXAMPLES / "double_cross.yaml", 0
         for formulation in ("collocation", "beamw_vlasov"):
             where = ("solve", "--scene", path, "-f", formulation, "-n", 8)
@@ -325,7 +330,7 @@ class ExamplesTest(SceneCase):
         self.assertEqual(count, 32)
 
     def test_cross_flexure_hinge(self):
-        """Moment, shift and stiffness at 20 degrees."""
+        """Checks moment, displacement and stiffness at 20 degrees."""
         got = values(
             self.record("solve", "--scene", EXAMPLES / "cross_flexure_hinge.yaml", "-f",
                         "collocation", "-n", 2))
@@ -333,7 +338,7 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(got[name] / value, 1, delta=1e-6)
 
     def test_folded_leaf_stage(self):
-        """Three instances at 120 degrees: the stiffness in their plane has no direction."""
+        """Three instances at 120 degrees: the stiffness in their plane is equal in all directions."""
         path = EXAMPLES / "folded_leaf_stage.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 2))
         self.assertAlmostEqual(got["k_x"] / got["k_y"], 1, delta=1e-12)
@@ -344,29 +349,29 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(again[name] / value, 1, delta=1e-11)
 
     def test_box_girder(self):
-        """Benscoter's beam: torsion with warping restrained of a closed section."""
+        """Benscoter's beam: torsion of a closed section with warping restrained."""
         path = EXAMPLES / "box_girder.yaml"
         done = self.answered("verify", "--scene", path)
         self.assertRegex(done.stdout, r"12 verdicts against reference values: 12 pass")
         self.assertRegex(done.stdout, r"sheet_second, [\w,\s]+: another model: warping not modelled")
 
 
-# Scenes as a new user writes them, without a word on physics, against closed forms.
+# Scenes as a new user writes them, without specifying physics, compared with closed forms.
 #
-# Each file of cases/textbook says in its first lines what it is and what is right, and carries
-# the right values as its truths. What solve chooses, and formulations with all physics, must have
-# them; a value that is not right may never come with status ok.
+# Each file of cases/textbook describes itself and the correct values in its first lines, and contains them as
+# reference values. The formulation that solve chooses, and formulations with all physics, must give them; a wrong
+# value must never have status ok.
 SCENES = sorted((ROOT / "cases" / "textbook").glob("*.yaml"))
-# Of a value, relative, on the mesh that solve chooses by itself.
+# Of a value, relative, on the mesh that solve chooses.
 CLOSE = 2e-3
 
-# Scenes whose elements of this formulation are too long for the force in them, however many: it
-# fails by name, and no value is shown.
+# Scenes in which the elements of this formulation are too long for their axial force, whatever their number: it fails
+# by name, and no value is shown.
 REFUSED = {"rotating_string": "geometrically_exact"}
 
 
 def wrong(solution):
-    """What differs from its reference value, or has none although one is known."""
+    """Returns the quantities that differ from their reference values, or have no value although one is known."""
     found = []
     for row in solution["quantities"]:
         for truth in row["truths"][:1]:
@@ -382,18 +387,18 @@ class ClosedFormsTest(ProgramTest):
     """One test a scene."""
 
     def holds(self, path, *options):
-        """The scene has its right values with these options."""
+        """Checks that the scene has its correct values with these options."""
         solution = self.record("solve", "--scene", path, *options)
         self.assertEqual(solution["cell"]["status"], "ok", solution["cell"]["reason"])
         self.assertEqual(wrong(solution), [], path.name)
 
     def test_that_there_are_enough(self):
-        """Thirty scenes; each has a reference value, or is known to have no value."""
+        """There are thirty scenes; each has a reference value, or is known to have no value."""
         self.assertGreaterEqual(len(SCENES), 30)
 
 
 def add(path):
-    """The scene's tests into the class."""
+    """Adds the tests of a scene to the class."""
     def chosen(self):
         self.holds(path)
 

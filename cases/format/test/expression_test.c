@@ -1,4 +1,4 @@
-/* Expressions and ranges: values, and the place and remedy of what is none. */
+/* Expressions and ranges: values, and the position and remedy of invalid ones. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 #include "cases/format/format_impl.h"
 #include "elements/math/scalar.h"
 
-/* The text as a value that begins in line 3, column 10. */
+/* Returns the text as a value that starts in line 3, column 10. */
 static document_node text_node(const char *text)
 {
     return (document_node){.kind = DOCUMENT_TEXT, .line = 3, .column = 10, .text = text};
@@ -168,7 +168,7 @@ static void expression_tests(void)
     arena_free(&a);
 }
 
-/* YAML as a tree: places, and what is refused. */
+/* YAML as a tree: positions, and rejected documents. */
 
 static void check_tree(void)
 {
@@ -284,7 +284,7 @@ static void check_bad_loops(void)
     }
 }
 
-/* Twenty are kept, in the order of their places, the others counted. */
+/* Twenty errors are kept, sorted by position; the others are counted. */
 static void check_many(void)
 {
     static mistakes m = {.file = "f"};
@@ -308,10 +308,10 @@ static void document_tests(void)
     check_many();
 }
 
-/* Units of scene files: those of the SI are taken; of others the remedy says the right factor, and
- * a unit that is taken. */
+/* Units of scene files: SI units are accepted; for others, the remedy gives the correct factor and
+ * an accepted unit. */
 
-/* What the check says; empty: nothing. */
+/* Returns the message of the check; empty if there is none. */
 static const char *said(const char *unit, mistakes *m)
 {
     const document_node text = {
@@ -351,7 +351,7 @@ static const struct {
                {"kHz", "Hz", 1e3},
                {"rpm", "rad/s", PI / 30}};
 
-/* "write 20 mm as 20e-3 and unit: m": 20 mm are 20 times the factor of m. */
+/* Checks "write 20 mm as 20e-3 and unit: m": 20 mm are 20 times the factor of m. */
 static void remedy_of(const char *unit, const char *si, double factor)
 {
     mistakes m;

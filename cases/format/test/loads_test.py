@@ -1,4 +1,4 @@
-"""What scene files say of loads, of motions in time and of stability."""
+"""Tests loads, motions in time and stability in scene files."""
 import itertools
 import math
 import re
@@ -10,7 +10,7 @@ from harness.tools.kit.program import run
 from harness.tools.kit.scenes import LEAF
 
 
-# What each kind of load can say, and what is refused of it: every key with every kind.
+# Keys of each kind of load, and rejected ones: every key with every kind.
 SCENE = """beamwork: 1
 UNITS
 sections:
@@ -43,7 +43,7 @@ KINDS = {
 FORCES, MOMENTS = ("force", "force within", "distributed"), ("moment", "moment within", "distributed moment")
 ON_MEMBERS = ("force within", "moment within", "distributed", "distributed moment")
 SPREAD = ("distributed", "distributed moment")
-# key: which kinds can have it; a force or a moment within a member has `where` already
+# key: the kinds that can have it; a force or a moment within a member already has `where`
 KEYS = {
     "where: 0.75": (),
     "from: 0.25": SPREAD,
@@ -55,7 +55,7 @@ KEYS = {
     "follower: true": FORCES + MOMENTS,
     "path: [0, 1], factor: [0, 2]": tuple(KINDS)
 }
-# what they are without it
+# explicit defaults
 NOTHING = ("from: 0, to: 1", "lumped: no", "at: [0, 0, 0]", "axes: fixed", "follower: no")
 ANALYSES = {
     "linear": "{linear: {}}",
@@ -85,7 +85,8 @@ class LoadsTest(SceneCase):
         return [line for line in self.written(text).partition("\nloads:\n")[2].splitlines() if line.startswith("  l")]
 
     def test_every_key(self):
-        """What a kind can have is read, written and read again; else one line says which key, and a remedy."""
+        """A key that a kind can have survives writing and reading; any other is rejected with one line that names the
+        key and a remedy."""
         taken, refused = [], 0
         for (kind, said), (key, kinds) in itertools.product(KINDS.items(), KEYS.items()):
             where = key.startswith("where") and "within" in kind
@@ -110,7 +111,8 @@ class LoadsTest(SceneCase):
             self.assertIn(key, once)
 
     def test_analyses(self):
-        """Every kind with every analysis: the file is the same again. What has no potential is refused where that matters, by name."""
+        """Every kind of load with every analysis: the file is reproduced. Loads without a potential are rejected by
+        name where this matters."""
         several = [said for kind, said in KINDS.items() if kind != "all"]
         several += [f"{KINDS[kind]}, from: 0.25, to: 0.5, to_value: [4, 5, 6], follower: true" for kind in SPREAD]
         for analysis, said in ANALYSES.items():
@@ -125,7 +127,7 @@ class LoadsTest(SceneCase):
             self.assertRegex(done.stderr, r"\bl0 \(moments? .*\): it has no potential")
 
     def test_nothing(self):
-        """Said or not, it is the same."""
+        """An explicit default is equivalent to a missing key."""
         for kind, said in KINDS.items():
             for key in NOTHING:
                 if kind not in SPREAD and key.startswith("from"):
@@ -135,7 +137,7 @@ class LoadsTest(SceneCase):
                 self.assertEqual(self.loads_of(text_of([f"{said}, {key}"])), self.loads_of(text_of([said])), (kind, key))
 
     def test_plane(self):
-        """What leaves it where it begins or where it ends is refused."""
+        """A load that leaves the plane at its start or its end is rejected."""
         inside = ["force: [1, 2, 0], on: bar, where: 0.25", "moment: [0, 0, 3], on: bar, where: 0.25",
                   "distributed: [1, 2, 0], on: bar, to_value: [2, 1, 0]", "distributed_moment: [0, 0, 0], on: bar, to_value: [0, 0, 1]"]
         outside = ["force: [1, 2, 3], on: bar, where: 0.25", "moment: [1, 0, 3], on: bar, where: 0.25, axes: member",
@@ -149,7 +151,7 @@ class LoadsTest(SceneCase):
             self.assertRegex(done.stderr, r":11:3: l0: it (acts|rotates) out of the plane, .*: remove that, or plane: xy\n$")
 
     def test_units(self):
-        """In mm and N: parts of a length have no unit, vectors that of their kind, at both ends."""
+        """In mm and N: fractions of a length have no unit; vectors have the unit of their kind, at both ends."""
         def loads(millimetre):
             force, moment, line, moments, arm = (f"[{x}, {2*x}, {3*x}]" for x in (1, 0.5*millimetre, 2/millimetre, 0.25, 0.125*millimetre))
             more = [f"distributed: {line}, on: bar, from: 0.25, to: 0.5, at: {arm}, to_value: [0, {8/millimetre}, 0]",
@@ -159,9 +161,9 @@ class LoadsTest(SceneCase):
         self.assertNotEqual(self.loads_of(text_of(loads(1000))), self.loads_of(text_of(loads(1))))
 
 
-# Motions in time from scene files, as one who writes them meets them in every verb.
+# Motions in time from scene files, with every verb.
 
-# A block on a spring and a light wire, pushed by little.
+# A block on a spring and a light wire, under a small force.
 BLOCK = """\
 beamwork: 1
 parameters:
@@ -198,7 +200,7 @@ class MotionTest(SceneCase):
         return values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1, *more))
 
     def test_constant_push(self):
-        """Without a function the load is whole from the begin: u = F/k (1 - cos w t)."""
+        """Without a function, the full load acts from the start: u = F/k (1 - cos w t)."""
         k = self.stiffness()
         exact = PUSH * (1 - math.cos(math.sqrt(k / 0.1) * 0.5)) / k
         self.assertAlmostEqual(self.moved("")["u"] / exact, 1, delta=1e-4)
@@ -206,14 +208,14 @@ class MotionTest(SceneCase):
         self.assertAlmostEqual(doubled / exact, 2, delta=1e-3)
 
     def stiffness(self):
-        """Of spring and wire [N/m], by a push at rest."""
+        """Returns the stiffness of spring and wire [N/m], from a static force."""
         text = BLOCK.replace(", TIME", "").replace(", at: 0.5", "")
         path = self.scene(text.replace("ANALYSES", "swing: {linear: {}}"))
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1))
         return PUSH / got["u"]
 
     def test_functions(self):
-        """Expression, pieces and table of one function of time move alike."""
+        """The expression, the pieces and the table of one function of time give the same motion."""
         ramp = self.moved("pieces: [{until: 0.2, is: 5*t}, {is: 1}]")["u"]
         self.assertAlmostEqual(self.moved("table: {at: [0, 0.2], value: [0, 1]}")["u"], ramp,
                                delta=1e-9 * abs(ramp))
@@ -221,7 +223,7 @@ class MotionTest(SceneCase):
         self.assertEqual(self.moved("time: 1")["u"], self.moved("")["u"])
 
     def test_release(self):
-        """Released from the end of a static path: the load is gone, and it swings back."""
+        """Released from the end of a static path, the load is zero and the block swings back."""
         walk = "walk: {static: {stations: [1]}}\n  "
         about = walk + SWING.replace("radau,", "radau, about: walk,")
         k = self.stiffness()
@@ -231,7 +233,7 @@ class MotionTest(SceneCase):
         self.assertAlmostEqual(held * k / PUSH, 0.5, delta=1e-6)
 
     def test_usual_choices(self):
-        """Neither step nor tolerance: they adapt; no quantities: places and energy."""
+        """Without step and tolerance, steps adapt; without quantities, positions and energies are reported."""
         path = self.scene(re.sub(r"(?s)quantities:.*?omit", "omit", BLOCK.replace(
             ", TIME", "").replace("ANALYSES", "swing: {motion: {stations: [0.5]}}")))
         written = self.answered("scene", "--scene", path).stdout
@@ -240,7 +242,7 @@ class MotionTest(SceneCase):
         self.assertEqual(set(values(record)), {"block_ux", "energy"})
 
     def test_chosen_integrators(self):
-        """rho stays where the integrator is the choice of a parameter; all agree on the motion."""
+        """rho is accepted if a parameter chooses the integrator; all integrators agree on the motion."""
         swing = SWING.replace("radau, step: step", "how, step: 1e-3, rho: 0.8")
         text = BLOCK.replace(", TIME", ", time: sin(20*t)").replace("ANALYSES", swing)
         path = self.scene(text.replace(
@@ -252,8 +254,8 @@ class MotionTest(SceneCase):
         self.assertNotEqual(got[0], got[1])
 
     def test_mass(self):
-        """Mass along members is usual, also when it is asked for; at the nodes it is farther from fine
-        meshes. Of three nodes, and with integrators that do not have it, it is refused by name."""
+        """By default, and if requested, mass is distributed along members; lumped at nodes, it is less accurate. For
+        three nodes, and for integrators without support, it is rejected by name."""
         text = reader_file("howto/dynamics.md", "swing.yaml")
         lumped = self.scene(text.replace("0..1/100", "0..1/100, mass: lumped"), "lumped.yaml")
         usual = self.scene(text, "usual.yaml")
@@ -274,7 +276,7 @@ class MotionTest(SceneCase):
                      "geometrically_exact")
 
     def test_mass_of_what_goes_on(self):
-        """An integrator that has lumped mass only goes on from no motion with another one."""
+        """An integrator with lumped mass only cannot continue a motion with consistent mass."""
         go = "{a: {motion: {stations: [0.01], MASSstep: 1e-4}}, "
         go += "b: {motion: {stations: [0.02], about: a, integrator: conserving, step: 1e-4}}}"
         text = reader_file("howto/dynamics.md", "swing.yaml")
@@ -287,7 +289,8 @@ class MotionTest(SceneCase):
             self.assertEqual("only lumped mass" in done.stdout + done.stderr, code == 2)
 
     def test_forms_of_newton(self):
-        """Displacements alone move alike; what an integrator does not have is refused."""
+        """Newton's method in displacements gives the same motion; forms that an integrator does not support are
+        rejected."""
         path = self.block("time: sin(20*t)")
         where = ("solve", "--scene", path, "-n", 1, "-f")
         mixed, alone = (values(self.record(*where, f"collocation:newton={how}"))["u"]
@@ -299,7 +302,7 @@ class MotionTest(SceneCase):
                      "collocation:newton=displacement")
 
     def test_other_verbs(self):
-        """Steps are swept; a deck refuses a motion; written again it has the same bits."""
+        """Steps can be swept; a deck rejects a motion; a written scene gives the same bits."""
         path = self.block("time: sin(20*t)")
         self.answered("sweep", "--scene", path, "--vary", "step=1e-3..4e-3/2:log", "-f",
                       "collocation", "-n", 1, "-o", self.folder / "steps.h5")
@@ -318,7 +321,7 @@ class MotionTest(SceneCase):
         self.assertIn("0.5 s after the start of the motion", re.sub(r"\s+", " ", listed))
 
     def test_loads_that_jump(self):
-        """Where the path holds what the motion has not: told, unless both agree."""
+        """A load that jumps between the end of the path and the start of the motion is reported."""
         follows = ("bent: {static: {stations: [1]}}\n"
                    "  swing: {motion: {stations: [0.25, 0.5], step: step, about: bent}}")
         for time, told in (("time: 0", True), ("time: 1 - t", False),
@@ -329,7 +332,7 @@ class MotionTest(SceneCase):
                              told, text)
 
     def test_what_ends_too_early(self):
-        """A push that grows beyond all: the motion stops, and what may help stands there."""
+        """If a load grows without bound, the motion stops, and the message gives remedies."""
         path = self.block("time: exp(1000*t)")
         done = self.answered("solve", "--scene", path, "-f", "beamw", "-n", 1, code=1)
         self.assertIn("it ends before 0.5 s: give a smaller step", re.sub(r"\s+", " ", done.stdout))
@@ -340,7 +343,7 @@ class MotionTest(SceneCase):
         self.refused(2, "did you mean 't'?", "solve", "--scene", self.block("time: 2*time"))
 
     def test_curves_are_over_time(self):
-        """Without words of the file; those of the file stay."""
+        """Curves are over time by default; names in the file take precedence."""
         path = self.block("time: 1")
         for x, wanted in (("", ("time", "s")), (", x: {factor: 1000}", ("time", "1")),
                           (", x: {name: a, unit: s}", ("a", "s"))):
@@ -351,7 +354,7 @@ class MotionTest(SceneCase):
             self.assertEqual((curve["x_name"], curve["x_unit"]), wanted)
 
     def test_one_reason_once(self):
-        """Quantities that have no value for the reason of the one before."""
+        """A quantity without a value for the same reason as the previous one refers to it."""
         path = self.block("time: 1")
         late = "{rate: {analysis: swing, node: block, component: ux, at: 0.9}}"
         path.write_text(path.read_text("utf-8").replace(
@@ -360,9 +363,9 @@ class MotionTest(SceneCase):
         self.assertRegex(text, r"v +- the path does not reach this station\nw +- likewise\n")
 
 
-# Stability of each station of a path: in tables, in records, and in the choice of a mesh.
+# Stability at each station of a path: in tables, in records, and in the choice of a mesh.
 
-# A column, clamped below and free above, held in its plane; it stays straight, and buckles at path 1.
+# A column, clamped below and free above, restricted to its plane; it stays straight, and buckles at path 1.
 EULER = math.pi**2/4*210e9*50e-3*5e-3**3/12
 COLUMN = f"""beamwork: 1
 sections: {{strip: {{rectangle: {{width: 50e-3, thickness: 5e-3}}, young: 210e9, shear_modulus: 81e9, density: 7800}}}}
@@ -378,7 +381,7 @@ quantities:
   short: {{displacement: {{analysis: press, node: head, component: ux, take: curve}}}}
   shorter: {{displacement: {{analysis: again, node: head, component: ux}}}}
 """
-# Turning about its axis faster than its first critical speed, where gyroscopic forces hold it or not.
+# A shaft that rotates faster than its first critical speed, with or without stabilising gyroscopic forces.
 SHAFT = COLUMN.replace("static: {stations: [0.5, 0.95, 1.05, 1.5]}",
                        "static: {stations: [1], spin: {omega: [200, 0, 0]}}").replace(f"-{EULER!r}", "-1e-6")
 
@@ -405,7 +408,7 @@ class StabilityTest(SceneCase):
                          ["yes", "yes", "no", "no"])
 
     def test_meshes(self):
-        """converge says where; solve goes on to the finest mesh, which might not pass."""
+        """converge reports where the stability changes; solve refines to the finest mesh, which might not pass."""
         text = self.answered("converge", "--scene", self.scene(COLUMN), "-f", "collocation", "-f", "beamw").stdout
         self.assertIn("collocation met unstable states:\n  n = 1: stable up to 0.95", text)
         line = self.answered("solve", "--scene", self.scene(COLUMN), "-f", "collocation").stdout

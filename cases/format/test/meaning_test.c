@@ -1,4 +1,4 @@
-/* Every quantity of every case and example: a sentence of its own, from the scene's data. */
+/* Every quantity of every case and example has its own description, made from the scene's data. */
 #include <dirent.h>
 #include <gsl/gsl_test.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 enum { MOST = 128, KEY = 400, KINDS = SCENE_READING + 1 };
 static int seen[KINDS], asked;
 
-/* What a file says of quantity i: the extract, then the factor and the offset. */
+/* Writes the entry of quantity i in a file: the extract, then the factor and the offset. */
 static void key_of(const char *text, const scene_quantity *q, char key[KEY])
 {
     char start[SCENE_NAME + 8];
@@ -147,7 +147,7 @@ static void check_words(void)
     scene_free(&s);
 }
 
-/* What a motion is asked for. */
+/* Checks quantities of a motion. */
 static void check_motion(void)
 {
     scene_extract acceleration = scene_rate(1, SCENE_UX);
@@ -202,8 +202,8 @@ static void meaning_tests(void)
     printf("%d quantities\n", asked);
 }
 
-/* What the build made of every scene file among the cases is what the file says: parameters, and
- * the scene bit for bit, with the names of its entries. */
+/* The cases that the build made from scene files equal the files: parameters, and the scene bit for
+ * bit, with the names of its entries. */
 
 static void compare_parameters(const char *name, const parameter_type *packed,
                                const parameter_type *read)

@@ -34,7 +34,7 @@ static inline int same_node(const scene_node *a, const scene_node *b)
             same_numbers(9, a->axis[0], b->axis[0]));
 }
 
-/* Ends share a name in both or in neither: what they are called is free. */
+/* Do ends share a name in both scenes or in neither? The names themselves may differ. */
 static inline int same_sharing(const scene *a, const scene *b)
 {
     for (int i = 0; i < 2 * a->members; i++)
@@ -158,7 +158,7 @@ static inline int same_quantity(const scene_quantity *a, const scene_quantity *b
            (one == NULL) == (two == NULL) && (one == NULL || strcmp(one, two) == 0);
 }
 
-/* What differs first, with its index; NULL: nothing. */
+/* Returns the first list that differs, with the index of the entry; NULL: none. */
 static inline const char *differing(const scene *a, const scene *b, int *index)
 {
     *index = 0;

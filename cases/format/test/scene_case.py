@@ -1,11 +1,11 @@
-"""What tests of scene files share."""
+"""Functions shared by tests of scene files."""
 from harness.tools.kit.program import ROOT, ProgramTest
 
 EXAMPLES = ROOT / "cases/examples"
 
 
 def values(record):
-    """Quantity -> value as it was written, every bit of it."""
+    """Returns quantity -> value as written, with every bit."""
     return {q["quantity"]: q["value"] for q in record["quantities"]}
 
 
@@ -18,7 +18,7 @@ class SceneCase(ProgramTest):
         return path
 
     def same_again(self, path, *where):
-        """What it solves to, which is what it solves to when it is written, bit for bit."""
+        """Returns the values, after checking that the written scene gives the same values bit for bit."""
         again = self.scene(self.answered("scene", "--scene", path).stdout, f"{path.stem}_again.yaml")
         got, twice = (values(self.record("solve", "--scene", p, *where)) for p in (path, again))
         self.assertEqual(got, twice)

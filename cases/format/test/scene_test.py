@@ -1,4 +1,4 @@
-"""Scene files: their form, names, choices, and parts with their instances."""
+"""Tests scene files: their form, names, choices, and parts with their instances."""
 import csv
 import json
 import math
@@ -12,16 +12,16 @@ from harness.tools.kit.program import ProgramTest, ROOT, run
 from harness.tools.kit.scenes import LEAF, bad_scenes
 
 
-# Scene files through the program: mistakes with their places, bits of the cases, parameters, keys.
+# Scene files through the program: errors with their positions, bits of the cases, parameters, keys.
 GOOD = ROOT / "cases/format/test/good"
-# A part of the motion of twelve joints: all of it takes as long as many other cases together.
+# A part of the motion with twelve joints: the whole motion takes as long as many other cases together.
 PART = {"hexapod_motion": ("--set", "time=0.05")}
 
 
 class SceneTest(SceneCase):
 
     def test_bad_files(self):
-        """Each planted mistake is told at its place, with its remedy, and nothing else is."""
+        """Each injected error is reported at its position with its remedy, and nothing else is reported."""
         self.assertGreaterEqual(len(bad_scenes()), 160)
         for name, text in bad_scenes():
             path = self.folder / f"{name}.yaml"
@@ -33,7 +33,7 @@ class SceneTest(SceneCase):
             self.assertEqual((done.returncode, told, done.stdout), (2, expected, ""), path.name)
 
     def test_mistakes_for_editors(self):
-        """--format json gives the same mistakes as numbers and text."""
+        """--format json gives the same errors as numbers and text."""
         path = self.folder / "several_mistakes.yaml"
         path.write_text(dict(bad_scenes())[path.stem], encoding="utf-8")
         done = self.answered("scene", "--scene", path, "--format", "json", code=2)
@@ -43,14 +43,14 @@ class SceneTest(SceneCase):
         self.assertEqual((told["file"], told["more"]), (str(path), 0))
 
     def test_unknown_parameter(self):
-        """A refusal says the command that lists the parameters, and it does."""
+        """The rejection gives the command that lists the parameters, and this command lists them."""
         path = self.scene(LEAF)
         self.refused(2, f"'beamwork list --scene {path}' shows them", "solve", "--scene", path,
                      "--set", "force=3")
         self.answered("list", "--scene", path)
 
     def test_first_scene(self):
-        """Ten lines are a scene: P L^3/3EI + P L/(k G A) at the tip."""
+        """A scene takes ten lines: P L^3/3EI + P L/(k G A) at the tip."""
         path = self.scene(LEAF)
         record = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)
         area, inertia = 50e-3 * 0.5e-3, 50e-3 * 0.5e-3 ** 3 / 12
@@ -58,7 +58,7 @@ class SceneTest(SceneCase):
         self.assertAlmostEqual(values(record)["tip_uy"] / exact, 1, delta=1e-9)
 
     def test_bytes(self):
-        """Line ends and marks of other editors, and letters of other languages, change nothing."""
+        """Line endings and byte order marks of other editors, and letters of other languages, change nothing."""
         own = self.answered("scene", "--scene", self.scene(LEAF)).stdout
         for name, text in (("ends", LEAF.replace(
                 "\n", "\r\n")), ("mark", "\ufeff" + LEAF), ("letters", LEAF + "# Größe – 大きさ\n")):
@@ -67,7 +67,7 @@ class SceneTest(SceneCase):
             self.assertEqual(self.answered("scene", "--scene", path).stdout, own, name)
 
     def test_same_bits(self):
-        """A case and the file that `scene` writes of it have the same values, every bit."""
+        """A case and the file that `scene` writes for it give the same values, bit for bit."""
         listed = self.answered("list", "cases").stdout.splitlines()
         cases = [line.split()[0] for line in listed if re.match("  [^ ]", line)]
         self.assertGreater(len(cases), 20)
@@ -88,13 +88,13 @@ class SceneTest(SceneCase):
         self.assertGreater(compared, 40)
 
     def test_written_again(self):
-        """What is written of a file, read and written once more, is the same text."""
+        """A file that is written, read and written again gives the same text."""
         for path in sorted(EXAMPLES.glob("*.yaml")):
             once = self.answered("scene", "--scene", path).stdout
             self.assertEqual(self.answered("scene", "--scene", self.scene(once)).stdout, once)
 
     def test_everything(self):
-        """All that a scene can say is understood as it was meant, and written so that it is again."""
+        """Everything that a scene can express is understood as intended and written so that it remains the same."""
         for path in sorted(GOOD.glob("*.yaml")):
             written = path.with_suffix(".written").read_text(encoding="utf-8")
             self.assertEqual(self.answered("scene", "--scene", path).stdout, written)
@@ -102,7 +102,7 @@ class SceneTest(SceneCase):
             self.assertEqual(again, written)
 
     def test_needs_of_earlier_versions(self):
-        """What it does not list is left out, but for warping; one line says what stands for it."""
+        """Physics that it does not list is omitted, except warping; one line gives the replacement."""
         rest = ["shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia"]
         buckles = LEAF + ("analyses:\n  run: {buckling: {}}\nquantities:\n"
                           "  P: {critical_factor: {analysis: run}, unit: \"1\"}\n")
@@ -121,7 +121,7 @@ class SceneTest(SceneCase):
             self.assertEqual(self.answered("scene", "--scene", again).stdout, done.stdout)
 
     def test_parameters(self):
-        """--set changes a scene's parameters, within their ranges; truths follow."""
+        """--set changes a scene's parameters within their ranges; reference values follow."""
         where = ("solve", "--scene", EXAMPLES / "leaf_spring_guide.yaml", "-f", "collocation", "-n",
                  1)
         got = values(self.record(*where, "--set", "width=0.1"))
@@ -130,7 +130,7 @@ class SceneTest(SceneCase):
         self.refused(2, "did you mean 'width'", *where, "--set", "wdth=0.1")
 
     def test_truths_of_a_point(self):
-        """A reference value that names parameters holds there only, and `verify` goes there."""
+        """A reference value that names parameters applies only at that point, and `verify` runs this point."""
         path = self.scene(
             LEAF.replace("width: 50e-3", "width: width").replace(
                 "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +
@@ -146,7 +146,7 @@ class SceneTest(SceneCase):
         self.assertIn("1 verdict against reference values: 1 pass", done.stdout)
 
     def test_refusals(self):
-        """One line where it is not the file's content."""
+        """Errors other than in the file's contents are reported in one line."""
         self.refused(4, "cannot be read", "solve", "--scene", self.folder / "none.yaml", "-f",
                      "beamw", "-n", 1)
         self.refused(2, "give one of them", "solve", "elastica", "--scene", self.scene(LEAF), "-f",
@@ -156,7 +156,7 @@ class SceneTest(SceneCase):
         self.assertEqual(path.read_text(encoding="utf-8"), LEAF)
 
     def test_schema(self):
-        """The schema has every list of a scene, and what its entries must have."""
+        """The schema contains every list of a scene, and the required keys of its entries."""
         schema = json.loads(self.answered("scene", "--schema").stdout)
         self.assertEqual(schema["required"], ["beamwork", "sections"])
         member = schema["properties"]["members"]["additionalProperties"]
@@ -164,7 +164,7 @@ class SceneTest(SceneCase):
         self.assertIn("for", member["properties"])
 
     def test_list_of_keys(self):
-        """--keys names what the schema names, and what the examples use is in both."""
+        """--keys lists the names in the schema, and all keys used in the examples are in both."""
         listed = {
             line.split()[0]
             for line in self.answered("scene", "--keys").stdout.splitlines() if line.strip()
@@ -181,7 +181,7 @@ class SceneTest(SceneCase):
                                     self.answered("scene", "--keys").stdout, re.M), [])
 
 
-# What the user named comes back by its name: in messages, tables, folders, records and files.
+# User-defined names are used in messages, tables, folders, records and files.
 NUMBERED = re.compile(r"\b(node|member|section|spring|load|analysis|motion)[ _][0-9]")
 
 GUIDE = """beamwork: 1
@@ -217,7 +217,7 @@ quantities:
   moment: {internal: {analysis: travel, member: left.leaf, end: from, resultant: Mz}, unit: "N m"}
 """
 
-# What makes the guide wrong, and what the line says after the place in the file.
+# Changes that make the guide invalid, and the message after the position in the file.
 WRONG = [
     ("hold: all}\n      top: {at: [0, 0.08, 0]", "hold: all}\n      top: {at: [0, 0, 0]",
      "left.leaf: its ends coincide"),
@@ -237,7 +237,7 @@ class NamesTest(SceneCase):
         self.assertIsNone(NUMBERED.search(text), (what, NUMBERED.search(text)))
 
     def line(self, code, words, *arguments):
-        """The one line of a refusal, in which the words stand."""
+        """Returns the one line of a rejection, which contains the words."""
         done = run(*arguments)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertIn(words, done.stderr)
@@ -273,7 +273,7 @@ class NamesTest(SceneCase):
         self.same_again(path, "-f", "collocation", "-n", 2)
 
     def test_written_weight(self):
-        """A node that has the name of a member, and a load that came to several."""
+        """Writes a node with the name of a member, and a load that was applied to several entries."""
         both = GUIDE.replace("peak", "brace_1").replace("0.2, 0]}", "0.2, 0], mass: 0.1}") + "omit: all\n"
         weight = both.replace("push: {force: [0, 1e-3, 0], on: stage}", "load_1: {gravity: [0, 1e-3, 0], on: all}").replace(
             "shear_modulus: 77e9}", "shear_modulus: 77e9, density: 7800}")
@@ -304,7 +304,7 @@ class NamesTest(SceneCase):
 
 class OfFile(ProgramTest):
     def test_any_file_name(self):
-        """What a name cannot have becomes '_', one for each character."""
+        """Each character that a name cannot contain becomes '_'."""
         text = (ROOT / "cases" / "examples" / "euler_column.yaml").read_text(encoding="utf-8")
         text = "\n".join(line for line in text.splitlines() if not line.startswith("name:"))
         for file, name in (("my-leaf.yaml", "my_leaf"), ("2 blätter.yaml", "scene_2_bl_tter"),
@@ -314,7 +314,7 @@ class OfFile(ProgramTest):
             self.assertIn(f"\nname: {name}\n", self.answered("scene", "--scene", path).stdout)
 
 
-# What of a scene file hangs on its parameters.
+# Parts of a scene file that depend on its parameters.
 CHOSEN = """\
 beamwork: 1
 parameters:
@@ -347,7 +347,7 @@ meshes: {shear: {0: [1, 2], 1: [1, 2, 4]}}
 class ChoicesTest(SceneCase):
 
     def written(self, *assignments):
-        """Lines of the scene at these values: loads, omit, meshes."""
+        """Returns lines of the scene at these values: loads, omit, meshes."""
         given = [word for one in assignments for word in ("--set", one)]
         text = self.answered("scene", "--scene", self.scene(CHOSEN), *given).stdout
         loads = text[text.index("loads:"):text.index("analyses:")].split()[1:]
@@ -355,7 +355,7 @@ class ChoicesTest(SceneCase):
         return " ".join(loads), ends["omit"], ends["meshes"]
 
     def test_values_choose(self):
-        """Entries, values, physics and meshes are those of the values that the parameters have."""
+        """Entries, values, physics and meshes follow the values of the parameters."""
         self.assertEqual(self.written(),
                          ("push_1: {force: [0, 1.5, 0], on: tip} push_2: {force: [0, 1.5, 0], on: tip}",
                           "omit: [shear, trapeze]", "meshes: [1, 2]"))
@@ -366,14 +366,15 @@ class ChoicesTest(SceneCase):
         self.assertIn("force: [0, 2.5, 0]", self.written("size=20", "shear=1")[0])
 
     def test_refused(self):
-        """Values that make no scene are refused at the place that says so; a switch has two values."""
+        """Parameter values that do not give a scene are rejected at the responsible position; a switch has two
+        values."""
         path = self.scene(CHOSEN)
         self.refused(2, f"{path}:11:49: size = 12.5 N on the root's side; give less than 10 N", "solve",
                      "--scene", path, "--set", "load=root_side", "--set", "size=12.5")
         self.refused(2, "shear", "solve", "--scene", path, "--set", "shear=0.5")
 
 
-# Parts and their instances: what is placed is what its members, springs and supports are when they are written out.
+# Parts and their instances: an instance equals its members, springs and supports written explicitly.
 
 # LEAF along z, as an instance of a part.
 PLACED = """\
@@ -397,7 +398,7 @@ loads:
 class PartsTest(SceneCase):
 
     def test_instance_by_axes(self):
-        """An instance placed by its axes is what its members are when they are written out."""
+        """An instance placed by its axes equals its members written explicitly."""
         got = values(self.record("solve", "--scene", self.scene(PLACED), "-f", "collocation",
                                  "-n", 1))
         own = values(self.record("solve", "--scene", self.scene(LEAF), "-f", "collocation", "-n",
@@ -405,7 +406,7 @@ class PartsTest(SceneCase):
         self.assertAlmostEqual(abs(got["tip_ux"]) / own["tip_uy"], 1, delta=1e-12)
 
     def test_springs_of_a_part(self):
-        """In its axes: a turned part's spring is the one of the turned matrix T K T^T, on a port as between its own nodes."""
+        """The spring of a rotated part has the rotated matrix T K T^T, at a port as well as between its own nodes."""
         turn, a = 0.4, [3e3, 1e3, 2e3, 4.0, 5.0, 6.0]
         c, s = math.cos(turn), math.sin(turn)
         R = np.kron(np.eye(2), [[c, -s, 0], [s, c, 0], [0, 0, 1]])
@@ -432,7 +433,7 @@ loads:""") + "  pull: {force: [0.5, 1, 2], on: own}\n"
         self.assertGreater(min(map(abs, own.values())), 1e-9)
 
     def test_components_of_a_turned_part(self):
-        """Held and driven along the part's axes, also where a motion is against the scene's axis."""
+        """Supports and motions are along the part's axes, even if a motion is opposite to the scene's axis."""
         part = PLACED.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
         where = ("-f", "collocation", "-n", 1)

@@ -1,4 +1,4 @@
-"""Keys of scene files and the units of their values."""
+"""Tests keys of scene files and the units of their values."""
 import json
 import re
 import unittest
@@ -9,10 +9,10 @@ from cases.format.test.scene_case import EXAMPLES, SceneCase, values
 from harness.tools.kit.program import ROOT, run
 
 
-# What keys of a scene file come to where they are left out.
+# Defaults of the keys of a scene file.
 GOOD = ROOT / "cases/format/test/good"
 
-# What no other scene has: entries of every kind with as little as they need.
+# Entries that no other scene contains: every kind, with as few keys as possible.
 BARE = [
     """sections:
   b: {rectangle: {width: 0.02, thickness: 0.01}, young: 7e10, shear_modulus: 2.6e10, density: 2700}
@@ -89,7 +89,7 @@ quantities:
 
 
 def tables(schema):
-    """Every map of the schema with its keys: name -> (place, properties)."""
+    """Returns every map of the schema with its keys: name -> (place, properties)."""
 
     def below(node, place):
         if "properties" in node:
@@ -104,7 +104,7 @@ def tables(schema):
 
 
 def maps(scene, schema, place=()):
-    """Of a scene: every map that a table of keys describes."""
+    """Returns every map of a scene that a key table describes."""
     if isinstance(scene, dict) and "properties" in schema:
         yield place, scene, schema["properties"]
         for key, value in scene.items():
@@ -126,7 +126,7 @@ class KeysTest(SceneCase):
         cls.schema = json.loads(run("scene", "--schema").stdout)
 
     def test_words_of_keys(self):
-        """What an editor offers is what the list says, word by word."""
+        """The words that an editor offers are those of the list."""
         said = "".join(self.answered("scene", "--keys").stdout.split())
         offered = []
 
@@ -143,7 +143,7 @@ class KeysTest(SceneCase):
             self.assertTrue(f"({','.join(words)})" in said, words)
 
     def test_every_key(self):
-        """It must be there, or the list and the schema say what it comes to."""
+        """A key is required, or the list and the schema state its default."""
         lines = []
         for line in self.answered("scene", "--keys").stdout.partition("is replaced:\n")[2].splitlines():
             if re.match(r" {0,11}\S", line):
@@ -170,7 +170,7 @@ class KeysTest(SceneCase):
         self.assertGreater(said, 150)
 
     def test_written(self):
-        """Every default that is a value means the same when it is written."""
+        """Writing a default explicitly does not change the scene."""
         wanted = {(place, key)
                   for place, properties, _ in tables(self.schema)
                   for key, value in properties.items() if "default" in value}
@@ -195,19 +195,19 @@ class KeysTest(SceneCase):
                     if done.returncode == 0:
                         self.assertEqual(done.stdout, written, (place, key, entry))
                         tried.add((place, key))
-        # of parts, which are as the scene itself
+        # keys of parts are those of the scene itself
         self.assertEqual({one for one in wanted - tried if one[0][:1] != ("parts",)}, set())
 
 
-# Scenes in units of their own are those in SI; numbers that look like other units are doubted.
+# Scenes in their own units equal those in SI; numbers that suggest other units cause a warning.
 
-# Units, metres and newtons of one, and what the units of values are called.
+# Units, metres and newtons of one unit, and the names of the units of values.
 SYSTEMS = (("mm, N, MPa", 1e-3, 1), ("[mm, N]", 1e-3, 1), ("m, kN, kPa", 1, 1e3), ("in, lbf, psi", 0.0254, 4.4482216152605),
            ("cm, kN", 1e-2, 1e3), ("m, N, Pa", 1, 1))
 
 
 def scene(units, metre, newton):
-    """One structure with something of everything; numbers in those units."""
+    """Returns one structure with something of everything; numbers in those units."""
     def u(value, length=0, force=0):
         return repr(value/metre**length/newton**force)
 
@@ -337,7 +337,7 @@ class UnitsTest(SceneCase):
         return self.record("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 2, *where)
 
     def test_systems(self):
-        """Every number by its unit: values come back in the units of the scene."""
+        """Every number is converted by its unit: values are reported in the units of the scene."""
         exact = values(self.solved(scene("", 1, 1)))
         for units, metre, newton in SYSTEMS:
             record = self.solved(scene(units, metre, newton))
@@ -353,7 +353,7 @@ class UnitsTest(SceneCase):
                                  "C": "1/N", "K": "N/mm", "f": "Hz", "line": "mm"})
 
     def test_written(self):
-        """beamwork scene writes it in SI, with the same values."""
+        """beamwork scene writes the scene in SI, with the same values."""
         self.same_again(self.scene(scene("mm, N, MPa", 1e-3, 1)), "-f", "collocation", "-n", 2)
 
     def test_motion(self):
@@ -363,7 +363,7 @@ class UnitsTest(SceneCase):
             self.assertAlmostEqual(found[name]/1e3/exact[name], 1, delta=1e-6, msg=name)
 
     def test_continued(self):
-        """Stations of a continuation are lengths, also of a compliance about it."""
+        """Stations of a continuation are lengths, also for a compliance about it."""
         si, mm = [self.solved(filled(CONTINUED, UNITS=units, NEAR=near, FAR=4*near, **numbers))
                   for units, near, numbers in (("", 1e-3, METRES), ("units: mm, N, MPa", 1, MILLIMETRES))]
         exact, found = values(si), values(mm)
@@ -395,7 +395,7 @@ class UnitsTest(SceneCase):
         return "warning" in done.stderr
 
     def test_warnings(self):
-        """One line, and the status stays."""
+        """There is a one-line warning, and the status does not change."""
         self.assertTrue(self.warned(filled(LEAF, **MILLIMETRES)))
         self.assertTrue(self.warned(filled(LEAF, **{**MILLIMETRES, "YOUNG": 210e9, "SHEAR": 81e9})))
         self.assertTrue(self.warned(filled(MOTION, UNITS="", **{**METRES, "YOUNG": 210e3, "SHEAR": 81e3})))
@@ -406,7 +406,7 @@ class UnitsTest(SceneCase):
             self.assertFalse(self.warned(filled(LEAF, **right)), right)
 
     def test_of_another_kind(self):
-        """A frequency is in Hz, whatever its label says, unless a factor makes it another."""
+        """A frequency is in Hz, whatever its label, unless a factor converts it."""
         scene = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.01}, young: 200e9, shear_modulus: 80e9, density: 7800}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -420,7 +420,7 @@ quantities: {f: {frequency: {analysis: v, which: 0}, unit: %s}}
             self.assertEqual("the value is in Hz" in done.stderr, code == 2, (unit, done.stderr))
 
     def test_verbs(self):
-        """Each that reads the scene says it once."""
+        """Each verb that reads the scene reports the warning once."""
         path = self.scene(filled(LEAF, **MILLIMETRES))
         for words in (("solve", "-n", 1), ("converge", "-n", 1), ("verify",), ("bench", "-n", 1), ("truth",)):
             told = run(words[0], "--scene", path, *words[1:]).stderr
@@ -453,7 +453,7 @@ quantities: {dT: {critical_factor: {analysis: buck}, unit: K}}
 
 
 class Doubtful(SceneCase):
-    """Numbers that look like other units than those of the scene."""
+    """Numbers that suggest units other than those of the scene."""
 
     def told(self, density, force):
         text = IN_MM.replace("DENSITY", density).replace("FORCE", force).replace(", divide: 2", "")
@@ -474,7 +474,7 @@ class Doubtful(SceneCase):
         self.assertRegex(self.told("7.85e-9", "1").stdout, r"\nN +0 N mm")
 
     def test_kelvin(self):
-        """The unit of a load is that of its factor: K in any units; another one needs a factor."""
+        """The unit of a load is that of its factor: K in any unit system; another unit needs a factor."""
         self.assertRegex(self.answered("solve", "--scene", self.scene(WARM), "-f", "beamw", "-n", 8).stdout,
                          r"\ndT +\S+ K")
         self.refused(2, "or 'unit: MPa, factor: 1' if the load has the value 1 in this unit", "solve", "--scene",

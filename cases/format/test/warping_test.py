@@ -1,4 +1,4 @@
-"""Warping at the joints of scene files, and members along curves."""
+"""Tests warping at the joints of scene files, and curves."""
 import csv
 import io
 import json
@@ -10,13 +10,13 @@ from cases.format.test.scene_case import SceneCase, values
 from harness.tools.kit.program import run
 
 
-# What ends of members do with their warping where a scene does not say it.
+# Warping of member ends for which the scene does not specify it.
 E, G, IT, IW, LENGTH, TORQUE = 210e9, 81e9, 4e-7, 9e-7, 3.0, 50.0
 K = math.sqrt(G * IT / (E * IW))  # 1/m; K*LENGTH: 1.2
 SAINT_VENANT = TORQUE * LENGTH / (G * IT)
 ONE_HELD = TORQUE / (G * IT) * (LENGTH - math.tanh(K * LENGTH) / K)
 BOTH_HELD = TORQUE / (G * IT) * (LENGTH - 2 * math.tanh(K * LENGTH / 2) / K)
-# Between forks, the torque in the middle.
+# Rotation of a beam on fork supports under a torque in the middle.
 SPAN = TORQUE / (2 * G * IT) * (LENGTH / 2 - math.tanh(K * LENGTH / 2) / K)
 
 HEAD = f"""beamwork: 1
@@ -41,7 +41,7 @@ TIP = f"  tip: {{at: [{LENGTH}, 0, 0]"
 class WarpingTest(SceneCase):
 
     def words(self, scene):
-        """Of the members, in their order, at both ends; shared ones by their number."""
+        """Returns the words of the members, in their order, at both ends; shared ones by their number."""
         text = self.answered("scene", "--scene", self.scene(HEAD + scene)).stdout
         return [
             re.sub(r"\{shared: (w\d+)\}", r"\1", word)
@@ -60,12 +60,12 @@ class WarpingTest(SceneCase):
             self.twist(scene, "-f", "collocation") / expected, 1, delta=1e-6, msg="collocation")
 
     def test_numbers(self):
-        """The closed forms are apart."""
+        """The closed-form values differ sufficiently."""
         self.assertGreater(SAINT_VENANT, 1.5 * ONE_HELD)
         self.assertGreater(ONE_HELD, 1.5 * BOTH_HELD)
 
     def test_held(self):
-        """All six components, whichever words hold or drive them."""
+        """All six components are fixed, whatever combination of words fixes or drives them."""
         drives = "motions: {still: {path: [0, 1], value: [0, 0]}}\n"
         for base in ("hold: all", "hold: [all]", "hold: [ux, uy, uz, rx, ry, rz]",
                      "hold: [rz, ry, rx, uz, uy, ux]",
@@ -82,7 +82,7 @@ class WarpingTest(SceneCase):
                     self.is_twisted(scene + TWIST, ONE_HELD)
 
     def test_free(self):
-        """What leaves a component free leaves the warping free; so does a mass, a fork, a word."""
+        """A free component leaves the warping free; so does a mass, a fork, or a word."""
         drives = "motions: {still: {path: [0, 1], value: [0, 0]}}\n"
         held = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         for tip in ("", ", mass: 3", ", mass: 3, inertia: [1, 1, 1, 0, 0, 0], centre: [0.1, 0, 0]",
@@ -105,7 +105,7 @@ class WarpingTest(SceneCase):
                 self.is_twisted(said + TWIST, expected)
 
     def test_released(self):
-        """A released turn leaves it free, a released shift does not."""
+        """A released rotation leaves the warping free; a released translation does not."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  tip: {at: [3, 0, 0], hold: all}\n"
         for word, told in (("rz", "free"), ("[rx]", "free"), ("[rx, ry, rz]", "free"),
                            ("[ux, ry]", "free"), ("ux", "fixed"), ("[uy, uz]", "fixed")):
@@ -115,12 +115,13 @@ class WarpingTest(SceneCase):
                     [f"fixed, {told}"])
 
     def test_tied(self):
-        """Ends that move with a body hold it: at its parts, and at the body's own node if others are joined to the body elsewhere."""
+        """Ends that move with a body restrain warping: at its parts, and at the body's own node if others are joined
+        to the body elsewhere."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         part = base + "  body: {at: [4, 0, 0]}\n" + TIP + ", part_of: body}\n" + CANTILEVER
         self.assertEqual(self.words(part), ["fixed, fixed"])
         self.is_twisted(part + TWIST.replace("on: tip", "on: body"), BOTH_HELD)
-        # a place that is looked at or pushed changes nothing
+        # an observed or loaded position changes nothing
         looked = base + TIP + "}\n  eye: {at: [3, 0.1, 0], part_of: tip}\n" + CANTILEVER
         self.assertEqual(self.words(looked), ["fixed, free"])
         self.is_twisted(looked + TWIST, ONE_HELD)
@@ -132,7 +133,8 @@ class WarpingTest(SceneCase):
         self.assertEqual(self.words(both), ["fixed, fixed", "fixed, fixed"])
 
     def test_guide(self):
-        """A guide of two leaves between clamped bases, one of them driven, and a stage: across, at the end of its stroke."""
+        """A guide of two leaves between clamped bases, one of them driven, and a stage: stiffness across it at the end
+        of its stroke."""
         guide = """nodes:
   base_a: {at: [0, 0, 0], hold: all}
   base_b: {at: [0.06, 0, 0], hold: [ux, uy, uz, ry, rz], drive: {rx: tilt}}
@@ -164,7 +166,7 @@ omit: [trapeze, wagner_torque]
         self.assertAlmostEqual(free / 111916, 1, delta=1e-4)
 
     def test_parts(self):
-        """In an instance of a part, whose nodes are its own or the scene's."""
+        """The same rules apply in an instance of a part, whose nodes are its own or the scene's."""
         scene = f"""parts:
   arm:
     places: [hub]
@@ -183,7 +185,7 @@ instances:
         self.assertEqual(self.words(scene), ["fixed, free"] * 4)
 
     def test_continued(self):
-        """A node does not cut a beam: two members that run on in one line share their warping."""
+        """A node does not interrupt a beam: two members that continue in one line share their warping."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  mid: {at: [1, 0, 0], mass: 2}\n" + TIP + "}\n"
         two = base + "members:\n  one: {from: base, to: mid, section: SECTION, y: [0, 1, 0]}\n" + \
             "  two: {from: mid, to: tip, section: SECTION, y: [0, 1, 0]}\n"
@@ -199,7 +201,7 @@ instances:
         self.assertEqual(self.words(span), ["free, w0", "w0, free"])
         self.is_twisted(span + TWIST, SPAN)
         self.assertEqual(self.words(beam.replace("mass: 2", fork)), ["fixed, w0", "w0, free"])
-        # what is not one beam
+        # members that do not form one beam
         corner = beam.replace("at: [3.0, 0, 0]", "at: [1, 3, 0]").replace(
             "tip, section: beam, y: [0, 1, 0]", "tip, section: beam, y: [1, 0, 0]")
         third = beam.replace("members:\n", "  side: {at: [1, 1, 0]}\nmembers:\n"
@@ -220,7 +222,7 @@ instances:
                 self.assertEqual(self.words(scene), told)
 
     def test_towards(self):
-        """Members that are drawn towards each other run on where the section is the same seen from both."""
+        """Members that point towards each other continue if the section looks the same from both ends."""
         two = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  mid: {at: [1, 0, 0]}\n" + TIP + "}\n" + \
             "members:\n  one: {from: base, to: mid, section: SECTION, y: [0, 1, 0]}\n" + \
             "  two: {from: tip, to: mid, section: SECTION, y: Y}\n"
@@ -243,7 +245,7 @@ instances:
                         delta=1e-9)
 
     def test_told(self):
-        """Text and JSON name the ends; nothing is on stderr."""
+        """Text and JSON list the ends; stderr is empty."""
         torsion = HEAD + "nodes:\n  base: {at: [0, 0, 0], hold: all}\n" + TIP + "}\n" + CANTILEVER
         ends = "held at base; free at tip"
         scene = self.scene(torsion + TWIST)
@@ -252,7 +254,7 @@ instances:
         self.assertEqual(done.stderr, "")
         record = json.loads(run("solve", "--scene", scene, "--format", "json").stdout)
         self.assertEqual(record["cell"]["warping"], ends)
-        # where the word is there, where it changes nothing, where nothing warps
+        # if the word is given, if it changes nothing, if nothing warps
         for text, words in ((torsion.replace("]}", "], warping: [fixed, free]}", 3) + TWIST, ends),
                             (torsion + TWIST.replace(f"[{TORQUE}, 0, 0]", "[0, 0, 0]"), ends),
                             (torsion + TWIST.replace("moment", "force"), ends),
@@ -265,7 +267,8 @@ instances:
             self.assertEqual("\nwarping: " in done.stdout, words != "")
 
     def test_told_at_members(self):
-        """Where ends at a node differ they are named by their members; of many the first."""
+        """If the ends at a node differ, they are listed by their members; if there are many, only the first are
+        listed."""
         scene = HEAD + "nodes:\n  base: {at: [0, 0, 0], hold: all}\n" + TIP + "}\n  side: {at: [3, 2, 0]}\n" + \
             "members:\n  beam: {from: base, to: tip, section: post, y: [0, 1, 0], warping: free}\n" + \
             "  leg: {from: tip, to: side, section: post, y: [1, 0, 0], warping: fixed}\n" + TWIST
@@ -280,15 +283,15 @@ instances:
                          r"warping: held at base, end_0, .*, end_6 and 13 more; free at tip quantity")
 
     def test_written(self):
-        """What is written says the word, and solves to the same bits."""
+        """The written scene contains the word, and gives the same bits."""
         for base in ("hold: all", "hold: [ux, uy, uz, rx]"):
             scene = f"nodes:\n  base: {{at: [0, 0, 0], {base}}}\n{TIP}, hold: [uy, uz]}}\n{CANTILEVER}"
             self.same_again(self.scene(HEAD + scene + TWIST), "-n", 3)
 
 
-# Curves: tables in text, rows in CSV, over an abscissa of choice, and their errors over the meshes.
+# Curves: tables in text, rows in CSV, over a chosen abscissa, and their errors over the meshes.
 
-# A leaf guide: its stiffness across the stroke falls with the stroke.
+# A leaf guide whose transverse stiffness decreases over the stroke.
 GUIDE = """beamwork: 1
 sections:
   leaf: {rectangle: {width: 30e-3, thickness: 0.3e-3}, young: 200e9, shear_modulus: 77e9}
@@ -329,7 +332,8 @@ class CurvesTest(SceneCase):
         return list(csv.DictReader(io.StringIO(text)))
 
     def test_abscissa(self):
-        """The values of another quantity of the same path, of what follows it, too."""
+        """The abscissa is the values of another quantity on the same path, also for quantities of analyses that follow
+        it."""
         found = curves(self.record("solve", "--scene", self.scene(FEW), *WHERE))
         places = found["place"]["curve_value"]
         self.assertEqual(len(places), 21)
@@ -341,7 +345,7 @@ class CurvesTest(SceneCase):
         self.same_again(self.scene(FEW), *WHERE)
 
     def test_csv(self):
-        """Every point with its abscissa, of a single mesh and of several."""
+        """CSV contains every point with its abscissa, for a single mesh and for several."""
         found = curves(self.record("solve", "--scene", self.scene(MANY), *WHERE))
         rows = self.rows(self.answered("solve", "--scene", self.scene(MANY), *WHERE, "--format", "csv").stdout)
         for name, curve in found.items():
@@ -355,7 +359,8 @@ class CurvesTest(SceneCase):
         self.assertEqual(len([r for r in rows if r["quantity"] == "force"]), 3*21)
 
     def test_text(self):
-        """Beside each other where the abscissa is the same; of many points some, and how to get all."""
+        """Curves with the same abscissa are next to each other; of many points, some are shown, with the command for
+        all."""
         text = self.answered("solve", "--scene", self.scene(FEW), *WHERE).stdout
         lines = [line.split() for line in text.splitlines()]
         at = lines.index(["place", "[mm]", "force", "[N]", "k_z", "[N/m]", "stable"])
@@ -368,7 +373,7 @@ class CurvesTest(SceneCase):
         self.assertLess(len(many.splitlines()), 120)
 
     def test_largest_error(self):
-        """Of each mesh, at any point, by the largest value of the finest."""
+        """The error of each mesh is the largest over all points, relative to the largest value of the finest mesh."""
         path = self.scene(FEW)
         value = {n: curves(self.record("solve", "--scene", path, "-f", "beamw", "-n", n))["k_z"]["curve_value"]
                  for n in (1, 2, 4)}
@@ -393,7 +398,7 @@ class CurvesTest(SceneCase):
         self.assertIn("place [mm]: the same curve on all meshes", text)
 
     def test_chosen(self):
-        """-k keeps what the curve is over."""
+        """-k also keeps the quantity on the abscissa of a curve."""
         text = self.answered("converge", "--scene", self.scene(FEW), "-f", "collocation", "-k", "force").stdout
         self.assertIn("force [N] over place [mm]", text)
 
