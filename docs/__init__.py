@@ -1,1 +1,1 @@
-"""Pages of the documentation, and the programs that make a site of them."""
+"""Pages of the documentation, and the programs that build a site from them."""

@@ -1,8 +1,8 @@
-"""Runs the commands that pages show as a reader would: from the root of a clone, in order.
+"""Runs the commands shown on pages as a reader would: in order, from the root of a clone.
 
-A page has commands in blocks of the kind `console`: a line that begins with `$ ` is a command, `> `
-continues it, and what follows is what it prints. Files of the reader are in blocks whose `:caption:`, or first line
-`# NAME`, is their name. In outputs, `...` matches any text of a line; a line `...` matches any lines.
+Commands are in `console` blocks: a line that begins with `$ ` is a command, `> ` continues it, and its output follows.
+Files of the reader are in blocks whose `:caption:`, or first line `# NAME`, is the file name. In outputs, `...`
+matches any text of a line; a line `...` matches any lines.
 
 usage: commands.py PAGE...     prints pages whose output differs, and writes what was printed
 """
@@ -16,18 +16,18 @@ import tempfile
 DOCS = pathlib.Path(__file__).resolve().parent
 ROOT = DOCS.parent
 BLOCK = re.compile(r"^```(?:\{code-block\} *)?(\w+)\n((?:.*\n)*?)```$", re.M)
-# Times of a solution and corrections of its iterations, which `...` replaces when a page is written.
+# Solution times and corrections of iterations, which `...` replaces when a page is written.
 VARYING = re.compile(r"^(?:ok; (?:.*\n)*?.*solution|step +path(?:.*\n)*?.*(?=\Z|\n\S))$", re.M)
 CAPTION = re.compile(r"\A(?::caption:|#) (\S+\.\w+)\n+")
 
 
 def pages():
-    """All pages that may show commands."""
+    """Returns all pages that may show commands."""
     return sorted([*ROOT.glob("README*.md"), *DOCS.rglob("*.md")])
 
 
 def commands(body):
-    """[(command, expected lines)] of a console block."""
+    """Returns [(command, expected lines)] of a console block."""
     found = []
     for line in body.splitlines():
         if line.startswith("$ "):
@@ -54,7 +54,7 @@ def match(expected, printed):
 
 
 def reader_file(page, name):
-    """A file of the reader as shown on a page."""
+    """Returns a file of the reader as shown on a page."""
     bodies = [body for _, body in BLOCK.findall((DOCS / page).read_text(encoding="utf-8"))]
     body, = (b for b in bodies if CAPTION.match(b) and CAPTION.match(b).group(1) == name)
     return body[CAPTION.match(body).end():]
@@ -77,7 +77,7 @@ class Folder:
         }
 
     def run(self, command):
-        """Lines that a command prints, including errors."""
+        """Returns the lines that a command prints, including errors."""
         done = subprocess.run(["bash", "-c", command], cwd=self.path, env=self.environment, text=True,
                               check=False, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT)
@@ -85,13 +85,13 @@ class Folder:
 
 
 def differences(text, program):
-    """[(command, expected lines, printed lines)] of a page whose commands print something else."""
+    """Returns [(command, expected lines, printed lines)] of the commands on a page whose output differs."""
     with tempfile.TemporaryDirectory() as path:
         return differences_in(Folder(path, program), text)
 
 
 def differences_in(folder, text):
-    """The same, in that folder."""
+    """Returns the same, in that folder."""
     wrong = []
     for kind, body in BLOCK.findall(text):
         caption = CAPTION.match(body)
@@ -105,12 +105,12 @@ def differences_in(folder, text):
 
 
 def shown(command, lines):
-    """A command and its lines as written in a block."""
+    """Returns a command and its lines as written in a block."""
     return "\n".join(["$ " + command.replace("\n", "\n> "), *lines]) + "\n"
 
 
 def main(names):
-    """Writes outputs into pages; lines that match a mark of the page do not change."""
+    """Writes outputs into pages; lines that match the pattern on the page do not change."""
     program = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
     for name in map(pathlib.Path, names):
         text = name.read_text(encoding="utf-8")

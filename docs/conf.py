@@ -1,4 +1,4 @@
-"""Configuration of the site of `make docs`: Sphinx, MyST, and equations as MathML, which needs no network."""
+"""Configuration of the site of `make docs`: Sphinx, MyST, and equations as MathML, which needs no network access."""
 import pathlib
 import re
 import sys
@@ -23,19 +23,19 @@ html_title = f"beamwork {version}"
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_copy_source = False
-html_show_search_summary = False  # a summary is fetched, which browsers forbid for files
+html_show_search_summary = False  # a summary would be fetched, which browsers forbid for local files
 html_math_renderer = "mathml"
-suppress_warnings = ["myst.header"]  # texts of formulations begin below the title of their page
+suppress_warnings = ["myst.header"]  # descriptions of formulations begin below the title of their page
 
 
 def inline_equation(translator, node):
-    """An equation in a line."""
+    """Renders an equation within a line."""
     translator.body.append(mathml.convert(node.astext()))
     raise nodes.SkipNode
 
 
 def displayed_equation(translator, node):
-    """An equation on a line of its own."""
+    """Renders an equation on a separate line."""
     translator.body.append(f'<div class="math">{mathml.convert(node.astext(), True)}</div>')
     raise nodes.SkipNode
 

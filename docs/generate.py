@@ -1,4 +1,4 @@
-"""Collects the pages of docs/ and writes those that come from the program's own tables.
+"""Collects the pages of docs/ and writes those generated from the program's tables.
 
 usage: generate.py PROGRAM FOLDER [RESULTS.h5]     FOLDER is then the source of sphinx-build
 """
@@ -17,7 +17,7 @@ sys.path.insert(0, str(ROOT))
 from docs import results  # noqa: E402  pylint: disable=wrong-import-position
 from reports.drawing import describe, draw, scene  # noqa: E402  pylint: disable=wrong-import-position
 
-# Files that pages include from elsewhere in the repository.
+# Files that pages include from other places in the repository.
 INCLUDED = ("CHANGELOG.md", "cases/format/scenes.md", "harness/exchange/import.md",
             "harness/experiments/sweep.md", "harness/formulations/protocol.md",
             "harness/tools/cluster/README.md", "reference/ERRATA.md")
@@ -26,7 +26,7 @@ VERB = re.compile(r"^  ([a-z-]+) {2,}\S", re.M)
 
 
 class Site:
-    """The program that is run, and the folder that is written."""
+    """The program that is run, and the output folder."""
 
     def __init__(self, program, folder, stored):
         self.program, self.folder, self.results = program, folder, stored
@@ -37,31 +37,31 @@ class Site:
                               stdout=subprocess.PIPE).stdout
 
     def write(self, name, text):
-        """A page that is generated from the program and has no source to edit."""
+        """Writes a page that is generated from the program and has no source to edit."""
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text.rstrip() + "\n", encoding="utf-8")
 
 
 def literal(text):
-    """Text exactly as the program prints it."""
+    """Returns text exactly as the program prints it."""
     return f"```text\n{text.strip(chr(10))}\n```"
 
 
 def table(head, rows):
-    """Rows of words as a Markdown table."""
+    """Returns rows of words as a Markdown table."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(str(c).replace("|", r"\|") for c in line) + " |"
                      for line in lines)
 
 
 def toctree(names):
-    """The pages below this one."""
+    """Returns the list of pages below this one."""
     return "```{toctree}\n:maxdepth: 1\n\n" + "\n".join(names) + "\n```"
 
 
 def write_commands(site):
-    """Reference of the command line: help of every verb."""
+    """Writes the reference of the command line: help of every verb."""
     overview = site.ask("help")
     verbs = VERB.findall(overview.partition("\nlook")[2].partition("to begin with")[0])
     parts = [f"# Command line\n\n{literal(overview)}"]
@@ -70,7 +70,7 @@ def write_commands(site):
 
 
 def write_sections(site, name, title, text, heading):
-    """A text of the program, with a section for each line that `heading` matches."""
+    """Writes a text of the program, with a section for each line that matches `heading`."""
     starts = [m.start() for m in heading.finditer(text)]
     parts = [f"# {title}\n\n{literal(text[:starts[0]])}"]
     for start, end in zip(starts, starts[1:] + [len(text)]):
@@ -83,7 +83,7 @@ HEADERS = {"c_interface": ("C interface of the library", "harness/library/beamwo
 
 
 def write_interfaces(site):
-    """The headers that users include, and the documentation of the Python module."""
+    """Writes the headers that users include, and the documentation of the Python module."""
     for page, (title, header) in HEADERS.items():
         text = (ROOT / header).read_text("utf-8").strip()
         site.write(f"reference/{page}.md", f"# {title}\n\n`{header}`, whole:\n\n```c\n{text}\n```")
@@ -114,7 +114,7 @@ def arguments(value):
 
 
 def write_terms(site):
-    """Verdicts and terms: the output of `explain` for each."""
+    """Writes verdicts and terms: the output of `explain` for each."""
     groups = re.findall(r"^(\w[^\n]*)\n((?:  [^\n]*\n)+)", site.ask("explain").partition("\n")[2], re.M)
     parts = ["# Verdicts and terms\n\nThe same as `beamwork explain TERM`."]
     for group, terms in groups:
@@ -127,7 +127,7 @@ def write_terms(site):
 
 
 def write_formulations(site, formulations):
-    """A page for each formulation: what it declares, and its theory."""
+    """Writes a page for each formulation: its declarations and its theory."""
     for one in formulations:
         name = one["formulation"]
         theory = "" if not (ROOT / "elements" / f"{name}.md").exists() else \
@@ -145,7 +145,7 @@ def numbers(value):
 
 
 def problem(site, case):
-    """Returns the problem of a case, from its own tables."""
+    """Returns the problem of a case, from the program's tables."""
     told = json.loads(site.ask("list", case, "--format", "json"))
     structure = scene.read(site.ask("scene", case))
     results.save(draw.draw(structure), site.folder / "verification" / f"{case}_structure.svg")
@@ -162,7 +162,7 @@ def problem(site, case):
 
 
 def verdicts(site, case):
-    """Verdicts at the default parameters, and a figure, if there are results."""
+    """Returns verdicts at the default parameters, and a figure, if there are results."""
     point = results.read(site.results, case).points[0]
     rows = [[s.key, v.quantity, f"{v.limit:.9g}", results.percent(v), v.verdict]
             for s in point.series for v in s.verdicts if v.verdict not in ("skip", "no truth")]
@@ -173,7 +173,7 @@ def verdicts(site, case):
 
 
 def write_verification(site, cases):
-    """The verification manual, a page for each case."""
+    """Writes the verification manual, with a page for each case."""
     tested = set()
     if site.results:
             tested = set(results.cases(site.results))
@@ -194,13 +194,13 @@ def write_verification(site, cases):
 
 
 def collect(folder):
-    """The pages that are written by hand, and what they include."""
+    """Copies the pages that are written by hand, and the files that they include."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(DOCS, folder, ignore=shutil.ignore_patterns("test", "static", "*.py", "__pycache__"))
     for name in (*INCLUDED, *(p.relative_to(ROOT) for p in (ROOT / "elements").glob("*.md"))):
         target = folder / "sources" / name
         target.parent.mkdir(parents=True, exist_ok=True)
-        # Their links are relative to their location; only the names remain.
+        # Links in these files are relative to their location; only the link texts remain.
         target.write_text(LINK.sub(r"\1", (ROOT / name).read_text("utf-8")), encoding="utf-8")
 
 

@@ -1,4 +1,4 @@
-"""Tables and figures of a results file for pages: verdicts, and error against run time of one quantity.
+"""Makes tables and figures for pages from a results file: verdicts, and error against run time of one quantity.
 
 usage, from the root: python3 -m docs.results build/results.h5 docs/images/sheet_cantilever.svg
 """
@@ -20,29 +20,29 @@ MARKERS = "os^vD<>Pp*"
 
 
 def cases(path):
-    """Names of the cases in a file."""
+    """Returns the names of the cases in a file."""
     with h5py.File(path) as file:
         return list(file.get("cases", ()))
 
 
 def read(path, case):
-    """A case with all its parameter points."""
+    """Returns a case with all its parameter points."""
     return data.read_case(path, case)
 
 
 def percent(verdict):
-    """Relative error of the limit."""
+    """Returns the relative error of the limit."""
     return f"{100 * verdict.error:+.2g} %" if math.isfinite(verdict.error) else "-"
 
 
 def curve(series, quantity):
-    """[(cost [ms], |error|)] of the meshes that have both."""
+    """Returns [(cost [ms], |error|)] of the meshes that have both."""
     return [(1e3 * m.cost, abs(m.errors[quantity])) for m in series.meshes
             if math.isfinite(m.cost) and abs(m.errors.get(quantity, math.nan)) > 0]
 
 
 def draw(point, path, quantity=None, only=None):
-    """Error against the cost of the counted work; None where no mesh has an error."""
+    """Draws error against the cost of the counted work; None if no mesh has an error."""
     judged = [v.quantity for s in point.series for v in s.verdicts if math.isfinite(v.error)]
     quantity = quantity or (judged[0] if judged else None)
     shown = [(s.key, curve(s, quantity)) for s in point.series
@@ -70,7 +70,7 @@ def save(figure, path):
 
 
 def main(results, image):
-    """The picture of the README, from results of `make verify`."""
+    """Draws the picture of the README from results of `make verify`."""
     point = read(results, "sheet_cantilever").points[0]
     draw(point, pathlib.Path(image), "C_zz", ("sheet_second", "sheet_second_consistent",
                                               "sheet_third", "collocation", "geometrically_exact",

@@ -1,4 +1,4 @@
-"""What pages of docs/ show is what their commands print."""
+"""The outputs shown on pages of docs/ are those of their commands."""
 import unittest
 
 from docs import commands
@@ -8,7 +8,7 @@ from harness.tools.kit.program import PROGRAM
 class Pages(unittest.TestCase):
 
     def test_commands(self):
-        """Every command of every page prints what stands below it."""
+        """Every command on every page prints the output shown below it."""
         count = 0
         for page in commands.pages():
             text = page.read_text(encoding="utf-8")
@@ -20,7 +20,7 @@ class Pages(unittest.TestCase):
         self.assertGreater(count, 40)
 
     def test_every_command_is_run(self):
-        """A `$ ` outside of a console block would not be."""
+        """A `$ ` outside a console block would not be run."""
         for page in commands.pages():
             text = page.read_text(encoding="utf-8")
             run = sum(len(commands.commands(body)) for kind, body in commands.BLOCK.findall(text)
@@ -30,7 +30,7 @@ class Pages(unittest.TestCase):
 
 
     def test_readme_counts_the_examples(self):
-        """As many as there are scenes in cases/examples."""
+        """The README gives the number of scenes in cases/examples."""
         there = len(list((commands.ROOT / "cases" / "examples").glob("*.yaml")))
         self.assertIn(f" {there} example structures ", (commands.ROOT / "README.md").read_text(encoding="utf-8"))
 
@@ -38,7 +38,7 @@ class Pages(unittest.TestCase):
 class Marks(unittest.TestCase):
 
     def test_difference_is_noticed(self):
-        """A digit, a missing line and a line more are differences; what a mark covers is none."""
+        """A digit, a missing line and an additional line are differences; text matched by `...` is not."""
         for shown, printed, same in (("a 1.5 s", "a 1.5 s", True), ("a 1.5 s", "a 1.6 s", False),
                                      ("a ... s", "a 1.6 s", True), ("a ... s", "b 1.6 s", False),
                                      ("a\n...\nd", "a\nb\nc\nd", True), ("a\n...\nd", "a\nb", False),
@@ -47,7 +47,7 @@ class Marks(unittest.TestCase):
                 self.assertEqual(commands.match(shown.split("\n"), printed.split("\n")), same)
 
     def test_page_fails(self):
-        """A page with another number than is printed."""
+        """A page that shows another number than the command prints is detected."""
         page = "```{code-block} text\n:caption: a.txt\n\n17\n```\n\n```console\n$ cat a.txt\n18\n```\n"
         self.assertEqual(commands.differences(page, PROGRAM), [("cat a.txt", ["18"], ["17"])])
         self.assertEqual(commands.differences(page.replace("18", "17"), PROGRAM), [])

@@ -1,4 +1,4 @@
-"""Answers to questions of the readers, and their page."""
+"""Tests the answers to readers' questions, and their page."""
 import csv
 import html
 import json
@@ -14,14 +14,15 @@ from reports.test.browser_test import CHROMIUM, chromium
 from reports.test.results import Site, verdict
 
 
-# The choice of the winner: the least mesh that stays within a level, ranked by counted work; what
-# does not pass is never the cheapest; costs nearer than prices are known tie; clocks have no say.
+# Choice of the best formulation: the coarsest mesh that stays within a level, ranked by counted work. Formulations
+# that do not pass are never the cheapest; costs that differ by less than the uncertainty of the cost coefficients tie;
+# measured times have no influence.
 def clock(*rounds):
     return data.Clock(0, min(rounds), min(rounds), max(rounds), 5 if len(rounds) > 1 else 1, rounds)
 
 
 def series(key, errors, costs, kind="pass", seconds=None):
-    """One quantity `u` on meshes 1, 2, 4, ..."""
+    """Returns a series with one quantity `u` on meshes 1, 2, 4, ..."""
     meshes = [data.Mesh(2**i, "ok", "", clock(*((seconds or {}).get(2**i, (1.0,)))), 8, 4, "", {},
                         errors={"u": e}, cost=c)
               for i, (e, c) in enumerate(zip(errors, costs))]
@@ -136,7 +137,7 @@ class Defects(unittest.TestCase):
         self.assertEqual((told(found.best), found.unjudged), ([("one", 1)], ["two"]))
 
 
-# The page of answers and the tables beside it: the reader's tolerance by the rule of the judge.
+# The page of answers and its tables: the reader's tolerance, by the rule of the evaluation.
 SELECTION = "elastica/default or warping_torsion/default"
 LEVELS = (0.1, 0.03, 0.01, 0.004, 1e-3, 2e-4, 1e-4, 1e-6)
 
@@ -156,7 +157,7 @@ class Page(ProgramTest):
         for case in self.cases:
             for point in case.points:
                 for series in point.series:
-                    if series.other:  # which reaches nothing, however near it is
+                    if series.other:  # a series with another model reaches no level, however small its error
                         self.assertFalse(any(v.reach for v in series.verdicts), series.key)
                         continue
                     for v in series.verdicts:
@@ -167,7 +168,7 @@ class Page(ProgramTest):
         self.assertGreater(seen, 20)
 
     def test_points_say_what_the_answers_say(self):
-        """By the rule of the script, at any tolerance."""
+        """The points agree with the rule of the script at any tolerance."""
         for one, case in zip(self.points["cases"], self.cases):
             for quantity, found in one["asked"]:
                 for level in LEVELS:
@@ -236,7 +237,7 @@ class Page(ProgramTest):
         self.assertIn(f"<td>{html.escape(words)}</td>", self.page)
 
     def asked(self, *said):
-        """The page's document after the fields were given these values."""
+        """Returns the page's document after the fields were given these values."""
         script = "".join(f"field({name!r}, {value!r});" for name, value in said)
         (self.site / "ask.js").write_text(
             "const field = (name, value) => { const at = document.getElementById(name);"

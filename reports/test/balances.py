@@ -1,5 +1,4 @@
-"""The table `motion` put into a file of results by hand: a mass on a spring, whose energies and
-momenta are known."""
+"""Adds the table `motion` to a results file: a mass on a spring with known energies and momenta."""
 import h5py
 import numpy as np
 
@@ -11,7 +10,8 @@ TYPE = np.dtype(KEYS + [(name, "i4" if name in ("iterations", "rejected") else "
 
 
 def rows(formulation, elements, end=2.0, steps=400, drift=1e-5, free=False):
-    """Of a motion with equal steps: kinetic and strain energy make 3 J, the drift grows evenly."""
+    """Returns the rows of a motion with equal steps: kinetic and strain energy add up to 3 J, and the drift grows
+    evenly."""
     out = np.zeros(steps + 1, TYPE)
     t = np.linspace(0, end, steps + 1)
     out["point"], out["formulation"], out["elements"] = b"default", formulation.encode(), elements

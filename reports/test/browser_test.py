@@ -1,4 +1,5 @@
-"""The report in a browser without a window: no console message, every image decoded, the printable report prints. Skipped where there is no Chromium."""
+"""The report in a headless browser: no console message, every image is decoded, the printable report prints. Skipped
+if there is no Chromium."""
 import html
 import re
 import shutil
@@ -10,7 +11,7 @@ from harness.tools.kit.program import ProgramTest, drawn, run
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which(
     "google-chrome")
 
-# All pages at once, each in a frame; what is wrong is written into the document.
+# All pages at once, each in a frame; errors are written into the document.
 DRIVER = """<!DOCTYPE html><html><head><link rel="icon" href="data:,"></head><body><pre id="out"></pre>{frames}<script>
 addEventListener("load", () => {{
   let out = [];
@@ -25,7 +26,7 @@ addEventListener("load", () => {{
 
 
 def chromium(folder, *arguments, software=False):
-    """software: with WebGL drawn by the processor."""
+    """Runs Chromium; software: with WebGL rendered by the processor."""
     graphics = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"
                 ] if software else ["--disable-gpu"]
     return subprocess.run([
@@ -97,7 +98,7 @@ class Browser(ProgramTest):
         content = pdf.read_bytes()
         self.assertTrue(content.startswith(b"%PDF"))
         self.assertGreaterEqual(len(re.findall(rb"/Type\s*/Page\b", content)),
-                                2)  # a sheet for each case
+                                2)  # one sheet for each case
 
 
 if __name__ == "__main__":

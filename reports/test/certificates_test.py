@@ -1,4 +1,4 @@
-"""Certificates of formulations, and those whose times rank nothing."""
+"""Tests certificates of formulations, and formulations whose times are not ranked."""
 import json
 import math
 import re
@@ -16,9 +16,9 @@ from reference.pack import seal
 from reports import answers, answers_table, certificates, data, experiments, problems
 
 
-# The page of certificates: what is drawn, what is left out, names from files.
+# The page of certificates: drawn and omitted parts, names from files.
 class Site:
-    """What the page asks of a site."""
+    """The parts of a site that the page uses."""
 
     def __init__(self, folder, keys):
         self.results = folder / "results.h5"
@@ -92,7 +92,7 @@ class Page(ProgramTest):
         self.assertIn('href="certificates.html#beamw"', self.formulation)
 
 
-# Formulations whose costs rank nothing, and new ones: shown and marked everywhere, never first.
+# Formulations whose costs are not ranked, and new ones: shown and marked everywhere, never first.
 EXAMPLES = ROOT / "elements" / "examples"
 NAMES = {"timoshenko": "by differences", "timoshenko_py": "in another process"}
 
@@ -161,7 +161,7 @@ class Drawn(ProgramTest):
         return (self.site / name).read_text(encoding="utf-8")
 
     def test_marks(self):
-        """In tables and legends, beside the name."""
+        """Marks are next to the name in tables and legends."""
         for name, why in NAMES.items():
             words = f"({why})"
             for page in ("index.html", "tapered_cantilever.html", "formulations.html"):
@@ -197,7 +197,7 @@ class Drawn(ProgramTest):
         self.assertIn("whose costs rank nothing", page)
 
     def test_results_without_costs(self):
-        """Files of before work was priced: no winner is named, and why."""
+        """For files written before work had costs, no best formulation is given, with the reason."""
         old = self.folder / "old.h5"
         shutil.copy(self.results, old)
         with h5py.File(old, "r+") as file:

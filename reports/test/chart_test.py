@@ -17,9 +17,9 @@ from reports.site import ASSETS, Site
 from reports.style import Styles, plt
 
 
-# Charts written by themselves: where things are, ticks, legends, what marks say.
+# Charts written directly as SVG: positions, ticks, legends, data of markers.
 def site():
-    """What a chart asks of a site."""
+    """Returns the parts of a site that a chart uses."""
     found = types.SimpleNamespace(said=[], styles=Styles([]))
     found.points = types.MethodType(Site.points, found)
     return found
@@ -28,7 +28,7 @@ def site():
 class Axes(unittest.TestCase):
 
     def test_part(self):
-        """Decades are equally long; the margin keeps what is drawn inside."""
+        """Decades are equally long; the margin keeps the drawing inside."""
         one = chart.Axis(log=True)
         one.take([1e-3, 1e-1, 1e1, 0, float("nan")])
         one.settle()
@@ -49,7 +49,7 @@ class Axes(unittest.TestCase):
             self.assertGreater(len(chart.whole_ticks(low, high)), 0)
 
     def test_nothing_to_scale(self):
-        """One value, and none, have an axis too."""
+        """An axis also exists for one value or none."""
         for values in ([3.0], []):
             one = chart.Axis(log=True, whole=True)
             one.take(values)
@@ -73,7 +73,7 @@ class Charts(unittest.TestCase):
         return picture.image(place, "some")
 
     def test_valid(self):
-        """The file of its own is well-formed, and every marker that is used is defined."""
+        """The separate file is well-formed, and every marker that is used is defined."""
         text = figures.alone(self.drawn().markup)
         xml.etree.ElementTree.fromstring(text.encode())
         self.assertEqual(set(re.findall(r"url\(#(\w+)\)", text)),
@@ -82,7 +82,7 @@ class Charts(unittest.TestCase):
         self.assertIn("&lt;theirs&gt;", text)
 
     def test_points(self):
-        """Both panels speak of the same points; the curve is where its values are."""
+        """Both panels refer to the same points; the curve passes through its values."""
         image = self.drawn()
         self.assertEqual(image.markup.count('data-f="beamw" data-p="0"'), 2)
         said = json.loads(image.points)
@@ -94,8 +94,8 @@ class Charts(unittest.TestCase):
         self.assertLess(y0, y1)  # a smaller error is farther down
 
 
-# Figures in pages: identifiers unique, text kept, colours that follow the page, curves that say
-# whose they are.
+# Figures in pages: unique identifiers, preserved text, colours that follow the page, curves assigned to their
+# formulation.
 def drawn(name, said=(), gid=None):
     figure, axes = plt.subplots(figsize=(3, 2))
     look = Styles.of("beamw:mass=lumped")
@@ -108,14 +108,14 @@ def drawn(name, said=(), gid=None):
 class Figures(unittest.TestCase):
 
     def test_identifiers(self):
-        """Those of two figures differ, every one that is used is there."""
+        """The identifiers of two figures differ, and every one that is used exists."""
         one, two = (set(re.findall(r' id="([^"]+)"', drawn(name).markup)) for name in ("a", "b"))
         self.assertGreater(len(one), 2)
         self.assertFalse(one & two)
         self.assertEqual(set(re.findall(r'[("]#(\w+)', drawn("a").markup)), one)
 
     def test_colours(self):
-        """Ink is that of the text, also where it is grey; a formulation's colour is a variable."""
+        """Black and grey have the colour of the text; a formulation's colour is a variable."""
         markup = drawn("a").markup
         self.assertNotIn("#000000", markup)
         self.assertIn('fill="currentColor" stroke="currentColor"', markup)
@@ -129,9 +129,8 @@ class Figures(unittest.TestCase):
         self.assertIn('aria-label="x &#34;y&#34; &lt;z&gt;"', markup)
 
     def test_whose(self):
-        """Curve, handle and words of the legend belong to the formulation; the marks of a curve are
-        in the order of
-        what is said of them."""
+        """The curve, the handle and the label in the legend belong to the formulation; the markers of a curve are in
+        the order of their data."""
         self.assertEqual(drawn("a").markup.count('data-f="beamw:mass=lumped"'), 1)
         self.assertEqual(drawn("a").markup.count('data-l="beamw:mass=lumped"'), 2)
         image = drawn("a", [{}, {"f": "beamw", "t": "", "c": ["a", "b"],
@@ -148,7 +147,7 @@ class Figures(unittest.TestCase):
 class Looks(unittest.TestCase):
 
     def test_for_ever(self):
-        """The look of a formulation depends on its name alone; options change the line only."""
+        """The style of a formulation depends only on its name; options change only the line."""
         for keys in (["beamw"], ["another", "beamw"]):
             self.assertEqual(Styles(keys).of("beamw")["color"], "#0072b2")
         self.assertEqual(Styles.of("mine"), Styles.of("mine"))
@@ -158,13 +157,13 @@ class Looks(unittest.TestCase):
         self.assertNotEqual(one["linestyle"], other["linestyle"])
 
     def test_table(self):
-        """No two formulations look alike."""
+        """No two formulations have the same style."""
         looks = list(style.TABLE.values())
         for column in zip(*looks):
             self.assertEqual(len(set(column)), len(looks))
 
     def test_classes(self):
-        """What curves share is said once in a page; curves that differ do not share it."""
+        """Attributes shared by curves occur once in a page; curves that differ do not share them."""
         curve = '<polyline points="{}" stroke="red" stroke-dasharray="1 2" style="{}:url(#k1)"/>'
         page = "<head></head>" + "".join(curve.format(*one) for one in (
             ("0,0", "marker"), ("1,1", "marker"), ("2,2", "marker-mid")))
@@ -176,7 +175,7 @@ class Looks(unittest.TestCase):
         self.assertEqual(figures.with_classes("<head></head>"), "<head></head>")
 
 
-# Pictures: geometry of what is drawn, and that a report with shapes has them.
+# Pictures: geometry of the drawing, and their presence in a report with shapes.
 class Geometry(unittest.TestCase):
 
     def test_axes(self):
@@ -196,7 +195,8 @@ class Geometry(unittest.TestCase):
         self.assertEqual(len(shapes.hull(corners)), 12)
 
     def test_chosen(self):
-        """Of an even path, whose middle is a little less than half as far, the end is shown; of one that returns both extremes."""
+        """On an even path, whose middle is slightly less than half as far, the end is shown; on a path that returns,
+        both extremes are shown."""
         for moved, wanted in (([0, 0.75, 1.499, 2.25,
                                 3], [0, 2, 4]), ([0, 0.6, 1.2, 1.8, 2.4,
                                                   3], [0, 3, 5]), ([0, -3, -1.5, 0, 1.5,
@@ -213,15 +213,15 @@ class Geometry(unittest.TestCase):
         self.assertEqual([list(g) for g in shapes.clusters(points)], [[0, 1], [2, 3]])
 
     def test_hinges(self):
-        """Points at the ends of members that release something."""
+        """Hinges are points at the ends of members that release a component."""
         ends = types.SimpleNamespace(first=np.array([0, 13, 26, 39]),
                                      released=np.array([[0, 32], [1, 0], [0, 0]]))
         self.assertEqual(list(pictures.hinges(ends)), [12, 13])
 
 
     def test_view_of_a_plane(self):
-        """A motion in the plane of x and y is looked at from above, x to the right; in space not,
-        nor one along z, however small."""
+        """A motion in the xy plane is viewed from above, x to the right; a motion in space or along z, however small,
+        is not."""
         flat = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 1, 0]]], float)
         lifted = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [1, 0, 0.01]]], float)
         for points, wanted in ((flat, (-90, 74)), (flat[..., [0, 2, 1]], (-58, 24)),
@@ -248,14 +248,14 @@ class Report(ProgramTest):
             self.assertIn('data-shape="spherical_joint"', text)
 
     def test_absent(self):
-        """Results without shapes: no page, and how to get it is said with the environment."""
+        """Without shapes in the results there is no page; the page on the environment says how to get it."""
         site = self.site()
         self.assertFalse((site / "pictures.html").exists())
         about = (site / "environment.html").read_text(encoding="utf-8")
         self.assertIn("verify --shapes", about)
 
 
-# The page of stationary rotation from a small run: its figures are there, and the curves end at the exact values.
+# The page of stationary rotation from a small run: its figures exist, and the curves end at the exact values.
 class Campbell(ProgramTest):
 
     @classmethod
@@ -285,11 +285,10 @@ class Campbell(ProgramTest):
             self.assertEqual(growth > 0, first < omega < 2 * first, f"at {omega}")
 
 
-# Pages stay small: what every page loads, what one figure takes, the largest page of a case with
-# many formulations and
+# Pages stay small: the common parts of every page, a figure, and the largest page of a case with many formulations and
 # parameter points.
 FORMULATION = 45_000
-VERDICT = 160  # for each row of a table of verdicts, in the mean
+VERDICT = 160  # average for each row of a table of verdicts
 VALUE = 16  # for each value of the results in the data of the explorer
 PAGE, FIGURE, SCRIPT, VIEWER, SHEET = 500_000, 90_000, 10_000, 13_000, 20_000  # bytes
 
@@ -308,7 +307,7 @@ class Sizes(ProgramTest):
             self.assertLess(page.stat().st_size, PAGE, page.name)
 
     def test_figures(self):
-        """Also the largest one, with its words of marks."""
+        """This includes the largest figure, with the data of its markers."""
         seen = 0
         for page in self.site.glob("*.html"):
             for figure in re.findall(r'<svg id=.*?</svg>(?:<script type.*?</script>)?',
@@ -318,7 +317,7 @@ class Sizes(ProgramTest):
         self.assertGreater(seen, 10)
 
     def test_once(self):
-        """What every page needs stands beside the pages, and a marker once in a page."""
+        """Common files are next to the pages, and a marker is defined once in a page."""
         for page in self.site.glob("*.html"):
             text = page.read_text(encoding="utf-8")
             self.assertIn('<link rel="stylesheet" href="style.css">', text)
@@ -326,7 +325,7 @@ class Sizes(ProgramTest):
             self.assertEqual(len(markers), len(set(markers)), page.name)
 
     def test_verdicts(self):
-        """Once, in short rows, on the pages of cases; those of formulations count them."""
+        """Verdicts occur once, in short rows, on the pages of cases; the pages of formulations count them."""
         rows = 0
         for page in self.site.glob("*.html"):
             text = page.read_text(encoding="utf-8")
@@ -339,7 +338,7 @@ class Sizes(ProgramTest):
         self.assertGreater(rows, 200)
 
     def test_data(self):
-        """Of the explorer, by the number of values and errors in the results."""
+        """The data of the explorer are limited by the number of values and errors in the results."""
         _, cases = data.read_results(str(self.site.parent / "results.h5"))
         for case in cases:
             number = sum(len(found) for p in case.points for s in p.series for m in s.meshes
@@ -356,7 +355,8 @@ class Sizes(ProgramTest):
         self.assertLess((self.site / "style.css").stat().st_size, SHEET)
 
 
-# The page of equilibrium paths: curves beside the solids' points, conclusions with numbers, critical points of the snapping frames.
+# The page of equilibrium paths: curves next to the points of the solids, conclusions with numbers, critical points of
+# the snapping frames.
 class Paths(ProgramTest):
 
     @classmethod

@@ -1,5 +1,4 @@
-"""Scenes drawn: an arrow for each load, a symbol for each support, labels that keep clear of each
-other."""
+"""Drawn scenes: an arrow for each load, a symbol for each support, and labels that avoid each other."""
 import itertools
 import pathlib
 import tempfile
@@ -19,7 +18,7 @@ LOADED = ROOT / "cases/format/test/good/loaded.yaml"
 
 
 def written():
-    """{name: text} of all cases and examples as scene files."""
+    """Returns {name: text} of all cases and examples as scene files."""
     found = {p.stem: ("scene", p.stem) for p in (ROOT / "cases").glob("*.[cy]*")}
     found.update({p.stem: ("scene", "--scene", str(p))
                   for p in (ROOT / "cases" / "examples").glob("*.yaml")})
@@ -47,7 +46,7 @@ class Drawings(unittest.TestCase):
         self.assertGreaterEqual(len(self.scenes), 49)
 
     def test_motions_in_time(self):
-        """They are drawn and told as such; one that is solved for stays unknown."""
+        """Motions in time are drawn and described as such; a motion that is solved for stays unknown."""
         one = self.scenes["spin_up"]
         self.assertEqual(one.motions, {"turn": ()})
         self.assertEqual(loads.motion_words(one, "turn", True), "turn, in time")
@@ -69,7 +68,8 @@ class Drawings(unittest.TestCase):
             plt.close(figure)
 
     def test_loads_on_parts_of_members(self):
-        """Arrows stand on the part alone, longer where there is more; one at a place within."""
+        """Arrows are only on the loaded part, longer where the load is larger; there is one arrow for a load at a
+        position."""
         one = scene.read(run("scene", "--scene", str(LOADED)).stdout)
         self.assertEqual(len(one.loads), 19)
         figure = draw.draw(one)
@@ -94,7 +94,7 @@ class Drawings(unittest.TestCase):
 
     @staticmethod
     def arrows(one, name):
-        """Of a load, on a paper of x and y in metres."""
+        """Returns the arrows of a load, on a drawing of x and y in metres."""
         load = next(each for each in one.loads if each.name == name)
         canvas, line = Arrows(), geometry.line_of(one, one.members[load.on])
         only = replace(one, loads=[load])
@@ -108,7 +108,7 @@ class Drawings(unittest.TestCase):
                 self.assertLess(boxes_overlap(a, b), 12, f"{name}: {a} {b}")
 
     def test_sections(self):
-        """Every shape has its figure; constants have none."""
+        """Every shape has a figure; sections given by constants have none."""
         for name, one in self.scenes.items():
             figure = draw.draw_sections(one)
             shapes = [s for s in one.sections.values() if geometry.outline(s)]
@@ -116,7 +116,7 @@ class Drawings(unittest.TestCase):
             plt.close(figure)
 
     def test_words(self):
-        """Every load, spring and section has its line, however many they are."""
+        """Every load, spring and section has a line, however many there are."""
         for name, one in self.scenes.items():
             said = dict(describe.describe(one))
             for heading, own in (("Loads", one.loads), ("Springs", one.springs),
@@ -127,7 +127,7 @@ class Drawings(unittest.TestCase):
 
 class Geometry(unittest.TestCase):
     def test_arc(self):
-        """A quarter of a circle of radius 2 between its ends."""
+        """Draws a quarter of a circle of radius 2 between its ends."""
         one = scene.read("""
 name: arc
 sections: {s: {rectangle: {width: 0.1, thickness: 0.1}}}
@@ -158,7 +158,7 @@ analyses: {a: {linear: {}}}
         self.assertFalse(geometry.choose_view(frame[:2], down, [], True).face_on)  # its section is seen
 
     def test_far_axes(self):
-        """An axis of turning far away would make the structure small: it is told in words."""
+        """A distant axis of rotation would make the structure small; it is described in text."""
         text = """
 name: turns
 sections: {s: {rectangle: {width: 0.1, thickness: 0.1}}}
@@ -175,7 +175,8 @@ analyses: {a: {rotation: {omega: [0, 0, 2], centre: [%d, 0, 0], stations: [0, 1]
             plt.close(figure)
 
     def test_warping(self):
-        """A bar at each end that holds its warping or leaves it free, told by nodes, or by members where ends differ; none where nothing warps."""
+        """A bar at each end shows that warping is restrained or free. The text lists nodes, or members if their ends
+        differ; nothing is listed if nothing warps."""
         text = """
 name: warps
 sections: {s: {SECTION}}
@@ -207,7 +208,7 @@ analyses: {run: {linear: {}}}
             plt.close(figure)
 
     def test_titles_of_load_cases(self):
-        """The picture of a linear solution says what acts."""
+        """The picture of a linear solution names the active loads."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "r.h5"
             run("solve", "--scene", str(ROOT / "cases/examples/continuous_beam.yaml"), "-f", "collocation", "-n", "1",

@@ -1,5 +1,5 @@
-"""Motions in the viewer and as films: frames are those of the file, the keyboard, less motion where
-it is asked for, nothing from elsewhere."""
+"""Motions in the viewer and as films: frames are those of the file, keyboard control, reduced motion on request, no
+external files."""
 import base64
 import contextlib
 import io
@@ -18,7 +18,7 @@ from reports.test.browser_test import CHROMIUM, chromium, console
 TIMES = np.linspace(0, 0.5, 26)
 CASE = "spherical_joint"
 
-# Before the scripts of a film: what is in the page is in view at once, and the test is the clock.
+# Runs before the scripts of a film: page contents are in view at once, and the test controls the clock.
 CLOCK = """<script>
 window.due = null; window.requestAnimationFrame = next => { window.due = next; };
 window.IntersectionObserver = class {
@@ -26,7 +26,7 @@ window.IntersectionObserver = class {
   observe(target) { this.seen([{ isIntersecting: true, target }]); }
 };</script>"""
 
-# Does what a test asks; `out` is written into the page.
+# Performs the actions of a test; `out` is written into the page.
 ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{
   const out = {{}}, place = document.querySelector("div.viewer");
   const q = what => place.querySelector(what), time = () => q("output").textContent;
@@ -38,7 +38,7 @@ ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{
 
 
 def filmed(results, target):
-    """The exit status; what it prints is none of a test's."""
+    """Returns the exit status; the output is suppressed."""
     with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
         return film.main([str(results), "-o", str(target)])
 
@@ -63,7 +63,7 @@ class Film(ProgramTest):
         return whole.reshape(len(self.shape["states"]), -1, width)
 
     def test_frames_are_those_of_the_file(self):
-        """Every one, at its time, to a unit of what is stored."""
+        """Every frame has its time, and its positions to a unit of the stored digits."""
         s = shapes.read_file(self.results, CASE)
         at, _ = shapes.kept(s, film.MOST)
         self.assertEqual(self.shape["times"][1:], TIMES.tolist())
@@ -74,7 +74,7 @@ class Film(ProgramTest):
         self.assertLess(np.ptp(off, axis=(0, 1)).max(), 1.01 * half / shapes.WHOLE)
 
     def test_sections_turn_with_their_frames(self):
-        """Each axis of the last frame is that of the first, turned by rate times time."""
+        """Each axis of the last frame is that of the first, rotated by rate times time."""
         s = shapes.read_file(self.results, CASE)
         angle = 2.0 * (TIMES[-1] - TIMES[0])
         turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0],
@@ -82,7 +82,7 @@ class Film(ProgramTest):
         np.testing.assert_allclose(s.axes[-1], s.axes[1] @ turn.T, atol=1e-12)
 
     def test_thinned(self):
-        """With less room frames are left out evenly, never the first or the last."""
+        """With less room, frames are omitted evenly, but never the first or the last."""
         s = shapes.read_file(self.results, CASE)
         states = shapes.drawn_states(s, shapes.LEAST * len(s.members) * 6)
         self.assertEqual([states[0], states[1], states[-1]], [0, 1, len(TIMES)])
@@ -92,7 +92,7 @@ class Film(ProgramTest):
         self.assertEqual(shapes.drawn_states(s), list(range(len(TIMES) + 1)))
 
     def test_alone(self):
-        """One file below 2 MB that asks for nothing from elsewhere."""
+        """A film is one file below 2 MB that loads no external files."""
         self.assertLess(len(self.text), 2_000_000)
         page = self.text.replace(self.shape["at"], "")
         self.assertNotRegex(page, r'<(?:script|link|img)[^>]*(?:src|href)="(?!data:)')
@@ -115,7 +115,7 @@ class Film(ProgramTest):
         self.assertEqual(self.results.read_bytes(), before)
 
     def test_as_a_report(self):
-        """`--film` in the place of a folder gives the same file."""
+        """`--film` instead of a folder gives the same file."""
         target = self.folder / "same.html"
         done = run("-B", "-m", "reports", self.results, TRUTHS, "--film", target, "-k", CASE,
                    program=sys.executable, cwd=ROOT)
@@ -123,7 +123,7 @@ class Film(ProgramTest):
         self.assertEqual(target.read_text(encoding="utf-8"), self.text)
 
     def done(self, action, *options):
-        """What the action put into `out`."""
+        """Returns the text that the action wrote into `out`."""
         copy = self.folder / "acted.html"
         text = self.text.replace("<main>", CLOCK + "<main>")
         copy.write_text(text.replace("</body>", ACTION.format(action=action) + "</body>"),
@@ -137,8 +137,8 @@ class Film(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_plays(self):
-        """It begins by itself, goes on, comes round to the begin, and says so quietly. The test is
-        the clock: 40 pictures a second."""
+        """The film starts by itself, plays, restarts from the beginning, and announces this unobtrusively. The test
+        controls the clock: 40 pictures per second."""
         out = self.done("""
             out.label = q("button").textContent; out.live = q("output").getAttribute("aria-live");
             q("button").click(); out.paused = q("button").textContent;
@@ -187,7 +187,7 @@ class Film(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_less_motion(self):
-        """It waits, and can be played all the same."""
+        """With reduced motion the film waits, but can still be played."""
         out = self.done("""
             out.asked = window.due !== null; out.label = q("button").textContent; out.time = time();
             key(" "); out.then = q("button").textContent;""", "--force-prefers-reduced-motion")
@@ -206,7 +206,7 @@ class Genuine(ProgramTest):
     """Films of motions that are solved here."""
 
     def test_examples(self):
-        """Frames run from its first to its last instant, and the structure moves."""
+        """Frames run from the first to the last instant, and the structure moves."""
         for name in ("slider_crank", "released_guide", "robot_arm"):
             results, target = self.folder / f"{name}.h5", self.folder / f"{name}.html"
             self.answered("solve", "--scene", ROOT / "cases" / "examples" / f"{name}.yaml", "-f",

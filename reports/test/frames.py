@@ -1,4 +1,4 @@
-"""Frames of motions put into a file of results by hand: a structure that turns as a rigid body."""
+"""Adds frames of motions to a results file: a structure that rotates as a rigid body."""
 import h5py
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -7,13 +7,13 @@ from reports.shapes import FRAME
 
 
 def turned(axes, by):
-    """Quaternions [w, x, y, z] that are turned."""
+    """Returns rotated quaternions [w, x, y, z]."""
     own = Rotation.from_quat(axes[:, [1, 2, 3, 0]])
     return (by * own).as_quat()[:, [3, 0, 1, 2]]
 
 
 def add(path, case, times, rate=1.0):
-    """Appends a frame for each time to the shapes of a case: all of it turns about z."""
+    """Appends a frame for each time to the shapes of a case: everything rotates about z."""
     with h5py.File(path, "r+") as file:
         g = file[f"cases/{case}/shapes/default"]
         new = {"kind": [FRAME.encode()] * len(times), "analysis": [0] * len(times),
@@ -34,7 +34,7 @@ def add(path, case, times, rate=1.0):
 
 
 def only(path, case, times, rate=1.0):
-    """The same where nothing but the undeformed state and the frames is left."""
+    """Does the same, but keeps only the undeformed state and the frames."""
     with h5py.File(path, "r+") as file:
         g = file[f"cases/{case}/shapes/default"]
         for name in ("kind", "analysis", "value", "position", "orientation", "nodes"):

@@ -1,4 +1,4 @@
-"""The first page, the bar of links, and pages of formulations."""
+"""Tests the first page, the bar of links, and pages of formulations."""
 import re
 import sys
 import tempfile
@@ -14,7 +14,7 @@ from reports.test.results import case, series
 from reports.verdicts import UNJUDGED
 
 
-# The first page: what its lists are made of; nothing is empty where there is little to show.
+# The first page: the contents of its lists; nothing is empty if there is little to show.
 SCENE = """beamwork: 1
 nodes:
   node_0: {at: [0, 0, 0], hold: all}
@@ -41,7 +41,7 @@ class Kinds(unittest.TestCase):
 class Agreed(unittest.TestCase):
 
     def tried(self, key, limit, errors):
-        """A formulation on meshes of 1, 2, 4 ... elements with these errors of the agreed 2."""
+        """Returns a formulation on meshes of 1, 2, 4 ... elements with these errors relative to the agreed value 2."""
         found = series(key, [data.Verdict("u", "no truth", limit=limit, model_truth=2.0,
                                           model_truth_kind="agreement", model_error=limit / 2 - 1)])
         clock = data.Clock(0, 1, 1, 1, 1)
@@ -75,7 +75,7 @@ class Agreed(unittest.TestCase):
 class Small(ProgramTest):
 
     def whole(self, page):
-        """A page without empty tables, lists and figures."""
+        """Checks that a page has no empty tables, lists or figures."""
         self.assertEqual(re.findall(r"<(table|ul|figure)[^>]*>\s*</\1>", page), [])
         return page
 
@@ -92,7 +92,7 @@ class Small(ProgramTest):
             (site / "profiles.html").read_text(encoding="utf-8")))
 
     def test_one_mesh(self):
-        """Its values have no limit that is known, nor an order: a whole site all the same."""
+        """Results on one mesh have no known limit or order, but the site is still complete."""
         scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
         scene.write_text(LEAF + "meshes: [4]\n", encoding="utf-8")
         run("verify", "--scene", scene, "-f", "collocation", "-f", "beamw", "-o", results)
@@ -101,7 +101,7 @@ class Small(ProgramTest):
         self.assertIn("not known how well", (site / "mine.html").read_text(encoding="utf-8"))
 
     def test_of_one_solution(self):
-        """Nothing was judged there, and no outcome is stored."""
+        """Results of a single solution contain no verdicts and no outcome."""
         results, site = self.folder / "one.h5", self.folder / "site"
         run("solve", "elastica", "-f", "collocation", "-n", "2", "--shapes", "-o", results)
         done = report(results, site)
@@ -109,7 +109,7 @@ class Small(ProgramTest):
         self.assertNotIn("Outcome.", (site / "index.html").read_text(encoding="utf-8"))
 
     def test_whole_or_none(self):
-        """A page that fails leaves what was there before, and nothing beside it."""
+        """A page that fails leaves the previous site unchanged, and nothing next to it."""
         site = drawn(self.folder, "-k", "warping_torsion/default", "-f", "collocation")
         before = {file.name: file.read_bytes() for file in site.iterdir()}
         code = ("import sys\nfrom reports import glossary, pages\n"
@@ -141,7 +141,7 @@ class Small(ProgramTest):
         self.assertEqual(len({len(line.split(",")) for line in table}), 1)
 
 
-# The bar and the words: pages in their groups, words linked where the glossary has them.
+# The bar and the terms: pages are in their groups; terms are links if the glossary contains them.
 PAGES = [("index.html", "beamwork"), ("deviations.html", "deviations"), ("claims.html", "claims"),
          ("errata.html", "errata"), ("cases.html", "all cases"),
          ("environment.html", "environment"), ("a_new_page.html", "new")]
@@ -204,20 +204,20 @@ class Words(unittest.TestCase):
                          [("verdicts", 1), ("new", 2)])
 
 
-# Pages of formulations explain, and what their texts say of cases agrees with the verdicts.
+# Pages of formulations: their text about cases agrees with the verdicts.
 
-# In its text a formulation is good for cases with these verdicts at worst.
+# The text recommends a formulation for cases with these verdicts at worst.
 RIGHT = ("pass", "low order", "undecided", "biased", "biased, as predicted")
 
 
 def texts():
-    """{formulation: its text} of all that have one."""
+    """Returns {formulation: its text} of all that have one."""
     return {path.stem: path.read_text(encoding="utf-8")
             for path in sorted((ROOT / "elements").glob("*.md")) if path.stem != "README"}
 
 
 def claims(text):
-    """[(is it for them?, cases named)] of the bullets on when to choose a formulation."""
+    """Returns [(recommended?, named cases)] of the bullets on when to choose a formulation."""
     said = dict(formulation.sections(text))[formulation.CHOICE]
     bullets = re.findall(r"^\* \*\*(For|Not for)\*\* (.*)$", said, flags=re.M)
     return [(kind == "For", re.findall(r"`(\w+)`", words)) for kind, words in bullets]
@@ -268,7 +268,8 @@ class Pages(ProgramTest):
                      for key in cls.site.styles.order}
 
     def test_texts_agree_with_the_verdicts(self):
-        """A case that a text is for is right there; one that it is not for is wrong, or not run."""
+        """A formulation is right for the cases for which its text recommends it, and wrong or not run for the others
+        named."""
         for name, text in texts().items():
             found = {c.name: s for c, _, s in formulation.defaults(self.site.cases, name)}
             self.assertGreater(len(claims(text)), 0, name)
@@ -280,7 +281,7 @@ class Pages(ProgramTest):
                     self.assertEqual(right, is_for, f"{name}, {case}: {worst}")
 
     def test_who_offers_all(self):
-        """A text says so of those that are run on everything, and of no others."""
+        """A text says that the formulation supports everything if and only if it does."""
         offers = {key: set(row["offers"].split(", ")) for key, row in self.known.declared.items()}
         everything = set().union(*offers.values())
         for name, text in texts().items():
@@ -305,7 +306,7 @@ class Pages(ProgramTest):
                 self.assertNotIn(left, page, key)
 
     def test_what_is_measured_of_the_choice(self):
-        """Cases where it is the cheapest, and where it is wrong, from the data."""
+        """The cases in which it is the cheapest, and those in which it is wrong, come from the data."""
         self.assertRegex(self.pages["beamw_first"],
                          r'however many elements[^\n]*>c_column</a> \(buckling_load, \+32 %\)')
         self.assertNotIn("however many elements, at the", self.pages["collocation"])
@@ -319,7 +320,7 @@ class Pages(ProgramTest):
         self.assertIn("<h2>Theory</h2>", self.pages["beamw:mass=lumped"])
 
     def test_verdicts(self):
-        """The page's sum is that of its verdicts."""
+        """The sum on the page is that of its verdicts."""
         for key, page in self.pages.items():
             number = sum(r.formulation == key and r.standing != "alias"
                          and r.verdict.verdict not in UNJUDGED for r in self.known.rows)

@@ -1,17 +1,17 @@
-"""Made-up records of integrators, as `beamwork motion` leaves them in a file of results."""
+"""Made-up records of integrators, as `beamwork motion` writes them to a results file."""
 import json
 
 from harness.records.test.stored import put_experiment
 
 CONSTANTS = {"alpha": (2, 30), "conserving": (2, 20), "radau": (5, 300)}  # order, error at step 1
-COSTS = {"alpha": 1e-3, "conserving": 4e-3, "radau": 6e-3}  # [s] of a unit of time with step 1
+COSTS = {"alpha": 1e-3, "conserving": 4e-3, "radau": 6e-3}  # [s] per unit of time with step 1
 STEPS = [0.1 / 2**i for i in range(6)]
 LEVELS = (1e-2, 1e-4, 1e-6)
 FATE_STEPS, STIFFENINGS = (0.05, 0.1, 0.2, 0.4), (1, 1e3, 1e6)
 
 
 def run(integrator, step, worse=1.0, **more):
-    """A run whose error is what its order makes of its step."""
+    """Returns a run whose error follows from its order and its step."""
     order, error = CONSTANTS.get(integrator, (2, 30))
     cost = worse * COSTS.get(integrator, 1e-3) / step
     return {"integrator": integrator, "step": step, "tolerance": 0, "status": "ok", "reason": "",
@@ -23,7 +23,8 @@ def run(integrator, step, worse=1.0, **more):
 
 
 def fate(integrator, step, stiffening):
-    """Exact for `conserving`; the trapezoidal rule grows, and stops where both are large."""
+    """Returns the outcome: exact for `conserving`; the trapezoidal rule grows, and stops if step and stiffness are
+    large."""
     if integrator == "conserving":
         return "exact"
     if integrator == "alpha":
@@ -32,7 +33,7 @@ def fate(integrator, step, stiffening):
 
 
 def large_step(integrator, step, stiffening):
-    """A run without an error, of which the fate is told."""
+    """Returns a run without an error, with its outcome."""
     what = fate(integrator, step, stiffening)
     stops = what == "stops"
     return run(integrator, step, error=None, order=None, outcome=what, has_reference=False,
@@ -42,7 +43,7 @@ def large_step(integrator, step, stiffening):
 
 
 def reached(runs):
-    """The cheapest of each integrator at each level."""
+    """Returns the cheapest run of each integrator at each level."""
     out = []
     for level in LEVELS:
         for scheme in CONSTANTS:
@@ -56,7 +57,7 @@ def reached(runs):
 
 
 def group(case, formulation, runs):
-    """Tables of the motions of one structure on one mesh."""
+    """Returns tables of the motions of one structure on one mesh."""
     orders = [{"integrator": s, "nominal": order, "order": order, "order_before": order,
                "floor": 1e-11, "verdict": "pass", "parameters": ""}
               for s, (order, _) in CONSTANTS.items()]
@@ -79,7 +80,7 @@ VERDICT = {"judged": "fate", "case": "pendulum", "parameters": "", "formulation"
 
 def record(cases=("pendulum", "free_flight_space"),
            formulations=("geometrically_exact", "collocation")):
-    """Two cases with two formulations each; one run failed."""
+    """Returns two cases with two formulations each; one run failed."""
     out = []
     for case in cases:
         for k, formulation in enumerate(formulations):
@@ -94,7 +95,7 @@ def record(cases=("pendulum", "free_flight_space"),
 
 
 def paces():
-    """The same of three cases, as `make lab L=paces` writes it: a check that was possible, and one not."""
+    """Returns the same for three cases, as `make lab L=paces` writes it: one check was possible, and one was not."""
     check = {"case": "elbow", "parameters": "time=3", "formulation": "collocation", "elements": 8,
              "distances": [3e-9, 4e-10], "uncertainty": 1e-10, "steps": 50, "reason": ""}
     refused = {**check, "case": "release", "distances": [None, None], "reason": "no inertia"}

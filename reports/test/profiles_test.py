@@ -1,4 +1,4 @@
-"""Profiles of problems whose answer is known by hand, and what the first page says of them."""
+"""Profiles of problems with solutions known by hand, and their description on the first page."""
 import math
 import unittest
 
@@ -10,7 +10,7 @@ LEVEL = 0.01
 
 
 def tried(key, quantities, cost=1.0, missing=""):
-    """A formulation with one mesh; quantities: {name: (verdict, error, reaches the level)}."""
+    """Returns a formulation with one mesh; quantities: {name: (verdict, error, reaches the level)}."""
     found = series(key, [
         data.Verdict(name, kind, truth=1.0, truth_kind="exact", error=error, truth_uncertainty=1e-9,
                      reach={LEVEL: 1} if reached else {})
@@ -31,7 +31,8 @@ GOOD, POOR = ("pass", 0.0, True), ("pass", 0.0, False)
 
 
 def two():
-    """Two formulations, two cases: a costs half of b, but solves one of two in the second."""
+    """Returns two formulations and two cases: a costs half as much as b, but solves one of two problems in the second
+    case."""
     first = case("first", [tried("a", {"u": GOOD}, 1), tried("b", {"u": GOOD}, 2)])
     second = case("second", [tried("a", {"u": GOOD, "v": POOR}, 1),
                              tried("b", {"u": GOOD, "v": GOOD}, 4)])
@@ -39,7 +40,7 @@ def two():
 
 
 def at(compared, question, factor, offered=False):
-    """{formulation: share within the factor}"""
+    """Returns {formulation: share within the factor}."""
     places = profiles.places(profiles.FARTHEST[question.unit])
     return {k: s[places.index(factor)] for k, s in compared.profile(question, offered).items()}
 
@@ -140,7 +141,7 @@ class Weights(unittest.TestCase):
         self.assertEqual([compared.profile(question, True)[k][-1] for k in "ab"], [1, 1])
 
     def test_second_names_and_other_truths(self):
-        """A second name is no problem of its own, nor is a quantity whose truth is not exact."""
+        """A second name is not a separate problem, nor is a quantity whose reference value is not exact."""
         names = [tried(k, {"C_xx": GOOD, "C_ux_Fx": GOOD, "f": GOOD}) for k in "ab"]
         for one in names:
             one.meshes[0].values = {"C_xx": 2.0, "C_ux_Fx": 2.0, "f": 3.0}
@@ -179,7 +180,7 @@ class Contestants(unittest.TestCase):
         self.assertEqual(found, ["beamw:mass=lumped"])
 
     def test_eight_curves(self):
-        """As many as in every figure; what has no curve is compared all the same."""
+        """There are as many curves as in every other figure; formulations without a curve are still compared."""
         keys = [f"f{i}" for i in range(10)]
         compared = profiles.Compared([case("one", [tried(k, {"u": GOOD}) for k in keys])])
         self.assertEqual(len(compared.curves), 8)

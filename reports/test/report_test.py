@@ -1,4 +1,4 @@
-"""Reports as a whole, of a scene, and pages of cases."""
+"""Tests reports as a whole, the report of a scene, and pages of cases."""
 import html
 import html.parser
 import json
@@ -15,9 +15,9 @@ from reports.style import Styles
 from reports.test import results
 
 
-# The report of a small run: every page is there, every link and image resolves, foreign files are refused.
+# The report of a small run: every page exists, every link and image resolves, files of other kinds are rejected.
 
-# What other commands leave beside the results: a little of everything that the pages draw.
+# Files that other commands leave next to the results, with some data for every page.
 MESHES = {"parameters": "shear=0", "meshes": [8, 256]}
 EXPERIMENTS = [
     {
@@ -139,7 +139,7 @@ class Report(ProgramTest):
                                   f"{page.name}: {link}")
 
     def test_nothing_is_announced(self):
-        """A page whose data are missing is not there, and no other page links to it."""
+        """A page whose data are missing does not exist, and no other page links to it."""
         for name in ("stability.html", "newton.html", "rotation.html", "mechanisms.html"):
             self.assertFalse((self.site / name).exists(), name)
         for page in self.site.glob("*.html"):
@@ -148,10 +148,10 @@ class Report(ProgramTest):
                 self.assertNotRegex(text, "then <code>make report|hold no ", page.name)
         about = (self.site / "environment.html").read_text(encoding="utf-8")
         self.assertIn("<code>make stress</code>", about)
-        self.assertNotIn("<code>make lab L=causes</code>", about)  # it has left its file
+        self.assertNotIn("<code>make lab L=causes</code>", about)  # the command has left its file
 
     def test_bar(self):
-        """Short, and it says where the reader is: also on pages of cases and of formulations."""
+        """The bar is short and shows the current page, also on pages of cases and formulations."""
         for page, title in (("deviations.html", "Deviations"), ("warping_torsion.html", "Cases"),
                             ("formulation_beamw.html", "Formulations"), ("index.html", "beamwork")):
             text = (self.site / page).read_text(encoding="utf-8")
@@ -165,7 +165,7 @@ class Report(ProgramTest):
             self.assertLess(page.stat().st_size, 500_000, page.name)
 
     def test_figures_are_drawn(self):
-        """They stand in the pages; the sheets to be printed have theirs as files."""
+        """Figures are embedded in the pages; the printable sheets have them as files."""
         page = (self.site / "roll_up.html").read_text(encoding="utf-8")
         self.assertGreater(page.count("<polyline"), 8)
         files = list(self.site.glob("*.svg"))
@@ -180,7 +180,7 @@ class Report(ProgramTest):
         self.assertEqual(len(done.stderr.strip().splitlines()), 1)
 
 
-# The report of a scene of one's own that has no truth: its picture, and limits in the place of verdicts.
+# The report of a user's scene without reference values: its picture, and limits instead of verdicts.
 SWINGS = LEAF.replace("young: 210e9", "density: 7800, young: 210e9") + """
 analyses:
   swing: {motion: {stations: [0.005, 0.01], step: 1e-3}}
@@ -211,7 +211,7 @@ class SceneReport(ProgramTest):
         self.assertIn("<details open><summary>Limits of quantities without a reference value", page)
 
     def test_what_is_assumed(self):
-        """What numbers of a section do not say stands on its page, in the words of the terminal."""
+        """Assumptions about constants of a section are on its page, with the text shown on the terminal."""
         scene, results, site = (self.folder / name for name in ("bar.yaml", "bar.h5", "site"))
         text = re.sub("rectangle: {[^}]*}", "constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8, Iw: 0}",
                       LEAF, count=1)
@@ -226,7 +226,7 @@ class SceneReport(ProgramTest):
                       " to be zero.</p>", page)
 
     def test_motion_without_summary(self):
-        """Only what a file must say is there: pages and film say nothing in the place of the rest."""
+        """With only the required contents in the file, pages and film omit the rest."""
         scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
         scene.write_text(SWINGS, encoding="utf-8")
         done = run("verify", "--shapes", "--scene", scene, "-f", "beamw", "-o", results)
@@ -259,10 +259,10 @@ class SceneReport(ProgramTest):
                          [("u", ["a", "b"]), ("w", ["b"])])
 
 
-# Pages of cases: the scene first, every quantity explained, at most eight curves in a figure,
-# errors below the reference value's own digits marked as such.
+# Pages of cases: the scene comes first, every quantity is explained, figures have at most eight curves, errors below
+# the digits of the reference value are marked.
 class Site:
-    """What a chart asks of a site."""
+    """The parts of a site that a chart uses."""
 
     def __init__(self):
         self.said, self.styles = [], Styles([])
@@ -274,7 +274,7 @@ class Site:
 
 
 def series(key, errors, truth=2.0, uncertainty=2e-6):
-    """Meshes of 1, 2, 4 ... elements with these errors."""
+    """Returns meshes of 1, 2, 4 ... elements with these errors."""
     judged = data.Verdict("u", "pass", truth=truth, truth_uncertainty=uncertainty,
                           truth_kind="exact", tolerance=1e-3 * truth)
     meshes = [data.Mesh(2**i, "ok", "", data.Clock(0, 1e-3, 1e-3 * 2**i, 1e-3 * 2**i, 1), 8, 4, "",
@@ -290,8 +290,8 @@ def point(*found):
 
 class Figures(unittest.TestCase):
     def test_below_the_digits(self):
-        """The truth is known to 1e-6: two of four marks are open, on that line, and the legend says
-        so."""
+        """The reference value is known to 1e-6: two of four markers are hollow, on that line, and the legend explains
+        them."""
         site, own = Site(), point(series("beamw", (1e-2, 1e-4, 1e-8, -1e-9)))
         image = plots.errors_figure(site, own, "u", own.series, ("elements",), "f")
         self.assertIn(OPEN, html.unescape(image.markup))
@@ -309,7 +309,7 @@ class Figures(unittest.TestCase):
         self.assertNotIn(OPEN, html.unescape(image.markup))
 
     def test_eight_at_most(self):
-        """Misprints and options give way; an option on the front stays."""
+        """Misprints and options are dropped first; an option on the front stays."""
         names = [f"f{i}" for i in range(7)]
         own = point(*[series(key, (1e-2, 1e-4)) for key in names],
                     series("sheet_third_printed", (1e-2, 1e-5)),
@@ -317,7 +317,7 @@ class Figures(unittest.TestCase):
         shown, further = plots.leading(own, "u")
         self.assertEqual([s.key for s in shown], [*names, "f0:mass=lumped"])
         self.assertEqual([s.key for s in further], ["sheet_third_printed", "f1:mass=lumped"])
-        # f0 is on the front by its first mesh, f11 by its last; of the others the most exact stay.
+        # f0 is on the front with its first mesh, f11 with its last; of the others, the most accurate stay.
         many = point(*[series(f"f{i}", (1e-2, 10.0**-i)) for i in range(12)])
         shown, further = plots.leading(many, "u")
         self.assertEqual(len(shown), MOST_CURVES)
@@ -412,7 +412,7 @@ class Pages(ProgramTest):
             self.assertIn(f'id="{one.name}"', self.pages["elastica"])
 
     def test_results_without_scenes(self):
-        """There is no drawing, and quantities stand without explanations."""
+        """Without scenes there is no drawing, and quantities have no explanations."""
         old = data.Case("c", "", "", [point(series("a", [1e-3]))])
         old.points[0].meanings = {}
         self.assertIsNone(case.drawing(None, old))

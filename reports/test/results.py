@@ -1,9 +1,9 @@
-"""Made-up results for tests of pages: cases of one mesh for each series."""
+"""Made-up results for tests of pages: cases with one mesh for each series."""
 from reports import data
 
 
 class Site:
-    """What a page asks of a site; pages keeps the context that each template was given."""
+    """The parts of a site that a page uses; pages stores the context given to each template."""
 
     def __init__(self, results="", truths="", cases=()):
         self.results, self.truths, self.cases = results, truths, list(cases)

@@ -1,4 +1,4 @@
-"""Pages of sweeps: their parts, the design that was chosen, and what a real sweep shows."""
+"""Tests pages of sweeps: their parts, the chosen design, and the page of a real sweep."""
 import html
 import json
 import re
@@ -14,14 +14,14 @@ from reports.test.browser_test import CHROMIUM, chromium, console
 from reports.test.sweep_test import ANGLE, SHAPE, WIDTH
 
 
-# The page of a sweep: what stands on top, maps, winners, worst points, references, failures.
-PAGE = 2_000_000  # bytes, of any number of points
+# The page of a sweep: its first statements, maps, best formulations, worst points, reference values, failures.
+PAGE = 2_000_000  # bytes, for any number of points
 KEYS = ("beamw", "collocation", "sheet_third")
 
 
 def errors(key):
-    """beamw: good while the first axis is small; collocation: everywhere with 2 elements;
-    sheet_third: nowhere."""
+    """Returns errors: beamw is good while the first axis is small; collocation everywhere with 2 elements; sheet_third
+    nowhere."""
     level = {"beamw": lambda at, n: np.where(at[:, 0] < 0.55, 0.001, 0.5) / n**0.1,
              "collocation": lambda at, n: np.full(len(at), 0.03 / n**2),
              "sheet_third": lambda at, n: np.full(len(at), 0.3 / n)}
@@ -29,7 +29,7 @@ def errors(key):
 
 
 def text_of(page):
-    """Words of a page without its drawings."""
+    """Returns the text of a page without its drawings."""
     plain = re.sub(r"<(svg|style|script).*?</\1>", "", page, flags=re.S)
     return html.unescape(re.sub(r"\s+", " ", re.sub(r"<[^>]*>", "", plain)))
 
@@ -60,7 +60,7 @@ class Pages(ProgramTest):
         self.assertLess(said.index("collocation with 2"), said.index("beamw with 1"))
 
     def test_maps(self):
-        """One for each formulation, of the same signs; each says in words what it shows."""
+        """There is a map for each formulation, with the same signs; each has a description."""
         page = self.page((WIDTH, ANGLE))
         maps = re.findall(r'<svg id="sweep_map_\d".*?</svg>', page, re.S)
         self.assertEqual(len(maps), 3)
@@ -85,10 +85,10 @@ class Pages(ProgramTest):
         self.assertIn(">shape is strip</text>", page)
 
     def test_scattered(self):
-        """Few points are drawn one by one, many in fields."""
+        """Few points are drawn individually, many as fields."""
         axes = [("width", "m", "halton", "linear"), ("angle", "rad", "halton", "linear")]
         few = self.page(axes, sweeps.scattered(100, (1, 10), (0, 0.9)))
-        self.assertEqual(few.count("<circle cx=") - 1, 300)  # and one in a hatch
+        self.assertEqual(few.count("<circle cx=") - 1, 300)  # and one in a hatch pattern
         many = self.page(axes, sweeps.scattered(5000, (1, 10), (0, 0.9)))
         self.assertEqual(many.count("<circle cx="), 1)
         self.assertRegex(text_of(many), r"beamw with 1 element is within 1 % where width < 5\.\d")
@@ -118,7 +118,7 @@ class Pages(ProgramTest):
         self.assertNotIn("<i>", page)
 
     def test_many_points(self):
-        """A page of 300 000 cells is no longer than one of few."""
+        """A page of 300 000 cells is no longer than one of a few."""
         axes = [(name, "m", "sobol", "linear") for name in ("width", "length", "load")]
         page = self.page(axes, sweeps.scattered(25_000, *[(1, 10)] * 3))
         self.assertIn("300 000 cells", text_of(page))
@@ -141,13 +141,13 @@ class Pages(ProgramTest):
             found(said, text_of(self.page(axes, kind=kind)))
 
     def test_one_point(self):
-        """And one formulation, one mesh."""
+        """The page also works with one point, one formulation and one mesh."""
         axes = (("width", "m", "list", (2.5,)), ("shape", "1", "words", ("C",)))
         said = text_of(self.page(axes, keys=("collocation",), meshes=(2,)))
         self.assertIn("collocation with 2 elements", said)
 
     def test_without_costs(self):
-        """Formulations that rank nothing win nowhere, and are told."""
+        """Formulations that are not ranked never win, and are reported."""
         path = sweeps.store(self.folder / "c.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE),
                             {key: errors(key) for key in KEYS})
         with sweeps.h5py.File(path, "r+") as file:
@@ -158,7 +158,7 @@ class Pages(ProgramTest):
         self.assertIn("in no order: beamw.", said)
 
     def test_beside_results(self):
-        """A page of its own, in the bar, and a sentence on the first page."""
+        """A sweep has its own page, in the bar, and a sentence on the first page."""
         path = sweeps.store(self.folder / "leaf-sizes.h5", (WIDTH, ANGLE),
                             sweeps.grid(WIDTH, ANGLE), {key: errors(key) for key in KEYS})
         site = drawn(self.folder, "-k", "warping_torsion/default", "-f", "collocation",
@@ -169,11 +169,11 @@ class Pages(ProgramTest):
         self.assertIn('href="sweep_leaf-sizes.html"', first)
         page = (site / "sweep_leaf-sizes.html").read_text(encoding="utf-8")
         self.assertIn('href="formulation_collocation.html"', page)
-        self.assertNotIn('href="formulation_beamw.html"', page)  # the results have none of it
+        self.assertNotIn('href="formulation_beamw.html"', page)  # the results do not contain this formulation
         self.assertIn('aria-current="page">Sweeps</a>', page)
 
     def test_several(self):
-        """Also of files of the same name; the first stands in the place of results."""
+        """Several sweeps work, even with the same file name; the first replaces the results."""
         paths = []
         for folder in ("a", "b", "c"):
             (self.folder / folder).mkdir()
@@ -196,7 +196,7 @@ class Pages(ProgramTest):
             self.assertIn(words, done.stderr)
 
     def test_many_that_say_the_same(self):
-        """Together in one sentence; the counts are those of the worst of them."""
+        """Equal answers are given in one sentence, with the counts of the worst of them."""
         def nearly(bad):
             return lambda at, n: np.where(at[:, 0] + at[:, 1] > 2.01 - 0.05 * bad, 0.02, 0.001)
         axes = (WIDTH, ANGLE)
@@ -209,7 +209,7 @@ class Pages(ProgramTest):
                       "angle = 0.9 rad (2 %).", said)
 
 
-# Maps of a sweep over the axes of the reader's choice, in a browser; skipped where there is none.
+# Maps of a sweep over axes of the reader's choice, in a browser; skipped if there is none.
 CHOOSE = """<pre id="out"></pre><script>addEventListener("load", () => {{
   const form = document.getElementById("choice"), drawn = document.getElementById("drawn");
   const all = (what, of) => [...drawn.querySelectorAll(what)].map(of);
@@ -235,7 +235,7 @@ CHOOSE = """<pre id="out"></pre><script>addEventListener("load", () => {{
 
 @unittest.skipUnless(CHROMIUM, "needs chromium")
 class Chosen(ProgramTest):
-    """Maps over the axes of the reader's choice."""
+    """Maps over axes of the reader's choice."""
 
     @classmethod
     def setUpClass(cls):
@@ -264,7 +264,7 @@ class Chosen(ProgramTest):
         return json.loads(html.unescape(found.group(1)))
 
     def test_the_same_drawn_twice(self):
-        """What the script draws of the same choice is what stands in the page."""
+        """The script draws the same maps as the page for the same choice."""
         found = self.chosen("")
         self.assertFalse(found["hidden"])
         self.assertEqual(found["after"][:2], found["before"][:2])
@@ -292,7 +292,7 @@ class Chosen(ProgramTest):
         self.assertIn("!", found["after"][1])
 
     def own(self, *values):
-        """What is told at these sizes: the sentence, and {formulation: (needs, error)}."""
+        """Returns the answer at these values: the sentence, and {formulation: (required elements, error)}."""
         fields = "".join(f'document.getElementById("own").elements.v{k}.value = "{value}";'
                          for k, value in enumerate(values))
         found = self.chosen(fields + 'document.getElementById("own").dispatchEvent('
@@ -320,9 +320,9 @@ class Chosen(ProgramTest):
         self.assertEqual(found["told"], "Choose axes that differ.")
 
 
-# A sweep of the program itself, stored and drawn.
+# A sweep made by the program, stored and drawn.
 class Genuine(ProgramTest):
-    """What `sweep` itself stored: its counts are those of the program."""
+    """The counts of a stored sweep are those of the program."""
 
     def test_a_grid(self):
         path, site = self.folder / "loads.h5", self.folder / "site"

@@ -1,4 +1,4 @@
-"""What reports compute of a sweep: counts, fields and boxes."""
+"""Tests the values that reports compute from a sweep: counts, fields and boxes."""
 import itertools
 import unittest
 
@@ -11,12 +11,12 @@ from reports.test import sweeps
 from reports.test.sweeps import ANGLE, SHAPE, WIDTH
 
 
-# Sweeps: what is counted of their points, and what their page says of them.
+# Sweeps: the counts of their points, and the statements on their page.
 QUANTITIES = (("u", "m"), ("v", "m"))
 
 
 class Counts(ProgramTest):
-    """Every count against one by one over the tables of the file."""
+    """Every count is compared with a loop over the tables of the file."""
 
     def made(self, points=None, axes=(WIDTH, ANGLE), **more):
         draw = np.random.default_rng(7)
@@ -35,7 +35,7 @@ class Counts(ProgramTest):
         return stored.read(path)
 
     def one_by_one(self, sweep):
-        """[(point, formulation, reached, largest errors)] of all quantities together."""
+        """Returns [(point, formulation, reached, largest errors)] of all quantities together."""
         piece, = sweep.pieces()
         for p, f in itertools.product(range(sweep.points), range(len(sweep.keys))):
             absent = any(sweep.statuses[s] == "not_offered" for s in piece.status[p, f])
@@ -76,7 +76,7 @@ class Counts(ProgramTest):
         self.assertEqual(self.check(self.made()).shape, (10, 10))
 
     def test_costs_that_tie(self):
-        """Work of the second formulation is twice that of the first, of the third three times."""
+        """The work of the second formulation is twice that of the first; that of the third is three times."""
         alone = self.check(self.made()).wins.sum(axis=0)
         tied = self.check(self.made(noise=2.5)).wins.sum(axis=0)
         self.assertGreater(tied[1], alone[1])
@@ -91,14 +91,14 @@ class Counts(ProgramTest):
         self.assertLess(ratios.max(), 1.2 * ratios.min())
 
     def test_many_values_of_a_grid(self):
-        """Grouped by whole values; a bound is one that was tried."""
+        """Values of a grid are grouped; a bound is a value that was run."""
         axes = (("width", "m", "log", np.geomspace(1, 100, 60)), SHAPE)
         found = self.check(self.made(axes=axes))
         self.assertEqual(found.shape, (gather.MOST, 3))
         self.assertTrue(np.isin(found.parts[0].high, axes[0][3]).all())
 
     def test_in_pieces(self):
-        """Any pieces give the same."""
+        """Pieces of any size give the same result."""
         sweep = self.made()
         whole = gather.of_sweep(sweep)
         self.addCleanup(setattr, stored, "PIECE", stored.PIECE)
@@ -109,7 +109,7 @@ class Counts(ProgramTest):
             np.testing.assert_array_equal(getattr(parts, name), getattr(whole, name), name)
 
     def test_of_another_theory(self):
-        """A value without an error, where there is a reference, is not measured."""
+        """A value without an error, where there is a reference value, is not compared."""
         path = sweeps.store(self.folder / "t.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE), {
             "beamw": lambda at, n: np.full(len(at), np.nan),
             "collocation": lambda at, n: np.full(len(at), 1e-3)})
@@ -123,8 +123,8 @@ class Counts(ProgramTest):
         self.assertIsNone(second.first)
 
     def test_a_quantity_that_nothing_measures(self):
-        """What is within in one quantity may be off in the other: nobody knows, but where the first
-        is off."""
+        """A point that is within the tolerance in one quantity may be outside in the other: the result is unknown,
+        except where the first quantity is outside."""
         def errors(at, n):
             both = np.stack([np.full(len(at), 1e-3), np.full(len(at), np.nan)], 1)
             both[at[:, 0] > 0.8, 0] = 0.5
@@ -150,7 +150,7 @@ class Counts(ProgramTest):
         self.assertEqual((one.whole, one.asked), (100, 100))
 
     def test_judged_at_few_points(self):
-        """Few points that can be judged are not everywhere."""
+        """Few points with a reference value are not described as everywhere."""
         def errors(at, n):
             return np.where(at[:, 0] < 0.5, 1e-3, np.nan)
         path = sweeps.store(self.folder / "f.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE),
@@ -163,8 +163,8 @@ class Counts(ProgramTest):
         self.assertEqual(answers.held(made.first.box), "all 50 points; 50 of all 100 cannot be judged")
 
     def test_a_ratio(self):
-        """Of two axes of one unit, where it says more than the axes do; its counts are those of the
-        points, and so is the exception."""
+        """A ratio of two axes of the same unit is used if it is more informative than the axes; its counts and its
+        exception are those of the points."""
         axes = (("length", "m", "sobol", "linear"), ("width", "m", "sobol", "linear"), ANGLE)
         points = sweeps.scattered(3000, (1, 10), (1, 4), (0, 0.9))
 
@@ -186,7 +186,8 @@ class Counts(ProgramTest):
             self.assertTrue(inside[outlier.point] and not good[outlier.point])
 
     def test_the_quantity_that_decides(self):
-        """It takes more elements than the other one; where both do not, none does."""
+        """The deciding quantity needs more elements than the other; if neither is within the tolerance, no quantity
+        decides."""
         def made(errors):
             sweep = stored.read(sweeps.store(self.folder / "d.h5", (WIDTH, ANGLE),
                                              sweeps.grid(WIDTH, ANGLE), {"beamw": errors},
@@ -224,9 +225,9 @@ class Refused(ProgramTest):
             stored.read(path)
 
 
-# The largest boxes of a sweep's points that hold, and their words.
+# The largest boxes of a sweep's points within the tolerance, and their descriptions.
 def lattice_of(*axes):
-    """The cells of a grid of few values."""
+    """Returns the cells of a grid of few values."""
     out = []
     for name, unit, kind, values in axes:
         axis = stored.Axis(name, unit, kind, len(values), False,
@@ -240,7 +241,7 @@ def lattice_of(*axes):
 class Boxes(unittest.TestCase):
 
     def largest(self, axes, holds):
-        """The box, and its words, of grid points that hold by their indices."""
+        """Returns the box, and its description, of grid points within the tolerance, given by their indices."""
         cells = lattice_of(*axes)
         good = np.array([holds(*at) for at in itertools.product(*map(range, cells.shape))], int)
         box = boxes.largest([cells], [(good, 1 - good)])
@@ -268,13 +269,13 @@ class Boxes(unittest.TestCase):
         self.assertEqual((box.good, box.bad, answers.held(box)), (34, 1, "34 of 35 points there"))
 
     def test_too_many_exceptions(self):
-        """Two in 35 are more than are allowed."""
+        """Two exceptions in 35 are more than are allowed."""
         box, _ = self.largest((WIDTH, ANGLE), lambda i, j: i >= 3 and j < 5 and (i, j) not in
                               ((6, 2), (5, 3)))
         self.assertLessEqual(box.bad, boxes.ALLOWED * box.points)
 
     def test_simple_before_large(self):
-        """A further bound for two more lines of ten is not worth it; for eight more it is."""
+        """A further bound is not worth it for two more lines of ten, but it is for eight more."""
         def with_more(lines):
             return lambda i, j: i >= 5 or (i >= 4 and j < lines)
         self.assertEqual(self.largest((WIDTH, ANGLE), with_more(2))[1], "where width ≥ 6 m")
@@ -294,7 +295,7 @@ class Boxes(unittest.TestCase):
         self.assertEqual(said, "where a ≤ 1 and aa ≤ 2 and aaa ≥ 1 and aaaaa ≤ 2")
 
     def test_no_box_is_better(self):
-        """Against all boxes of two axes, one by one, of random points."""
+        """Compares with all boxes of two axes, one by one, for random points."""
         draw = np.random.default_rng(3)
         for _ in range(20):
             table = draw.random((5, 6)) < np.add.outer(np.arange(5), np.arange(6)) / 6
@@ -311,12 +312,13 @@ class Boxes(unittest.TestCase):
             self.assertEqual(found, best)
 
 
-# Fields of a sweep's maps, classes of errors, and numbers in words.
+# Fields of a sweep's maps, classes of errors, and numbers in text.
 class Fields(unittest.TestCase):
-    """What a map says of a field of several points."""
+    """The state that a map shows for a field of several points."""
 
     def state(self, *reached, points=None):
-        """Of points by the first mesh within: 0, 1, 2, none or without a solution."""
+        """Returns the state of points given by the first mesh within the tolerance: 0, 1, 2, none or without a
+        solution."""
         look = maps.Look((1, 2, 4))
         reach = np.bincount(reached, minlength=5)
         found = int(maps.states(reach, np.array(points or len(reached)), look))
@@ -340,7 +342,7 @@ class Fields(unittest.TestCase):
         self.assertEqual(len(set(look.fill.values())), len(look.fill))
 
     def test_errors(self):
-        """A class is not below any error in it, and the next smaller one is."""
+        """A class is not below any error in it, and the next smaller class is."""
         levels = sweep_page.levels_of(0.003)
         self.assertIn(0.3, levels)
         for error in (1e-9, 0.0123, 0.01, 0.003, 0.0031, 0.5, 0.99):

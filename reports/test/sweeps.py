@@ -1,4 +1,4 @@
-"""Sweeps of made-up errors, stored as `beamwork sweep` stores them: for tests of their page."""
+"""Sweeps of made-up errors, stored like those of `beamwork sweep`, for tests of their page."""
 import itertools
 
 import h5py
@@ -21,33 +21,33 @@ STEP = 20_000  # points that are written at once
 
 
 def grid(*axes):
-    """Points of a grid: axes are (name, unit, kind, values or words)."""
+    """Returns the points of a grid: axes are (name, unit, kind, values or words)."""
     values = [range(len(a[3])) if a[2] == "words" else a[3] for a in axes]
     return np.array(list(itertools.product(*values)), float)
 
 
 def scattered(count, *limits, seed=1):
-    """Points between limits, (low, high) of each axis."""
+    """Returns points between limits, (low, high) of each axis."""
     low, high = np.array(limits, float).T
     return low + (high - low) * np.random.default_rng(seed).random((count, len(limits)))
 
 
 def series(key):
-    """Errors of a formulation that are made up: they fall with the square of the elements, and
-    grow along each axis by its own factor."""
+    """Returns made-up errors of a formulation: they decrease with the square of the number of elements, and grow along
+    each axis by a different factor."""
     factor = 1 + sum(map(ord, key)) % 7
     return lambda at, n: 0.02 * factor * (0.1 + at.sum(axis=1)) / n**2
 
 
 def least_of(error, meshes, tolerance):
-    """As the program finds it: elements from which on every mesh is within."""
+    """Returns, like the program, the number of elements from which every mesh is within the tolerance."""
     within = np.flip(np.logical_and.accumulate(np.flip(np.abs(error) <= tolerance, 2), axis=2), 2)
     first = np.argmax(within, axis=2)
     return np.where(within.any(axis=2), np.asarray(meshes)[first], 0)
 
 
 def table_of(rows, columns):
-    """Rows of texts and numbers."""
+    """Returns rows of strings and numbers."""
     return np.array([tuple(x.encode() if isinstance(x, str) else x for x in row) for row in rows],
                     columns)
 
@@ -56,7 +56,7 @@ def store(path, axes, points, errors, meshes=(1, 2, 4, 8), quantities=(("u", "m"
           tolerance=0.01, status=None, kind=None, doubt=1e-9, worst=(), noise=1.0):
     """Writes a sweep.
 
-    axes: [(name, unit, kind, values, words or, where they are scattered, "log" or "linear")];
+    axes: [(name, unit, kind, values, words or, if scattered, "log" or "linear")];
     points: [P, A]; errors: {formulation: function of points [p, A], taken to 0..1 along each axis,
     and of elements to [p] or [p, Q]}; status: function of points, formulation index and mesh index
     to numbers [p]; kind: of points to numbers [p];
@@ -98,7 +98,7 @@ def store(path, axes, points, errors, meshes=(1, 2, 4, 8), quantities=(("u", "m"
 
 
 def fill(table, part, points, unit, errors, meshes, q, tolerance, status, kind, doubt):
-    """Some points of all tables."""
+    """Fills some points of all tables."""
     f, m = len(errors), len(meshes)
     error = np.zeros((len(points), f, m, q))
     for i, of in enumerate(errors.values()):

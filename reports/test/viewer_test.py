@@ -1,4 +1,4 @@
-"""Pages with scripts: the viewer, the explorer and the page of behaviour."""
+"""Pages with scripts: the viewer, the explorer and the behaviour of pages."""
 import base64
 import json
 import math
@@ -13,11 +13,10 @@ from reports import data, shapes
 from reports.test.browser_test import CHROMIUM, chromium, console
 
 
-# Shapes that can be turned: what is stored of them, and that a browser draws them. The latter is
-# skipped where there
-# is no Chromium.
+# Shapes that can be rotated: their stored data, and their drawing in a browser. The latter is skipped if there is no
+# Chromium.
 
-# Opens a copy of a page, waits for the viewer, counts what is drawn in three states of it.
+# Opens a copy of a page, waits for the viewer, and counts the drawn items in three of its states.
 ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {
   const out = {}, place = document.querySelector("div.viewer");
   const picture = () => {
@@ -59,7 +58,7 @@ class Stored(ProgramTest):
         return whole.reshape(len(self.found["states"]), -1, width)
 
     def test_nodes(self):
-        """They are where the results have them, to half a unit of what is stored."""
+        """Nodes have the positions in the results, to half a unit of the stored digits."""
         half, nodes = self.found["half"], self.numbers("nodes", 3) * self.found["half"]
         for k, of in enumerate(shapes.exaggerations(self.shapes)):
             wanted = self.shapes.nodes[0] + of * (self.shapes.nodes[k] - self.shapes.nodes[0])
@@ -67,14 +66,14 @@ class Stored(ProgramTest):
             self.assertLess(np.ptp(off, axis=0).max(), 1.01 * half / shapes.WHOLE)
 
     def test_axes(self):
-        """The stored quaternions turn the axes of space into those of the section."""
+        """The stored quaternions rotate the space axes into those of the section."""
         w, x, y, z = np.moveaxis(self.numbers("at", 7)[0][:, 3:], -1, 0)
         second = np.stack([2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)], axis=1)
         at, _ = shapes.kept(self.shapes)
         np.testing.assert_allclose(second, self.shapes.axes[0][at, 1], atol=2e-4)
 
     def test_members(self):
-        """Every member has its points and a profile, and a body only nodes that there are."""
+        """Every member has its points and a profile, and a body contains only existing nodes."""
         self.assertEqual(len(self.found["members"]), len(self.shapes.members))
         self.assertEqual(self.found["members"][-1][1], self.found["count"])
         self.assertTrue(all(self.found["profiles"][p]["strips"] for _, _, p in self.found["members"]))
@@ -82,7 +81,7 @@ class Stored(ProgramTest):
         self.assertLess(max(nodes | set(self.found["held"])), self.found["ends"])
 
     def test_a_path_has_one_exaggeration(self):
-        """A state near the start of a path is not blown up more than its end."""
+        """A state near the start of a path is not exaggerated more than its end."""
         move = np.array([0, 1e-12, 1e-3])
         s = types.SimpleNamespace(kind=["undeformed", "path", "path"], sections=[np.zeros((1, 4, 2))],
                                   position=np.array([[[0, 0, 0], [1, m, 0]] for m in move], float),
@@ -91,8 +90,7 @@ class Stored(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_browser(self):
-        """Something is drawn, the slider and an arrow key change it; without WebGL the still
-        stays."""
+        """Something is drawn; the slider and an arrow key change it; without WebGL the still picture remains."""
         copy = self.site / "turned.html"
         text = (self.site / "pictures.html").read_text(encoding="utf-8")
         copy.write_text(text.replace("</body>", ACTION + "</body>"), encoding="utf-8")
@@ -110,11 +108,10 @@ class Stored(ProgramTest):
         self.assertIn('<img src="picture_spherical_joint.svg"', without.stdout)
 
 
-# The explorer: its numbers are those of the results, and in a browser it draws what is chosen. The
-# latter is skipped
-# where there is no Chromium.
+# The explorer: its numbers are those of the results, and in a browser it draws the selection. The latter is skipped if
+# there is no Chromium.
 
-# Opens a copy of the page and chooses: what is said and drawn before and after.
+# Opens a copy of the page and makes selections: the text and drawings before and after.
 EXPLORER_ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {
   const out = {}, q = what => document.querySelector(what), fields = document.forms.choice.elements;
   const seen = () => ({ curves: document.querySelectorAll("#explored [data-p]").length, label: q("#explored svg") && q("#explored svg").getAttribute("aria-label"), words: q("#explored-words").textContent });
@@ -141,7 +138,7 @@ class Explorer(ProgramTest):
         return json.loads(re.fullmatch(r'beamwork_data\("\w+", (.*)\);\n', text)[1])
 
     def test_numbers(self):
-        """Every value of the results is there, to the digits that are stored."""
+        """Every value of the results is present, to the stored digits."""
         case = data.read_case(str(self.place / "results.h5"), "elastica")
         stored = self.stored("elastica")
         points = stored["points"]
@@ -150,7 +147,7 @@ class Explorer(ProgramTest):
             return stored["w"][text] if isinstance(text, int) else text
 
         def values(columns):
-            """Of what has a reference value they follow from the errors."""
+            """Values of quantities with a reference value follow from the errors."""
             errors, _, truth, *plain = map(told, columns)
             if plain:
                 return plain[0].split()
@@ -191,9 +188,8 @@ class Explorer(ProgramTest):
         self.assertTrue(out["third"]["words"].startswith("warping_torsion"))
 
 
-# What a page does in a browser: a box at the marks, formulations switched off, folded parts on
-# paper, no page wider
-# than a phone. Skipped where there is no Chromium.
+# Behaviour of a page in a browser: a tooltip at the markers, formulations switched off, folded parts on paper, no page
+# wider than a phone. Skipped if there is no Chromium.
 BEHAVIOUR_ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{
   const out = {{}}, q = (what, where = document) => where.querySelector(what), frame = q("[data-p]").closest("div.figure"), svg = q("svg", frame);
   const key = name => frame.dispatchEvent(new KeyboardEvent("keydown", {{ key: name, bubbles: true, cancelable: true }}));
@@ -211,7 +207,7 @@ class Behaviour(ProgramTest):
         cls.site = drawn(cls.class_folder(), "-k", "elastica or warping_torsion/default")
 
     def done(self, page, action, *options):
-        """What the action put into `out`, on a page opened from its file."""
+        """Returns the text that the action wrote into `out`, on a page opened from its file."""
         copy = self.site / f"acted_{page}"
         text = (self.site / page).read_text(encoding="utf-8")
         copy.write_text(text.replace("</body>", BEHAVIOUR_ACTION.format(action=action) + "</body>"),
@@ -227,7 +223,7 @@ class Behaviour(ProgramTest):
         return json.loads(found.group(1).replace("&gt;", ">").replace("&lt;", "<"))
 
     def test_keyboard(self):
-        """Arrow keys go from mark to mark and from curve to curve; Escape leaves."""
+        """Arrow keys go from marker to marker and from curve to curve; Escape leaves."""
         out = self.done(
             "elastica.html", """
             key("ArrowRight"); out.first = q("#said").innerText;
@@ -244,7 +240,7 @@ class Behaviour(ProgramTest):
         self.assertTrue(out["gone"])
 
     def test_pointer(self):
-        """On a mark the box says what it is, far from all there is none."""
+        """On a marker, the tooltip describes it; far from all markers there is none."""
         out = self.done(
             "elastica.html", """
             key("ArrowRight"); const ring = q("circle", svg).getBoundingClientRect();
@@ -256,8 +252,8 @@ class Behaviour(ProgramTest):
         self.assertEqual(out, {"on": False, "off": True})
 
     def test_legend(self):
-        """A click in one legend switches a formulation off in all figures of the page, another one
-        on again."""
+        """A click in one legend switches a formulation off in all figures of the page; another click switches it on
+        again."""
         out = self.done(
             "elastica.html", """
             const entry = q('[data-l="collocation"][role]', svg);
@@ -270,7 +266,7 @@ class Behaviour(ProgramTest):
         self.assertEqual(set(out["again"]), {False})
 
     def test_at_most_eight(self):
-        """Of ten formulations drawn eight are shown until the button is pressed."""
+        """Of ten drawn formulations, eight are shown until the button is pressed."""
         out = self.done(
             "explorer.html", """
             const shown = () => new Set([...svg.querySelectorAll("[data-f]")].filter(g => g.style.display != "none").map(g => g.dataset.f)).size;
@@ -278,7 +274,7 @@ class Behaviour(ProgramTest):
         self.assertEqual(out, {"first": 8, "then": 10, "last": 8})
 
     def test_paper(self):
-        """What is folded is open on paper and folded again after it."""
+        """Folded parts are open on paper and folded again afterwards."""
         out = self.done(
             "elastica.html", """
             const open = () => document.querySelectorAll("details:not([open])").length;
@@ -288,7 +284,7 @@ class Behaviour(ProgramTest):
         self.assertEqual((out["on"], out["after"]), (0, out["before"]))
 
     def test_phone(self):
-        """No page is wider than a phone: tables and figures scroll in themselves."""
+        """No page is wider than a phone: tables and figures scroll separately."""
         frames = "".join(f'<iframe width="390" height="800" src="{p.name}"></iframe>'
                          for p in sorted(self.site.glob("*.html")))
         driver = self.site / "phone.html"
