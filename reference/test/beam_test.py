@@ -1,4 +1,5 @@
-"""The boundary-value solver of the deriving programs against an adaptive Runge-Kutta method, closed forms, and itself on finer grids."""
+"""Compares the boundary-value solver of the deriving programs with an adaptive Runge-Kutta method, closed forms, and
+itself on finer grids."""
 import math
 import pathlib
 import sys
@@ -72,7 +73,8 @@ class Sheet(unittest.TestCase):
         self.assertLess(np.max(np.abs(C - D) / np.sqrt(np.outer(np.diag(D), np.diag(D)))), 1e-12)
 
     def test_compliance_is_the_derivative_of_the_equilibrium(self):
-        """Small dead loads applied to the deformed sheet move it as the compliance says; moments are about fixed axes."""
+        """Small dead loads on the deformed sheet displace it as the compliance predicts; moments are about fixed
+        axes."""
         net, tip, _ = self.twisted(6, 12)
         C = net.response(1.0, tip, {tip: free})
         x, R, load = tip.x.copy(), tip.R, tip.load.copy()
@@ -94,7 +96,7 @@ class Sheet(unittest.TestCase):
         self.assertLess(np.max(np.abs(tip.x - x)), 1e-11)
 
     def test_linear_compliance_of_the_straight_sheet(self):
-        """C_zz of a clamped sheet in its plane: L^3/3EI + L/kGA."""
+        """C_zz of a clamped sheet in its plane is L^3/3EI + L/kGA."""
         beam = sheets.sheet(**defaults.values("sheet_cantilever"))
         net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=4, nodes=10)
         root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0))

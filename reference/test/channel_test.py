@@ -1,4 +1,5 @@
-"""The geometrically exact beam with eccentric shear centre and coupled shear, at its buckling loads: closed forms after Haringx."""
+"""The geometrically exact beam with eccentric shear centre and coupled shear, at its buckling loads: closed forms
+according to Haringx."""
 import pathlib
 import sys
 import unittest
@@ -17,9 +18,10 @@ LENGTH, RIGID = 6.0, 1e5
 class Buckling(unittest.TestCase):
 
     def determinant(self, force, moment, shear, wagner):
-        """Of the tangent of the column with fork ends, scaled: it vanishes at the buckling load.
+        """Returns the scaled determinant of the tangent of the column on fork supports, which vanishes at the buckling
+        load.
 
-        Stiff in extension and in the strong plane, so that the state before buckling is straight.
+        The column is stiff in extension and in the strong plane, so that the state before buckling is straight.
         """
         s = column.channel_data()
         E, G = float(s.E), float(s.G)
@@ -58,7 +60,7 @@ class Buckling(unittest.TestCase):
             delta=1e-7)
 
     def test_end_moments(self):
-        """With and without shear, with -2 ys alone and with b_z - 2 ys of the Wagner moments."""
+        """Checks cases with and without shear, with only -2 ys and with b_z - 2 ys of the Wagner moments."""
         for shear in (0, 1):
             for wagner in (False, True):
                 closed = column.buckling_moments(column.channel_data(), 6, shear, True, wagner)[0]

@@ -1,4 +1,4 @@
-"""The deriving programs against results that have another form or another source."""
+"""Compares the deriving programs with results in another form or from another source."""
 import pathlib
 import sys
 import unittest
@@ -14,7 +14,7 @@ from reference.derive.section import section  # noqa: E402
 class Sections(unittest.TestCase):
 
     def test_channel_of_table_1(self):
-        """J Table 1 and its shear rigidities in closed form; in m."""
+        """J Table 1 and its shear rigidities follow from closed forms; in m."""
         s = column.channel_data()
         for got, value in ((s.A, "0.054"), (s.Iy, "3.78e-3"), (s.Iz, "2.16e-3"), (s.It, "1.62e-5"),
                            (s.ys, mpf(16) / 35), (s.Iw, mpf(243) / 175 * mpf("1e-4"))):
@@ -26,7 +26,7 @@ class Sections(unittest.TestCase):
         self.assertLess(abs(d[0, 1]) + abs(d[0, 2]), mpf(10) ** -30)
 
     def test_axes_do_not_depend_on_the_drawing(self):
-        """A turned and shifted section with unequal legs has the same constants."""
+        """A rotated and displaced section with unequal legs has the same constants."""
         walls = [(0, 1, "0.02"), (1, 2, "0.01"), (2, 3, "0.03")]
         points = np.array([(0, -0.3), (0.5, -0.3), (0.5, 0.3), (0.2, 0.3)])
         c, n = np.cos(0.7), np.sin(0.7)
@@ -44,7 +44,7 @@ class Sections(unittest.TestCase):
 class Torsion(unittest.TestCase):
 
     def test_rectangles(self):
-        """tanh x = 1 - 2/(exp 2x + 1); of the ones the sum is 31/32 zeta(5), and the rest vanishes fast."""
+        """tanh x = 1 - 2/(exp 2x + 1): the sum of the ones is 31/32 zeta(5), and the rest vanishes rapidly."""
         for w, t in ((1, 1), (2, 1), (mpf("0.05"), mpf("0.0005"))):
             rest = sum(mpf(2) / n ** 5 / (exp(n * pi * w / t) + 1) for n in range(1, 40, 2))
             value = w * t ** 3 / mpf(3) * (1 - 192 / pi ** 5 * t / w * (31 * zeta(5) / 32 - rest))
@@ -59,13 +59,13 @@ class Buckling(unittest.TestCase):
                         mpf(10) ** -25)
 
     def test_warping_vanishes(self):
-        """K -> inf approaches the narrow strip from above like 1/sqrt(K)."""
+        """For K -> inf, the load approaches that of the narrow strip from above like 1/sqrt(K)."""
         limit = linear_buckling.lateral_load("tip", 0, "4.0")
         near = [linear_buckling.lateral_load("tip", K, g) for K, g in ((100, "5.0"), (400, "4.45"))]
         self.assertTrue(0.4 < (near[1] - limit) / (near[0] - limit) < 0.5)
 
     def test_frame(self):
-        """M = pi sqrt(EI GJ)/L."""
+        """The critical moment of the frame is M = pi sqrt(EI GJ)/L."""
         row = next(iter(linear_buckling.frame_rows()))
         E, nu, b, t, length = mpf(71240) * 10 ** 6, mpf("0.31"), mpf("0.03"), mpf("0.0006"), mpf(
             "0.24")
@@ -88,7 +88,8 @@ class Buckling(unittest.TestCase):
 class Rotating(unittest.TestCase):
 
     def test_slender_limit_by_power_series(self):
-        """w'''' - Omega^2 (T w')' = omega^2 w with T = R (1 - X) + (1 - X^2)/2, w(0) = w'(0) = 0, w''(1) = w'''(1) = 0."""
+        """Solves w'''' - Omega^2 (T w')' = omega^2 w with T = R (1 - X) + (1 - X^2)/2, w(0) = w'(0) = 0, w''(1) =
+        w'''(1) = 0."""
 
         def determinant(omega, Omega, R):
             tall = []
@@ -110,7 +111,7 @@ class Rotating(unittest.TestCase):
                     1e-10)
 
     def test_symmetric_shaft(self):
-        """In the turning frame whirling is omega_j +- Omega, beyond the critical speed too."""
+        """In the rotating frame, the whirling frequencies are omega_j +- Omega, also beyond the critical speed."""
         rest = rotating.bending(3)
         for Omega in (2, 5):
             frequencies, growth = rotating.whirl(Omega, 1, 3)
@@ -121,7 +122,7 @@ class Rotating(unittest.TestCase):
                 self.assertLess(abs(found / value - 1), 1e-20)
 
     def test_channel_at_rest(self):
-        """The program for the turning channel without rotation, against the one for the resting channel."""
+        """Without rotation, the program for the rotating channel agrees with the program for the channel at rest."""
         force, lateral = channel_rotating.path((0.1, ), 0)[0]
         other, aside = channel_cantilever.path((0.1, ))[0]
         self.assertLess(abs(force / other - 1), 1e-8)
@@ -136,7 +137,8 @@ class Rotating(unittest.TestCase):
                         (rotating.flap(Omega, 1e6) ** 2 - Omega ** 2) - 1)), 1e-7)
 
     def test_body_at_the_end(self):
-        """At rest: the equation of the frequencies. A body that is a point: without one, the beam alone; lag follows from flap."""
+        """At rest, frequencies satisfy the characteristic equation. Without a body, the beam alone is obtained; for a
+        point mass, lag follows from flap."""
         for m, c, g in ((1.0, 0.2, 0.3), (0.1, -0.5, 0.3), (10.0, 0.0, 0.0)):
             rest = np.array([float(w) for w in tip_body.at_rest(m, c, g)])
             self.assertLess(np.max(np.abs(tip_body.flap(0, m, c, g) / rest - 1)), 1e-11)

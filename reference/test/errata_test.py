@@ -1,4 +1,5 @@
-"""Proofs of the errata (reference/ERRATA.md) that need no element: each printed form fails where the corrected one holds."""
+"""Proofs of the errata (reference/ERRATA.md) that need no element: each printed form fails where the corrected form
+holds."""
 import math
 import pathlib
 import sys
@@ -25,7 +26,7 @@ def slope(f, x=X, h=1e-5):
 
 
 def shapes(Phi):
-    """Functions of J Eq. 38b as corrected."""
+    """Returns the functions of J Eq. 38b as corrected."""
     f = 1 / (1 + Phi)
     return {
         "13": lambda x: f * (x * x * (3 - 2 * x) + Phi * x), "23": lambda x: f * 6 * x * (1 - x),
@@ -55,7 +56,7 @@ class Modes(unittest.TestCase):
             exponential(np.array([-0.2, 0.5, 0.1])))
 
     def measured(self):
-        """Gradient with columns r^p, phi^p, r^q, phi^q by central differences."""
+        """Returns the gradient with columns r^p, phi^p, r^q, phi^q by central differences."""
         columns = []
         for k in range(12):
             values = []
@@ -98,7 +99,7 @@ class Modes(unittest.TestCase):
         self.assertGreater(np.max(np.abs(printed6 - measured[5])), 0.1)
 
     def test_rotation_about_the_shear_centre(self):
-        """A twist of the end about an axis at (ys, zs) carries the centroid along: all signs of J Eq. 60 are opposite."""
+        """A twist of the end about an axis at (ys, zs) moves the centroid: all signs of J Eq. 60 are opposite."""
         angle, ys, zs = 1e-6, 0.4, -0.3
         moved = np.array([0, 0, 0, self.l0, zs * angle, -ys * angle])
         e = self.modes(moved, np.eye(3), rotation(exponential(np.array([angle, 0, 0]))))
@@ -111,7 +112,8 @@ class Interpolation(unittest.TestCase):
     Phi = 0.7
 
     def test_torsion_functions(self):
-        """phi(0) = 0, and the warping shear is constant and carries the change of bimoment: g_w = q (e2 - (e7 + e8)/2)/l0^2."""
+        """phi(0) = 0; the warping shear is constant and carries the change of bimoment: g_w = q (e2 - (e7 +
+        e8)/2)/l0^2."""
         N, q = shapes(self.Phi), self.Phi / (1 + self.Phi)
         for e2, e7, e8 in ((1, 0, 0), (0, 1, 0), (0, 0, 1)):
             phi = lambda x: N["13"](x) * e2 + N["12"](x) * e7 - N["14"](x) * e8  # noqa: E731
@@ -131,7 +133,7 @@ class Interpolation(unittest.TestCase):
             self.assertGreater(np.max(np.abs(slope(v) - phi_z)), 0.5)
 
     def test_coupling_of_shear_and_warping(self):
-        """S24 = d2/de2 de4 of int G D_zw g_z g_w dx = G D_zw q_w q_z/(2 l0^2); printed with 2/l0."""
+        """S24 = d2/de2 de4 of int G D_zw g_z g_w dx = G D_zw q_w q_z/(2 l0^2), but is printed with 2/l0."""
         l0, G, D, qz, qw = 1.7, 2.0, -0.3, 0.4, 0.2
         energy = lambda e2, e4: G * D * l0 * (qz * e4 /
                                               (2 * l0)) * (qw * e2 / l0 ** 2)  # noqa: E731
@@ -140,7 +142,7 @@ class Interpolation(unittest.TestCase):
         self.assertGreater(abs(second / (2 * G * D * qw * qz / l0) - 1), 0.5)
 
     def test_uniform_torsion(self):
-        """e7 = e8 = e2 in J Eq. 40a with Iw = 0: s2 = G It/l0^3 e2, not 1/30 of it; s7 = s8 = 0."""
+        """With e7 = e8 = e2 in J Eq. 40a and Iw = 0: s2 = G It/l0^3 e2, not 1/30 of it; s7 = s8 = 0."""
         s = np.array([[36, -3, -3], [-3, 4, -1], [-3, -1, 4]]) / 30 @ np.ones(3)
         self.assertLess(np.max(np.abs(s - [1, 0, 0])), 1e-15)
 
@@ -165,16 +167,17 @@ class Modified(unittest.TestCase):
         self.assertAlmostEqual(integral(slope(phi) ** 2) / 2, printed, delta=1e-9)
 
     def elongation(self, e, Phi, ys):
-        """int (v_c'^2 + w_c'^2)/2 dx with l0 = 1: e[3], e[4] about the shear centre, v_c = v_s, w_c = w_s - ys phi."""
+        """Returns int (v_c'^2 + w_c'^2)/2 dx with l0 = 1: e[3], e[4] about the shear centre, v_c = v_s, w_c = w_s - ys
+        phi."""
         N = shapes(Phi)
         e3, e4 = e[3] - ys * e[2], e[4] + ys * e[2]
         w = lambda x: N["12"](x) * e3 + N["14"](x) * e4 - ys * (N["13"](x) * e[2] + N["12"](x) * e[
             7] - N["14"](x) * e[8]) + ys * e[2] * x  # noqa: E731
-        # The chord passes through the centroids, so that w_s(1) = ys phi(1): the last term.
+        # The chord passes through the centroids, so that w_s(1) = ys phi(1): this is the last term.
         return integral(slope(w) ** 2) / 2
 
     def test_shear_and_eccentricity_are_missing(self):
-        """The coefficients 2, 1, 2 over 30 are those of shear-rigid beams."""
+        """The coefficients 2, 1, 2 over 30 are those of beams that are rigid in shear."""
         e = {2: 0.0, 3: 0.8, 4: -0.5, 7: 0.0, 8: 0.0}
         printed = (2 * e[3] ** 2 + e[3] * e[4] + 2 * e[4] ** 2) / 30
         self.assertAlmostEqual(self.elongation(e, 0.0, 0.0), printed, delta=1e-9)
@@ -190,7 +193,7 @@ class Modified(unittest.TestCase):
         return (2 * e3 ** 2 + e3 * e4 + 2 * e4 ** 2) / 30
 
     def test_eccentric_shear_centre(self):
-        """The exact integral in closed form for any shear and twist; J Eq. 66 has neither."""
+        """Compares with the exact integral in closed form for any shear and twist; J Eq. 66 includes neither."""
         ys, e = 0.7, {2: 0.6, 3: 0.8, 4: -0.5, 7: 0.4, 8: -0.3}
         for Phi in (0.0, 2.0):
             tw = (e[2] - (e[7] + e[8]) / 2) / (1 + Phi)
@@ -204,8 +207,8 @@ class Modified(unittest.TestCase):
                     ys ** 2 * e[2] ** 2 / 10), 0.01)
 
     def test_term_of_an_eccentric_shear_centre(self):
-        """Uniform twist without shear: no term in strains of the shear centre; in J's e a product of twist and bending, which the printed
-        square replaces where there is no bending."""
+        """Uniform twist without shear: there is no term in strains of the shear centre; in J's e there is a product of
+        twist and bending, which the printed square replaces if there is no bending."""
         ys, e2 = 0.7, 0.6
         for e3, e4, alone in ((0.8, -0.5, False), (ys * e2, -ys * e2, True)):
             exact = self.elongation({2: e2, 3: e3, 4: e4, 7: e2, 8: e2}, 0.0, ys)
@@ -219,7 +222,8 @@ class Modified(unittest.TestCase):
             self.assertEqual(abs(exact - printed) > 0.01, not alone)
 
     def test_twist_of_an_eccentric_beam(self):
-        """e2bar - e2 of the repaired modes (second_order.py) without shear is e4s e5s - e3s e6s; printed with J's e."""
+        """Without shear, e2bar - e2 of the corrected modes (second_order.py) is e4s e5s - e3s e6s, but is printed with
+        J's e."""
         length, (ys, zs) = second_order.L, (Fraction(2, 7), Fraction(-5, 9))
         e = [Fraction(k, 11) for k in (0, 3, -4, 7, 2, 5, 3, 3)]  # uniform twist
         shift = [0, 0, -ys, ys, -zs, zs, 0, 0]
@@ -231,7 +235,8 @@ class Modified(unittest.TestCase):
         self.assertNotEqual(right, (e[3] * e[4] - e[2] * e[5]) / length)
 
     def test_table_1(self):
-        """D with D_w = 3.65e6 mm^4 as printed is indefinite; with 3.65e9 and by shear flow it is positive definite."""
+        """D with D_w = 3.65e6 mm^4 as printed is indefinite; with 3.65e9 and by shear flow, it is positive
+        definite."""
         for Dw, good in ((3.65e6, False), (3.65e9, True)):
             self.assertEqual(1.58e4 * Dw - 3.7e6 ** 2 > 0, good)
         self.assertAlmostEqual(float((channel_data().F ** -1)[2, 2]) * 1e12, 3.6936533e9, delta=1e2)
@@ -241,7 +246,7 @@ class ThirdOrder(unittest.TestCase):
     """N Eqs. 11, 49, 50, App. B."""
 
     def test_torsion_moment(self):
-        """Equilibrium of a slice: M_x' = kz M_y - ky M_z, here u_y'' M_y."""
+        """Equilibrium of a slice gives M_x' = kz M_y - ky M_z, here u_y'' M_y."""
         p, q, zp, zq = 0.7, -0.4, 0.3, 0.9
         u = lambda x: zp * (x - 2 * x ** 2 + x ** 3) + zq * (-x ** 2 + x ** 3)  # noqa: E731
         du = lambda x: zp * (1 - 4 * x + 3 * x ** 2) + zq * (-2 * x + 3 * x ** 2)  # noqa: E731
@@ -252,7 +257,8 @@ class ThirdOrder(unittest.TestCase):
             self.assertEqual(np.max(np.abs(slope(Mx) - ddu(X) * My(X))) < 1e-9, holds)
 
     def test_bimoment_of_appendix_b(self):
-        """Its polynomial part satisfies lambda^2 b - b'' = L f with the printed sign of u_y only after division by lambda^4."""
+        """The polynomial part of the bimoment satisfies lambda^2 b - b'' = L f with the printed sign of u_y only after
+        division by lambda^4."""
         f = lambda x: 12 * x ** 2 - 18 * x + 6  # noqa: E731
         for rate in (0.5, 4.0):
             b = lambda x: 24 + rate ** 2 * (6 - 18 * x + 12 * x ** 2)  # noqa: E731, B023
@@ -261,7 +267,7 @@ class ThirdOrder(unittest.TestCase):
             self.assertGreater(np.max(np.abs(residual - f(X))), 0.5)
 
     def test_initial_strains_of_an_arc(self):
-        """N Eq. 37 along a plane arc of turn psi, in which N Eq. 52 has no initial elongation."""
+        """N Eq. 37 along a plane arc with total rotation psi: N Eq. 52 contains no initial elongation."""
         for psi in (0.05, 0.2, math.pi / 4):
             u, zp, zq = 2 * math.sin(psi / 2) / psi - 1, -psi / 2, psi / 2  # per L
             elongation = u + (2 * zp ** 2 - zp * zq + 2 * zq ** 2) / 30
@@ -269,7 +275,7 @@ class ThirdOrder(unittest.TestCase):
         self.assertAlmostEqual(elongation, 2.0e-4, delta=0.05e-4)
 
     def test_sign_of_the_shear_strain(self):
-        """g_z = +(u_z' + phi_y) in N Eqs. 16, 20 and 25; Eq. 11 has the opposite."""
+        """g_z = +(u_z' + phi_y) in N Eqs. 16, 20 and 25; Eq. 11 has the opposite sign."""
         Phi, yp, yq = 0.8, 0.3, 0.5
         u = lambda x: yp * (-x + 2 * x ** 2 - x ** 3) + yq * (x ** 2 - x ** 3) + Phi * (yp + yq) * (
             x - 3 * x ** 2 + 2 * x ** 3) / (2 + 2 * Phi)  # noqa: E731

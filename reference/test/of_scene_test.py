@@ -1,4 +1,4 @@
-"""Scenes solved as networks, and values of tables at new points."""
+"""Tests scenes solved as networks, and values of tables at new points."""
 import csv
 import math
 import pathlib
@@ -10,7 +10,8 @@ from reference.derive import at, of_scene, scene_text
 from reference.derive.scene_text import Refused
 
 
-# Scenes solved as networks against stored truths of cases, closed forms, and themselves in other words; what is beyond the program is named.
+# Compares scenes solved as networks with stored reference values of cases, closed forms, and equivalent descriptions;
+# unsupported entries are named.
 TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 BAR = """beamwork: 1
 sections:
@@ -61,7 +62,7 @@ def tip(component, kind="displacement", **_):
 
 
 def values(text):
-    """{quantity: (value, uncertainty)}; what is refused fails."""
+    """Returns {quantity: (value, uncertainty)}; a rejected quantity fails the test."""
     out = {}
     for row in of_scene.solve(scene_text.read(text)):
         if isinstance(row[1], Refused):
@@ -71,7 +72,7 @@ def values(text):
 
 
 def stored(case, **given):
-    """{quantity: value} of the exact rows of exactly these parameters."""
+    """Returns {quantity: value} of the exact rows with exactly these parameters."""
     with open(TABLES / f"{case}.csv", newline="", encoding="utf-8") as table:
         return {
             row["quantity"]: float(row["value"])
@@ -97,7 +98,7 @@ class Scenes(unittest.TestCase):
             self.close(found[mine], truth[theirs], 11)
 
     def test_weight_of_a_body(self):
-        """The force at its centre."""
+        """The weight is the force at the centre of mass."""
         asked, body = {"w": tip("uy"), "t": tip("rz")}, ", mass: 0.3, centre: [0.1, -0.2, 0]"
         weight = values(bar("gravity: [0, -9.81, 2], on: tip", asked, tip=body))
         force = values(
@@ -114,7 +115,7 @@ class Scenes(unittest.TestCase):
         self.close(values(driven)["f"], 3.0)
 
     def test_unknown_motion(self):
-        """The place of the tip is given; a motion of the root, which is driven, is what reaches it."""
+        """The position of the tip is prescribed; the motion of the root, which is unknown, is solved for."""
         text = bar(
             "force: [0, 0, 0], on: tip", {"a": "motion: {analysis: path, motion: turn}, unit: rad"},
             motions=
@@ -126,7 +127,7 @@ class Scenes(unittest.TestCase):
         self.close(values(text)["a"], math.asin(0.6))
 
     def test_line_load(self):
-        """q L^4/(8 EI) in the linear theory; of a follower of small size too."""
+        """The deflection is q L^4/(8 EI) in linear theory, also for a small follower load."""
         linear = bar("distributed: [0, 2, 0], on: beam", {"w": tip("uy"), "t": tip("rz")},
                      path="linear: {}")
         found = values(linear)
@@ -139,7 +140,7 @@ class Scenes(unittest.TestCase):
             self.assertAlmostEqual(small[0] / 2.5e-6, 1, delta=1e-9)
 
     def test_line_moment_and_offset(self):
-        """An axial load beside the centroids is a moment along the beam."""
+        """An axial load off the centroid is equivalent to a moment along the beam."""
         one = values(
             bar("distributed: [3, 0, 0], on: beam, at: [0, 0.1, 0]",
                 {"w": tip("uy"), "u": tip("ux")}))
@@ -149,7 +150,7 @@ class Scenes(unittest.TestCase):
         self.assertNotAlmostEqual(one["w"][0], other["w"][0], delta=1e-3)
 
     def test_loads_on_parts(self):
-        """Closed forms of the linear theory at the tip: a force, a moment, loads from a to b, uniform and linear."""
+        """Closed forms of linear theory at the tip: a force, a moment, loads from a to b, uniform and linear."""
         asked = {"w": tip("uy"), "M": "internal: {analysis: path, member: beam, end: from, resultant: Mz}, unit: N m",
                  "Q": "internal: {analysis: path, member: beam, end: to, resultant: Qy}, unit: N"}
         for load, deflection, moment in (
@@ -171,7 +172,7 @@ class Scenes(unittest.TestCase):
             self.assertLessEqual(abs(found["Q"][0] - at_tip), found["Q"][1] + 1e-12, load)
 
     def test_parts_in_other_words(self):
-        """Loads on parts of a member that bends far are those on members that are cut there by hand."""
+        """Loads on parts of a member with large bending equal those on members that are cut there by hand."""
         whole = ("distributed: [0, 3, 0.5], on: beam, from: 0.25, to: 0.75, to_value: [1, 9, 0], follower: KIND, axes: member"
                  "}\n  b: {force: [2, 5, 1], on: beam, where: 0.25, at: [0, 0.1, 0.2], follower: KIND"
                  "}\n  c: {moment: [0.3, 0.2, 1], on: beam, where: 0.75, follower: KIND, axes: member")
@@ -194,7 +195,7 @@ class Scenes(unittest.TestCase):
             self.assertGreater(abs(found["w"][0]), 0.3)
 
     def test_parts_beyond(self):
-        """What is beyond the program is named."""
+        """Unsupported entries are named."""
         asked = {"w": tip("uy")}
         for load, beam, words in (
                 ("force: [0, 3, 0], on: beam, where: 0.4", ", curvature: [0, 0, 0.1]", "beam: a load on a part of a curved member"),
@@ -205,7 +206,8 @@ class Scenes(unittest.TestCase):
             values(bar("force: [0, 3, 0], on: tip", {"R": "reaction: {analysis: path, node: root, component: uy}, unit: N"}, path="linear: {}"))
 
     def test_resultants(self):
-        """At the root of a cantilever: the load at its tip and its moment; at the end of one with a line load: nothing."""
+        """At the root of a cantilever: the tip load and its moment; at the free end of a cantilever with a line load:
+        zero."""
 
         def at(end, what):
             return f"internal: {{analysis: path, member: beam, end: {end}, resultant: {what}}}, unit: N"
@@ -227,8 +229,8 @@ class Scenes(unittest.TestCase):
         self.close(found["M"], 3 * (1 + found["u"][0]))
 
     def test_releases(self):
-        """A bar that a hinge lets turn; one that slides; a propped cantilever, by a hinge and by a ball; a universal joint, whose second axis turns with
-        the first."""
+        """A bar that rotates at a hinge, one that slides, a cantilever propped by a hinge and by a ball joint, and a
+        universal joint, whose second axis rotates with the first."""
         motion = "motions:\n  push: {path: [0, 1], value: [0, 0.6]}\n"
         found = values(
             bar("force: [0, 0, 0], on: tip", {"u": tip("ux"), "t": tip("rz")},
@@ -274,7 +276,8 @@ class Scenes(unittest.TestCase):
             self.close(found[name], scale * value)
 
     def test_frequencies(self):
-        """Of a cantilever, without rotary inertia: bending both ways, twist, with a point mass at its tip."""
+        """Frequencies of a cantilever without rotary inertia: bending in both planes, twist, with a point mass at its
+        tip."""
         asked = {f"f{i}": f"frequency: {{analysis: path, which: {i}}}, unit: Hz" for i in range(4)}
         text = bar("force: [0, 0, 1], on: tip", asked, path="modal: {}").replace(
             "shear_modulus: 1}", "shear_modulus: 1, density: 1e-8}").replace("It: 1", "It: 0.36")
@@ -293,7 +296,7 @@ class Scenes(unittest.TestCase):
         self.close(heavy["f0"], root ** 2 / (2 * math.pi))
 
     def test_roll_up(self):
-        """A moment 2 pi EI/L makes a circle."""
+        """A moment 2 pi EI/L rolls the beam up to a circle."""
         found = values(
             bar(f"moment: [0, 0, {math.pi!r}], on: tip", {"u": tip("ux"), "w": tip("uy")}))
         self.close(found["u"], -1.0)
@@ -347,14 +350,16 @@ class Refusals(unittest.TestCase):
         self.refused("version", "beamwork: 2\n")
 
     def test_path_dependent_turn(self):
-        """One component of the turn is held as an increment, while the node turns about the other two."""
+        """One component of the rotation is fixed as an increment, while the node rotates about the other two: this is
+        rejected."""
         self.refused(
             "'rx' means depend",
             bar("force: [0, 1, 0.5], on: tip", {"w": tip("uy")}, tip=", hold: [rx]").replace(
                 "Iy: 1", "Iy: 2"))
 
 
-# Values at new points: the programs give back what the tables hold at the old ones, and refuse what they cannot.
+# Values at new points: the programs reproduce the values of the tables at the stored points, and reject points that
+# they do not support.
 AT_TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 CHEAP = {
     "c_column": 3, "moment_buckling": 8, "unsymmetric_column": 3, "shear_column": 12,
@@ -365,7 +370,7 @@ CHEAP = {
 
 
 def exact_rows(case):
-    """{parameters: {quantity: row}} in the table's order."""
+    """Returns {parameters: {quantity: row}} in the order of the table."""
     points = {}
     with open(AT_TABLES / f"{case}.csv", newline="", encoding="utf-8") as table:
         for row in csv.DictReader(table):

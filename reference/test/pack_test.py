@@ -1,4 +1,4 @@
-"""The packing of truths: round trip, hash, and every refusal."""
+"""Tests the packing of reference values: round trip, hash, and every rejection."""
 import csv
 import pathlib
 import re
@@ -38,7 +38,7 @@ class Pack(unittest.TestCase):
         (self.folder / name).write_text("\n".join(lines) + "\n")
 
     def packed(self, column, *rows):
-        """One column of what the rows are packed into."""
+        """Returns one column of the table into which the rows are packed."""
         self.assertEqual(self.run_pack(*rows).returncode, 0)
         with h5py.File(self.folder / "t.h5") as file:
             values = list(file[f"truths/beam/{column}"][()])

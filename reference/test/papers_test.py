@@ -1,4 +1,4 @@
-"""Papers and their equations, and programs that derive values again."""
+"""Tests papers and their equations, and programs that derive values again."""
 import ast
 import csv
 import fnmatch
@@ -11,7 +11,8 @@ from reference import pack
 from reference.derive import rederive
 
 
-# The papers item by item and equation by equation: every item has a row, every equation a file and a test or a reason.
+# The papers item by item and equation by equation: every item has a row, every equation a file and a test, or a
+# reason.
 REFERENCE = pathlib.Path(__file__).resolve().parents[1]
 ROOT = REFERENCE.parent
 STATUSES = ("reproduced", "partly", "not reproducible", "contradicted", "open")
@@ -38,7 +39,7 @@ def rows(name="papers.csv"):
 
 
 def numbers(text):
-    """'1-3,7' as the numbers of the equations, in words."""
+    """Returns '1-3,7' as the numbers of the equations, as words."""
     out = []
     for part in (p.strip() for p in re.sub(r"^(Figs?\.|Eqs\.) ", "", text).split(",")):
         first, _, last = part.partition("-")
@@ -47,7 +48,7 @@ def numbers(text):
 
 
 def defines(path, name):
-    """Whether a file defines a function: of C by its name at the begin of a line, of Python by its class and name."""
+    """Does a file define a function? In C by its name at the start of a line, in Python by its class and name."""
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".py":
         of = ast.parse(text).body
@@ -137,11 +138,11 @@ class Equations(unittest.TestCase):
         self.assertFalse(defines(REFERENCE / "test/papers_test.py", "Papers.test_files_and_functions"))
 
 
-# What `make truths` runs is what derives exact rows, and each of them is stored.
+# `make truths` runs exactly the programs that derive exact rows, and every row is stored.
 class Programs(unittest.TestCase):
 
     def test_each_takes_no_more_than_whether_all_are_wanted(self):
-        """A program of another kind that calls a function rows() would be taken for one of these."""
+        """A program of another kind with a function rows() would be taken for one of these."""
         for name in rederive.programs([]):
             module = rederive.importlib.import_module(f"reference.derive.{name}")
             wanted = ["everything"] if rederive.is_solid(name) else []

@@ -1,4 +1,4 @@
-"""Limits of printed elements: the machinery against exact values, closed forms against the machinery."""
+"""Limits of printed elements: compares the beam model with exact values, and closed forms with the beam model."""
 import copy
 import pathlib
 import sys
@@ -19,7 +19,7 @@ from reference.derive.predicted_column import compression, critical, pinned_squa
 
 
 def planar(name, GA):
-    """Network of shear_elastica; its level is the part of the load."""
+    """Returns the network of shear_elastica; its level is the fraction of the load."""
     beam = Printed(Beam(1.0, EA=1e9, EIy=10.0, EIz=10.0, GJ=10.0, fy=1 / GA, fz=1 / GA), name)
     net = Network(1.0, 10.0, intervals=6)
     root = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0)))
@@ -32,7 +32,7 @@ def planar(name, GA):
 class Machinery(unittest.TestCase):
 
     def test_exact_strains_give_the_exact_beam(self):
-        """With measures of the Simo-Reissner beam: every exact value of three points."""
+        """With the measures of the Simo-Reissner beam, every exact value of three points is reproduced."""
         form = lambda beam: Printed(beam, predicted_beam.simo_reissner)  # noqa: E731
         exact = predicted_rows.exact_values()
         rows = [
@@ -45,7 +45,7 @@ class Machinery(unittest.TestCase):
         self.assertGreater(len(rows), 60)
 
     def test_other_intervals_and_nodes(self):
-        """The uncertainty that the rows state."""
+        """Other intervals and nodes agree within the stated uncertainty of the rows."""
 
         def finer(*arguments, intervals=4, **options):
             return Network(*arguments, **{**options, "intervals": intervals + 3, "nodes": 17})
@@ -62,14 +62,14 @@ class Machinery(unittest.TestCase):
                 self.assertLess(abs(one[3] / two[3] - 1), one[5], one[:3])
 
     def test_amplitude_between_the_nodes(self):
-        """Where the twist rate is the amplitude both say the same; J Eq. 66 makes them differ."""
+        """If the twist rate equals the amplitude, both give the same value; J Eq. 66 makes them differ."""
         for name, least, most in (("beamw_first", 0, 1e-10), ("beamw", 2e-7, 3e-7)):
             form = predicted.as_printed(name)
             nodes, between = (equilibrium.sheet_frequencies(3, {}, form, one)[2] for one in (0, 1))
             self.assertTrue(least <= abs(between / nodes - 1) < most, (name, nodes, between))
 
     def test_stored_rows(self):
-        """Every closed form, and points of the beams."""
+        """Checks every closed form, and points of the beams."""
         stored = predicted_rows.stored_rows(predicted.CASES)
         self.assertEqual({row["kind"] for row in stored.values()}, {"predicted"})
         (force, lateral), = channel_cantilever.path((0.25, ), form=predicted.as_printed("beamw"))
@@ -88,7 +88,7 @@ class Machinery(unittest.TestCase):
                               row)
 
     def test_end_of_the_path(self):
-        """shear_elastica, GA = 10: where the beams of J lose equilibrium (reference/ERRATA.md)."""
+        """shear_elastica, GA = 10: load at which the beams of J lose equilibrium (reference/ERRATA.md)."""
         for name, end in (("beamw", 0.45130), ("beamw_first", 0.41987)):
             net, at, step = planar(name, 10), 0.0, 0.1
             while step > 8e-6:
@@ -102,7 +102,7 @@ class Machinery(unittest.TestCase):
 
 
 def cantilever_column(beam, level):
-    """Critical dead compression [N], near level, of a cantilever: half a fork-ended column."""
+    """Returns the critical dead compression [N], near `level`, of a cantilever: half a column on fork supports."""
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=4, nodes=12)
     root = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0)))
     tip = net.body((beam.length, 0, 0), lambda level, x, R, force, moment, numbers: np.concatenate(
@@ -113,7 +113,7 @@ def cantilever_column(beam, level):
 
 
 class ClosedForms(unittest.TestCase):
-    """predicted_column.py against the nonlinear beam of the same measures, nearly inextensible."""
+    """Compares predicted_column.py with the nonlinear beam of the same measures, nearly inextensible."""
 
     def test_c_column(self):
         s = column.channel_data(section_data="printed")
@@ -135,7 +135,7 @@ class ClosedForms(unittest.TestCase):
             self.assertLess(abs(load / closed - 1), 1e-6, name)
 
     def test_right_angle(self):
-        """Uniform shear z = pi/2 without rotation: stationary potential of N 7 with Phi at GA = F."""
+        """Uniform shear z = pi/2 without rotation: the potential of N 7 with Phi is stationary at GA = F."""
         EA, GA, F = mpf(10) ** 9, mpf(10), mpf(10)
 
         def potential(stretch, z):

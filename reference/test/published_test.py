@@ -1,4 +1,4 @@
-"""Published numbers against exact ones: reference/ERRATA.md lists every contradiction, no other."""
+"""Compares published numbers with exact ones: reference/ERRATA.md lists every contradiction and no other."""
 import csv
 import math
 import pathlib
@@ -30,7 +30,7 @@ def place(row):
 
 
 def contradictions():
-    """{(case, parameters, quantity): (published, exact)} that differ beyond both uncertainties."""
+    """Returns {(case, parameters, quantity): (published, exact)} that differ by more than both uncertainties."""
     exact, found = {place(row): row for row in rows_of("exact")}, {}
     for row in rows_of("published"):
         known = exact.get(place(row))
@@ -42,7 +42,7 @@ def contradictions():
 
 
 def listed():
-    """{(case, parameters, quantity): (published, exact as printed there)}"""
+    """Returns {(case, parameters, quantity): (published, exact as printed there)}."""
     section = (
         (REFERENCE / "ERRATA.md").read_text(encoding="utf-8").split(HEADING)[1].split("\n## ")[0]
     )
@@ -85,7 +85,7 @@ class Published(unittest.TestCase):
 
 
 class DeepBeam(unittest.TestCase):
-    """Where the published values of NAFEMS FV5 come from."""
+    """Origin of the published values of NAFEMS FV5."""
 
     def published(self, *modes):
         found = {
@@ -96,7 +96,7 @@ class DeepBeam(unittest.TestCase):
         return [found[f"frequency_{i}"] for i in modes]
 
     def test_torsion_is_that_of_20_linear_elements(self):
-        """Closed form of n elements with consistent mass, k h = (2 i - 1) pi/(2 n)."""
+        """The published torsion values are those of n elements with consistent mass, k h = (2 i - 1) pi/(2 n)."""
         elements, exact = 20, deep_beam.frequencies(False, 1, 1)[2]
         for i, value in zip((1, 2), self.published(3, 7)):
             kh = (2 * i - 1) * math.pi / (2 * elements)
@@ -104,7 +104,7 @@ class DeepBeam(unittest.TestCase):
             self.assertLess(abs(float(exact) * discrete / value - 1), 2e-5)
 
     def test_bending_asks_for_another_shear_factor_and_a_mesh(self):
-        """The factor that would give a value by itself rises with the mode: not one number."""
+        """The shear factor that would reproduce each value increases with the mode, so that no single factor does."""
         needed = []
         for half_waves, value in zip((1, 2, 3), self.published(1, 5, 8)):
             low, high = 0.8, 0.9

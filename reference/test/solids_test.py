@@ -1,4 +1,4 @@
-"""Beams against solids, and beams on forks."""
+"""Compares beams with solids, and tests beams on fork supports."""
 import contextlib
 import csv
 import io
@@ -16,13 +16,13 @@ from reference.derive.solids import channel, deck, sheet
 from reference.derive.solids.deck import BRICK, graded, spin, turned
 
 
-# The solids: meshes fill their volume, tangents are those of the resultant, known limits.
+# The solids: meshes fill their volume, tangents are those of the resultant, known limits are reached.
 TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 needs_ccx = unittest.skipUnless(deck.available(), f"{deck.PROGRAM} is not installed")
 
 
 def volume(grid):
-    """Of bricks along the axes."""
+    """Returns the volume of bricks along the axes."""
     low, high = (
         grid.nodes[grid.elements[:, BRICK.index(corner)]] for corner in ((0, 0, 0), (2, 2, 2))
     )
@@ -97,9 +97,10 @@ class Sheet(unittest.TestCase):
             self.assertLess(np.max(np.abs(slope - K[:, i]) / (scale * scale[i])), 1e-3, i)
 
     def test_at_rest(self):
-        """No force; a symmetric stiffness; along the sheet E A/L and up to nu^2/(1 - nu^2) more.
+        """At rest there is no force, and the stiffness is symmetric: along the sheet E A/L, and up to nu^2/(1 - nu^2)
+        more.
 
-        Its ends cannot contract.
+        The ends of the sheet cannot contract.
         """
         force, moment, K = self.sheet.state(np.zeros(6))
         self.assertLess(np.max(np.abs(np.concatenate([force, moment]))), 1e-6)
@@ -108,14 +109,15 @@ class Sheet(unittest.TestCase):
         self.assertTrue(1 < ratio < 1 / (1 - sheet.POISSON**2), ratio)
 
     def test_anticlastic_stiffening(self):
-        """N 4.1: 7.8 % between beam and plate in three stiffnesses of the straight sheet."""
+        """N 4.1: beam and plate differ by 7.8 % in three stiffnesses of the straight sheet."""
         for deviation in sheet.anticlastic():
             self.assertAlmostEqual(deviation, 0.078, delta=0.007)
 
 
-# Fork-ended beams in their bent state against linear prestress and against the exact beam of network.py.
+# Compares beams on fork supports in their bent state with linear prestress and with the exact beam of network.py.
 def fork(place, along):
-    """Held at a place (free along x: no force), web R ez across the guides' normal ey, no moment but that of the guides."""
+    """Returns the conditions at a fixed position (free along x: no force), with web R ez normal to the guides' normal
+    ey, and no moment but that of the guides."""
 
     def conditions(level, x, R, force, moment, numbers):
         held = [force[0] if along else x[0] - place[0], x[1] - place[1], x[2] - place[2]]
@@ -125,7 +127,7 @@ def fork(place, along):
 
 
 def network_load(bracket, ratio, K):
-    """Two members, and a dead force on the body between them."""
+    """Returns the load of two members with a dead force on the body between them."""
     beam = Beam(0.5, EA=fork_beams.EA, EIy=ratio, EIz=1.0, GJ=1.0, EIw=1 / K if K else 0.0)
     net = Network(1.0, 1.0, intervals=3, nodes=14)
     first = net.body((0, 0, 0), fork((0, 0, 0), False))
