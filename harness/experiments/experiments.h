@@ -156,7 +156,7 @@ typedef struct experiment_type {
     const record_type *rows;  /* records that CSV shows; NULL: no CSV */
     /* Adds the records of that type from the results. */
     void (*gather)(const void *found, const record_type *type, subjects *out);
-    void (*print)(FILE *to, const void *found); /* for people */
+    void (*print)(FILE *to, const void *found); /* human-readable */
     /* For experiments with cells: access to the cells, and all output forms. */
     experiment_cells (*cells)(const void *found);
     status (*write)(FILE *to, const char *format, const void *found, fault *f);

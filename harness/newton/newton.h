@@ -286,7 +286,7 @@ typedef struct outcome_end {
     double work, dissipated;             /* [J] since t = 0 */
     double largest, origin;              /* [J] largest energy so far; that at t = 0 */
     double turned;                       /* [J] sum of the absolute work of all steps */
-    double scale, extent, rate, density; /* of time_impl.h */
+    double scale, extent, rate, density; /* see time_impl.h */
     double stress, contraction;          /* convergence history of Newton's method */
     int quiet; /* number of steps since the last discontinuity of the loads */
     size_t states, coordinates, strains, released, between;

@@ -865,7 +865,7 @@ status radau_equations(radau *, int fresh, const instant *from, double h, step_r
 /* Energy dissipated by damping in a solved step [J]; room[elements x strains]. */
 double radau_dissipated(const radau *, const instant *from, double h, double room[]);
 /* Adds damping to the stresses of the model for radau_error, with strain rates -sum e_i (strains
- * gained)/h and tangent g, until damping_follow changes it. Same room. */
+ * gained)/h and tangent g, until damping_follow changes it. room[elements x strains]. */
 void radau_damp_error(const radau *, const instant *from, double h, const double e[STAGES],
                       double g, double room[]);
 

@@ -225,7 +225,8 @@ static void cost_of_a_level(void)
     gsl_test(r.run != NULL, "a shorter step is not within it");
 }
 
-/* Errors of a quantity, in addition to those of positions. */
+/* Do these errors of a quantity, on successively finer runs, fail to converge? The errors of
+ * positions converge. */
 static int stands(const double error[RUNS], double floor)
 {
     pace p;

@@ -39,7 +39,7 @@ static inline element_type changed(const char *name)
     gsl_test(formulation_parse(name, &chosen, NULL) != STATUS_OK, "%s", name);
     base = chosen.type;
     element_type out = *base;
-    out.options[0] = NULL; /* as by default, once */
+    out.options[0] = NULL; /* only with the default options */
     return out;
 }
 

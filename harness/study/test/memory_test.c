@@ -165,8 +165,8 @@ static status read_truths(const void *what, double *value, fault *f)
     return outcome;
 }
 
-/* Reads a scene file, its scene and its reference values; value: number of the latter plus
- * positions of nodes. */
+/* Reads a scene file, its scene and its reference values; value: number of reference values
+ * plus a weighted sum over the positions of nodes. */
 static status read_scene(const void *what, double *value, fault *f)
 {
     scene_file *file = NULL;

@@ -405,7 +405,7 @@ static void meshes_reached(void)
         for (int i = 0; i < MESHES; i++) {
             t.b.quantity[i].value = truth_value + error[i] * fabs(truth_value);
             error[i] = verdict_error(&t.b.p.scene.quantity[0], t.b.quantity[i].value, truth_value);
-            t.timing[i].as_is.round[0] = uniform(); /* without effect */
+            t.timing[i].as_is.round[0] = uniform(); /* must have no effect */
         }
         for (int k = 0; k < REACH_LEVELS; k++) {
             const int right = by_definition(error, reach_level[k]);

@@ -201,7 +201,7 @@ static void explicit_tests(void)
 
 static const double along[3] = {0.48, -0.6, 0.64}, other[3] = {0.7, 0.4, -0.9}, step = 1e-4;
 
-/* Vector of exp(-t~) exp(s~). */
+/* Rotation vector of exp(-t~) exp(s~). */
 static void between(const double t[3], const double s[3], double out[3])
 {
     double p[4], q[4], back[4];

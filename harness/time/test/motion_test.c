@@ -13,8 +13,8 @@ extern const case_type case_free_flight_space;
 
 static const double length = 1;
 
-/* Motion of a cantilever after a small static force ends at 0 s. The cantilever is along x or along
- * another axis (turn 1: x, y, z become y, z, x), from its root to its tip or (back 1) in the
+/* Motion of a cantilever after a small static force is removed at 0 s. The cantilever is along x or
+ * along another axis (turn 1: x, y, z become y, z, x), from its root to its tip or (back 1) in the
  * opposite direction. early, late: deflection of the tip at a sixteenth of a period and at two
  * periods; f: frequency from a modal analysis. */
 static void swing(const element_type *type, scene_scheme by, int turn, int back, answer *a)
