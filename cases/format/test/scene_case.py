@@ -1,12 +1,7 @@
 """Functions shared by tests of scene files."""
-from harness.tools.kit.program import ROOT, ProgramTest
+from harness.tools.kit.program import ROOT, ProgramTest, values
 
 EXAMPLES = ROOT / "cases/examples"
-
-
-def values(record):
-    """Returns quantity -> value as written, with every bit."""
-    return {q["quantity"]: q["value"] for q in record["quantities"]}
 
 
 class SceneCase(ProgramTest):

@@ -88,9 +88,7 @@ class CrossTerms(ProgramTest):
         text = SCENE.replace("RELEASE", ", release: {to: [ry]}" if release else "").replace("ANALYSES", analyses).replace("QUANTITIES", quantities).replace("TIME", time)
         for name, matrix in SPRINGS.items():
             text = text.replace(name, str([float(x) for x in matrix.ravel()]))
-        path = self.folder / "scene.yaml"
-        path.write_text(text)
-        return {q["quantity"]: q["value"] for q in self.record("solve", "--scene", path, "-f", formulation, "-n", 1)["quantities"]}
+        return self.values_of(text, "-f", formulation, "-n", 1)
 
     def near(self, found, wanted, size, words, within=1e-7):
         self.assertLess(abs(found - wanted), within * size, f"{words}: {found} instead of {wanted}")

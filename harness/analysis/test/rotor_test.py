@@ -324,10 +324,7 @@ def dynamic(s):
 
 class Bearings(ProgramTest):
     def values(self, scene, n=1, formulation="collocation", **words):
-        path = self.folder/"bearing.yaml"
-        path.write_text(scene % words)
-        done = self.record("solve", "--scene", path, "-f", formulation, "-n", n)
-        return {q["quantity"]: q["value"] for q in done["quantities"]}
+        return self.values_of(scene % words, "-f", formulation, "-n", n)
 
     def told(self, scene, **words):
         path = self.folder/"bearing.yaml"

@@ -54,9 +54,7 @@ def spin(v):
 
 class UnitLoads(ProgramTest):
     def values(self, text):
-        path = self.folder / "scene.yaml"
-        path.write_text(text)
-        return {q["quantity"]: q["value"] for q in self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)["quantities"]}
+        return self.values_of(text, "-f", "collocation", "-n", 1)
 
     def moved(self, text, node, unit):
         """Displacements [6] with a unit load [6]."""

@@ -78,10 +78,7 @@ quantities:
 
 class Axes(ProgramTest):
     def values(self, text, *options, formulation="collocation"):
-        path = self.folder / "scene.yaml"
-        path.write_text(text)
-        record = self.record("solve", "--scene", path, "-f", formulation, "-n", "2", *options)
-        return {q["quantity"]: q["value"] for q in record["quantities"]}
+        return self.values_of(text, "-f", formulation, "-n", "2", *options)
 
     @staticmethod
     def scene(name, turned):

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from harness.tools.kit.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run, values
 
 M1, M2, K = 1.0, 0.5, 100.0  # [kg] of the cart and of the tool; [N/m] of the bar
 SCENE = """beamwork: 1
@@ -49,13 +49,10 @@ class Feedback(ProgramTest):
         path = self.folder / "scene.yaml"
         text = SCENE % {"gains": gains, "analyses": analyses, "more": more, "eta": eta}
         path.write_text(text, encoding="utf-8")
-        done = run("solve", "--scene", path, "-f", "collocation", "-n", "1", "--format", "json")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        said = json.loads(done.stdout)
-        values = {q["quantity"]: q["value"] for q in said["quantities"]}
-        steps = [s["iterations"] for s in said["steps"]]
-        self.assertLess(abs(values["drift"]), 1e-3 * values["energy"] + 1e-9)
-        return values, steps
+        said = self.record("solve", "--scene", path, "-f", "collocation", "-n", "1")
+        found = values(said)
+        self.assertLess(abs(found["drift"]), 1e-3 * found["energy"] + 1e-9)
+        return found, [s["iterations"] for s in said["steps"]]
 
     def test_exponential(self):
         """Proportional, derivative and integral gains, at the cart and across the bar, stable and unstable, take few
@@ -165,17 +162,22 @@ omit: [trapeze, wagner_moments, wagner_torque]
 """
 
 
-class Elongation(ProgramTest):
-    """A member with prescribed length, stiffness 50 N/m, and a mass of 0.5 kg at its end."""
+class Driven(ProgramTest):
+    """A scene with words for its gaps."""
 
     def solved(self, *words, code=0):
-        path = self.folder / "bar.yaml"
-        path.write_text(BAR % words, encoding="utf-8")
-        done = run("solve", "--scene", path, "-f", "collocation", "-n", "2", "--format", "json")
-        self.assertEqual(done.returncode, code, done.stderr)
-        if code:
-            return done.stdout + done.stderr
-        return {q["quantity"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
+        """Returns the values of quantities; with a code, what is printed."""
+        path = self.folder / "scene.yaml"
+        path.write_text(self.scene % words, encoding="utf-8")
+        done = self.answered("solve", "--scene", path, "-f", "collocation", "-n", self.elements, "--format", "json",
+                             code=code)
+        return done.stdout + done.stderr if code else values(json.loads(done.stdout))
+
+
+class Elongation(Driven):
+    """A member with prescribed length, stiffness 50 N/m, and a mass of 0.5 kg at its end."""
+
+    scene, elements = BAR, 2
 
     def test_linear(self):
         for part in ("", "from: 0.2, to: 0.7,"):
@@ -228,17 +230,10 @@ omit: [trapeze, wagner_moments, wagner_torque]
 """
 
 
-class Tension(ProgramTest):
+class Tension(Driven):
     """A rigid boom on a spring is pulled towards a fixed point: one degree of freedom."""
 
-    def solved(self, *words, code=0):
-        path = self.folder / "boom.yaml"
-        path.write_text(BOOM % words, encoding="utf-8")
-        done = run("solve", "--scene", path, "-f", "collocation", "-n", "1", "--format", "json")
-        self.assertEqual(done.returncode, code, done.stderr)
-        if code:
-            return done.stdout + done.stderr
-        return {q["quantity"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
+    scene, elements = BOOM, 1
 
     @staticmethod
     def lever(angle):

@@ -57,6 +57,11 @@ def read_json(path):
     return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
 
 
+def values(record):
+    """Returns quantity -> value as written, with every bit."""
+    return {q["quantity"]: q["value"] for q in record["quantities"]}
+
+
 class ProgramTest(unittest.TestCase):
     """A test with its own folder, which is empty before the test and removed after it."""
 
@@ -81,6 +86,12 @@ class ProgramTest(unittest.TestCase):
     def record(self, *arguments, **options):
         """Returns the output of --format json."""
         return json.loads(self.answered(*arguments, "--format", "json", **options).stdout)
+
+    def values_of(self, scene, *options):
+        """Returns the values of the quantities of a scene, given as a text."""
+        path = self.folder / "scene.yaml"
+        path.write_text(scene, encoding="utf-8")
+        return values(self.record("solve", "--scene", path, *options))
 
     def refused(self, code, words, *arguments, silent=True, **options):
         """Requires a one-line error that contains all the words, the given status, and no computation."""
