@@ -9,9 +9,10 @@
 #include "harness/newton/newton.h"
 #include "harness/numerics/numerics.h"
 
-/* Eigenpairs of largest size of a real operator without symmetry: the operator projected on a
- * growing orthonormal basis (Arnoldi). Their number is not known from an inertia. Therefore, after
- * the wanted ones have converged, start vectors are added until one gives no value of that size. */
+/* Eigenpairs of largest magnitude of a real unsymmetric operator, from its projection on a growing
+ * orthonormal basis (Arnoldi). No inertia tells how many there are. Therefore, after the requested
+ * eigenvalues have converged, start vectors are added until one yields no further eigenvalue of
+ * that magnitude. */
 
 typedef struct arnoldi_problem {
     int n, wanted;
@@ -20,9 +21,9 @@ typedef struct arnoldi_problem {
 } arnoldi_problem;
 
 typedef struct arnoldi_result {
-    int count; /* fewer than wanted if no others are larger than round-off; one more if the last one
-                  is the first of a conjugate pair */
-    double complex *theta; /* [count] largest size first, conjugates one after the other */
+    int count; /* fewer than wanted if all others are round-off; one more if the last one is the
+                  first of a conjugate pair */
+    double complex *theta; /* [count] largest magnitude first, conjugates next to each other */
     double complex *mode;  /* [count x n] of length 1 */
     double *residual;      /* [count] |T x - theta x|/|theta| */
     long applied;
@@ -35,11 +36,11 @@ void arnoldi_free(arnoldi_result *);
 
 /* Centre lines of all solutions, for pictures. */
 
-/* Collects shapes of the undeformed structure, of at most `most` states of every path, of linear
- * solutions and of modes. */
+/* Collects the shapes of the undeformed structure, of at most `most` states of every path, of
+ * linear solutions and of modes. */
 status collect_shapes(const analysis_context *, int most, shapes *, fault *);
 
-/* Matrices of small motions about all solutions. */
+/* Matrices for small motions about all solutions. */
 
 /* Matrices about the undeformed structure, every computed station of every path, and the loaded
  * states of modal analyses. */
@@ -47,10 +48,10 @@ status collect_systems(const analysis_context *, system_matrices *, fault *);
 
 /* Imperfections. */
 
-/* Number of modes of a sign, positive for buckling, that imperfections read of an analysis. */
+/* Number of modes of an analysis (buckling: of positive loads) that imperfections use. */
 int imperfection_modes(const scene *, int analysis);
 /* x[free + driven]: sum of the modes that are imperfections, with their amplitudes. REFUSED: a mode
- * is not there, or not unique. */
+ * does not exist or is not unique. */
 status imperfection_of_modes(const analysis_context *, double x[], fault *);
 
 /* Compliance and stiffness of a node in a deformed state. */
@@ -58,13 +59,13 @@ status imperfection_of_modes(const analysis_context *, double x[], fault *);
 status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
 /* Compliances along a path, computed during the path. If Newton's last correction changes the
- * tangent by less than its round-off, the last tangent is used for the station and no other one is
- * computed. If members are condensed, one is computed immediately. */
+ * tangent by less than its round-off, the last tangent serves the station and none is computed for
+ * it. If members are condensed, the tangent is computed immediately. */
 
 typedef struct compliance_walk compliance_walk;
 
-/* To be called when Newton's method has reached the station. The analysis computes later what is
- * not available now. w NULL: no analysis follows. FAULT: out of memory. */
+/* To be called when Newton's method has reached the station. The analysis later computes the
+ * compliances that are not available now. w NULL: no analysis follows. FAULT: out of memory. */
 status compliance_walk_take(compliance_walk *w, const newton_run *, int station, fault *);
 void compliance_walk_end(compliance_walk *);
 
@@ -78,25 +79,26 @@ status continuation_analysis(analysis_context *, int analysis, analysis_outcome 
 int continuation_extract(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                          quantity_result *);
 
-/* Small motions x exp(s t) about a state whose stiffness is not symmetric: (s^2 M + s C + K) x = 0,
- * M symmetric and positive semidefinite, C of damping or absent.
+/* Small motions x exp(s t) about a state whose stiffness is not symmetric: (s^2 M + s C + K) x = 0.
+ * M is symmetric and positive semidefinite; C is the damping matrix or absent.
  *
- * The least s are the largest 1/s^2 of -K^-1 M, or with C the largest 1/s of its companion with the
- * rates of coordinates with mass. Massless coordinates give zero values, which are not motions. */
+ * The smallest s are the largest 1/s^2 of -K^-1 M or, with C, the largest 1/s of the companion
+ * matrix, which includes the rates of coordinates with mass. Massless coordinates give zero
+ * eigenvalues, which are not modes. */
 
 typedef struct unsymmetric_problem {
     const sparse *K, *M, *C; /* same pattern; C NULL: no damping */
     matrix_factor *K_factor; /* factor_numeric done */
-    int wanted;              /* least motions */
+    int wanted;              /* modes of smallest |s| */
     int estimate;            /* 1: estimate errors, which doubles the work */
-    int decaying;            /* 1: with C, also motions that decay without oscillation */
-    const sparse *B;         /* mass of internal motions of the elements, with C; NULL: none */
+    int decaying;            /* 1: with C, also modes that decay without oscillation */
+    const sparse *B;         /* with C: mass of the internal motions of elements; NULL: none */
     double mass, stiffness;  /* proportional damping that C contains [1/s], [s] */
 } unsymmetric_problem;
 
-/* s = growth + i frequency, ascending in size. Without damping it contains both motions of a
- * flutter (same frequency, opposite growth rates) and the growing motion of a divergence; with
- * damping every oscillating motion, and every growing one. */
+/* s = growth + i frequency, ascending by magnitude. Without damping the result contains both modes
+ * of a flutter (same frequency, opposite growth rates) and the growing mode of a divergence; with
+ * damping, every oscillating mode and every growing mode. */
 typedef struct unsymmetric_result {
     int n, count;
     double *frequency,
@@ -115,7 +117,7 @@ void unsymmetric_free(unsymmetric_result *);
 
 /* Small motions and stability about states with an unsymmetric tangent (follower loads, moments
  * about fixed axes). Stability is lost by divergence, where the tangent is singular, or by flutter,
- * where two frequencies coincide; with damping of members, where a motion grows. */
+ * where two frequencies coincide; with damping of members, where a mode grows. */
 
 typedef enum flutter_kind { FLUTTER_NONE, FLUTTER_DIVERGES, FLUTTER_OSCILLATES } flutter_kind;
 
@@ -129,15 +131,15 @@ typedef struct flutter_system {
 
 status flutter_system_alloc(const newton_run *, flutter_system *, fault *);
 void flutter_system_free(flutter_system *);
-/* The `wanted` smallest motions about the state. */
+/* The `wanted` modes of smallest |s| about the state. */
 status flutter_motions(const newton_run *, flutter_system *, int wanted, int estimate,
                        unsymmetric_result *, fault *);
 /* Moves frequencies, modes and errors to an outcome; values without digits become NaN. */
 void flutter_take(unsymmetric_result *from, outcome_side *to);
-/* Damping of the motions: "", or if anything damps: "with damping", or "undamped" if damped is 0.
+/* Returns "" if nothing is damped; otherwise "with damping", or "undamped" if damped is 0.
  */
 const char *flutter_damping(const scene *, int damped);
-/* Kind of the fastest growing motion, number *mode. */
+/* Kind of the fastest growing mode, whose number is *mode. */
 flutter_kind flutter_of(const flutter_system *, const unsymmetric_result *, int *mode);
 /* "flutter, undamped", "divergence", "flutter, growth with damping" */
 const char *flutter_name(const flutter_system *, flutter_kind);
@@ -160,7 +162,7 @@ status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *
 /* Workspace of one analysis; initially all members are zero. */
 typedef struct flutter_judge {
     int begun;
-    newton_run n; /* with a tangent of all coordinates, which the tangent of a path may not have */
+    newton_run n; /* its tangent has all coordinates; that of a path may not */
     flutter_system of;
 } flutter_judge;
 
@@ -174,11 +176,11 @@ status flutter_judge_begin(flutter_judge *, analysis_context *, fault *);
 void flutter_judge_free(flutter_judge *);
 
 /* Replaces the count of negative pivots for an unsymmetric tangent K: the eigenvalues of D^-1 K
- * nearest to zero (D: the metric), and the number of those left of the imaginary axis. This number
- * changes at a critical point, where one passes zero, and where a pair crosses the imaginary axis
- * away from zero, which is not a critical point. Pairs that meet on the real axis do not change it,
- * nor does rounding that turns a double value into a pair. A symmetric K has as many of them as
- * negative pivots. */
+ * nearest to zero (D: the metric), and how many of them lie left of the imaginary axis. This number
+ * changes at a critical point, where an eigenvalue passes zero. It also changes where a pair
+ * crosses the imaginary axis away from zero, which is not a critical point. Pairs that meet on the
+ * real axis do not change it, nor does rounding that turns a double eigenvalue into a pair. For a
+ * symmetric K it equals the number of negative pivots. */
 
 enum { LEFT_NEAREST = 6 };
 
@@ -231,7 +233,7 @@ typedef struct continuation {
     outcome_continuation *o;
     int analysis, room; /* room: capacity for points in the outcome */
     int asks_critical;  /* 1: a quantity requests critical points */
-    int keeps_states;   /* 1: the outcome keeps the state of every point */
+    int keeps_states;   /* 1: the outcome stores the state of every point */
     newton_run n;       /* n.backup: state at the start of the step */
     flutter_judge judge;
     model_state
@@ -246,7 +248,7 @@ typedef struct continuation {
     int first;    /* negative pivots at the start */
     int narrow;   /* 1: a change of stability has been located as closely as possible */
     int doubtful; /* 1: it is not known whether the step has critical points */
-    int looked;   /* 1: n.dx, response and the factors belong to the current state */
+    int looked;   /* 1: n.dx, response and the factors are those of the current state */
 } continuation;
 
 status continuation_step_alloc(analysis_context *, int analysis, outcome_continuation *,
@@ -277,11 +279,11 @@ typedef struct rival {
 } rival;
 
 /* continuation_critical.c: the critical points between `here` and `next`, if any, become events.
- * The step was found with the goal. *jump: 1 when the tangent stiffness changes its inertia without
- * a critical point, which is another branch. */
+ * The step was found with the goal. *jump: 1 when the inertia of the tangent stiffness changes
+ * without a critical point: the step led to another branch. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
-/* If critical points are requested: *hidden 1 if something changes and changes back within the
- * step, provided that this interval is at least a fifth of the step. */
+/* If critical points are requested: *hidden is 1 if an indicator changes and changes back within
+ * the step, provided that this interval is at least a fifth of the step. */
 status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
 
 /* Quantities of a scene from the outcomes of its analyses. */
@@ -294,7 +296,7 @@ void extract_quantity(const analysis_context *, const scene_quantity *, quantity
 void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                   quantity_result *);
 
-/* The spectrum for the quantity, from `count` values at constant steps [s] in its units. */
+/* Sets the quantity's spectrum from `count` values at constant time steps [s], in its units. */
 void spectrum_take(const scene_quantity *, int count, double step, const double value[],
                    quantity_result *);
 
@@ -304,15 +306,15 @@ int extract_path_asks(const analysis_context *, int analysis, int stations, cons
 /* The same, or 1 if all stations are needed. */
 int extract_path_wants(const analysis_context *, int analysis, int stations, const double path[],
                        int station);
-/* 1: more of the state at a station is needed than the motion of nodes: resultants, reactions,
- * shapes, matrices, or the start of a following analysis. Compliances that were computed during the
- * path do not need more. */
+/* 1: besides the motion of nodes, the station needs resultants, reactions, shapes, matrices, or the
+ * start state of a following analysis. Compliances that were computed during the path do not need
+ * more. */
 int extract_path_whole(const analysis_context *, int analysis, int station);
 
 /* Quantities of eigenvalues: critical loads and frequencies. */
 
 /* Checks whether stability is lost and regained within a step of a static path: the state is
- * examined after every sixth of the step, so that an interval of a fifth of it is noticed. */
+ * examined after every sixth of the step, so that a loss over a fifth of the step is noticed. */
 
 /* The step led from one state to the other. *found: a path value within the step with a stability
  * that is not between those of the ends; INFINITY: none was found. Not counted as work. */
@@ -354,40 +356,39 @@ typedef struct vibration {
     const model_state *state;
     sparse K, M, C, B; /* on all coordinates */
     int damped, inside;
-    int plain; /* 1: without the mass inside elements, and extremes between frequencies */
-    sparse D;  /* [2 (free + border + loops)] real form */
-    int *source,
-        *first; /* entry of K behind each entry of the free block, by columns; [free + 1] */
+    int plain;           /* 1: without the mass inside elements, and extremes between frequencies */
+    sparse D;            /* [2 (free + border + loops)] real form */
+    int *source, *first; /* entry of K for each entry of the free block, by columns; [free + 1] */
     int *row, *rows;
-    double complex *column; /* [free + border + loops], as rows: of one column of D */
+    double complex *column; /* [free + border + loops], as rows: values in one column of D */
     matrix_factor *factor;
     double *x;                     /* [2 (free + border + loops)] */
     double complex *found, *left;  /* [quantities x (all + loops)], [quantities x free] */
     double complex *output, *dual; /* [all + loops] */
     double *room;                  /* [model_stresses + all] */
     harmonic_modes *modes;         /* NULL: direct solution without modal damping */
-    int loops;                     /* closed ones, and their factors, behind all coordinates */
+    int loops;                     /* closed loops; their factors follow all coordinates */
     control_loop *loop;            /* [loops] */
     double *signals;               /* [2 loops x (free + driven)] */
 } vibration;
 
-/* Loops of feedback that the analysis closes, about v->state. */
+/* Finds the feedback loops that the analysis closes, about v->state. */
 status loops_find(vibration *, fault *);
 void loops_free(vibration *);
-/* Number of coordinates, and factors of loops. */
+/* Number of coordinates and loop factors. */
 size_t loops_whole(const vibration *);
-/* NULL: it is not closed. */
+/* Returns NULL if the loop is not closed. */
 const control_loop *loops_of(const vibration *, int load);
 /* own u + gain S^T x = gain r at s = i w. */
 double complex loops_gain(const control_loop *, double w, double complex *own);
-/* K, M, C, B of free coordinates, of one pattern, with all loops closed; then the integrals. The
- * caller releases to[4] in any case. */
+/* K, M, C, B of the free coordinates, on one pattern, with all loops closed, followed by the
+ * integrals. The caller releases to[4] in any case. */
 status loops_close(const vibration *, const sparse *const from[], sparse to[], fault *);
 void loops_release(sparse closed[]);
 
 /* Entry k of K, M, ... in D. */
 double complex harmonic_dynamic(const vibration *, double w, int k);
-/* K, M, C, B; whole: also of driven coordinates. */
+/* Computes K, M, C, B; whole: including driven coordinates. */
 status harmonic_matrices(vibration *, int whole, fault *);
 /* The free block as a full matrix: v->first, row, source. */
 status harmonic_pattern(vibration *, fault *);
@@ -403,28 +404,29 @@ int harmonic_border(const vibration *);
 
 enum { HARMONIC_SHAPES_OF_MOTION = 4, HARMONIC_SHAPES = 2 * HARMONIC_SHAPES_OF_MOTION };
 
-/* Right-hand side of an input; a prescribed motion is 1 in x[all]. */
+/* Sets the right-hand side of an input; a prescribed motion is 1 in x[all]. */
 status harmonic_input(const vibration *, const scene_response *, double w, double complex x[],
                       fault *);
-/* y[border] of the direct solution, U^T r of the driven coordinate of an input; 0: of a force. */
+/* y[border] of the direct solution: U^T r of the input's driven coordinate. Returns 0 for a force.
+ */
 int harmonic_carried(const vibration *, const scene_response *, double y[]);
-/* The linear form o of a quantity's displacements: o^T x. */
+/* The linear form o of a quantity in the displacements: o^T x. */
 void harmonic_output(vibration *, const scene_response *, double w, double complex o[]);
-/* The part of the force of 1 that the motion bears whose reaction is read. */
+/* The part of a unit force input carried by the prescribed motion whose reaction is read. */
 double harmonic_force_at(const vibration *, const scene_response *);
-/* The forces of a quantity's input at any frequency, and its output as forces: out[n each]. Returns
- * their number, at most HARMONIC_SHAPES. */
+/* The forces of a quantity's input, independent of frequency, and its output as forces: out[n
+ * each]. Returns their number, at most HARMONIC_SHAPES. */
 int harmonic_shapes(vibration *, const scene_response *, double out[]);
 
-/* Largest and least amplitudes, real and imaginary parts between the frequencies of the analysis; a
- * phase turns over (harmonic_extremes.c). */
+/* Largest and smallest amplitudes, real parts and imaginary parts between the frequencies of the
+ * analysis (harmonic_extremes.c). Phases are excluded, because they wrap around. */
 
 /* One quantity at a frequency; sign * value is to be large. */
 typedef status harmonic_value(vibration *, int quantity, double sign, double hertz, outcome_peak *,
                               fault *);
 status harmonic_extremes_refine(vibration *, harmonic_value *, outcome_harmonic *, fault *);
 
-/* Modes without damping, of the free coordinates (harmonic_modes.c), and the solution by them
+/* Undamped modes of the free coordinates (harmonic_modes.c), and the modal solution
  * (harmonic_reduced.c). */
 
 struct harmonic_modes {
@@ -445,47 +447,49 @@ struct harmonic_modes {
     int *pivot;
     double complex *y, *inverse, *half; /* [count]; [kept x kept] */
     double *work;                       /* [2 n] */
-    double w, positive;                 /* the real part above */
+    double w, positive;                 /* `positive` is the real part at w */
 };
 
-/* Free blocks of K, M, C, B. */
+/* Extracts the free blocks of K, M, C, B. */
 status harmonic_modes_blocks(vibration *, harmonic_modes *, fault *);
-/* The first modes; wanted 0: all. */
+/* Computes the first modes; wanted 0: all. */
 status harmonic_modes_lowest(vibration *, harmonic_modes *, int wanted, fault *);
 status harmonic_modes_find(vibration *, fault *);
 void harmonic_modes_free(harmonic_modes *);
-/* Natural frequencies [Hz], at least those below a frequency, ascending; the caller frees *hertz.
- * Without damping; where springs or dashpots are not symmetric, those of damped modes. None where
- * loads make the stiffness unsymmetric or there are too many. */
+/* Natural frequencies [Hz], ascending, at least those below a frequency; the caller frees *hertz.
+ * They are undamped, or those of damped modes if springs or dashpots are not symmetric. There are
+ * none if loads make the stiffness unsymmetric, or if there would be too many. */
 status harmonic_natural(vibration *, double below, int *count, double **hertz, fault *);
 /* REFUSED: springs without a potential, or loops of feedback, make a mode grow. */
 status harmonic_judge_growth(vibration *, double below, fault *f);
 /* Modes with damping ratios: C + U U^T with U [count x free]. */
 int harmonic_modes_damped(const harmonic_modes *, const double **U);
-/* U^T of the displacements due to a unit displacement of the driven coordinate at rest, [count]. */
+/* U^T r for the static displacements r due to a unit displacement of the driven coordinate,
+ * [count]. */
 void harmonic_modes_carried(const vibration *, int driven, double out[]);
 /* The static shapes of inputs and outputs, and the projected matrices. f: [count x free] forces. */
 status harmonic_modes_project(vibration *, int count, const double f[], fault *);
-/* Factors D at a frequency; SINGULAR as for a direct solution. */
+/* Factors D at a frequency; returns SINGULAR as a direct solution does. */
 status harmonic_modes_factor(vibration *, double w, fault *);
 /* x [free]: forces, replaced by the solution; f: residual of the forces. */
 void harmonic_modes_solve(vibration *, double complex f[], double complex x[]);
-/* Bound of |o^T (x - D^-1 f)| from the residuals of the solutions for f and o; INFINITY: none. */
+/* Bound on |o^T (x - D^-1 f)| from the residuals of the solutions for f and o; INFINITY: none. */
 double harmonic_modes_bound(vibration *, const double complex left_of_f[],
                             const double complex left_of_o[]);
 
 status harmonic_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Matrices about the state in all coordinates, and the loops that are closed. */
 status harmonic_begin(vibration *, fault *);
-/* K, M, C and modes with ratios of a harmonic analysis; the caller releases *out in any case. */
+/* K, M, C and the modes with damping ratios of a harmonic analysis; the caller releases *out in any
+ * case. */
 status harmonic_system(analysis_context *, int analysis, vibration *out, fault *);
 void harmonic_release(vibration *);
 /* Largest difference of responses without the mass inside elements, relative to the largest of each
  * curve; *error 0 on entry. */
 status harmonic_inside(analysis_context *, int analysis, double *error, int *quantity, fault *);
-/* REFUSED: the motion is not one coordinate. */
+/* REFUSED: the motion is a component of a rotation vector. */
 status harmonic_check_motion(const vibration *, int driver, fault *);
-/* The driven coordinate whose reaction a quantity reads, and no other node's. */
+/* The driven coordinate whose reaction a quantity reads; it must act on one node only. */
 status harmonic_reacting(const vibration *, const scene_response *, int *out, fault *);
 
 /* Linear models with the inputs and outputs of the scene (second_order.c). */
@@ -495,7 +499,7 @@ status second_order_list(const scene *, system_matrices *, fault *);
 status second_order_keep(const vibration *v, const sparse *G, const system_matrices *,
                          state_matrices *, fault *);
 
-/* Modes with damping. */
+/* Computes damped modes. */
 status damped_modal(analysis_context *, int analysis, analysis_outcome *, fault *);
 
 /* Stationary rotation and small motions about it. */

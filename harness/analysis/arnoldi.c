@@ -10,11 +10,12 @@
 
 enum { FIRST = 16, MORE = 12, MAX_STARTS = 5, MAX_VECTORS = 400 };
 
-/* Bounds of a residual: relative to the value, and to the largest one, whose round-off affects all.
+/* Bounds on a residual, relative to its eigenvalue and to the largest eigenvalue, whose round-off
+ * affects all.
  */
 static const double good_residual = 1e-12, rounding_residual = 1e-14, stalled_residual = 1e-8,
                     bearable_residual = 1e-5;
-/* Values with a smaller relative distance are equal. */
+/* Eigenvalues with a smaller relative difference count as equal. */
 static const double same = 1e-6;
 /* Relative size of the remainder when a vector in the basis is orthogonalised. */
 static const double nothing = 1e-14;
@@ -48,7 +49,8 @@ static void fill_start(solver *s, double x[])
     }
 }
 
-/* Subtracts from x its part in the basis; returns the relative length of the remainder. */
+/* Subtracts from x its component in the span of the basis; returns the relative length of the
+ * remainder. */
 static double orthogonalise(const solver *s, double x[])
 {
     const int n = s->p->n;
@@ -78,8 +80,8 @@ static void take(solver *s, double x[])
     }
 }
 
-/* Adds one vector: of the current chain, or a new start if the chain ends; 0: no other vector
- * exists. */
+/* Adds one vector of the current chain, or a new start vector if the chain ends. Returns 0 if no
+ * further vector exists. */
 static int grow(solver *s)
 {
     const int n = s->p->n;
@@ -105,7 +107,7 @@ static double size_of(const solver *s, int i)
     return hypot(s->re[s->order[i]], s->im[s->order[i]]);
 }
 
-/* Sorts by decreasing size; conjugates stay neighbours, as in LAPACK. */
+/* Sorts by decreasing magnitude; conjugates stay adjacent, as in LAPACK. */
 static void sort(solver *s)
 {
     const int k = s->count;
@@ -139,7 +141,8 @@ static status ritz(solver *s, fault *f)
     return STATUS_OK;
 }
 
-/* The vector of value i of the order, into x; its residual relative to the value. */
+/* Stores the eigenvector of the i-th eigenvalue in x; returns its residual relative to the
+ * eigenvalue. */
 static double vector_of(const solver *s, int i, double complex x[])
 {
     const int k = s->count, n = s->p->n, at = s->order[i], second = s->im[at] < 0;
@@ -162,7 +165,7 @@ static double vector_of(const solver *s, int i, double complex x[])
     return sqrt(residual / length) / cabs(theta);
 }
 
-/* Have all that are wanted converged? *worst: the largest residual. */
+/* Have all the requested pairs converged? *worst: the largest residual. */
 static int converged(solver *s, double *worst)
 {
     int good = 1;
@@ -175,7 +178,7 @@ static int converged(solver *s, double *worst)
     return good;
 }
 
-/* Did the last start give a value as large as those wanted? */
+/* Did the last start vector yield an eigenvalue as large as the requested ones? */
 static int changed(solver *s)
 {
     int different = 0;

@@ -53,7 +53,7 @@ static void keep_motion(const analysis_context *c, int analysis, shapes *s)
         keep(c, s, &(shape_state){SHAPE_MOTION, analysis, o->value[i], 1}, o->state[i]);
 }
 
-/* x[free + driven]; the analysis is about the last state of the path it follows. */
+/* x[free + driven]; the analysis is linearised about the last state of the path it follows. */
 static status keep_displaced(const analysis_context *c, shape_state *what, const double x[],
                              const double sigma[], shapes *s, fault *f)
 {
@@ -131,7 +131,7 @@ static status keep_modes(const analysis_context *c, int analysis, const outcome_
 static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
 {
     TRY(shapes_alloc(s, f));
-    s->states = 0; /* counted again as they are filled */
+    s->states = 0; /* incremented again while the shapes are filled */
     centreline_points(c->model, s->first);
     const analysis_context *first = c->sides != NULL ? c->sides[0] : c;
     keep(first, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, kinematics_rest(first->model));
@@ -169,7 +169,7 @@ status collect_shapes(const analysis_context *c, int most, shapes *s, fault *f)
 
 /* Workspace shared by all states. */
 typedef struct workspace {
-    sparse K, M, G, C; /* with driven coordinates for linear models */
+    sparse K, M, G, C; /* for linear models: including driven coordinates */
     int models, free, all;
     double *residual, *load; /* [free + driven] */
     double *sigma;           /* [stresses] */
@@ -212,7 +212,7 @@ static void workspace_free(workspace *w)
     kinematics_state_free(w->state);
 }
 
-/* The next entry; system_matrices_free frees it in every case. */
+/* Appends an entry; system_matrices_free frees it in every case. */
 static status next(system_matrices *s, state_matrices **out, fault *f)
 {
     if (s->states == s->room) {
@@ -267,8 +267,8 @@ static status keep_model(const analysis_context *c, const model_state *state, co
     return w->models ? second_order_keep(&v, out->turns ? &w->G : NULL, s, out, f) : STATUS_OK;
 }
 
-/* Stores K, which is known, and B; M where the formulation has inertia, and G where the axes
- * rotate. */
+/* Stores K, which is known, and B; also M if the formulation has inertia, and G if the axes rotate.
+ */
 static status systems_keep(const analysis_context *c, const model_state *state, double path,
                            workspace *w, const system_matrices *s, state_matrices *out, fault *f)
 {
@@ -332,14 +332,15 @@ static status systems_keep_path(const analysis_context *c, int analysis, workspa
 {
     const outcome_path *path = outcome_path_of(&c->outcomes[analysis]);
     const scene_analysis_kind kind = c->scene->analysis[analysis].kind;
-    if (kind == SCENE_COMPLIANCE || kind == SCENE_MOTION) /* about those of another; no balance */
+    if (kind == SCENE_COMPLIANCE || kind == SCENE_MOTION) /* these are about the states of another
+                                                             analysis; there is no equilibrium */
         return STATUS_OK;
     for (int i = 0; i < path->reached; i++)
         TRY(keep_state(c, analysis, i, path->state[i], w, s, f));
     return STATUS_OK;
 }
 
-/* Without loads; strains without stress remain. */
+/* The state without loads; stress-free strains remain. */
 static status keep_unloaded(const analysis_context *c, int analysis, workspace *w,
                             system_matrices *s, fault *f)
 {
@@ -348,7 +349,7 @@ static status keep_unloaded(const analysis_context *c, int analysis, workspace *
     return systems_keep_linear(&unloaded, analysis, strained, 0, w, s, f);
 }
 
-/* About the state that the modal analysis follows. */
+/* The matrices about the state that the modal analysis follows. */
 static status keep_about(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {

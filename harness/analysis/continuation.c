@@ -1,5 +1,5 @@
 /* Continuation of an equilibrium path by displacement or arc length. A step is repeated in smaller
- * ones if its rotation is too large, or if the tangent stiffness changes by more than one critical
+ * steps if its rotation is too large, or if the tangent stiffness changes by more than one critical
  * point. If the smaller steps end at another point, the step had jumped. */
 #include "harness/analysis/analysis_impl.h"
 
@@ -18,7 +18,7 @@ static status continuation_sound_report_jump(continuation *, const rival *, doub
 
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
 /* Target rotation of the next step relative to its limit: the longest steps with a rejection rate
- * below one in a hundred (measured on c_cantilever: 0.5 costs a tenth more, 0.85 as much). */
+ * below 1 % (measured on c_cantilever: 0.5 costs 10 % more, 0.85 the same). */
 static const double aim = 0.7;
 
 /* Result of an attempt. */
@@ -55,8 +55,8 @@ static status add_point(continuation *p, fault *f)
     return STATUS_OK;
 }
 
-/* Records whether the critical points of the step from `before` to `here` are decided and, without
- * an inertia, the number of eigenvalues that have passed zero. */
+/* Records whether the critical points of the step from `before` to `here` are known and, without an
+ * inertia, the number of eigenvalues that have passed zero. */
 static void judge(continuation *p, const path_point *before, step_record *record)
 {
     outcome_continuation *o = p->o;
@@ -156,8 +156,8 @@ static double length_left(const continuation *p, path_goal goal, double gone)
     return goal.by_arc ? goal.value - gone : fabs(goal.value - p->here.control);
 }
 
-/* The arc length to a point depends on the steps: a rival that has not been reached may be farther
- * along the arc. */
+/* The arc length to a point depends on the steps, so a rival that has not been reached may lie
+ * farther along the arc. */
 static int arrived(const continuation *p, path_goal goal, double station, const rival *r,
                    double gone, double nearest)
 {
@@ -230,8 +230,8 @@ static status rival_alloc(const continuation *p, rival *r, fault *f)
     return STATUS_OK;
 }
 
-/* Repeats in smaller steps a step that failed or whose end may lie on another branch, which then is
- * the rival. The function reach frees the rival. */
+/* Repeats a step in smaller steps if it failed or if its end, then the rival, may lie on another
+ * branch. reach() frees the rival. */
 static status try_again(continuation *p, path_goal goal, double station, const attempt *t,
                         int doubted, rival *r, double *size, fault *f)
 {
@@ -241,7 +241,7 @@ static status try_again(continuation *p, path_goal goal, double station, const a
     return retrace(p, goal, station, r, size, f);
 }
 
-/* One step to the goal, or several. */
+/* Reaches the goal in one step or several. */
 static status reach(continuation *p, path_goal goal, double station, double *size, fault *f)
 {
     attempt t = {0};
@@ -260,7 +260,7 @@ static status reach(continuation *p, path_goal goal, double station, double *siz
     return outcome;
 }
 
-/* The next step on the way to the station. */
+/* The goal of the next step towards the station. */
 static path_goal next_goal(const continuation *p, double station, double length)
 {
     const double left = station - p->here.control;
@@ -342,8 +342,8 @@ static const char *continuation_sound_doubt(const continuation *p, int last_reso
         return "its direction changes too much";
     if (!(turned <= largest_turn))
         return "a node rotates too far";
-    /* A limit point changes the sign of the rate and, by one pivot, of the determinant.
-     * Bifurcations change the determinant only; several may be at one point. */
+    /* At a limit point the rate changes its sign, and so does the determinant, by one pivot. At
+     * bifurcations only the determinant changes; several may coincide. */
     const int reversed = (a->rate < 0) != (b->rate < 0), pivots = abs(b->negative - a->negative);
     if (!last_resort && reversed && (pivots > 1 || a->determinant == b->determinant))
         return "the pivots of its tangent stiffness change by more than one critical point "

@@ -14,11 +14,11 @@
 
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 6, CORRECTIONS = 2 };
 static const double least_load_work =
-    1e-5;                              /* of a null vector that is not orthogonal to the load */
-static const double closeness = 1e-10; /* of a trial, relative to the step */
-static const double near = 1e-3;       /* of a vanishing eigenvalue, relative to those before */
+    1e-5; /* smallest work on the load of a null vector at a limit point */
+static const double closeness = 1e-10; /* of a trial point, relative to the step */
+static const double near = 1e-3; /* of a vanishing eigenvalue, relative to its earlier values */
 static const double one_point =
-    1e-6; /* points at a smaller distance are one point, relative to the step */
+    1e-6; /* distance below which two points count as one, relative to the step */
 static const double touches = 0.02; /* smallest value relative to its neighbours */
 static const double aside =
     1e-3; /* real part of a pair that crosses the imaginary axis near zero */
@@ -92,7 +92,7 @@ typedef struct sought {
     int negative; /* pivots there */
 } sought;
 
-/* Has the indicator of the critical point still its value at the start? */
+/* Does the indicator of the critical point still have its initial value? */
 static int is_before(const continuation *p, const sought *s)
 {
     if (s->by_rate)
@@ -115,7 +115,7 @@ static status try_at(continuation *p, path_goal goal, const sought *s, bound *b,
     TRY(continuation_step_look(p, p->moved, &p->trial, &record, f));
     *before = is_before(p, s);
     b->value = s->by_rate ? p->trial.rate : least_of(p, &p->trial);
-    /* The smallest eigenvalue may be another one, whose sign is irrelevant here. */
+    /* The smallest eigenvalue may belong to another mode, whose sign is irrelevant here. */
     const int falls =
         p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > s->negative;
     if (!s->by_rate && (b->value > 0) != (*before == falls))
@@ -146,7 +146,7 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
         int before = 0;
         const status outcome = try_at(p, goal, s, &trial, &before, f);
         at = trial.at;
-        const int at_it = i > 0 && value <= near * scale; /* where corrections are round-off */
+        const int at_it = i > 0 && value <= near * scale; /* there, corrections are round-off */
         if (outcome == STATUS_SINGULAR || (outcome == STATUS_NOT_CONVERGED && at_it))
             break;
         TRY(outcome);
@@ -168,13 +168,13 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
     *gone = best > near * scale;
     p->narrow = is_aside(&p->trial) || high.at - low.at <= closeness;
     if (!by_rate && !*gone && is_aside(&p->trial) && value > one_point * scale)
-        p->doubtful = 1; /* a pair near zero, or a double value at zero? */
+        p->doubtful = 1; /* either a pair near zero or a double eigenvalue at zero */
     *behind = fmax(high.at < 1 ? high.at : at, at);
     return STATUS_OK;
 }
 
-/* The pivots after the point, where all eigenvalues that vanish there have passed zero; *at:
- * fraction of the step there. */
+/* Counts the negative pivots after the point, once all the eigenvalues that vanish at it have
+ * passed zero; *at: fraction of the step where they are counted. */
 static status count_behind(continuation *p, path_goal goal, const sought *s, double *at,
                            int *negative, fault *f)
 {
@@ -189,8 +189,8 @@ static status count_behind(continuation *p, path_goal goal, const sought *s, dou
     return STATUS_OK;
 }
 
-/* Returns 1 where the count changes without an eigenvalue at zero: a pair crosses the imaginary
- * axis away from zero, and no branch starts. */
+/* Returns 1 if the count changes without an eigenvalue at zero: a pair crosses the imaginary axis
+ * away from zero, and no branch starts. */
 static int is_pair(const continuation *p, const sought *s)
 {
     return !s->by_rate && !p->next.symmetric && p->narrow && s->negative >= 0 &&
@@ -267,8 +267,8 @@ static status report_all(continuation *p, path_goal goal, int by_rate, int *jump
     return STATUS_OK;
 }
 
-/* Makes this fraction of the step the trial point (the first or the next). Two corrections are
- * accurate enough for a state that is only examined. */
+/* Makes the state at this fraction of the step the trial point (the first or the next). Two
+ * corrections are enough for a state that is only examined. */
 static status look_at(continuation *p, path_goal goal, double part, int first, fault *f)
 {
     const path_goal to = part_of(p, goal, part);

@@ -90,7 +90,7 @@ static double residual_of(const continuation *p, path_goal goal)
            (goal.by_arc ? continuation_step_dot(p, p->here.tangent, p->moved) : control_value(p));
 }
 
-/* Its change with an increment of the coordinates. */
+/* Change of the constraint with an increment of the coordinates. */
 static double change_of(const continuation *p, path_goal goal, const double dx[])
 {
     if (goal.by_arc)
@@ -156,7 +156,7 @@ static status index_of(continuation *p, path_point *out, fault *f)
     return STATUS_OK;
 }
 
-/* The point from response = K^-1 f'. */
+/* Fills the point from response = K^-1 f'. */
 static status point_of(continuation *p, const double along[], path_point *out,
                        const step_record *record, fault *f)
 {

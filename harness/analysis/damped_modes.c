@@ -9,7 +9,7 @@
 #include "elements/math/scalar.h"
 #include "harness/model/model.h"
 
-/* Up to so many states all poles of closed loops are found. */
+/* With at most this many states, all poles of closed loops are found. */
 enum { ALL_STATES = 400 };
 
 static status no_memory(fault *f)
@@ -28,8 +28,8 @@ static status take_frequencies(const harmonic_modes *m, int *count, double **her
     return STATUS_OK;
 }
 
-/* Damped modes of at least those frequencies [Hz]; of a loop that is closed as many as there are,
- * or as are found with reasonable work. */
+/* Finds the damped modes of at least those frequencies [Hz]. With closed loops, it finds all modes,
+ * or as many as a reasonable effort finds. */
 static status find_damped_of(vibration *v, const sparse *const of[], matrix_factor *factor,
                              double below, unsymmetric_result *r, fault *f)
 {
@@ -64,7 +64,7 @@ static status find_damped_of(vibration *v, const sparse *const of[], matrix_fact
     return STATUS_OK;
 }
 
-/* Frequencies of damped modes. K unsymmetric, or gyroscopic damping: those without damping, if
+/* Frequencies of damped modes, for an unsymmetric K or gyroscopic damping: undamped frequencies, if
  * there are any, may be far from all peaks. */
 static status find_damped(vibration *v, harmonic_modes *m, double below, unsymmetric_result *r,
                           fault *f)
@@ -191,7 +191,8 @@ static void note_growth(analysis_context *c, const unsymmetric_result *r, outcom
                  "unstable: a damped mode grows at %.4g 1/s", out->growth);
 }
 
-/* Modes of K with its factors. closed: with loops, whose integrals follow the coordinates. */
+/* Finds modes, with the factors of K. closed: with loops, whose integrals follow the coordinates.
+ */
 static status find_modes_with(vibration *v, const sparse *const of[], matrix_factor *factor,
                               int closed, unsymmetric_result *r, fault *f)
 {
@@ -223,7 +224,7 @@ static status find_modes_with(vibration *v, const sparse *const of[], matrix_fac
                                           closed ? "; with feedback, use fewer elements" : "");
 }
 
-/* Keeps the coordinates of the modes, without integrals of loops. */
+/* Removes the loop integrals from the modes. */
 static void shorten(unsymmetric_result *r, int n)
 {
     for (int i = 1; i < r->count && n < r->n; i++)

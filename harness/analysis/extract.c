@@ -21,7 +21,7 @@ static const char *const no_frequency =
     "the mesh has no mode of this kind that is distinguishable from round-off; coordinates with "
     "little or no mass have no mode";
 
-/* Has a node its own angle about this component? */
+/* Does the node have its own angle about this component? */
 static int is_turned(const scene *s, int node, int component, fault *f)
 {
     double axis[3];
@@ -78,7 +78,7 @@ static double measured(const scene_quantity *q, double value)
                                                    : value;
 }
 
-/* Value of the load case or combination that governs, which it names. */
+/* Sets the value from the governing load case or combination, and names it. */
 static void from_envelope(const analysis_context *c, const scene_quantity *q,
                           const analysis_outcome *o, quantity_result *r)
 {
@@ -132,7 +132,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     const analysis_outcome *o = &c->outcomes[q->analysis];
     fault f = {""};
     memset(r, 0, sizeof *r);
-    if (q->what.kind == SCENE_ENVELOPE_OF) /* of values that come later: solve.c */
+    if (q->what.kind == SCENE_ENVELOPE_OF) /* computed from later values: solve.c */
         return;
     if (!is_defined(c->scene, q, &f)) {
         quantity_no_value(r, STATUS_REFUSED, f.text);
@@ -178,7 +178,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         quantity_no_value(r, STATUS_SINGULAR, "the value is not finite");
 }
 
-/* From value i of a side, or why it has none. */
+/* Takes value i of a side, or the reason why it does not exist. */
 static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i,
                             quantity_result *r)
 {
@@ -191,7 +191,7 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
     }
     r->value = quantity_scaled(q, quantity_type_of(q)->eigenvalue(q, &found, &part));
     r->rounding = side->error != NULL ? side->error[i] : 0;
-    if (side->growth != NULL) /* the error is of the eigenvalue as a whole */
+    if (side->growth != NULL) /* the error is that of the whole complex eigenvalue */
         r->rounding = part != 0 ? r->rounding * size / fabs(part) : 0;
 }
 

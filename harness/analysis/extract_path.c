@@ -22,7 +22,7 @@ static double known(const analysis_context *c, double value, double error, const
     return NAN;
 }
 
-/* Of a mode; NAN: none is of this kind, or it is lost in round-off. */
+/* Eigenvalue of a mode; NAN: no mode is of this kind, or it is lost in round-off. */
 static double eigenvalue_of(const analysis_context *c, const scene_quantity *q,
                             const rotation_modes *modes, quantity_result *r)
 {
@@ -60,7 +60,7 @@ static const rotation_modes *modes_at(const analysis_outcome *o, int i)
     return modes != NULL ? &modes[i] : NULL;
 }
 
-/* What a file of cases/quantities reads of the state; NAN: r says why. */
+/* Value that a file of cases/quantities reads from the state; NAN: r says why. */
 static double read_at(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                       int i, quantity_result *r)
 {
@@ -111,7 +111,7 @@ static double at_station(const analysis_context *c, const scene_quantity *q,
     return quantity_scaled(q, extracted(c, q, o, i, r));
 }
 
-/* Error bound of a response at a station; 0 for other quantities. */
+/* Error bound on a response at a station; 0 for other quantities. */
 static double bound_at(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, int i)
 {
@@ -141,7 +141,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
         bound = fmax(bound, bound_at(c, q, o, i));
         largest = fmax(largest, fabs(r->curve.value[i]));
     }
-    r->rounding = fmax(r->rounding, relative(bound, largest)); /* of modes it is known */
+    r->rounding = fmax(r->rounding, relative(bound, largest)); /* known for modes */
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
 }
 
@@ -167,7 +167,7 @@ static void take_spectrum(const analysis_context *c, const scene_quantity *q,
     free(value);
 }
 
-/* Reason why a path ends before a station: that of the followed analysis. */
+/* Reason why a path ends before a station, taken from the followed analysis. */
 static const char *reason_of_path(const analysis_context *c, const scene_quantity *q)
 {
     const int follows = c->scene->analysis[q->analysis].follows;
@@ -224,7 +224,7 @@ int extract_path_wants(const analysis_context *c, int analysis, int stations, co
     return !c->options->values_only || extract_path_asks(c, analysis, stations, path, station);
 }
 
-extern const quantity_type quantity_hinge; /* angles of releases are kept with elements */
+extern const quantity_type quantity_hinge; /* angles of releases are stored with the elements */
 
 /* Does an analysis that follows the path start from this state? */
 static int begins_with(const analysis_context *c, int analysis, int path, int station)
@@ -285,7 +285,8 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
     }
 }
 
-/* The extreme between the frequencies of the analysis, where that is beyond those there. */
+/* Takes the extreme between the frequencies of the analysis if it exceeds those at the frequencies.
+ */
 static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quantity_result *r)
 {
     char why[FAULT_TEXT];
@@ -303,7 +304,7 @@ static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quan
     r->x = quantity_abscissa(q, peak->hertz);
 }
 
-/* Says whether a loop of feedback is closed. */
+/* Records whether a feedback loop is closed. */
 static void take_loops(const analysis_context *c, const scene_quantity *q, quantity_result *r)
 {
     for (int i = 0; q->what.kind == SCENE_RESPONSE && i < c->scene->loads; i++)

@@ -100,7 +100,7 @@ const char *flutter_name(const flutter_system *s, flutter_kind kind)
 }
 
 enum { MOTIONS = 8 };                  /* number of smallest motions examined */
-static const double most_error = 1e-2; /* above it a motion is unknown */
+static const double most_error = 1e-2; /* above it a mode is unknown */
 static const double real_part = 1e-6;  /* relative to it, a smaller imaginary part is round-off */
 
 status flutter_judge_begin(flutter_judge *j, analysis_context *c, fault *f)
@@ -111,7 +111,7 @@ status flutter_judge_begin(flutter_judge *j, analysis_context *c, fault *f)
     return newton_alloc(c, 0, &j->n, f);
 }
 
-/* An odd number of negative eigenvalues of K is a divergence, wherever they are. */
+/* An odd number of negative eigenvalues of K means divergence, wherever they lie. */
 static step_stability by_motions(const flutter_judge *j, const unsymmetric_result *r)
 {
     int mode = 0;
@@ -136,7 +136,7 @@ static status ask_motions(flutter_judge *j, step_record *record, fault *f)
     return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
 }
 
-/* If they are real, two of them have passed zero; a pair may have passed near zero. */
+/* If the eigenvalues are real, two of them have passed zero; a pair may have passed near zero. */
 static status count_passed(flutter_judge *j, step_record *record, fault *f)
 {
     left_of_axis left;
@@ -194,8 +194,8 @@ void flutter_judge_free(flutter_judge *j)
 enum { PARTS = 6 };
 static const double near_enough = 1e-5; /* correction for a state that is only examined */
 
-/* Degree of instability of the current state: number of negative eigenvalues, or 1 if a motion
- * grows; -1: not known. */
+/* Degree of instability of the current state: number of negative eigenvalues, or 1 if a mode grows;
+ * -1: not known. */
 static status look(flutter_judge *j, int *unstable, fault *f)
 {
     step_record record = {0};
@@ -262,7 +262,7 @@ enum {
     FEWEST = 6,
     MOST = 48,
     SPARE = 3
-}; /* number of eigenvalues examined; beyond the last one on the left */
+}; /* number of eigenvalues examined, and how many beyond the last one on the left */
 /* relative to the eigenvalues examined: a smaller one may have the wrong sign */
 static const double rounding = 1e-6;
 

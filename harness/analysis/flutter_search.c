@@ -1,7 +1,7 @@
-/* Path from 0 in steps with small changes of all frequencies. Where two frequencies approach each
- * other, the interval is examined. Then bisection, and interpolation on the unstable side, where
- * the square of the imaginary part of s^2 (of a flutter), s^2 (of a divergence) or s (with damping)
- * is smooth. */
+/* Follows the path from 0 in steps with small changes of all frequencies. Where two frequencies
+ * approach each other, the interval is examined. Bisection follows, then interpolation on the
+ * unstable side, where the square of the imaginary part of s^2 (flutter), s^2 (divergence) or s
+ * (with damping) is smooth. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -28,8 +28,8 @@ typedef struct station {
     double path;
     flutter_kind kind;
     int count;
-    double square[MOTIONS]; /* of frequencies, ascending; negative: diverges */
-    double measure;         /* of the growing motion: zero where stability is lost */
+    double square[MOTIONS]; /* of frequencies, ascending; negative: divergence */
+    double measure;         /* of the growing mode: zero where stability is lost */
     double frequency;
 } station;
 
@@ -52,7 +52,7 @@ static int ascending(const void *a, const void *b)
 
 static void describe(search *s, const unsymmetric_result *r, station *out)
 {
-    const int all = s->of.massless || s->of.damped; /* the size of s counts */
+    const int all = s->of.massless || s->of.damped; /* the magnitude of s counts */
     out->kind = flutter_of(&s->of, r, &s->mode);
     out->count = r->count < MOTIONS ? r->count : MOTIONS;
     for (int i = 0; i < out->count; i++)
@@ -107,8 +107,8 @@ static void keep(search *s, const station *at)
     kinematics_state_copy(s->n->c->model, s->n->state, s->kept);
 }
 
-/* Largest relative change of a square, relative to the lowest; for one that falls to zero relative
- * to the lowest at path 0. */
+/* Largest relative change of a square, relative to the lowest square; for a square that falls to
+ * zero, relative to the lowest at path 0. */
 static double change(const station *a, const station *b, double lowest)
 {
     double largest = 0;
@@ -240,7 +240,7 @@ static status walk(search *s, fault *f)
                                     : " and no flutter");
 }
 
-/* Zero of the measure, from the unstable stations p[0] < p[1] < .. */
+/* Zero of the measure, extrapolated from the unstable stations p[0] < p[1] < ... */
 static double extrapolate(int points, const double p[], const double g[])
 {
     const double slope = (p[0] - p[1]) / (g[0] - g[1]), line = p[0] - g[0] * slope;

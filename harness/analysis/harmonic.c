@@ -1,5 +1,5 @@
-/* Steady small vibration about a state, at each frequency by one solution with the dynamic
- * stiffness (harmonic_matrices.c). */
+/* Steady small vibration about a state: one solution with the dynamic stiffness at each frequency
+ * (harmonic_matrices.c). */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -198,7 +198,7 @@ static status respond(vibration *v, outcome_harmonic *o, fault *f)
     return v->plain ? STATUS_OK : harmonic_extremes_refine(v, respond_at, o, f);
 }
 
-/* Every reaction that is asked for is one. */
+/* Checks that every requested reaction belongs to one coordinate. */
 static status check_reactions(const vibration *v, fault *f)
 {
     const scene *s = v->c->scene;
@@ -276,7 +276,7 @@ status harmonic_analysis(analysis_context *c, int analysis, analysis_outcome *o,
     return outcome;
 }
 
-/* Largest difference between two values of a response, relative to the largest of these. */
+/* Largest difference between two values of a response, relative to the largest value. */
 static double apart(const vibration *v, int quantity, const outcome_harmonic *a,
                     const outcome_harmonic *b)
 {
@@ -299,7 +299,7 @@ status harmonic_inside(analysis_context *c, int analysis, double *error, int *qu
     analysis_outcome o = {.kind = SCENE_HARMONIC};
     const counters before = c->run->counters;
     const status outcome = solve(&v, &o.left.harmonic, f);
-    c->run->counters = before; /* not work of the solution */
+    c->run->counters = before; /* this is not work of the solution */
     for (int i = 0; outcome == STATUS_OK && i < c->scene->quantities; i++) {
         if (!scene_asks(&c->scene->quantity[i], analysis, SCENE_RESPONSE))
             continue;

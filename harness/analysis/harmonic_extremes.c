@@ -5,8 +5,9 @@
 #include <stdlib.h>
 
 enum { MOST_REMOVED = 8 };
-/* Where sign * value is to be large. removed: natural frequencies without damping that the input or
- * the output does not move: the response passes through them, but the equations are singular. */
+/* Search for the largest sign * value. removed: undamped natural frequencies whose modes the input
+ * does not excite or the output does not see; the response is continuous there, but the equations
+ * are singular. */
 typedef struct extreme_search {
     vibration *v;
     harmonic_value *respond;
@@ -33,7 +34,8 @@ static status value_at(extreme_search *s, double hertz, outcome_peak *out, fault
     return s->respond(s->v, s->quantity, s->sign, hertz, out, f);
 }
 
-/* Golden sections between two frequencies: the largest of sign * value, where there is one only. */
+/* Golden-section search between two frequencies for the largest sign * value, assuming a single
+ * maximum. */
 static status refine_between(extreme_search *s, double low, double high, outcome_peak *best,
                              fault *f)
 {
@@ -77,7 +79,8 @@ static status is_pole(extreme_search *s, double hertz, int *pole, fault *f)
     return STATUS_OK;
 }
 
-/* Without the singular frequencies at which nothing is excited or read. */
+/* Searches between two frequencies, without the singular frequencies at which nothing is excited or
+ * read. */
 static status find_between(extreme_search *s, double low, double high, outcome_peak *best, fault *f)
 {
     for (int pole = 0;;) {
@@ -90,16 +93,16 @@ static status find_between(extreme_search *s, double low, double high, outcome_p
     }
 }
 
-/* Frequencies at which extremes are looked for: those of the analysis, some on both sides of each
- * natural frequency between them, closer than any peak is wide, and some between two of these,
- * where responses have their minima. */
+/* Frequencies at which extremes are searched for: those of the analysis; some on both sides of each
+ * natural frequency, closer than the width of any peak; and some between natural frequencies, where
+ * responses have their minima. */
 typedef struct samples {
     int count;
     double *hertz, *value;
-    int *station; /* SCENE_NONE: between those of the analysis */
+    int *station; /* SCENE_NONE: between the frequencies of the analysis */
 } samples;
 
-enum { SIDES = 5, BETWEEN = 9 }; /* of a natural frequency: at 1 +- 10^-1 ... 10^-5 of it */
+enum { SIDES = 5, BETWEEN = 9 }; /* around a natural frequency: at 1 +- 10^-1 ... 10^-5 of it */
 
 static void samples_free(samples *s)
 {
@@ -108,7 +111,7 @@ static void samples_free(samples *s)
     free(s->station);
 }
 
-/* Inserts a frequency unless it is there; ascending. */
+/* Inserts a frequency in ascending order, unless it is already listed. */
 static void insert(samples *s, double hertz, int station)
 {
     int at = s->count;
@@ -155,7 +158,7 @@ static status sample(vibration *v, const outcome_path *path, samples *s, fault *
     return outcome;
 }
 
-/* The extreme of a quantity: from every value that is so beside its neighbours, between these. */
+/* Finds the extreme of a quantity by refining between the neighbours of every local extreme. */
 static status refine(vibration *v, harmonic_value *respond, int quantity, samples *at,
                      outcome_harmonic *o, fault *f)
 {

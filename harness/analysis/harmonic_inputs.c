@@ -90,7 +90,7 @@ status harmonic_reacting(const vibration *v, const scene_response *r, int *out, 
     scene_node_axes(&s->node[r->node], R);
     *out = -1;
     for (int k = 0; k < count; k++) {
-        double moved = 0; /* along the axes of its supports */
+        double moved = 0; /* along the node's support axes */
         for (int i = 0; i < 3; i++)
             moved += R[3 * i + r->component % 3] * T[(first + i) * count + k];
         if (fabs(moved) > rounding)
@@ -132,8 +132,8 @@ static void add_row(const vibration *v, int c, double w, double complex o[])
         }
 }
 
-/* What the damping of modes adds to the reaction of a driven coordinate: forces -i w r^T U U^T (x -
- * r of the input). */
+/* Adds the contribution of modal damping to the reaction of a driven coordinate: forces -i w r^T U
+ * U^T (x - r of the input). */
 static void add_carried(vibration *v, const scene_response *r, int c, double w, double complex o[])
 {
     const double *U;
@@ -185,7 +185,7 @@ double harmonic_force_at(const vibration *v, const scene_response *r)
     return sum;
 }
 
-/* Those of a driven coordinate. */
+/* Shapes of a driven coordinate. */
 static int shapes_of_motion(const vibration *v, int c, double out[])
 {
     const sparse *const by_motion[HARMONIC_SHAPES_OF_MOTION] = {&v->K, &v->M, &v->C, &v->B};

@@ -1,10 +1,8 @@
-/* Steady small vibration about a state, at each frequency by one solution with the dynamic
- * stiffness
- *   D(w) = K + i w C - w^2 M - (w^2 - i a w)^2/(1 + i b w) B,
- * with proportional damping a M + b K in C, and B the inertia of internal motions of elements of an
- * unstressed structure (field/field.h). In real numbers
- *   [Re D, -Im D; Im D, Re D] [Re x; Im x] = [Re f; Im f].
- * Damped modes are the eigenvectors of D at s = i w. */
+/* Steady small vibration about a state: one solution at each frequency with the dynamic stiffness
+ * D(w) = K + i w C - w^2 M - (w^2 - i a w)^2/(1 + i b w) B. C contains the proportional damping a M
+ * + b K; B is the inertia of the elements' internal motions in an unstressed structure
+ * (field/field.h). In real numbers [Re D, -Im D; Im D, Re D] [Re x; Im x] = [Re f; Im f]. Damped
+ * modes are the eigenvectors of D at s = i w. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -46,7 +44,7 @@ static status linear_system_of(vibration *v, const double displaced[], fault *f)
     return STATUS_OK;
 }
 
-/* The end of the static path. */
+/* K at the end of the static path. */
 static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
 {
     analysis_context *c = v->c;

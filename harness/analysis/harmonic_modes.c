@@ -34,7 +34,7 @@ void harmonic_modes_free(harmonic_modes *m)
         free(block[i]);
 }
 
-/* K without singular pivots. */
+/* Factors K, which must have no singular pivots. */
 static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
 {
     fault why = {""};
@@ -123,7 +123,7 @@ static status all_modes(vibration *v, harmonic_modes *m, fault *f)
                                     "all modes of %d coordinates: LAPACK returned %d", m->n, info);
 }
 
-/* The first modes, and the frequency of the next. */
+/* Computes the first modes and the frequency of the next one. */
 static status first_modes(vibration *v, harmonic_modes *m, int wanted, fault *f)
 {
     const size_t n = (size_t)m->n;
@@ -138,7 +138,7 @@ static status first_modes(vibration *v, harmonic_modes *m, int wanted, fault *f)
         memcpy(m->V, e.positive.mode, (size_t)m->kept * n * sizeof *m->V);
         for (int i = 0; i < m->kept; i++)
             m->square[i] = 1 / e.positive.mu[i];
-        /* without a next one, the others may be round-off of the first */
+        /* without a next mode, the others may be round-off of the first */
         m->least = found > wanted ? 1 / e.positive.mu[wanted]
                    : found > 0    ? fmax(m->square[m->kept - 1], 1e8 * m->square[0])
                                   : INFINITY;

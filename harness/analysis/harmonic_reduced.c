@@ -1,17 +1,17 @@
-/* Steady vibration by the modes without damping.
+/* Steady vibration by undamped modes.
  *
- * With V the modes and the static shapes of inputs and outputs, all by K, the solution is x = V y,
- * V^T D V y = V^T f (Galerkin); damping couples the modes, so that nothing is omitted but modes.
- * With all of them V has as many columns as rows, and x is that of a direct solution.
+ * V contains the modes and the static shapes of inputs and outputs, K-orthonormalised; the solution
+ * is x = V y, V^T D V y = V^T f (Galerkin). The coupling of modes by damping is included, so only
+ * modes are omitted. With all modes V is square, and x equals that of a direct solution.
  *
- * What is omitted is bounded: r = f - D x and s = o - D z of the solution z for the output o have
- * no part along the modes, and o^T (D^-1 f - x) = s^T D^-1 r. Scaled by the root of K, D on what is
- * beyond the modes has a real part of at least
- *   1 - w^2/least - |t| b - d,
- * least the square of the next frequency, t and b the factor of B in D and the largest value of B
- * by K, and d the norm of T D_m^-1 T^T, by which damping and B couple it to the D_m of the modes;
- * damping takes energy and cannot lower it. The error is sqrt(r^H K^-1 r s^H K^-1 s) by that, at
- * most. A structure that is not held has K + shift M in place of K. */
+ * The omitted part is bounded as follows. The residuals r = f - D x and s = o - D z, with z the
+ * solution for the output o, have no component along the modes, and o^T (D^-1 f - x) = s^T D^-1 r.
+ * Scaled by the root of K, D beyond the modes has a real part of at least 1 - w^2/least - |t| b -
+ * d. Here `least` is the square of the next frequency, t the factor of B in D, and b the largest
+ * eigenvalue of K^-1 B; d is the norm of T D_m^-1 T^T, where T couples that part to the D_m of the
+ * modes by damping and B. Damping dissipates energy and cannot lower the real part. The error is at
+ * most sqrt(r^H K^-1 r s^H K^-1 s) divided by that real part. For a free structure K + shift M
+ * replaces K. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <float.h>
@@ -58,7 +58,7 @@ static status largest_inner(vibration *v, harmonic_modes *m, fault *f)
     return outcome;
 }
 
-/* Adds K^-1 f to V, without its part that V contains already. */
+/* Adds K^-1 f to V, without the component that V already contains. */
 static void take_static(vibration *v, harmonic_modes *m, const double f[])
 {
     const size_t n = (size_t)m->n;
@@ -85,7 +85,7 @@ static void take_static(vibration *v, harmonic_modes *m, const double f[])
     m->count += size > 0;
 }
 
-/* P = V^T A V, symmetric; A V of the modes in `of_modes` where that is not NULL. */
+/* P = V^T A V, symmetric; of_modes, unless NULL, receives A V of the modes. */
 static void project(const harmonic_modes *m, const sparse *A, double P[], double *of_modes)
 {
     const size_t n = (size_t)m->n, count = (size_t)m->count;
@@ -238,8 +238,8 @@ static double coupled(vibration *v, harmonic_modes *m, double w)
     if (LAPACKE_zgetrf(LAPACK_ROW_MAJOR, kept, kept, m->inverse, kept, m->pivot) != 0 ||
         LAPACKE_zgetri(LAPACK_ROW_MAJOR, kept, m->inverse, kept, m->pivot) != 0)
         return INFINITY;
-    /* T^H T in the first half; behind it, its product with the inverse, and the conjugate of that
-     * product */
+    /* T^H T in the first half, then its product with the inverse, and the conjugate of that product
+     */
     double complex *G = m->half, *product = m->half + k2;
     for (int i = 0; i < kept; i++)
         for (int j = 0; j < kept; j++) {

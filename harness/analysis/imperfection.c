@@ -14,12 +14,12 @@ int imperfection_modes(const scene *s, int analysis)
     for (int i = 0; i < s->imperfections; i++) {
         const scene_imperfection *p = &s->imperfection[i];
         if (p->analysis == analysis && p->order + 3 > wanted)
-            wanted = p->order + 3; /* and two by which it could be the same as others */
+            wanted = p->order + 3; /* and two more, to detect equal modes */
     }
     return wanted;
 }
 
-/* Modes of one load or frequency. */
+/* Modes with the same load or frequency. */
 typedef struct same_modes {
     int count, mode[2];
 } same_modes;
@@ -38,8 +38,8 @@ static same_modes same_as(const outcome_side *side, int mode)
     return out;
 }
 
-/* Combination a, b of two modes, u[vertices x 7] of each, that is the most along a direction.
- * Returns 0: there is none. */
+/* Finds the combination a, b of two modes, u[vertices x 7] each, that is best aligned with a
+ * direction. Returns 0 if there is none. */
 static int most_along(int vertices, const double *const u[2], const double direction[3],
                       double part[2])
 {
@@ -70,7 +70,7 @@ static void name_mode(const scene *s, const scene_imperfection *p, char text[FAU
              scene_called(s, SCENE_ANALYSES, p->analysis).text);
 }
 
-/* out[free] = the mode, one of two that are equal the one along the direction. */
+/* out[free] = the mode; of two equal modes, the combination along the direction. */
 static status mode_of(const analysis_context *c, int index, double out[], fault *f)
 {
     const scene_imperfection *p = &c->scene->imperfection[index];

@@ -1,7 +1,7 @@
-/* Critical point: sigma(p), the least eigenvalue of the tangent K(p) by the diagonal of the first
- * K, falls to zero along the path. Interpolation uses stable states that approach it; the error of
- * an estimate is the product of their distances. (K itself is not extrapolated: the rotation of a
- * stiff structure along the path would make it indefinite much earlier.) */
+/* Critical point: sigma(p), the smallest eigenvalue of the tangent K(p) scaled by the diagonal of
+ * the first K, falls to zero along the path. Interpolation uses stable states that approach it; the
+ * error of an estimate is the product of their distances. (K itself is not extrapolated: the
+ * rotation of a stiff structure along the path would make it indefinite much earlier.) */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -16,17 +16,17 @@
 enum { MAX_STATES = 60, POINTS = 3 };
 static const double first_step = 0.1; /* of the path so far */
 static const double growth =
-    0.5; /* of the path beyond its beginning, at most, from one state to the next */
+    0.5; /* largest step from one state to the next, of the path beyond its beginning */
 static const double halfway = 0.5;    /* fraction of the distance to the predicted point */
 static const double approached = 0.9; /* fraction of the distance to the estimate */
-static const double farthest = 1e3;   /* path at which the search ends, of the path so far */
-static const double alike = 1e-3;     /* difference of successive estimates, relative to the path */
+static const double farthest = 1e3; /* path at which the search ends, relative to the path so far */
+static const double alike = 1e-3;   /* difference of successive estimates, relative to the path */
 static const double steepest =
     8; /* rate of a state along the path, relative to that of the last step */
 static const double at_rest = 1e-9; /* relative distance of states that is round-off */
 static const double wanted_error = 1e-9;
-static const double closest = 1e-5; /* distance from the estimate, relative to the path: closer,
-                                       round-off decides about stability */
+static const double closest = 1e-5; /* distance from the estimate, relative to the path; closer to
+                                       it, round-off determines the stability */
 
 /* The followed state: the end of a computed static path. */
 static status followed_state(const analysis_context *c, int analysis, const model_state **state,
@@ -65,7 +65,7 @@ static int asks_for_growth(const analysis_context *c, int analysis)
     return 0;
 }
 
-/* Without a symmetric, definite tangent: motions that may grow. Damping counts for growth, not for
+/* Without a symmetric, definite tangent modes may grow. Damping is included for growth, not for
  * frequencies. */
 static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_run *n,
                                       outcome_spectrum *out, fault *f)
@@ -132,7 +132,7 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
     const status result = frequencies(c, analysis, &n, &M, &e, &o->left.spectrum, f);
     for (int i = 0; i < e.positive.count; i++) {
         e.positive.mu[i] = 1 / sqrt(e.positive.mu[i]);
-        e.positive.error[i] /= 2; /* the root's */
+        e.positive.error[i] /= 2; /* error of the square root */
     }
     if (e.positive.mu != NULL)
         outcome_take(&e.positive, &o->left.spectrum.positive);
@@ -258,7 +258,7 @@ static status tangent_at_path(loaded_search *s, double path, fault *f)
                                                  : newton_direction(&s->n, path, &unused, f);
 }
 
-/* Rate of change of the structure from the kept state to Newton's. */
+/* Rate of change of the structure from the stored state to Newton's current state. */
 static double rate_to(const loaded_search *s, double path)
 {
     return metric_distance(s->n.c->model, s->stable, s->n.state, NULL) / (path - s->p[0]);
@@ -353,7 +353,7 @@ static status predict_twice(loaded_search *s, fault *f)
 }
 
 /* Is sigma as small as expected from the remaining distance, proportional to it or, at a limit
- * point, to its square root? Otherwise the state beyond belongs to another equilibrium. */
+ * point, to its square root? Otherwise the state beyond belongs to another equilibrium path. */
 static int falls_to_zero(const loaded_search *s)
 {
     const double noise = 2e-3, steep = 5;
@@ -407,7 +407,8 @@ static status find_critical(loaded_search *s, fault *f)
                            s->begin, s->p[0]);
 }
 
-/* Number of negative eigenvalues at `path`, computed from the kept state, which becomes this state.
+/* Number of negative eigenvalues at `path`, computed from the stored state, which becomes this
+ * state.
  */
 static status count_at(loaded_search *s, double path, int *negative, fault *f)
 {
@@ -418,8 +419,8 @@ static status count_at(loaded_search *s, double path, int *negative, fault *f)
     return STATUS_OK;
 }
 
-/* Loads after the first one, from the inertia along the path: value[] of those wanted, up to a
- * thousand times the first. *count: their number. */
+/* Finds the requested loads after the first one from the inertia along the path, up to a thousand
+ * times the first load: value[*count]. */
 static status find_more(loaded_search *s, double value[], int *count, fault *f)
 {
     const double apart = 1e-9;

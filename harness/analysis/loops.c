@@ -1,9 +1,8 @@
-/* Loops of loads with feedback in small vibrations: the force is P u, of the factor
- *   u = (Kp + Kd s + Ki/s) (r - S^T x),
- * with the measured S^T x and the reference r, as in motions (time/feedback.c), whose limit is not
- * reached. Each loop is a further unknown u of a harmonic analysis. Damped modes have
- *   K + Kp P S^T + s (C + Kd P S^T),
- * and for each integral gain one more coordinate, the integral of -S^T x. */
+/* Feedback loops in small vibrations. The force is P u with the factor u = (Kp + Kd s + Ki/s) (r -
+ * S^T x), where S^T x is measured and r is the reference, as in motions (time/feedback.c); the
+ * limit of u is not reached. In a harmonic analysis each loop adds an unknown u. Damped modes have
+ * K + Kp P S^T + s (C + Kd P S^T) and, for each integral gain, one more coordinate: the integral of
+ * -S^T x. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -64,13 +63,13 @@ double complex loops_gain(const control_loop *l, double w, double complex *own)
 {
     const scene_feedback *b = l->gains;
     const double complex s = I * w, gain = b->proportional + b->derivative * s;
-    *own = b->integral != 0 ? s : 1; /* times s, so that it exists at rest */
+    *own = b->integral != 0 ? s : 1; /* multiplied by s, so that it is finite at s = 0 */
     return b->integral != 0 ? gain * s + b->integral : gain;
 }
 
 enum { CLOSED = 4 }; /* K, M, C, B */
 
-/* A column of all four, in full. */
+/* A full column of all four matrices. */
 typedef struct full_column {
     int n, rows;
     int *row;      /* [n] */
@@ -86,7 +85,7 @@ static void add(full_column *c, int which, int row, double value)
     c->value[row * CLOSED + which] += value;
 }
 
-/* Adds what the loops do to column j: of coordinates below n, of integrals from there on. */
+/* Adds the loops' entries to column j: coordinates below n, integrals from n on. */
 static void add_loops(const vibration *v, int n, int j, full_column *c)
 {
     for (int l = 0, at = n; l < v->loops; l++) {

@@ -23,12 +23,12 @@ int modal_wanted(const analysis_context *c, int analysis)
     return wanted + others;
 }
 
-/* K of the modes: of the structure, the prestress and the shift. */
+/* K of the modes: the structure, the prestress and the shift. */
 typedef struct modal_forms {
     quadratic_forms of;
     int prestressed;
     sparse M, G;  /* G of the prestress; no values: none */
-    double shift; /* [1/s^2] of K in the system and in its forms */
+    double shift; /* [1/s^2] in K of the system and in its forms */
     double *work; /* [free] */
 } modal_forms;
 
@@ -72,8 +72,8 @@ static void stiffness_product(void *context, const double mode[], double y[])
 
 /* Eigenvalue of a mode x with x^T (K + shift M) x = 1: the positive root of
  *   x^T K x = lambda x^T M x + lambda^2 x^T B x
- * including internal motions of the elements (field/field.h), but not under stress, which acts on
- * these too. A value below the round-off of the shift is a rigid motion. */
+ * including the elements' internal motions (field/field.h), except under stress, which would act on
+ * these too. A value below the round-off of the shift is a rigid-body mode. */
 static double eigenvalue(modal_forms *about, double mu, const double mode[])
 {
     const double square = 1 / mu - about->shift;
@@ -101,7 +101,7 @@ static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
     const int n = about->of.free;
     for (int i = 0; i < side->count; i++) {
         side->mu[i] = sqrt(eigenvalue(about, side->mu[i], side->mode + (size_t)i * (size_t)n));
-        side->error[i] /= 2; /* the root's */
+        side->error[i] /= 2; /* error of the square root */
         for (int k = i; k > 0 && side->mu[k] < side->mu[k - 1]; k--) {
             swap(&side->mu[k - 1], &side->mu[k], 1);
             swap(&side->error[k - 1], &side->error[k], 1);
@@ -111,7 +111,7 @@ static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
     outcome_take(side, &o->left.spectrum.positive);
 }
 
-/* Explains a motion with neither stiffness nor mass, whose frequency is arbitrary. */
+/* Explains a mode with neither stiffness nor mass, whose frequency is arbitrary. */
 static status explain_massless(analysis_context *c, fault *f)
 {
     c->work->singular = 0;

@@ -139,7 +139,7 @@ static status take_modes(analysis_context *c, const gyroscopic_result *r, rotati
     return outcome;
 }
 
-/* Do quantities of this analysis request modes: at any station, or at one other than the last? */
+/* Do quantities of this analysis request modes at any station, or at one before the last? */
 static int asks_for_modes(const analysis_context *c, int analysis, int elsewhere)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
@@ -151,8 +151,8 @@ static int asks_for_modes(const analysis_context *c, int analysis, int elsewhere
     return 0;
 }
 
-/* 1: the modes of a station are needed. If those of any station but the last are needed, all are:
- * growth is reported at the first station where it occurs. */
+/* 1: the modes of a station are needed. If the modes of any station before the last are needed,
+ * those of all stations are, because growth is reported at the first station where it occurs. */
 static int are_wanted_at(const analysis_context *c, int analysis, const outcome_path *path,
                          int station)
 {
@@ -201,7 +201,8 @@ static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
     return take_modes(c, result, out, f);
 }
 
-/* `wanted` modes, if they exist; *enough: one exists for every quantity, or no others exist. */
+/* Computes `wanted` modes, if they exist; *enough: there is a mode for every quantity, or there are
+ * no more modes. */
 static status try_modes(analysis_context *c, int analysis, const gyroscopic_problem *problem,
                         rotation_modes *out, int *enough, fault *f)
 {
@@ -212,7 +213,8 @@ static status try_modes(analysis_context *c, int analysis, const gyroscopic_prob
     return outcome;
 }
 
-/* Increases the number of modes until it is sufficient, because other families lie between. */
+/* Increases the number of modes until it is sufficient: modes of other families lie between the
+ * requested modes. */
 static status modes_at(analysis_context *c, int analysis, const model_state *state, matrices *a,
                        rotation_modes *out, fault *f)
 {
@@ -235,13 +237,13 @@ static status modes_at(analysis_context *c, int analysis, const model_state *sta
     return STATUS_OK;
 }
 
-/* Does a motion grow by more than round-off? */
+/* Does a mode grow by more than round-off? */
 static int grows(const rotation_modes *modes, int i)
 {
     return modes->growth[i] > modes->error[i] * hypot(modes->growth[i], modes->frequency[i]);
 }
 
-/* Reports the first station where a small motion grows. */
+/* Reports the first station where a mode grows. */
 static void note_instability(analysis_context *c, const rotation_modes *modes, double path)
 {
     for (int i = 0; i < modes->count; i++)
@@ -262,7 +264,7 @@ static void note_unproven(analysis_context *c, const rotation_modes *modes, doub
                  path, modes->unproven);
 }
 
-/* Modes at every station, or at the last. */
+/* Computes the modes at every station, or at the last. */
 static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_rotation *out,
                        fault *f)
 {
@@ -281,8 +283,8 @@ static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_r
     return STATUS_OK;
 }
 
-/* Without negative eigenvalues nothing grows. Otherwise the modes decide, if they account for all
- * of them and each is known. */
+/* Without negative eigenvalues no mode grows. Otherwise the modes decide, if each is known and they
+ * account for all negative eigenvalues. */
 static step_stability stability_of(const rotation_modes *modes)
 {
     int known = modes->unproven == 0;

@@ -1,5 +1,5 @@
-/* Linear models about states: inputs and outputs that the quantities of the scene name, and its
- * loads. */
+/* Linear models about states. The inputs and outputs are those named by the scene's quantities, and
+ * its loads. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <limits.h>
@@ -46,7 +46,8 @@ static void add_output(system_matrices *s, int quantity, const scene_response *a
     s->output[s->outputs++] = (system_output){quantity, *as};
 }
 
-/* Of responses and displacements; then the loads, and references of feedback. */
+/* Lists the inputs and outputs of responses and displacements; then the loads and the feedback
+ * references. */
 status second_order_list(const scene *of, system_matrices *s, fault *f)
 {
     s->input = calloc((size_t)of->quantities + 2 * (size_t)of->loads + 1, sizeof *s->input);
@@ -82,7 +83,7 @@ status second_order_list(const scene *of, system_matrices *s, fault *f)
     return STATUS_OK;
 }
 
-/* Where a coordinate of the model is in the linear model: [all], -1: it does not move. */
+/* Position of each coordinate of the model in the linear model: [all]; -1: it does not move. */
 static int *positions(const vibration *v, const system_matrices *s)
 {
     int *out = calloc((size_t)v->all + 1, sizeof *out), motions = 0;
@@ -94,7 +95,7 @@ static int *positions(const vibration *v, const system_matrices *s)
     return out;
 }
 
-/* Rows of free coordinates. */
+/* Adds the rows of free coordinates. */
 static void add_matrix(const vibration *v, const sparse *a, int skew, const int at[], int size,
                        double out[])
 {
@@ -122,7 +123,7 @@ static void add_row(const vibration *v, const sparse *a, int skew, int c, const 
         }
 }
 
-/* Forces of an input of 1 on all coordinates. */
+/* Forces of a unit input on all coordinates. */
 static void forces_of(const vibration *v, const system_input *in, double out[])
 {
     int index[KINEMATICS_MOST];
@@ -154,7 +155,7 @@ static void add_motion(const vibration *v, int node, int component, double times
             out[at[index[k]]] += times * T[component * count + k];
 }
 
-/* The measured components of closed loops and their rates, behind the outputs of the scene. */
+/* Fills the measured components of closed loops and their rates, after the outputs of the scene. */
 static void fill_measured(const vibration *v, const system_matrices *s, const int at[],
                           second_order *m)
 {
@@ -201,7 +202,7 @@ static status close_loops(const vibration *v, const system_matrices *s, int inpu
     return outcome;
 }
 
-/* C of damping ratios: U U^T, of the motion relative to that of a base at rest. */
+/* C of damping ratios: U U^T, acting on the motion relative to the static motion of the base. */
 static void add_ratios(const vibration *v, const system_matrices *s, second_order *m, double r[])
 {
     const double *U;
@@ -301,7 +302,7 @@ static status fill_model(const vibration *v, const sparse *G, const system_matri
     return STATUS_OK;
 }
 
-/* Its entries, by columns. */
+/* Lists the nonzero entries by columns. */
 static status triplets_of_rows(int rows, int columns, const double value[], triplets *out, fault *f)
 {
     double *turned = calloc((size_t)rows * (size_t)columns + 1, sizeof *turned);
@@ -315,7 +316,7 @@ static status triplets_of_rows(int rows, int columns, const double value[], trip
     return outcome;
 }
 
-/* With the first outputs. */
+/* Stores the model with its first outputs. */
 static status keep_second_order(const second_order *m, int outputs, linear_model *out, fault *f)
 {
     const int N = m->n + m->motions;
@@ -328,7 +329,7 @@ static status keep_second_order(const second_order *m, int outputs, linear_model
     return triplets_of_rows(outputs, m->inputs, m->D, &out->D, f);
 }
 
-/* reduced: that of the whole model exists. */
+/* reduced: the state space of the whole model exists already. */
 static status keep_state_space(const vibration *v, const system_matrices *of, const second_order *m,
                                int reduced, linear_model *out, fault *f)
 {
@@ -370,7 +371,7 @@ static status keep_state_space(const vibration *v, const system_matrices *of, co
     return outcome;
 }
 
-/* The node named from `at` to the next comma, which is not named before. */
+/* Reads the node named from `at` to the next comma; a node named twice is rejected. */
 static status read_node(const scene *s, const char *text, const char *list, const char *at,
                         int *node, fault *f)
 {
@@ -441,7 +442,7 @@ static status compare_transfer(const vibration *v, const second_order *whole,
     for (int i = 0; outcome == STATUS_OK && i < path->stations; i++) {
         const double w = 2 * PI * path->value[i];
         if (w == 0 && whole->motions > 0)
-            continue; /* infinite: a constant acceleration */
+            continue; /* infinite for a constant acceleration */
         outcome = second_order_transfer(whole, w, one, f);
         if (outcome == STATUS_OK)
             outcome = second_order_transfer(small, w, other, f);

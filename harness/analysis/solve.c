@@ -40,7 +40,8 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
     return motion_analysis;
 }
 
-/* Did the analysis fail before leaving the undeformed state? In a motion the structure may be free.
+/* Did the analysis fail before leaving the undeformed state? For a motion the structure may be
+ * free.
  */
 static int is_stuck(const analysis_outcome *o)
 {
@@ -58,8 +59,8 @@ static int has_negative(const solve_result *r, int from)
     return 0;
 }
 
-/* Detects a path from a structure whose stiffness is indefinite at rest. Called if the path was
- * unstable or failed; not counted as work. */
+/* Detects a path that starts from a structure whose stiffness is indefinite at rest. Called if the
+ * path was unstable or failed; not counted as work. */
 static status judge_rest(analysis_context *c, const analysis_outcome *o, int first_step, fault *f)
 {
     if (!outcome_has_path(o) || o->kind == SCENE_COMPLIANCE || o->kind == SCENE_MOTION ||
@@ -76,8 +77,8 @@ static status judge_rest(analysis_context *c, const analysis_outcome *o, int fir
     return at_rest == STATUS_NOT_CONVERGED ? fault_set(f, at_rest, "%s", why.text) : o->status;
 }
 
-/* The first failure determines the overall status. perfect: 0, 1: those of the imperfect or the
- * perfect structure; else all. */
+/* Runs analyses; the first failure determines the overall status. perfect: 0, 1: those of the
+ * imperfect or the perfect structure; otherwise all. */
 static void run_analyses(analysis_context *c, int perfect)
 {
     for (int i = 0; i < c->scene->analyses; i++) {
@@ -134,7 +135,7 @@ static void keep_states(analysis_context *c)
         spoil(r, collect_systems(c, &r->systems, &f), &f);
 }
 
-/* Reported value of the quantity that governs, which it names. */
+/* Reports the value of the governing quantity, and names it. */
 static void put_envelope(const scene *s, solve_result *r, int quantity)
 {
     const scene_quantity *q = &s->quantity[quantity];
@@ -163,7 +164,7 @@ static void put_envelope(const scene *s, solve_result *r, int quantity)
     }
 }
 
-/* A curve over another quantity: its values where both have a point. */
+/* Reports a curve over another quantity, at the points that both have. */
 static void put_over(const scene *s, solve_result *r, int quantity)
 {
     const int over = scene_abscissa_of(s, &s->quantity[quantity]);
@@ -192,7 +193,7 @@ static void add_counters(const counters *more, counters *to)
     to->condition = fmax(to->condition, more->condition);
 }
 
-/* What analyses of the imperfect structure need. */
+/* Data for the analyses of the imperfect structure. */
 typedef struct imperfect {
     model_imperfect *shape;
     model *m;
@@ -225,7 +226,7 @@ static status imperfect_begin(const analysis_context *c, imperfect *p, fault *f)
     return run_state_begin(&p->run, p->m, c->options->threads, f);
 }
 
-/* Analyses whose modes are imperfections, then those of the imperfect structure. */
+/* Runs the analyses whose modes are imperfections, then those of the imperfect structure. */
 static void run_imperfect(analysis_context *c, imperfect *p)
 {
     fault f = {""};
@@ -302,7 +303,7 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
         put_envelope(s, result, i);
     }
     add_counters(&other.run.counters, &run.counters);
-    result->counters = run.counters; /* shapes are drawn, not solved for: not counted */
+    result->counters = run.counters; /* shapes are for drawing, so their work is not counted */
     keep_states(&c);
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);
@@ -316,10 +317,11 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
 }
 
 /* Linear statics about the undeformed state: one factorisation, and a right-hand side for each load
- * case and combination that is read. What members have by themselves is in all of them, once, so
- * that combinations are no sums of solutions. */
+ * case and combination that is read. The initial strains of members are in each of them once, so
+ * combinations are not sums of solutions. */
 
-/* Does a quantity of the analysis read it?  Where there is none, all are. */
+/* Does a quantity of the analysis read this load case or combination? If no quantity does, all
+ * count as read. */
 static int is_read(const scene *s, int analysis, int acting)
 {
     int any = 0;
@@ -453,7 +455,8 @@ static void subtract(const sparse *from, sparse *a)
         a->value[i] -= from->value[i];
 }
 
-/* K += G of the constant stresses, under which the structure must be stable; the rest grows. */
+/* K += G of the constant stresses, under which the structure must be stable; the remaining stresses
+ * grow. */
 static status split_stays(analysis_context *c, linear_system *s, prestresses *p, fault *f)
 {
     const model_size size = model_sizes(c->model);
@@ -510,7 +513,7 @@ typedef struct buckling {
     eigen_result found;
 } buckling;
 
-/* Frees all but the results. */
+/* Frees everything except the results. */
 static void buckling_free(buckling *b)
 {
     linear_system_free(&b->system);
@@ -542,8 +545,8 @@ static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
     return result;
 }
 
-/* Nodes rotate without displacement: only local buckling of elements can depend on the element
- * length here. */
+/* Do the nodes rotate without displacement? Only then can the load depend on the element length, by
+ * local buckling of elements. */
 static int only_turns(const analysis_context *c, const eigen_side *side, int i)
 {
     const double no_shift = 1e-6;
@@ -561,7 +564,7 @@ static int only_turns(const analysis_context *c, const eigen_side *side, int i)
 static status solve_halved(const analysis_context *c, int analysis, eigen_result *found, fault *f)
 {
     model *halved = NULL;
-    run_state run = {0}; /* its work does not count */
+    run_state run = {0}; /* its work is not counted */
     context_work work = {0};
     buckling b = {0};
     status result = model_halved(c->model, &halved, f);
@@ -584,9 +587,9 @@ static status solve_halved(const analysis_context *c, int analysis, eigen_result
     return result;
 }
 
-/* A load that grows with the square of the number of elements is not a load of the structure:
- * elements that are rigid in shear buckle by themselves (12 EI/l^2 acts as GA). It and all higher
- * loads are removed. */
+/* Removes mesh-dependent loads. A load that grows with the square of the number of elements is not
+ * a property of the structure: elements without shear flexibility buckle by themselves (12 EI/l^2
+ * acts as GA). That load and all higher loads are removed. */
 static void drop_of_mesh(eigen_side *side, const eigen_side *finer, int i)
 {
     const double diverging = 2;

@@ -1,7 +1,7 @@
 /* Nonlinear equilibrium along a load path with adaptive steps. The step size follows from the
- * success of Newton's method, not from the error of the tangent. Steps by that error are shorter
- * than Newton's method needs, and cost more (measured with errors from 0.2 to 2 rad or lengths on
- * all cases of one station: 14 to 20 % more iterations). */
+ * success of Newton's method, not from the error of the tangent. Steps chosen by that error are
+ * shorter than Newton's method needs and cost more (14 to 20 % more iterations, measured on all
+ * cases with one station, with errors from 0.2 to 2 rad or lengths). */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -11,8 +11,8 @@
 #include "elements/math/dense.h"
 #include "harness/model/model.h"
 
-/* Starts the compliances of all analyses about states of `path`; *out NULL: no analysis follows the
- * path. */
+/* Prepares the compliances of all analyses about states of `path`; *out NULL: no analysis follows
+ * the path. */
 static status compliance_walk_begin(newton_run *, int path, compliance_walk **out, fault *);
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
@@ -32,7 +32,7 @@ static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, s
                : flutter_judge_state(judge, n->c, n->state, record, f);
 }
 
-/* The step is repeated in shorter ones. */
+/* Takes the step back, to repeat it in shorter steps. */
 static void take_back(newton_run *n, const step_record *record)
 {
     history_drop_step(n->c->result, record);
@@ -109,8 +109,8 @@ static status sample(newton_run *n, double path, fault *f)
     return STATUS_OK;
 }
 
-/* Is the start of the path loaded: constant loads, motions with a nonzero start, strains without
- * stress? */
+/* Is the start of the path loaded: by constant loads, motions with a nonzero start or stress-free
+ * strains? */
 static int begins_loaded(const analysis_context *c)
 {
     const scene *s = c->scene;
@@ -141,7 +141,7 @@ static status equilibrate(newton_run *n, flutter_judge *judge, fault *f)
     return STATUS_OK;
 }
 
-/* Steps to every station, whose states are kept. Steps are not shortened without need. */
+/* Steps to every station and stores its state. Steps are not shortened without need. */
 static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance_walk *on_the_way,
                    outcome_path *o, fault *f)
 {
@@ -199,7 +199,7 @@ status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
 }
 
 /* Compliance and stiffness of a node in a deformed state. A released prescribed motion is replaced
- * by its reactions: dead forces, and moments by the convention of the analysis. */
+ * by its reactions: dead forces, and moments that follow the convention of the analysis. */
 
 /* Loads for which a quantity requests the response. */
 static unsigned wanted_columns(const analysis_context *c, int analysis)
@@ -233,7 +233,7 @@ static status reaction_of(analysis_context *c, const scene_compliance *what, con
     return tangent_driven_moment(c, s, what->node, t, reaction + 3, f);
 }
 
-/* Tangent about the node; unneeded columns of C, and with them K, are NaN. */
+/* Computes compliance C and stiffness K at the node; unneeded columns of C, and then K, are NaN. */
 static status matrices_of(analysis_context *c, const scene_compliance *what, double reaction[6],
                           node_tangent *t, unsigned wanted, station_matrices *out, fault *f)
 {
@@ -297,7 +297,7 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
                : STATUS_OK;
 }
 
-/* The state without loads: undeformed except for strains without stress. */
+/* The state without loads: undeformed except for stress-free strains. */
 static status unloaded(analysis_context *c, newton_run *n, const model_state **state, fault *f)
 {
     step_record unused = {0};
@@ -415,7 +415,7 @@ static status compliance_walk_begin(newton_run *n, int path, compliance_walk **o
 status compliance_walk_take(compliance_walk *w, const newton_run *n, int station, fault *f)
 {
     analysis_context *c = n->c;
-    /* the states of many elements are not kept for later */
+    /* the states of many elements are not stored for later */
     if (w == NULL || (n->condensed == NULL && !arrival_tangent_stands(&n->arrival)))
         return STATUS_OK;
     for (int i = 0; i < w->count; i++) {

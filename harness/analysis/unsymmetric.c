@@ -7,14 +7,14 @@
 
 #include "elements/math/dense.h"
 
-/* Relative size below which eigenvalues may be round-off of those of massless coordinates. */
+/* Relative magnitude below which eigenvalues may be round-off of massless coordinates. */
 static const double nothing = 1e-6;
 
 /* Coordinates are scaled by the square roots of the diagonal of K, rates by `second`. */
 typedef struct unsymmetric_solver {
     const unsymmetric_problem *p;
     unsymmetric_result *out;
-    int n, massive; /* coordinates, and those with mass */
+    int n, massive; /* number of coordinates, and of those with mass */
     int *of;        /* [massive] */
     double *scale;  /* [n] */
     double *x, *y;  /* [n] work */
@@ -107,8 +107,8 @@ static double diagonal(const sparse *a, int j)
     return 0;
 }
 
-/* Scale of a coordinate without stiffness of its own, as integrals of feedback: by the forces that
- * it causes. */
+/* Scale of a coordinate without stiffness of its own, such as a feedback integral, from the forces
+ * that it causes. */
 static double scale_of(const unsymmetric_solver *s, int j)
 {
     const sparse *K = s->p->K;
@@ -150,7 +150,7 @@ static void find_second(unsymmetric_solver *s, double from[], double to[])
         if (!(size > 0))
             break;
     }
-    /* an integral of feedback may leave nothing of it but round-off */
+    /* a feedback integral may reduce it to round-off */
     for (int k = 0; k < s->massive && !s->p->K->symmetric; k++)
         size = fmax(size, diagonal(s->p->M, s->of[k]) / (s->scale[s->of[k]] * s->scale[s->of[k]]));
     s->second = size > 0 ? sqrt(size) : 1;
@@ -217,8 +217,8 @@ static double slope(const unsymmetric_solver *s, int absolute, double complex at
     return cabs(sum + product(s->n, w, e->y));
 }
 
-/* Round-off in K changes s by w^T dK x/(w^T (2 s M + C) x); for coinciding values, by the square
- * root of the change of their difference. */
+/* Round-off in K changes s by w^T dK x/(w^T (2 s M + C) x); for coinciding eigenvalues it changes s
+ * by the square root of the change in their difference. */
 static double error_of(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const int n = s->n;
@@ -268,7 +268,7 @@ static status left_vectors(unsymmetric_solver *s, growth_estimate *e, fault *f)
     return STATUS_OK;
 }
 
-/* Selects the phase with the largest real part; for the second of two flutter motions the imaginary
+/* Selects the phase with the largest real part; for the second of two flutter modes, the imaginary
  * part. */
 static void take_mode(const unsymmetric_solver *s, int i, int second, double mode[])
 {
@@ -292,7 +292,7 @@ static double complex form(const unsymmetric_solver *s, const sparse *A, const d
     return product(s->n, w, y);
 }
 
-/* The left vector of eigenvalue i, of several that which is least normal to e->x; NULL: none. */
+/* The left vector of eigenvalue i; of several, the one least orthogonal to e->x; NULL: none. */
 static const double complex *left_of(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const double complex theta = s->right.theta[i], *found = NULL;
@@ -309,8 +309,8 @@ static const double complex *left_of(const unsymmetric_solver *s, int i, const g
     return found;
 }
 
-/* e->w of the forms: the left vector or, of a symmetric K, the mode itself or, if its form is too
- * small, its conjugate. */
+/* Sets e->w of the forms: the left vector or, for a symmetric K, the mode itself or, if its form is
+ * too small, its conjugate. */
 static void take_other(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const double complex *left = s->p->K->symmetric ? NULL : left_of(s, i, e);
