@@ -33,19 +33,49 @@ static void choose(const command_line *l, element_test_request *r)
             named_add(&r->chosen, formulations_at(i)->name);
 }
 
+static status add_file(const void *context, const char *path, fault *f)
+{
+    return digest_add_file(*(digest *const *)context, path) == 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
+}
+
+/* Of a command: of the files that it names, one after the other. */
+static void hash_of(const element_type *t, char out[DIGEST_TEXT])
+{
+    const char *from = formulations_element(t);
+    fault unread;
+    digest all = digest_begin(), *to = &all;
+    if (files_named(from != NULL ? from : "/proc/self/exe", add_file, &to, &unread) == STATUS_OK)
+        digest_text(&all, out);
+}
+
+static status read_format(const verb_option *o, void *member, const char *value, fault *f)
+{
+    static const char *const forms[] = {"text", "json", "csv", "markdown", "latex"};
+    (void)o;
+    *(const char **)member = value;
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++)
+        if (strcmp(value, forms[i]) == 0)
+            return STATUS_OK;
+    return fault_set(f, STATUS_REFUSED, "--format: give text, json, csv, markdown or latex");
+}
+
 /* The caller, answer, frees *c, also after a failure. */
 static status run(const command_line *l, const element_test_request *r, certificates *c, fault *f)
 {
     const certificate_request what = {.chosen = r->chosen.formulation,
                                       .count = r->chosen.formulations,
                                       .jobs = r->jobs,
-                                      .time_limit = r->chosen.time_limit};
+                                      .time_limit = r->chosen.time_limit,
+                                      .hash = hash_of};
     if (r->chosen.formulations == 0)
         return fault_set(
             f, STATUS_REFUSED,
             "element-test: name a formulation, 'all' for every one, or load yours with "
             "--element ./mine.so; 'beamwork list formulations' shows them");
-    const experiment_output to = experiment_output_of(r->output, r->format, r->json);
+    const experiment_output to =
+        experiment_output_of(r->output, r->format != NULL ? r->format : "text", r->json);
     TRY(files_check_results(l, to.results != NULL, NULL, f));
     return experiment_do(&experiment_element_test, &what, &to, c, f);
 }
@@ -77,14 +107,13 @@ static int answer(const command_line *l, void *request)
 static const verb_option own[] = {
     {"verbose", 'v', NULL, "every check with its numbers", IN(verbose), .traits = OPTION_ASIDE},
     {"quiet", 'q', NULL, "violated requirements only", IN(quiet), .traits = OPTION_ASIDE},
+    {"format", 0, "text|json|csv|markdown|latex",
+     "form of the output (default text); markdown and latex: tables for a paper", IN(format),
+     .traits = OPTION_ASIDE, .read = read_format},
     {0}};
-static const verb_group shared[] = {SHARED(formulations, chosen),
-                                    SHARED(time_limit, chosen),
-                                    SHARED(results, output),
-                                    SHARED(record, format),
-                                    SHARED(json, json),
-                                    SHARED(jobs, jobs),
-                                    {NULL, 0}};
+static const verb_group shared[] = {SHARED(formulations, chosen), SHARED(time_limit, chosen),
+                                    SHARED(results, output),      SHARED(json, json),
+                                    SHARED(jobs, jobs),           {NULL, 0}};
 const verb verb_element_test = {
     "element-test",
     "[FORMULATION...|all]",
@@ -98,6 +127,7 @@ const verb verb_element_test = {
     "refused, 4 file, disk or memory.",
     "beamwork element-test collocation\n"
     "beamwork element-test --element ./mine.so\n"
+    "beamwork element-test --element ./mine.so --format latex -o table.tex\n"
     "beamwork element-test all -o build/results.h5",
     shared,
     own,

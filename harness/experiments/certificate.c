@@ -208,8 +208,11 @@ status certificate_find(const certificate_request *r, certificate **out, fault *
             kill(team[i].process, SIGKILL);
             bury(&team[i], 0);
         }
-    for (int i = 0; i < r->count; i++) /* restored, since a part may have corrupted it */
+    for (int i = 0; i < r->count; i++) { /* restored, since a part may have corrupted it */
         all[i].chosen = r->chosen[i];
+        if (r->hash != NULL)
+            r->hash(r->chosen[i].type, all[i].hash);
+    }
     return outcome;
 }
 
@@ -230,7 +233,7 @@ static void put_mark(FILE *to, screen look, claim_outcome outcome)
     fputc(' ', to);
 }
 
-static claim_outcome outcome_of(const claims *c)
+claim_outcome claims_outcome(const claims *c)
 {
     int held = 0;
     if (claims_counted(c, CLAIM_BROKEN) > 0)
@@ -265,7 +268,7 @@ static void write_claims(FILE *to, screen look, const claims *c, int verbose)
 static void write_family(FILE *to, screen look, const certificate *c, int part, int verbose)
 {
     const claims *own = &c->part[part].claims;
-    const claim_outcome outcome = outcome_of(own);
+    const claim_outcome outcome = claims_outcome(own);
     put_mark(to, look, outcome);
     fprintf(to, "%-*s", NAME, certificate_part_name(part));
     if (outcome == CLAIM_NOT_CLAIMED && c->late != NULL && own->count == 1 &&
@@ -286,7 +289,7 @@ static void error_text(double error, char text[COLUMN + 8])
     const double percent = 100 * fabs(error);
     if (isnan(error))
         snprintf(text, COLUMN + 8, "-");
-    else if (fabs(error) < 1e-9)
+    else if (fabs(error) < CERTIFICATE_EXACT)
         snprintf(text, COLUMN + 8, "exact");
     else if (percent >= 999)
         snprintf(text, COLUMN + 8, "%.0e %%", percent);
@@ -369,7 +372,7 @@ static void write_one(FILE *to, screen look, const certificate *c, int verbose, 
         paragraph_say(to, 0, 2, "computed by beamwork: %s", left);
     write_verdict(to, look, c);
     for (int i = 0; i < CHECKS_FAMILIES; i++)
-        if (!quiet || outcome_of(&c->part[i].claims) == CLAIM_BROKEN)
+        if (!quiet || claims_outcome(&c->part[i].claims) == CLAIM_BROKEN)
             write_family(to, look, c, i, verbose);
     if (!quiet)
         fputs("measured: errors by numbers of elements (states: 4 of unequal lengths; orders), and "

@@ -213,6 +213,11 @@ static void get_leaves(const subject *s, field_value *out)
     schema_set_text(out, adapters_words(certificate_of(s)->chosen.type));
 }
 
+static void get_hash(const subject *s, field_value *out)
+{
+    schema_set_text(out, certificate_of(s)->hash);
+}
+
 static void get_kept(const subject *s, field_value *out)
 {
     out->whole = certificate_holds(certificate_of(s));
@@ -234,6 +239,9 @@ static const schema_field fields_of_certificate[] = {
     {"summary", "", FIELD_TEXT, "summary of the formulation", .get = get_summary},
     {"source", "", FIELD_TEXT, "source of the formulation", .get = get_source},
     {"leaves", "", FIELD_TEXT, "functions provided by adapters", .get = get_leaves},
+    {"hash", "", FIELD_TEXT,
+     "SHA-256 of the shared object, of the files that the command names, or of the program",
+     .get = get_hash},
     {"kept", "", FIELD_FLAG, "no requirement is violated", .get = get_kept},
     {"compared", "1", FIELD_INT, "numbers compared and yes/no checks", .get = get_compared},
     {0}};
@@ -356,6 +364,20 @@ static void print_element_test(FILE *to, const void *found)
     certificate_text(to, screen_of(to), c->all, c->count, c->verbose, c->quiet);
 }
 
+static status write_element_test(FILE *to, const char *format, const void *found, fault *f)
+{
+    const certificates *c = found;
+    if (strcmp(format, "json") == 0)
+        return write_json(&experiment_element_test, found, to, f);
+    if (strcmp(format, "csv") == 0)
+        certificate_csv(to, c->all, c->count);
+    else if (strcmp(format, "text") != 0)
+        certificate_paper(to, strcmp(format, "latex") == 0, c->all, c->count);
+    else
+        print_element_test(to, found);
+    return STATUS_OK;
+}
+
 static status run(const void *asked, void *found, fault *f)
 {
     const certificate_request *r = asked;
@@ -368,4 +390,5 @@ const experiment_type experiment_element_test = {.name = "element-test",
                                                  .run = run,
                                                  .records = records_of_element_test,
                                                  .gather = gather_element_test,
-                                                 .print = print_element_test};
+                                                 .print = print_element_test,
+                                                 .write = write_element_test};

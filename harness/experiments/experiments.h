@@ -324,12 +324,14 @@ typedef struct certificate {
     certificate_part part[CERTIFICATE_PARTS];
     const char
         *late; /* the part that exceeded the time limit; NULL: none. Later parts are not checked */
+    char hash[DIGEST_TEXT]; /* SHA-256 of the file of the formulation; "": not requested */
 } certificate;
 
 typedef struct certificate_request {
     const formulation *chosen;   /* [count] */
     int count, jobs, time_limit; /* time_limit: [s] for one part; 0: none */
     int contract_only;           /* 1: no measurements */
+    void (*hash)(const element_type *, char out[DIGEST_TEXT]); /* NULL: no hash */
 } certificate_request;
 
 /* Call certificates_free in any case. */

@@ -308,11 +308,20 @@ status beam_section(const beam_request *, section *out);
  * value. */
 int beam_point(const beam_request *, double at, double exact, element_measure *one);
 
+/* Outcome of a family of checks. */
+claim_outcome claims_outcome(const claims *);
+
 /* Prints certificates as text, one screen each. */
+
+#define CERTIFICATE_EXACT 1e-9 /* errors below it are `exact` */
 
 /* verbose: every check with its numbers; quiet: only failed checks. */
 void certificate_text(FILE *to, screen look, const certificate *all, int count, int verbose,
                       int quiet);
+/* The tables that a paper prints: as LaTeX or Markdown. */
+void certificate_paper(FILE *to, int latex, const certificate *all, int count);
+/* One line for each check and each measured error. */
+void certificate_csv(FILE *to, const certificate *all, int count);
 
 /* Checks that results depend on each supported feature. */
 

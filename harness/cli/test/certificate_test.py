@@ -1,5 +1,9 @@
 """`element-test`: what it prints and writes of formulations that satisfy the interface requirements or do not."""
+import csv
+import hashlib
+import io
 import json
+import re
 
 from harness.cli.test.element_test_test import EXAMPLES, FAULTS, Tested
 from harness.tools.kit.program import environment, run
@@ -60,5 +64,120 @@ class Certificates(Tested):
     def test_refused(self):
         self.refused(2, ("name a formulation", "--element ./mine.so"), "element-test")
         self.refused(2, "beamv", "element-test", "beamv")
-        self.refused(2, "text or json", "element-test", "beamw", "--format", "csv")
+        self.refused(2, "text, json, csv, markdown or latex", "element-test", "beamw", "--format",
+                     "pdf")
         self.refused(2, "twice", "element-test", "beamw", "beamw")
+
+
+ROWS = re.compile(r"^    (.*) \\\\$", re.M)  # of tables in LaTeX
+
+
+class Tables(Tested):
+    """What a paper prints: the numbers of the JSON, with version and hash of the element."""
+
+    usual = None  # of the example without changes
+
+    def forms(self, *changes, code=0):
+        if not changes and Tables.usual is not None:
+            return Tables.usual
+        made = self.compiled("timoshenko.c", *changes)
+        out = {form: self.answered("element-test", "--element", made, "--format", form,
+                                   code=code).stdout
+               for form in ("json", "csv", "markdown", "latex")}
+        out |= {"json": json.loads(out["json"]),
+                "hash": hashlib.sha256(made.read_bytes()).hexdigest()}
+        if not changes:
+            Tables.usual = out
+        return out
+
+    def test_hash_and_version(self):
+        found = self.forms()
+        one, = found["json"]["formulations"]
+        self.assertEqual(one["hash"], found["hash"])
+        for form in ("csv", "markdown", "latex"):
+            self.assertIn(found["hash"], found[form])
+            self.assertIn(found["json"]["program_version"], found[form])
+            self.assertIn(found["json"]["commit"], found[form])
+
+    def test_hash_of_a_command(self):
+        """Of the files that it names; the program's own, for a formulation in it."""
+        script = self.folder / "timoshenko.py"
+        script.write_bytes((EXAMPLES / "timoshenko.py").read_bytes())
+        path = environment(PYTHONPATH=str(EXAMPLES))
+        out = self.answered("element-test", "--element", f"exec:/usr/bin/python3 {script}",
+                            "--format", "markdown", env=path).stdout
+        self.assertIn("SHA-256 of the files that its command names", out)
+        before, = re.findall(r"\b[0-9a-f]{64}\b", out)
+        script.write_bytes(script.read_bytes() + b"\n")
+        again = self.answered("element-test", "--element", f"exec:/usr/bin/python3 {script}",
+                              "--format", "markdown", env=path).stdout
+        self.assertNotIn(before, again)
+        out = self.answered("element-test", "beamw", "--format", "latex").stdout
+        self.assertIn("SHA-256 of the program, which contains it", out)
+
+    def test_csv(self):
+        """One row for each check and each measured error."""
+        found = self.forms()
+        rows = list(csv.DictReader(io.StringIO(found["csv"])))
+        self.assertEqual([(r["family"], r["name"], r["outcome"], int(r["compared"]))
+                          for r in rows if r["outcome"] != "measured"],
+                         [(c["family"], c["claim"], c["outcome"], c["compared"])
+                          for c in found["json"]["claims"]])
+        values = [r for r in rows if r["at"]]
+        self.assertEqual([(r["name"], float(r["at"]), float(r["error"]) if r["error"] else None)
+                          for r in values],
+                         [(p["name"], p["at"], p["error"])
+                          for p in found["json"]["measured_points"]])
+        self.assertIn("not offered: warping", [r["words"] for r in rows if r["name"] ==
+                                               "torsion, warping held"])
+
+    def test_markdown(self):
+        """Rows of a table have as many cells as its head."""
+        text = self.forms()["markdown"]
+        tables = [[line.count("|") for line in part.splitlines()]
+                  for part in re.findall(r"(?:^\|.*\n)+", text, re.M)]
+        self.assertEqual(len(tables), 4)
+        for bars in tables:
+            self.assertGreater(len(bars), 4)
+            self.assertEqual(len(set(bars)), 1)
+        self.assertIn("| statics, large: tip force | 18 % | 2.9 % |", text)
+        self.assertIn("| pure bending about y | exact | exact | correct |", text)
+        self.assertIn("vibration with the mass that beamwork computes", text)
+
+    def test_latex(self):
+        """Environments and braces match, rows have the columns of their head, and no character of the words is a
+        command."""
+        text = self.forms()["latex"]
+        opened = []
+        for what, name in re.findall(r"\\(begin|end)\{(\w+)\}", text):
+            if what == "begin":
+                opened.append(name)
+            else:
+                self.assertEqual(opened.pop(), name)
+        self.assertEqual(opened, [])
+        tables = re.findall(r"\\begin\{tabular\}\{(\S+)\}\n(.*?)\\end\{tabular\}", text, re.S)
+        self.assertEqual(len(tables), 4)
+        for columns, body in tables:
+            columns = re.sub(r"p\{.*?\}", "p", columns)
+            self.assertGreater(len(ROWS.findall(body)), 3)
+            for row in ROWS.findall(body):
+                spanned = sum(int(n) - 1 for n in re.findall(r"\\multicolumn\{(\d+)\}", row))
+                self.assertEqual(len(re.split(r"(?<!\\)&", row)) + spanned, len(columns), row)
+        plain = re.sub(r"^%.*$|\\[&%$#_{}]|\$[^$]*\$|\\label\{.*?\}", "", text, flags=re.M)
+        self.assertEqual(plain.count("{"), plain.count("}"))
+        self.assertEqual(re.findall(r"[#$_^~%]", plain), [])
+        self.assertTrue(text.isascii())
+        self.assertIn(r"pure bending, a quarter turn & 11\,\% & 0.94\,\% & -- \\", text)
+
+    def test_violations(self):
+        found = self.forms(FAULTS["energy"][0], code=1)
+        self.assertIn("interface requirements violated", found["markdown"])
+        self.assertIn("* violated: stress: sigma 1 is", found["markdown"])
+        self.assertIn("% violated: stress: sigma 1 is", found["latex"])
+        self.assertRegex(found["latex"], r"stress, C and G derive .* & violated ")
+
+    def test_special_characters(self):
+        """Of an element whose words are not LaTeX."""
+        text = self.forms(("two nodes, one point", "50 % of {a_b} & #1 | $x^2$ ~ \\\\"),
+                          ('"timoshenko"', '"my_beam"'))
+        self.assertIn(r"\caption{my\_beam: ", text["latex"])
