@@ -10,9 +10,9 @@
 #include "harness/numerics/numerics.h"
 
 /* Eigenpairs of largest magnitude of a real unsymmetric operator, from its projection on a growing
- * orthonormal basis (Arnoldi). No inertia tells how many there are. Therefore, after the requested
- * eigenvalues have converged, start vectors are added until one yields no further eigenvalue of
- * that magnitude. */
+ * orthonormal basis (Arnoldi). Their number is not known from an inertia. Therefore, after the
+ * requested eigenvalues have converged, start vectors are added until one yields no further
+ * eigenvalue of that magnitude. */
 
 typedef struct arnoldi_problem {
     int n, wanted;

@@ -1,4 +1,4 @@
-/* A square bar, and its critical loads as every formulation finds them. */
+/* A square bar, and its critical loads computed by every formulation. */
 #ifndef BEAMWORK_TEST_BAR_H
 #define BEAMWORK_TEST_BAR_H
 
@@ -11,7 +11,7 @@
 
 enum { WANTED = 4, ELEMENTS = 16 };
 
-/* A square bar: E = 2e11 Pa, so slender that shear is felt in the sixth digit. */
+/* A square bar: E = 2e11 Pa, so slender that shear affects only the sixth digit. */
 static const double young = 2e11, side = 1e-3, length = 1;
 
 static inline double bar_rigidity(void)
@@ -31,7 +31,7 @@ static inline int bar_section(scene *s)
     return scene_add_section(s, &spec);
 }
 
-/* Critical loads of one scene; value[sign][order], NAN where there is none. */
+/* Critical loads of one scene; value[sign][order], NAN: none. */
 typedef struct loads {
     char why[2][WANTED][FAULT_TEXT];
     double value[2][WANTED];
@@ -51,7 +51,7 @@ static inline void bar_ask(scene *s, int signs)
         }
 }
 
-/* Positive ones only, or of both signs. 1: answered. */
+/* Finds the positive loads only, or those of both signs. Returns 1 if answered. */
 static inline int bar_find_signs(const element_type *e, ask_tally *tally, build *make,
                                  const double direction[3], int n, int signs, loads *out)
 {

@@ -1,5 +1,5 @@
-/* Continuation: limit points, bifurcations and branch jumps, against closed forms and against each
- * other. */
+/* Continuation: limit points, bifurcations and branch jumps, against closed forms and each other.
+ */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -46,7 +46,7 @@ static void limit_points(void)
         for (int k = 0; k < 2 && k < r.solve.events; k++) {
             const path_event *e = &r.solve.event[k];
             gsl_test_int((int)e->kind, EVENT_LIMIT_POINT, "%s: a limit point", control[i]);
-            /* a trial may end a correction early, where its tangent is singular */
+            /* a trial may end a correction early if its tangent is singular */
             gsl_test_rel(e->factor, k == 0 ? exact : -exact, 1e-11, "%s: its load", control[i]);
             gsl_test_int(e->negative_after - e->negative_before, k == 0 ? 1 : -1,
                          "%s: one pivot changes its sign", control[i]);
@@ -55,14 +55,14 @@ static void limit_points(void)
     }
 }
 
-/* A perfect cantilever column, its least stiffness about z: bifurcations at P (1 - P/EA) = (2 k -
- * 1)^2 pi^2 EI/(4 L^2). */
+/* A perfect cantilever column with its smallest stiffness about z: bifurcations at P (1 - P/EA) =
+ * (2 k - 1)^2 pi^2 EI/(4 L^2). */
 static status build_column(const double value[], scene *s, fault *f)
 {
     (void)f;
     const section_spec spec = sections_of(100, 40, 1, 40);
     scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE);
-    /* along x, or turned so that its load works on every coordinate */
+    /* along x, or rotated so that its load does work on every coordinate */
     const double along[2][3] = {{1, 0, 0}, {0.48, 0.6, 0.64}},
                  across[2][3] = {{0, 1, 0}, {0.8, 0, -0.6}};
     const double *const t = along[value[1] != 0];
@@ -103,7 +103,7 @@ static void bifurcations(const char *assignment)
     cell_result_free(&r);
 }
 
-/* A space frame with both kinds: its plane is left before the limit point is reached. */
+/* A space frame with both kinds: it buckles out of its plane before the limit point is reached. */
 static void both_kinds(void)
 {
     static const event_kind kind[] = {EVENT_BIFURCATION, EVENT_LIMIT_POINT, EVENT_LIMIT_POINT};
@@ -182,9 +182,9 @@ static status build_long_arcs(const double value[], scene *s, fault *f)
     return outcome;
 }
 
-/* Steps so long that each swings too far are walked again in smaller ones. Most led to the same
- * branch and nothing has jumped; arcs of 0.5 meet another, on which the loaded point has swayed by
- * 35 m and not by 94 m at the same deflection. */
+/* Steps in which the path rotates too far are repeated in smaller steps. Most led to the same
+ * branch, and nothing has jumped; arcs of 0.5 meet another branch, on which the loaded point has
+ * swayed by 35 m instead of 94 m at the same deflection. */
 static void long_arcs(void)
 {
     static const char *const step[] = {"step=0.02", "step=0.05", "step=0.15", "step=0.2"};
@@ -245,8 +245,8 @@ static void continuation_tests(void)
     refusals();
 }
 
-/* Frequencies and critical loads about a loaded state: limits that linear theory knows, and what is
- * refused. */
+/* Frequencies and critical loads about a loaded state: limits known from linear theory, and
+ * rejected requests. */
 
 static double value_of(const char *case_name, const char *chosen, int n,
                        const char *const assignment[], const char *quantity)
@@ -262,8 +262,8 @@ static double value_of(const char *case_name, const char *chosen, int n,
     return value;
 }
 
-/* Strong bending 1e6 times as stiff as weak: what linear prestress says, 4.012599344, and the first
- * power of 1/ratio beyond it. */
+/* Strong-axis bending 1e6 times as stiff as weak-axis bending: the result of linear
+ * prestress, 4.012599344, plus the first-order term in 1/ratio. */
 static void stiff_before_buckling(void)
 {
     const char *const included[] = {"prebuckling=included", "ratio=1e6", NULL};
@@ -288,8 +288,8 @@ static void deflected_before_buckling(void)
     }
 }
 
-/* A cantilever of unit constants under a dead tip force P along -x or a dead tip moment M about z,
- * then an analysis about it. */
+/* A cantilever with unit constants under a dead tip force P along -x or a dead tip moment M about
+ * z, then an analysis about that state. */
 static status solve_column(scene_analysis_kind kind, double P, double M, double end, double *value,
                            fault *f)
 {
@@ -368,8 +368,8 @@ static void equilibrium_tests(void)
     refused();
 }
 
-/* Mechanisms and unstable states: large turns in one step, few iterations, inertia of the tangent,
- * both directions of elements. */
+/* Mechanisms and unstable states: large rotations in one step, few iterations, inertia of the
+ * tangent, both directions of elements. */
 
 /* Solves a case with n elements; assignments end with NULL. The caller frees the result. */
 static status run(const char *case_name, const char *key, int n, const char *const assignment[],
@@ -381,8 +381,8 @@ static status run(const char *case_name, const char *key, int n, const char *con
     return cell_run(&request, out, &f);
 }
 
-/* N section 4: coordinates, strains and stresses at once reach 15 degrees from rest without steps
- * between. */
+/* N section 4: with coordinates, strains and stresses as unknowns, 15 degrees are reached from rest
+ * in one step. */
 static void from_rest_in_one_step(void)
 {
     const char *const once[] = {"steps=1", "wagner=0", NULL};
@@ -428,8 +428,8 @@ static void few_iterations(void)
     }
 }
 
-/* A guess of the next state saves iterations and changes no result: more steps between the stations
- * reach the same. */
+/* Predicting the next state saves iterations and changes no result: more steps between the stations
+ * lead to the same result. */
 static void guesses_change_nothing(void)
 {
     const char *const defaults[] = {NULL};
@@ -449,8 +449,8 @@ static void guesses_change_nothing(void)
     cell_result_free(&halved);
 }
 
-/* Formulations that treat both ends alike do not notice which way the elements run; the others by a
- * discretisation error. */
+/* Formulations that treat both ends alike are independent of the direction of the elements; the
+ * others depend on it by a discretisation error. */
 static void directions(void)
 {
     static const struct {
@@ -494,7 +494,7 @@ static void fold_warping(void)
     gsl_test_rel(value[2], 9.92e5, 2e-3, "folds free to warp");
 }
 
-/* A cantilever of length 1 with EIy = 4 EIz = 4 under P = path [N], straight: its critical loads
+/* A cantilever of length 1 with EIy = 4 EIz = 4 under P = path [N], straight. Its critical loads
  * are (2k - 1)^2 pi^2 EI/4. */
 static void straight_column(scene *s, int stations, const double path[])
 {
@@ -505,8 +505,8 @@ static void straight_column(scene *s, int stations, const double path[])
     scene_add_static(s, stations, path, 1);
 }
 
-/* Newton stays on the straight path, where the tangent has as many negative eigenvalues as there
- * are critical loads below. */
+/* Newton's method stays on the straight path, where the tangent has as many negative eigenvalues as
+ * there are lower critical loads. */
 static void inertia_counts_critical_loads(void)
 {
     const double weak = PI * PI / 4;
@@ -544,8 +544,8 @@ static void inertia_counts_critical_loads(void)
     }
 }
 
-/* Sums keep their order: several threads give the same bits and the same work, also where pieces
- * are not full and more than are kept at a time. */
+/* The order of sums is fixed: several threads give the same bits and the same work, also with
+ * incomplete blocks and with more blocks than are stored at a time. */
 static void threads_change_no_bit(void)
 {
     static const struct {

@@ -66,7 +66,7 @@ static void inverse(void)
     gsl_test(worst > 1e-12, "stiffness times compliance is the unit matrix: %.1e", worst);
 }
 
-/* N 4.1's cases: how much the convention matters. */
+/* The cases of N 4.1: effect of the convention. */
 static void sheets(void)
 {
     const convention_matrices near =
@@ -112,7 +112,7 @@ static void reciprocity(void)
     }
 }
 
-/* Corrections of the last step's iterations: each about the square of the one before. */
+/* Each correction in the last step's iterations is about the square of the previous one. */
 static void quadratic(void)
 {
     const char *const none[] = {NULL};
@@ -154,8 +154,8 @@ static void turn_vector(const double q[4], double v[3])
     rotation_apply(q, v, v);
 }
 
-/* The cross-flexure hinge under a force at an offset that tilts its arm; the whole scene in other
- * axes when wanted. */
+/* The cross-flexure hinge under a force at an offset that tilts its arm; optionally the whole scene
+ * in other axes. */
 static status tilted_hinge(const double value[], scene *s, fault *f)
 {
     double q[4];
@@ -214,7 +214,7 @@ static void in_other_axes(const double A[36], double B[36])
         }
 }
 
-/* Largest difference of a block of three beside its largest entry. */
+/* Largest difference in a 3 x 3 block, relative to the block's largest entry. */
 static double block_difference(const double A[36], const double B[36])
 {
     double worst = 0;
@@ -233,7 +233,7 @@ static double block_difference(const double A[36], const double B[36])
     return worst;
 }
 
-/* Turns that are partly free span a plane that lies askew in other axes, and in a tilted state. */
+/* Partly free rotations span a plane that is oblique in other axes, and in a tilted state. */
 static void partly_free_turns(void)
 {
     static const char *const rotation[] = {"rotation=hinge", "rotation=first", "rotation=last",
@@ -259,7 +259,7 @@ static void partly_free_turns(void)
             }
 }
 
-/* The plane is known to round-off, at every angle another one. */
+/* The plane, which differs at every angle, is found to round-off. */
 static void at_every_angle(void)
 {
     for (int i = -20; i <= 20; i++) {
@@ -289,8 +289,8 @@ static void convention_tests(void)
     quadratic();
 }
 
-/* The closed-form solution of a clamped-free sheet beside what one third-order element computes
- * from the same potential. */
+/* The closed-form solution of a clamped-free sheet against one third-order element, from the same
+ * potential. */
 
 static void prediction_solve(const char *const assignment[], cell_result *out)
 {
@@ -300,8 +300,8 @@ static void prediction_solve(const char *const assignment[], cell_result *out)
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "solved: %s", f.text);
 }
 
-/* In the plane the element's inverse of N Eq. 37 is exact enough to agree with all digits; out of
- * it the two differ by terms of the fourth order, of which `apart` is the size for C_zz. */
+/* In the plane the element's inverse of N Eq. 37 is accurate enough for all digits to agree. Out of
+ * it the two differ by fourth-order terms; `apart` is their size for C_zz. */
 static void beside_the_element(const char *const assignment[], double in_plane, double apart)
 {
     cell_result r;
@@ -352,8 +352,8 @@ static void prediction_tests(void)
     beside_the_element(rigid, 1e-11, 1.5e-2);
 }
 
-/* Work along a path: what a step can take from the steps before it is not done again, and the
- * values are those of a path where it is. */
+/* Work along a path: a step reuses the work of earlier steps, and the values are the same as
+ * without reuse. */
 
 enum { STATIONS = 15 };
 
@@ -377,7 +377,7 @@ static double worst_difference(const cell_result *a, const cell_result *b)
     return worst;
 }
 
-/* The uncondensed Newton has no tangent that a compliance could take. */
+/* The uncondensed Newton method has no tangent that a compliance could reuse. */
 static void compliances(void)
 {
     cell_result taken, own;
@@ -407,7 +407,7 @@ static void turning_back(void)
     cell_result_free(&r);
 }
 
-/* Steps to begin with are those to the first station: what went well goes on. */
+/* The initial step size is that of the first station, and successful steps keep it. */
 static void shorter_first_steps(void)
 {
     cell_result whole, shorter;
@@ -424,7 +424,7 @@ static void shorter_first_steps(void)
     cell_result_free(&shorter);
 }
 
-/* A large deflection in one step is that of forty. */
+/* One step to a large deflection gives the same result as forty steps. */
 static void large_deflection(void)
 {
     cell_result r[2];
@@ -444,7 +444,7 @@ static void large_deflection(void)
     cell_result_free(&r[1]);
 }
 
-/* The first iteration of each step has the tangent of the last one of the step before. */
+/* The first iteration of each step uses the last tangent of the previous step. */
 static void continuations(void)
 {
     cell_result r;

@@ -1,5 +1,5 @@
-/* Critical loads of bars whose answer is known, for every formulation: sign, order and number of
- * equal values, what does not exist. */
+/* Critical loads of bars with known results, for every formulation: sign, order, number of equal
+ * values, and loads that do not exist. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -24,7 +24,8 @@ static void unloaded(scene *s, const double direction[3])
     bar_push(s, bar_cantilever(s, direction), direction, 0);
 }
 
-/* Held at both ends and pushed in the middle: one half is compressed, the other stretched. */
+/* Clamped at both ends and pushed in the middle: one half is compressed, the other is in tension.
+ */
 static void half_and_half(scene *s, const double direction[3])
 {
     const int a = scene_add_node(s, 0, 0, 0), b = bar_end(s, direction, length / 2),
@@ -37,7 +38,8 @@ static void half_and_half(scene *s, const double direction[3])
     bar_push(s, b, direction, 1);
 }
 
-/* The force acts on a rigid arm of the bar's length beyond its tip, or before it. */
+/* The force acts on a rigid arm of the bar's length, which points outwards or inwards from its tip.
+ */
 static void with_arm(scene *s, const double direction[3], double arm)
 {
     const int tip = bar_cantilever(s, direction);
@@ -131,11 +133,11 @@ static void critical_tests(void)
     }
 }
 
-/* Critical loads where there is none or hardly one, for every formulation: rounding does not look
- * like a load, and loads of one sign do not depend on those of the other. */
+/* Structures without a critical load, or almost without one, for every formulation: rounding is not
+ * reported as a load, and loads of one sign do not depend on those of the other. */
 
-/* States in which one element, or none, can buckle: whatever there is of a load must not be
- * rounding. */
+/* States in which one element, or none, can buckle: a critical load, if one is reported, must not
+ * be an artefact of rounding. */
 static void bent_between_forks(scene *s, const double direction[3], int component)
 {
     const int a = scene_add_node(s, 0, 0, 0), b = bar_end(s, direction, length);
@@ -162,7 +164,7 @@ static void pushed_across(scene *s, const double direction[3])
     bar_push(s, bar_cantilever(s, direction), across, 1);
 }
 
-/* Displaced ends, no load: the stresses of nothing. */
+/* Displaced ends without load: no stress that depends on a load factor. */
 static void bent_in_a_frame(scene *s, const double direction[3])
 {
     const int tip = bar_cantilever(s, direction), low = bar_end(s, direction, length / 2);
@@ -170,7 +172,7 @@ static void bent_in_a_frame(scene *s, const double direction[3])
     bar_push(s, low, y_axis, 1e-3);
 }
 
-/* An equal angle whose warping is left out, shear centre at its heel, between forks. */
+/* An equal-leg angle with warping neglected and the shear centre at its heel, on fork supports. */
 static void angle(scene *s, int *foot, int *head)
 {
     section_spec spec = section_spec_constants(young, young / 2.6);
@@ -207,8 +209,8 @@ static void angle_compressed(scene *s, const double direction[3])
     bar_push(s, head, direction, -1);
 }
 
-/* Loads of one sign are the same whether or not the others are asked for, and whether or not those
- * are found: some formulations have one spurious load of the other sign for each element. */
+/* Loads of one sign do not depend on whether the others are requested, or found: some formulations
+ * have one spurious load of the other sign per element. */
 static void one_side_alone(const element_type *e, ask_tally *tally)
 {
     for (int n = 2; n <= 64; n *= 2) {
@@ -228,8 +230,8 @@ static void one_side_alone(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A load that buckles this bar at this mesh is at most n^2 times Euler's, with room; rounding is
- * 1e16. */
+/* A load that buckles this bar on this mesh is at most n^2 times Euler's, with a margin; loads due
+ * to rounding are of the order of 1e16. */
 static void no_rounding(const element_type *e, ask_tally *tally)
 {
     static build *const state[] = {angle_bent, bent_about_y, bent_about_z, pushed_across,

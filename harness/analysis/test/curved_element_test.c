@@ -1,8 +1,8 @@
-/* An element is free of stress along any arc of constant torsion and curvature, initial elongation
- * and shear included: every formulation that offers initial curvature, with every choice of its
- * options.  About such an arc its stress still derives from its energy, and its geometric stiffness
- * is the derivative of its tangent if it is so about the straight element (the others leave out
- * what the strains of the prestressed state add). */
+/* An element is stress-free along any arc of constant torsion and curvature, including initial
+ * elongation and shear: for every formulation that supports initial curvature, with every choice of
+ * its options. About such an arc its stress still derives from its energy. Its geometric stiffness
+ * is the derivative of its tangent if it is so about the straight element (the other formulations
+ * neglect the contribution of the strains in the prestressed state). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -33,7 +33,7 @@ static section rectangle(void)
     return sections_computed(&spec);
 }
 
-/* Turns up to `most` [rad]. Wagner torque and initial torsion are not offered together. */
+/* Rotations up to `most` [rad]. Wagner torque and initial torsion are not supported together. */
 static status prepare(const formulation *chosen, const section *c, double most, uint64_t *state,
                       element_subject *out, fault *f)
 {
@@ -113,7 +113,7 @@ static status stress_at(element_subject *s, const double e[], stress_output *out
     return type->stress(s->data, e, s->inner, out);
 }
 
-/* Largest stress, of what a strain of one would give. */
+/* Largest stress, relative to the stress of a unit strain. */
 static double stress_of_arc(element_subject *s, const double motion[6])
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -131,8 +131,8 @@ static double stress_of_arc(element_subject *s, const double motion[6])
     return worst;
 }
 
-/* Largest difference between the derivative of the energy and the stress about the arc, of the
- * stress there. */
+/* Largest difference between the derivative of the energy and the stress about the arc, relative to
+ * that stress. */
 static double error_of_stress(element_subject *s)
 {
     const double h = 1e-5 * s->length;
@@ -153,8 +153,8 @@ static double error_of_stress(element_subject *s)
     return worst / largest;
 }
 
-/* The same of the tangent along the strain that the prestress makes, and the geometric
- * stiffness. */
+/* The same for the derivative of the tangent along the strain due to the prestress, and the
+ * geometric stiffness. */
 static double error_of_geometric(element_subject *s)
 {
     const int n = s->strains;
@@ -197,7 +197,7 @@ static void arcs(const formulation *chosen, const section *c)
             stress =
                 worst_of(stress, worst_of(stress_of_arc(&s, still), stress_of_arc(&s, motion)));
             if (chosen->type->inner ==
-                NULL) { /* inner unknowns: their stress is that of another state */
+                NULL) { /* inner unknowns: their stress belongs to a different state */
                 derived = worst_of(derived, error_of_stress(&s));
                 geometric = whole ? worst_of(geometric, error_of_geometric(&s)) : 0;
             }
@@ -232,8 +232,9 @@ static void curved_element_tests(void)
     gsl_test(offered == 0, "%d formulations offer initial curvature", offered);
 }
 
-/* Loads along members inside the equilibrium of `collocation`: orders of displacements and of the
- * moment within, at large rotations, of curved members, and of critical loads about a state. */
+/* Loads along members within the equilibrium of `collocation`: orders of convergence of
+ * displacements and of the moment inside members, at large rotations, for curved members, and of
+ * critical loads about a state. */
 
 extern const element_type element_collocation;
 
@@ -249,7 +250,7 @@ static void member_of(form shape, scene *s)
     const section_spec spec = sections_of(shape == ARC ? 1e10 : 1e4, 2, 1, 0.7);
     scene_init(s, "along");
     scene_add_node(s, 0, 0, 0);
-    /* of a length of 1: the chord of 1 rad */
+    /* length 1: the chord of an arc of 1 rad */
     scene_add_node(s, shape == ARC ? sin(1) : 1, shape == ARC ? 1 - cos(1) : 0, 0);
     scene_add_member(s, ROOT, TIP, scene_add_section(s, &spec), y_axis);
     scene_hold_all(s, ROOT);
@@ -279,7 +280,7 @@ static void values_of(const scene *s, int stages, int n, double out[VALUES])
         out[i] = a.value[i];
 }
 
-/* Largest error with n elements, and the order from there to 2 n. */
+/* Largest error with n elements, and the order between n and 2 n. */
 static void order_of(const char *name, const scene *s, int stages, int n, double least,
                      double error)
 {
@@ -312,12 +313,12 @@ static void large_rotations(void)
         const char *name;
         form shape;
         acting what;
-        double least[2], error[2]; /* of 3 and 4 stages, n = 4 */
+        double least[2], error[2]; /* with 3 and 4 stages, n = 4 */
     } scenes[] = {
         {"a uniform load", STRAIGHT, UNIFORM, {5.7, 7.5}, {1e-5, 2e-7}},
         {"a linear one", STRAIGHT, LINEAR, {5.7, 7.5}, {1e-5, 2e-7}},
         {"one along a curved member", CURVED, LINEAR, {5.5, 7}, {1e-5, 2e-7}},
-        /* on the field that all types share */
+        /* with the field that all types share */
         {"one that follows", STRAIGHT, FOLLOWER, {3.6, 3.6}, {1e-2, 1e-2}},
         {"a moment along", STRAIGHT, MOMENT, {3.6, 3.6}, {1e-2, 1e-2}},
     };
@@ -332,8 +333,8 @@ static void large_rotations(void)
     }
 }
 
-/* Castigliano, EI = 1, load 1 down per length of an arc of 1 rad, R = 1: moments at t are those of
- * the load beyond it, the tip's displacement int M m, without stretch. */
+/* Castigliano, EI = 1, R = 1, load 1 downwards per length of an arc of 1 rad: the moment at t is
+ * due to the load beyond it, and the tip's displacement is int M m, without axial strain. */
 static void arc_by_castigliano(void)
 {
     enum { POINTS = 20 };

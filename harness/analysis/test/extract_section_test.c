@@ -1,6 +1,6 @@
-/* Resultants inside members against statics, the elastica and Vlasov's torsion, of every
- * formulation; a value inside converges as those at the ends do. And resultants and stresses inside
- * members that twist far, turn steadily, or have their shear centre beside them. */
+/* Resultants inside members against statics, the elastica and Vlasov torsion, for every
+ * formulation; values inside converge as those at the ends do. Also resultants and stresses inside
+ * members that twist far, rotate steadily, or have an eccentric shear centre. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -11,15 +11,15 @@
 
 #define BARS "harness/analysis/test/bars.yaml"
 
-/* Tip force and moment and a load along: N, Qy, Qz, Mx, My, Mz at 0.35 of the length, and the
- * extremes of Mz. */
+/* Tip force, tip moment and a distributed load: N, Qy, Qz, Mx, My, Mz at 0.35 of the length, and
+ * the extremes of Mz. */
 static void statics(const element_type *e, ask_tally *tally, int elements)
 {
     static answer a;
     scenes_ask(BARS, e, elements, &a, "load=all");
     if (!ask_count(tally, &a, "statics of %d elements", elements))
         return;
-    const double b = 1.3, /* what lies beyond */
+    const double b = 1.3, /* length beyond the section */
         top = 0.5 / 0.9;  /* Mz' = 0: 0.4 - 0.9 b + 0.1 */
     const double exact[] = {0.5 + 0.1 * b,
                             0.4 - 0.9 * b,
@@ -42,7 +42,7 @@ static double slope(double u, void *top)
     return sqrt(2) / sqrt(1 - sine * sine);
 }
 
-/* Arc length from the tip to where u is. */
+/* Arc length from the tip to the point with u. */
 static double arc(double top, double u)
 {
     double sum, error;
@@ -52,7 +52,7 @@ static double arc(double top, double u)
     return sum;
 }
 
-/* Inextensible cantilever of length 2, EI = 1, under a dead unit force across it: Bernoulli's
+/* Inextensible cantilever of length 2, EI = 1, under a dead transverse unit force: Bernoulli's
  * elastica. M/EI = sqrt(2) u at arc length `beyond` from the tip. */
 static double elastica(double beyond)
 {
@@ -92,8 +92,8 @@ static void bends(const element_type *e, ask_tally *tally)
                  i ? "inside" : "at the root", coarse[i], fine[i]);
 }
 
-/* Torque on a bar that warps, held at its root: B = T/lambda sinh(lambda b)/cosh(lambda l), b from
- * the tip (Vlasov). */
+/* Torque on a bar that warps, with warping restrained at its root: B = T/lambda sinh(lambda
+ * b)/cosh(lambda l), b from the tip (Vlasov). */
 static int twisted(const element_type *e, ask_tally *tally, int elements, double Iw,
                    double error[4])
 {
@@ -121,8 +121,9 @@ static void twists(const element_type *e, ask_tally *tally)
                  coarse[i], fine[i]);
 }
 
-/* A flat bar, free to warp, pulled, bent and twisted at its tip: M/W at the root, Saint-Venant's
- * shear everywhere; and how a restrained flange beam's stress follows from its bimoment. */
+/* A flat bar, free to warp, pulled, bent and twisted at its tip: M/W at the root and Saint-Venant
+ * shear stress everywhere. Also the stress in a flanged beam with restrained warping, from its
+ * bimoment. */
 static void flat_bar(const element_type *e, ask_tally *tally)
 {
     const double w = 0.05, h = 0.004, l = 0.3;
@@ -160,8 +161,8 @@ static void flanged(const element_type *e, ask_tally *tally)
              a.value[0]);
 }
 
-/* A bar that turns steadily beside one at rest, in either order: each quantity is that of its own
- * analysis. */
+/* A rotating bar next to one at rest, in either order: each quantity belongs to its own analysis.
+ */
 static void turns_beside_rest(const element_type *e, ask_tally *tally, int turning_first)
 {
     const double tension = 2; /* rho A Omega^2 l^2/2 */
@@ -177,7 +178,7 @@ static void turns_beside_rest(const element_type *e, ask_tally *tally, int turni
 }
 
 /* A strip, free to shorten and to warp, twisted by 0.6 rad: kappa is uniform, M = G J kappa + 4 E c
- * kappa^3, and its edges are stretched. */
+ * kappa^3, and the edges are in tension. */
 static void strip(const element_type *e, ask_tally *tally)
 {
     const double w = 0.04, h = 1e-3, l = 0.4;
@@ -198,8 +199,8 @@ static void strip(const element_type *e, ask_tally *tally)
         gsl_test_rel(a.value[i], exact[i], 1e-5, "%s: %s of a twisted strip", e->name, a.name[i]);
 }
 
-/* A blade that turns about z, its root on the axis: N = rho A Omega^2 (l^2 - x^2)/2, but for its
- * stretch of some 1e-6. */
+/* A blade that rotates about z, with its root on the axis: N = rho A Omega^2 (l^2 - x^2)/2, apart
+ * from its elongation of about 1e-6. */
 static void blade(const element_type *e, ask_tally *tally)
 {
     const double l = 0.5, omega = 20;
@@ -213,8 +214,8 @@ static void blade(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[1], root_stress, 1e-4, "%s: stress at the root", e->name);
 }
 
-/* A C under a force at its centroid, root held: torque F e about the shear centre, B = F e/lambda
- * tanh(lambda l). */
+/* A channel under a force at its centroid, clamped at the root: torque F e about the shear centre,
+ * B = F e/lambda tanh(lambda l). */
 static void channel(const element_type *e, ask_tally *tally)
 {
     static answer a;
@@ -239,8 +240,8 @@ static void channel(const element_type *e, ask_tally *tally)
 }
 
 /* A bar that tapers from h to h/4 under a force at its thin tip: 6 F b/(w h(b)^2) is largest a
- * third of the length from there, whatever the elements, each of which has the section of its
- * middle. */
+ * third of the length from the tip, whatever the number of elements; each element has the section
+ * at its middle. */
 static void tapered(const element_type *e, ask_tally *tally, int elements)
 {
     const double w = 0.02, h = 0.04, l = 0.9, F = 50;
@@ -255,8 +256,8 @@ static void tapered(const element_type *e, ask_tally *tally, int elements)
                      a.name[i], elements);
 }
 
-/* An angle whose legs change turns its principal axes along the member: forces at its ends are in
- * those of the section there, not of the element. */
+/* An angle section whose legs change along the member, so that its principal axes rotate: forces at
+ * its ends refer to the axes of the end sections, not of the element. */
 static void turning_axes(const element_type *e, ask_tally *tally, int elements)
 {
     const double F[3] = {0, 30, 50};
@@ -280,7 +281,7 @@ static void turning_axes(const element_type *e, ask_tally *tally, int elements)
     }
 }
 
-/* All of it, of a section without symmetry under every load. */
+/* All quantities for a section without symmetry under every kind of load. */
 static void everything(scene *s, int whole)
 {
     static const double y[3] = {0, 1, 0}, t[3] = {3e-3, 2e-3, 4e-3},
@@ -316,7 +317,8 @@ static void everything(scene *s, int whole)
     }
 }
 
-/* The same answer when the member runs the other way, is two, or is measured in millimetres. */
+/* The result does not change if the member is reversed, divided in two, or described in
+ * millimetres. */
 static void in_other_words(const element_type *e, ask_tally *tally)
 {
     static const scene_edit edits[] = {

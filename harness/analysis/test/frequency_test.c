@@ -1,6 +1,5 @@
-/* Frequencies whose answer is known, for every formulation that has inertia: equal ones of a square
- * bar, the axial ones between them, motions of a rigid body, and those of a bar that is stretched
- * or compressed. */
+/* Known frequencies, for every formulation with inertia: the equal frequencies of a square bar, the
+ * axial ones between them, rigid-body modes, and a bar in tension or compression. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,8 +11,8 @@
 
 enum { MODES = 10, ELEMENTS = 24, RIGID = 6 };
 
-/* A square bar along an oblique direction, slender enough for theories of shear and rotary inertia
- * to agree. */
+/* A square bar along an oblique direction, slender enough for the theories of shear and rotary
+ * inertia to agree. */
 static const double young = 2e11, density = 7800, side = 0.01, length = 1;
 static const double direction[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3}, y_axis[3] = {0.1, 1, 0.05};
 
@@ -74,8 +73,8 @@ static const double clamped[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.99
                                  14.137168391};
 static const double loose[] = {4.7300407449, 7.8532046241};
 
-/* Bending in pairs; the axial one, c/(4 L), and that of torsion lie between them and are not
- * counted where they are not meant. */
+/* Bending frequencies in pairs. The axial frequency c/(4 L) and the torsional one lie between them
+ * and are not counted unless requested. */
 static void cantilever(const element_type *e, ask_tally *tally)
 {
     static answer any, axial, across;
@@ -118,8 +117,8 @@ static void nothing_held(const element_type *e, ask_tally *tally)
 }
 
 /* With t = T/(EI): w = A (cosh ax - cos bx) + B (sinh ax/a - sin bx/b), a^2 - b^2 = t, a^2 b^2 =
- * k^4; at the free end no moment, and no force across the bar's first direction. Zero where k^2
- * sqrt(EI/(rho A)) is a frequency. */
+ * k^4; at the free end there is no moment, and no force across the bar's initial direction. Zero
+ * where k^2 sqrt(EI/(rho A)) is a frequency. */
 static double determinant(double t, double k)
 {
     const double root = sqrt(t * t / 4 + k * k * k * k), a = sqrt(root + t / 2),
@@ -129,7 +128,7 @@ static double determinant(double t, double k)
            a * b * (a * S + b * s) * (b * S - a * s);
 }
 
-/* The least root k, scanned for and bisected; the bar's length is 1. */
+/* The smallest root k, found by a scan and bisection; the bar's length is 1. */
 static double first_root(double t)
 {
     const double step = 1e-3;
@@ -144,8 +143,8 @@ static double first_root(double t)
     return low;
 }
 
-/* Compressed nearly to Euler's load, to half of it, and stretched by half of it and by twenty times
- * as much. */
+/* Compression close to Euler's load and at half of it; tension of half of it and of twenty times as
+ * much. */
 static void loaded(const element_type *e, ask_tally *tally)
 {
     static const double part[] = {-0.999, -0.5, 0.5, 20};
@@ -164,8 +163,8 @@ static void loaded(const element_type *e, ask_tally *tally)
     }
 }
 
-/* On an arm as long as the bar the critical load is k^2 EI with k tan k = 1: there the frequency
- * vanishes, and not at another. */
+/* On an arm as long as the bar the critical load is k^2 EI with k tan k = 1: the frequency vanishes
+ * at this load only. */
 static void loaded_on_arm(const element_type *e, ask_tally *tally)
 {
     const double critical = 0.86033358901937976 * 0.86033358901937976 * young * pow(side, 4) / 12;

@@ -1,6 +1,7 @@
-/* Structures with hinges against closed forms: a beam with an inner hinge, a frame with three,
- * columns, vibration, a truss that snaps. And axes of released ends: those in which the section is
- * described, whatever its principal ones; of a curved member those at its end. */
+/* Structures with hinges against closed forms: a beam with an inner hinge, a three-hinged frame,
+ * columns, vibration, a truss that snaps through. Also the axes of released ends: those in which
+ * the section is described, whatever its principal axes; for a curved member, the axes at its end.
+ */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -14,7 +15,7 @@
 
 #define HINGES "harness/analysis/test/hinges.yaml"
 
-/* scale: of a value that is zero. */
+/* scale: magnitude for a value that is zero. */
 static void check(const cell_result *r, int i, double exact, double allowed, double scale,
                   const char *chosen)
 {
@@ -25,7 +26,7 @@ static void check(const cell_result *r, int i, double exact, double allowed, dou
              there ? r->scene.quantity[i].name : "a quantity", value, exact);
 }
 
-/* Nodally exact where nothing but bending and stretching is: with one element for each member. */
+/* With bending and axial deformation only, one element per member is nodally exact. */
 static void statics(const char *chosen, double allowed)
 {
     cell_result r;
@@ -79,7 +80,7 @@ static void eigenvalues(const char *chosen, int n, double allowed)
     cell_result_free(&r);
 }
 
-/* Bars that only stretch. */
+/* Bars with axial deformation only. */
 static void roof(const char *chosen)
 {
     cell_result r;
@@ -93,8 +94,8 @@ static void roof(const char *chosen)
 
 enum { REACTIONS = 3 };
 
-/* The nodes are clamped, so that their reactions have no part along the axes of the hinges. Which
- * of the six are none; the others are moments of the clamps. */
+/* The nodes are clamped, and their reactions have no component along the axes of the hinges: the
+ * test lists which of the six are zero; the others are clamping moments. */
 static void axes(const char *of, const char *chosen, int n, unsigned released, double least)
 {
     cell_result r;
@@ -129,12 +130,12 @@ static void hinge_tests(void)
     }
 }
 
-/* An end that is released from a clamped node is one at a support that lets it go: in every
- * analysis, by every formulation and way of Newton. */
+/* An end released from a clamped node is equivalent to an end at a support that is free there: in
+ * every analysis, with every formulation and Newton algorithm. */
 
 #define SPRINGS "harness/analysis/test/springs.yaml"
 
-/* A released end of a clamped node and a support that lets the end go. */
+/* A released end at a clamped node, and a support that is free there. */
 static void supported(const char *chosen, int dense)
 {
     static const char *const released[] = {"hinge", "two_turns", "ball", "slide"};
@@ -167,7 +168,7 @@ static void hinge_support_tests(void)
         for (int k = 0; k < 3; k++) {
             char chosen[80];
             snprintf(chosen, sizeof chosen, "%s%s", registry_formulations[i]->name, newton[k]);
-            supported(chosen, k == 2); /* without what follows a factored tangent */
+            supported(chosen, k == 2); /* omitting analyses that follow a factored tangent */
         }
 }
 

@@ -1,5 +1,5 @@
-/* A bar that only bends, twists and stretches, and the solution of a scene of it: for tests of
- * hinges and springs. */
+/* A bar with bending, torsion and axial deformation only, and the solution of a scene with it, for
+ * tests of hinges and springs. */
 #ifndef BEAMWORK_TEST_HINGED_H
 #define BEAMWORK_TEST_HINGED_H
 

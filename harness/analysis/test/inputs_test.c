@@ -1,7 +1,7 @@
-/* Every cell of the table of inputs: what is used changes the answer, and obeys a law: equilibrium,
- * superposition, a compliance that is the derivative of the path, a critical load that is the limit
- * point of a continuation, a motion that stays in the balance that it starts from; what has no part
- * leaves the answer as it is; what is refused is refused by name, alone. */
+/* Every cell of the table of inputs. An input that is used changes the answer and obeys a law:
+ * equilibrium, superposition, a compliance that is the derivative of the path, a critical load that
+ * is the limit point of a continuation, a motion that stays in its initial equilibrium. An input
+ * without effect does not change the answer. A rejected input is rejected by name, on its own. */
 #include "cases/scene/scene.h"
 
 #include <gsl/gsl_test.h>
@@ -25,7 +25,7 @@ static double apart(const answer *a, const answer *b)
     return largest;
 }
 
-/* Twice the input is twice its part of the answer. */
+/* Twice the input has twice the effect on the answer. */
 static void superposition(const scene_input *in, const element_type *e, const answer *without,
                           const answer *with)
 {
@@ -39,8 +39,8 @@ static void superposition(const scene_input *in, const element_type *e, const an
                      "%s: linear, %s: superposition of %s", e->name, in->name, with->name[i]);
 }
 
-/* Force and moment, about x, of what acts on the second member, from 0.5 to 1, beyond a place of
- * it: the vector is linear there, and Simpson's rule exact. */
+/* Force, and moment about x, of the load on the second member, from 0.5 to 1, beyond `place`: the
+ * load is linear there, so Simpson's rule is exact. */
 static void resultants(const scene_load *load, double place, double x, double out[6])
 {
     static const double weight[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
@@ -63,7 +63,7 @@ static void resultants(const scene_load *load, double place, double x, double ou
     }
 }
 
-/* The scene of a row with nothing but its load, if that is on a member: 1. */
+/* Builds the scene of a row with its load alone. Returns 1 if the load acts on a member. */
 static int load_alone(const scene_input *in, posed *p, scene *s, scene_load *load)
 {
     *p = pose(in->name, SCENE_OF_LINEAR, 1);
@@ -74,7 +74,7 @@ static int load_alone(const scene_input *in, posed *p, scene *s, scene_load *loa
     return scene_load_along(own) && own->kind != SCENE_GRAVITY && own->kind != SCENE_TEMPERATURE;
 }
 
-/* The root takes all of a load on a member. */
+/* The root's reaction balances the whole load on a member. */
 static void reactions(const scene_input *in, const element_type *e)
 {
     static answer a;
@@ -100,7 +100,7 @@ static void reactions(const scene_input *in, const element_type *e)
     }
 }
 
-/* What goes through a section is what acts beyond it. */
+/* The resultant in a section equals the loads beyond it. */
 static void sections(const scene_input *in, const element_type *e)
 {
     static const double place[] = {0, 0.05, 0.2, 0.45, 0.9};
@@ -134,7 +134,7 @@ static void sections(const scene_input *in, const element_type *e)
 
 static int is_load(const scene_input *in)
 {
-    return in - scene_inputs <= 21; /* and strains that members have by themselves */
+    return in - scene_inputs <= 21; /* and initial strains of members */
 }
 
 static int is_called(const scene_input *in, const char *name)
@@ -147,7 +147,8 @@ static int is_motion(const scene_input *in)
     return is_called(in, "motion of a node") || is_called(in, "motion of a case");
 }
 
-/* Largest difference of values of the same names from `first` on, over the largest of them. */
+/* Largest difference between values of the same names from `first` on, relative to the largest
+ * value. */
 static double largest_apart(const answer *a, const answer *b, const char *const name[])
 {
     double largest = 0, size = 1e-12;
@@ -164,7 +165,7 @@ static double largest_apart(const answer *a, const answer *b, const char *const 
 static const char *const places[] = {"u_0", "u_1", "u_2", "v_0", "v_1", "v_2", NULL},
                          *const modes[] = {"f0", "f1", "f2", NULL};
 
-/* Under small loads the path is the linear solution. */
+/* Under small loads the path agrees with the linear solution. */
 static void law_of_linear(const scene_input *in, const element_type *e)
 {
     static answer linear, path;
@@ -179,21 +180,21 @@ static void law_of_linear(const scene_input *in, const element_type *e)
              off);
 }
 
-/* The path at the factor that a continuation has found ends where that did. */
+/* A path to the load factor found by a continuation ends in the same state. */
 static void law_of_continuation(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer path;
     posed p = pose(in->name, SCENE_OF_STATIC, 1);
     p.end = answer_of(with, "factor");
-    if (!(p.end > 0)) /* a path goes on only */
+    if (!(p.end > 0)) /* a path only increases */
         return;
     solve(&p, e, &path);
     gsl_test_rel(answer_of(&path, "v_1"), end_of_continuation, 1e-7,
                  "%s: continuation, %s: the path at its factor", e->name, in->name);
 }
 
-/* A compliance is the derivative of the path that it is about; that of the structure without loads
- * is one at the begin of any path. */
+/* A compliance is the derivative of the path to which it belongs; the compliance of the unloaded
+ * structure is that at the start of any path. */
 static void law_of_compliance(const scene_input *in, scene_column column, const element_type *e,
                               const answer *with)
 {
@@ -220,15 +221,16 @@ static void law_of_compliance(const scene_input *in, scene_column column, const 
     }
 }
 
-/* Frequencies of the structure without loads are those at the begin of any path, where elements of
- * two nodes lack what is inside of them. */
+/* Frequencies of the unloaded structure are those at the start of any path, where two-node elements
+ * lack their internal motions. */
 static void law_of_modal(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer about;
     posed p = pose(in->name, SCENE_OF_MODAL_ABOUT, 1);
     p.end = 1e-9;
     p.turns = 0;
-    /* the bending by a free curvature changes it as much, and the undeformed structure has none */
+    /* the bending due to a stress-free curvature changes it as much, and the undeformed structure
+     * has no such bending */
     if (is_called(in, "constant load") || is_called(in, "free curvature"))
         return;
     solve(&p, e, &about);
@@ -238,7 +240,7 @@ static void law_of_modal(const scene_input *in, const element_type *e, const ans
              in->name, off);
 }
 
-/* Under small loads what the stresses of a linear analysis add is what the path adds. */
+/* Under small loads the stresses of a linear analysis have the same effect as the path. */
 static void law_of_modal_linear(const scene_input *in, const element_type *e)
 {
     static answer rest, linear, path;
@@ -252,7 +254,7 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
     p.end = 1e-9;
     p.size = 1e-9;
     solve(&p, e, &rest);
-    /* the bending of a frame with a loop changes it as much, and a linear analysis leaves it out */
+    /* the bending of a closed frame changes it as much, and a linear analysis neglects it */
     if (linear.values == 0 || path.values == 0 || is_called(in, "node attached to another") ||
         is_called(in, "imperfection by shifts"))
         return;
@@ -267,7 +269,7 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
              in->name, off, largest);
 }
 
-/* A frame that does not turn has the frequencies of the path, by another solver. */
+/* A frame that does not rotate has the frequencies of the path, computed by a different solver. */
 static void law_of_modal_about(const scene_input *in, const element_type *e)
 {
     static answer a;
@@ -282,7 +284,7 @@ static void law_of_modal_about(const scene_input *in, const element_type *e)
     answer_to(&s, &p, e, &a);
     for (int i = 0; i < 3; i++) {
         const double g = answer_of(&a, (const char *[]){"g0", "g1", "g2"}[i]);
-        if (!isnan(g)) /* a rotation refuses states whose tangent is not symmetric */
+        if (!isnan(g)) /* a rotation rejects states whose tangent is not symmetric */
             gsl_test_rel(answer_of(&a, modes[i]), g, 1e-6,
                          "%s: modal about a path, %s: %s of a frame at rest", e->name, in->name,
                          modes[i]);
@@ -336,7 +338,8 @@ static void law_of_buckling_about(const scene_input *in, const element_type *e, 
                  "%s: buckling about a path, %s: the first critical point", e->name, in->name);
 }
 
-/* At rest it is the compliance; shaking, all modes give it too. */
+/* At zero frequency the response is the compliance; at other frequencies all modes give the same
+ * response. */
 static void law_of_harmonic(const scene_input *in, scene_column column, const element_type *e,
                             const answer *with)
 {
@@ -369,7 +372,7 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
              scene_column_name[column], in->name, off, by_modes.reason);
 }
 
-/* A path in rotating axes ends where the rotation does. */
+/* A path in rotating axes ends in the same state as the rotation. */
 static void law_of_rotation(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer path;
@@ -381,8 +384,8 @@ static void law_of_rotation(const scene_input *in, const element_type *e, const 
              in->name, off);
 }
 
-/* Motions that start one from the other, and the first of them from a state in balance, stay there:
- * what has no function of time is held. */
+/* Successive motions, the first of which starts from equilibrium, stay there: inputs without a
+ * function of time are held. */
 static void law_of_motion(const scene_input *in, const element_type *e, int continued)
 {
     static answer path, motion;
@@ -393,7 +396,7 @@ static void law_of_motion(const scene_input *in, const element_type *e, int cont
     p.end = 0.7;
     if (in->part[SCENE_OF_MOTION] == SCENE_PART_REFUSED)
         return;
-    for (int last = 0; last < 2; last++) { /* what the motions start from, and where they end */
+    for (int last = 0; last < 2; last++) { /* the start of the motions, and their end */
         scene s;
         structure(&p, &s);
         const int state = analyse(&s, &p), before = scene_add_motion(&s, state, 1, &first, how),
@@ -459,7 +462,7 @@ static void obey(const scene_input *in, scene_column column, const element_type 
     }
 }
 
-/* What has a part in rotating axes, or where nothing has a potential, has it there. */
+/* An input with an effect in rotating axes, or without a potential, has that effect here. */
 static void part_of_inertia(const scene_input *in, scene_column column, const element_type *e)
 {
     static answer with, without;
@@ -471,7 +474,7 @@ static void part_of_inertia(const scene_input *in, scene_column column, const el
     p.times = 0;
     solve(&p, e, &without);
     const double change = apart(&with, &without);
-    if (column == SCENE_OF_MODAL_ABOUT && /* damping changes growth there, and no frequency */
+    if (column == SCENE_OF_MODAL_ABOUT && /* damping changes growth there, but no frequency */
         (is_called(in, "damping") || strstr(in->name, "dashpot") != NULL))
         return;
     gsl_test(with.values == 0 || !(change > 1e-6), "%s: %s, %s: changes the answer there (%g; %s)",
@@ -483,7 +486,7 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     static answer with, without;
     const char part = in->part[column];
     const char *where = scene_column_name[column];
-    /* a motion needs loads over time, and turns away with what it is fixed to */
+    /* a motion needs loads over time, and the structure rotates with its support */
     if (column == SCENE_OF_MOTION &&
         (is_called(in, "constant load") || is_motion(in) || is_called(in, "rotating axes")))
         return;
@@ -536,7 +539,7 @@ static void cell(const scene_input *in, scene_column column, const element_type 
         obey(in, column, e, &with);
 }
 
-/* Two ways to say one thing have one answer. */
+/* Two equivalent descriptions have the same answer. */
 static void alike(const char *name, const char *other, scene_column column, const element_type *e)
 {
     static answer one, two;
@@ -548,8 +551,8 @@ static void alike(const char *name, const char *other, scene_column column, cons
              e->name, scene_column_name[column], name, other, off, one.reason, two.reason);
 }
 
-/* An arm that stands in rotating axes goes on turning with what drives it: but for its mass, which
- * lies along the elements there and at the nodes here. */
+/* An arm at rest in rotating axes keeps rotating with its drive, apart from the effect of its mass,
+ * which lies along the elements there and at the nodes here. */
 static void start_turning(const element_type *e)
 {
     static answer a;

@@ -1,7 +1,8 @@
-/* What needs no truth, for every formulation on every case it runs on: the same mesh in other
- * words, mirror images, turned symmetric structures, reciprocity.  A number that is compared is
- * relative to its size.  Two discretisations of the same continuum may differ, but the difference
- * falls with the mesh.  What is asked is counted: see harness/tools/kit/ask.h. */
+/* Properties that need no reference value, for every formulation on every case it runs on: the same
+ * mesh described differently, mirror images, rotated symmetric structures, reciprocity. Differences
+ * are relative to the size of the numbers. Two discretisations of the same continuum may differ,
+ * but the difference decreases as the mesh is refined. Questions are counted: see
+ * harness/tools/kit/ask.h. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,8 +15,8 @@
 
 static const scene_edit unchanged = {SCENE_EDIT_NONE, 0};
 
-/* Largest relative difference of all values that exist, and whose.  Frequencies of a mesh without
- * such a mode exist in neither. */
+/* Largest relative difference of all values that exist, and the name of its quantity. A frequency
+ * that the mesh does not have is missing in both. */
 static double apart_of(double a, double b, double scale)
 {
     const double size = fmax(fmax(fabs(a), fabs(b)), scale);
@@ -24,7 +25,7 @@ static double apart_of(double a, double b, double scale)
     return size > 0 ? fabs(a - b) / size : 0;
 }
 
-/* Of the curve's largest value. */
+/* Largest difference of two curves, relative to the curve's largest value. */
 static double curves_apart(const answer *a, const answer *b, int i)
 {
     double scale = a->scale[i], worst = a->points[i] == b->points[i] ? 0 : INFINITY;
@@ -48,15 +49,15 @@ static double difference(const answer *a, const answer *b, const char **whose)
     return worst;
 }
 
-/* NULL: the case has none of that name. */
+/* NULL: the case has no parameter of that name. */
 static const parameter_type *parameter_of(const case_type *type, const char *name)
 {
     const int i = parameter_index(type->parameters, name);
     return i < 0 ? NULL : parameter_at(type->parameters, i);
 }
 
-/* Few stations, where a case lets one choose; few steps of a motion, which do not follow an error,
- * as that is relative to the size of its members. */
+/* Few stations, if the case has such a parameter; and few constant steps of a motion, because error
+ * control depends on the size of its members. */
 static void short_path(const case_type *type, int size, char words[])
 {
     const parameter_type *step = parameter_of(type, "step"), *steps = parameter_of(type, "steps");
@@ -72,7 +73,7 @@ typedef struct invariants_subject {
     const case_type *type;
     const element_type *formulation;
     ask_tally *tally;
-    int coarse; /* elements per member that the case needs: 2, where those can follow it */
+    int coarse; /* elements per member that the case needs: 2 if these can follow the path */
 } invariants_subject;
 
 static void ask_about(const invariants_subject *s, int n, int keep_all, scene_edit edit,
@@ -89,8 +90,8 @@ static int found(const invariants_subject *s, int n, int keep_all, scene_edit ed
     return ask_count(s->tally, out, "%s, n = %d", s->type->name, n);
 }
 
-/* Two elements cannot follow every path (a circle): the coarsest mesh that does, as the next one
- * does, and their answers.  0: none of them answers. */
+/* Two elements cannot follow every path (a circle). Finds the coarsest mesh that can, together with
+ * the next mesh, and their answers. 0: no mesh answers. */
 static int found_coarsest(invariants_subject *s, answer *out, answer *next)
 {
     for (s->coarse = 2; s->coarse <= 32; s->coarse *= 2) {
@@ -102,7 +103,7 @@ static int found_coarsest(invariants_subject *s, answer *out, answer *next)
     return ask_count(s->tally, out, "%s, n = 2 to 32", s->type->name);
 }
 
-/* An edit of the scene changes nothing. */
+/* An edit of the scene does not change the answer. */
 static void same(const invariants_subject *s, const char *what, const answer *before, int n,
                  scene_edit edit)
 {
@@ -115,8 +116,8 @@ static void same(const invariants_subject *s, const char *what, const answer *be
              whose, apart);
 }
 
-/* Amplitudes of warping that are kept where nothing warps make the twist of some formulations a
- * cubic: a better mesh, and the same continuum.  Of twice the coarsest one there is an answer. */
+/* Warping coordinates that are kept where nothing warps make the twist cubic in some formulations:
+ * a better mesh of the same continuum. Twice the coarsest mesh must have an answer. */
 static void keep_all(const invariants_subject *s, const answer *fine)
 {
     static answer finer, full;
@@ -146,7 +147,8 @@ static void one_case(const case_type *type, const element_type *e, ask_tally *ta
     const int both = ask_count(tally, &fine, "%s, n = %d", type->name, 2 * s.coarse);
     if (both)
         keep_all(&s, &fine);
-    /* Others depend on it by a discretisation error, which the sweep of extremes shows. */
+    /* Other formulations depend on it by a discretisation error, which the sweep of extremes shows.
+     */
     if (!(e->limits & LIMIT_ORDER_DEPENDENT))
         same(&s, "the other order of nodes changes nothing", &coarse, s.coarse,
              (scene_edit){SCENE_EDIT_REVERSE, 0});
@@ -166,7 +168,7 @@ static void every_case(const element_type *e)
     ask_conclude(&tally, e, "the same in other words");
 }
 
-/* An image of the structure in a mirror: which values change their sign. */
+/* A mirror image of the structure: certain values change sign. */
 static void mirrors(const element_type *e)
 {
     static const struct {
@@ -203,7 +205,7 @@ static void mirrors(const element_type *e)
     ask_conclude(&tally, e, "mirror images");
 }
 
-/* Three equal folds: turned by a third of a turn, the joint is the same joint. */
+/* Three equal folds: a third of a turn leaves the joint unchanged. */
 static void thirds(const element_type *e)
 {
     static answer a;
@@ -221,8 +223,8 @@ static void thirds(const element_type *e)
     ask_conclude(&tally, e, "thirds of a turn");
 }
 
-/* Maxwell and Betti hold for loads that have a potential: semitangential moments, and not moments
- * about fixed axes.  Largest difference of C and its transpose. */
+/* Maxwell's and Betti's theorems hold for loads with a potential: for semitangential moments, but
+ * not for moments about fixed axes. Returns the largest difference between C and its transpose. */
 static double asymmetry(const answer *a)
 {
     static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"};

@@ -1,6 +1,6 @@
-/* Shear flexibility in both directions: a formulation that offers shear has it, or says that it
- * lacks it; it is refused where that matters.  A member of any thickness whose ends do not turn,
- * under a force across it: F l^3 (1 + Phi)/(12 EI). */
+/* Shear flexibility in both directions: a formulation that supports shear includes it, or declares
+ * that it does not and is rejected where it matters. Test: a member of any thickness whose ends do
+ * not rotate, under a transverse force: F l^3 (1 + Phi)/(12 EI). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 
 static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;
 
-/* A tip that slides along `direction` only; a beam described by so many members. */
+/* A tip that slides along `direction` only; a beam described by several members. */
 static void guided(scene *s, double across_y, double across_z, int direction, int members)
 {
     const double y_axis[3] = {0, 1, 0};

@@ -1,6 +1,6 @@
-/* Members that turn freely against each other through large angles: a four-bar linkage and a
- * universal joint on their exact ways, without a force in them; a linkage that is bent gives the
- * same in all axes; one that nothing drives is named. */
+/* Members that rotate freely against each other through large angles: a four-bar linkage and a
+ * universal joint follow their exact paths without internal forces; a bent linkage gives the same
+ * result in all axes; a linkage without a drive is named. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -40,7 +40,7 @@ static int add_at(scene *s, double x, double y)
     return scene_add_node(s, r[0], r[1], r[2]);
 }
 
-/* A node that turns about the normal of the plane only; motion: SCENE_FREE or a driver. */
+/* A node that rotates about the normal of the plane only; motion: SCENE_FREE or a driver. */
 static void pivot(scene *s, int node, int motion)
 {
     static const double z[3] = {0, 0, 1};
@@ -51,8 +51,8 @@ static void pivot(scene *s, int node, int motion)
     n->angle[0] = motion;
 }
 
-/* Nodes, bars and their load; turning: of the first node, as pivot takes it. Of the nodes, those of
- * the bar between. */
+/* Adds nodes, bars and their load; turning: motion of the first node, as for pivot(). Returns the
+ * nodes of the coupler. */
 static void add_bars(scene *s, int turning, int *second, int *third)
 {
     static const double z[3] = {0, 0, 1};
@@ -112,7 +112,7 @@ static void solve_four_bar(const char *chosen, double angle, double force, const
     cells_solve(build_four_bar, chosen, 1, r);
 }
 
-/* Nothing pushes: rigid bars, through more than half a turn of the crank. */
+/* Without a load: rigid bars, through more than half a turn of the crank. */
 static void four_bar(const char *chosen)
 {
     cell_result r;
@@ -136,7 +136,7 @@ static void four_bar(const char *chosen)
     cell_result_free(&r);
 }
 
-/* Bent by a force, in the plane z = 0 and in another one. */
+/* Bent by a force, in the plane z = 0 and in a different plane. */
 static void in_other_axes(const char *chosen)
 {
     static const double about[3] = {0.7, -1.1, 0.4};
@@ -167,7 +167,7 @@ static void in_other_axes(const char *chosen)
     cell_result_free(&b);
 }
 
-/* Two shafts at an angle of 0.6 rad, joined by a cross whose first pin is across both. */
+/* Two shafts at an angle of 0.6 rad, joined by a cross whose first pin is perpendicular to both. */
 static status build_universal(const double value[], scene *s, fault *f)
 {
     static const double path[] = {0, 1}, angle[] = {0, 2.6}, beta = 0.6;
@@ -210,7 +210,7 @@ static void universal_joint(const char *chosen)
     cell_result_free(&r);
 }
 
-/* Four bars that nothing drives, linear and not. */
+/* Four bars without a drive, linear and nonlinear. */
 static status build_loose(const double value[], scene *s, fault *f)
 {
     const double end = 1;
@@ -225,7 +225,7 @@ static status build_loose(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Held at both ends, released so that it can only move by itself. */
+/* Held at both ends, with releases that leave it a mechanism. */
 static status build_between(const double value[], scene *s, fault *f)
 {
     (void)value;
@@ -286,7 +286,7 @@ static void linkage_tests(void)
 }
 
 /* Structures with springs against closed forms: a beam on rotational springs (deflection, buckling,
- * frequency), a sprung cantilever rolled up by a moment, a spring between two bodies that move. */
+ * frequency), a sprung cantilever rolled up by a moment, a spring between two moving bodies. */
 
 #define SPRINGS "harness/analysis/test/springs.yaml"
 
@@ -301,7 +301,7 @@ static void check(const cell_result *r, int i, double exact, double allowed, con
         gsl_test(1, "%s: quantity %d is there", chosen, i);
 }
 
-/* Moments about the origin of forces and moments at two nodes, and the load. */
+/* Equilibrium of moments about the origin: forces and moments at two nodes, and the load. */
 static void equilibrium(const cell_result *r, const char *chosen)
 {
     const double load[3] = {0.3, 1, 0.2},
@@ -321,8 +321,8 @@ static void equilibrium(const cell_result *r, const char *chosen)
     }
 }
 
-/* A cantilever with a spring at its tip, and a second body at it on a spring of six entries: the
- * tip's spring takes its part of the load, the clamp and the ground the rest. */
+/* A cantilever with a spring at its tip and a second body there on a spring with six entries: the
+ * tip's spring carries its part of the load, the clamp and the ground the rest. */
 static void supported(const char *chosen)
 {
     cell_result r;
@@ -366,7 +366,7 @@ static void closed_forms(const char *chosen, int n, double allowed)
     cell_result_free(&r);
 }
 
-/* A very stiff spring is a rigid body. */
+/* A very stiff spring acts as a rigid body. */
 static void stiff(const char *chosen)
 {
     cell_result sprung, rigid;

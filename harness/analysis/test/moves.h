@@ -1,4 +1,4 @@
-/* What only moves in time need not be held, and has no state of rest. */
+/* A structure that is analysed in time only may be free, and then has no static state. */
 #ifndef BEAMWORK_TEST_MOVES_H
 #define BEAMWORK_TEST_MOVES_H
 

@@ -1,7 +1,7 @@
-/* What a path says of itself: where its points are drawn, and which of them are limit points.
+/* Information about a path: the abscissas of its points, and which points are limit points.
  *
- * At a limit point the load factor has an extremum, at a bifurcation it has none: the points of the
- * path alone tell their number of the first kind. */
+ * At a limit point the load factor has an extremum, at a bifurcation it has none: the number of
+ * limit points follows from the points of the path alone. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -76,8 +76,8 @@ static status solve(const case_type *type, const element_type *formulation_type,
                         out);
 }
 
-/* Of what is drawn over the path, or of its control coordinate, each by itself and with a factor
- * and an offset. */
+/* Checks curves over the path or its control coordinate, without and with a factor and an offset.
+ */
 static void abscissas(int continued)
 {
     cell_result r;
@@ -93,7 +93,7 @@ static void abscissas(int continued)
         gsl_test(moved->value[i] != plain->value[i], "%s: values of point %d", what, i);
         gsl_test_abs(moved->x[i], times * plain->x[i] + shift, 1e-15, "%s: abscissa of point %d",
                      what, i);
-        /* the control coordinate is what is drawn */
+        /* the plotted quantity is the control coordinate */
         gsl_test_abs(plain->x[i],
                      continued ? plain->value[i] : scene_path_of(&r.scene.analysis[0])->value[i],
                      1e-9, "%s: point %d itself", what, i);
@@ -105,7 +105,7 @@ static void abscissas(int continued)
     cell_result_free(&r);
 }
 
-/* How often the load factor turns along the points of a path. */
+/* Number of extrema of the load factor along the points of a path. */
 static int turns_of(const curve *c)
 {
     int turns = 0;
@@ -123,7 +123,7 @@ static const curve *load_curve(const cell_result *r)
     return NULL;
 }
 
-/* Points of the last step have no turn behind them: they may show one point less. */
+/* The last step has no later points, so one extremum may be missing. */
 static void kinds_of(const char *name, const element_type *type, int n, const char *parameters,
                      int count[EVENT_KINDS])
 {
@@ -164,7 +164,7 @@ static void events(void)
              count[EVENT_BIFURCATION]);
 }
 
-/* Lengths in another unit: the same points, the same part of the load's work. */
+/* Lengths in a different unit: the same points, the same fraction of the load's work. */
 static void units(const char *name, const char *parameters)
 {
     cell_result in_metres, r;
@@ -196,7 +196,7 @@ static void path_tests(void)
     units("lee_frame", "plane=0");
 }
 
-/* Limits of one formulation: what vanishes leaves the answer that is found without it. */
+/* Limits within one formulation: if a parameter vanishes, the answer is that without it. */
 
 /* Asks a case on a mesh; 1: answered. */
 static int found(const char *name, const char *parameters, const element_type *e, int n,
@@ -208,7 +208,8 @@ static int found(const char *name, const char *parameters, const element_type *e
     return ask_count(tally, out, "%s, %s, n = %d", name, parameters, n);
 }
 
-/* GA to infinity: the shear-flexible cantilever becomes the elastica (L = 1, load 10, EI = 10). */
+/* As GA tends to infinity, the shear-flexible cantilever becomes the elastica (L = 1, load 10, EI =
+ * 10). */
 static void stiff_in_shear(const element_type *e)
 {
     static const int n[2] = {4, 16};
@@ -231,7 +232,7 @@ static void stiff_in_shear(const element_type *e)
                      i == 0 ? "deflection" : "shortening", apart[0][i]);
 }
 
-/* Deflection of the elastica's beam with an initial curvature [1/m]; NAN: not solved. */
+/* Deflection of the elastica beam with an initial curvature [1/m]; NAN: not solved. */
 static double curved(const element_type *e, double curvature, ask_tally *tally)
 {
     static answer a;
@@ -248,14 +249,13 @@ static double curved(const element_type *e, double curvature, ask_tally *tally)
     return ask_count(tally, &a, "curvature %g", curvature) ? a.value[0] : NAN;
 }
 
-/* Curvature to zero: the answer changes in proportion to it, down to where nothing is left of
- * it. */
+/* As the curvature tends to zero, the answer changes in proportion to it, down to round-off. */
 static void nearly_straight(const element_type *e)
 {
     ask_tally tally = {0};
     const double straight = curved(e, 0, &tally), more = curved(e, 1e-4, &tally),
                  slope = (more - curved(e, -1e-4, &tally)) / 2e-4;
-    const int least = isnan(slope) ? 0 : -15; /* nothing to go by: no power */
+    const int least = isnan(slope) ? 0 : -15; /* too few values for an exponent */
     for (int power = -5; power >= least; power -= 2) {
         const double curvature = pow(10, power), change = curved(e, curvature, &tally) - straight;
         gsl_test_abs(change, slope * curvature, 1e-3 * fabs(slope) * curvature + 2e-14,
@@ -266,7 +266,7 @@ static void nearly_straight(const element_type *e)
              "%s: an initial curvature matters (%.1e)", e->name, slope);
 }
 
-/* The shear-rigid form is the printed one without shear. */
+/* The shear-rigid form is the printed form without shear. */
 static void without_shear(const element_type *e, const element_type *rigid)
 {
     static answer a, b;
@@ -290,13 +290,13 @@ static void limits_tests(void)
     }
 }
 
-/* Iterative refinement: what ends it; slender bars along oblique axes, whose solutions settle where
- * the rounding of their forces keeps them; and compliances of so many elements that two refinements
- * do not reach them. */
+/* Iterative refinement: criteria that end it; slender bars along oblique axes, whose accuracy is
+ * limited by the rounding of their forces; and compliances with so many elements that two
+ * refinements are not enough. */
 
 static const double length = 1;
 
-/* Corrections in this order end in that state, with the last of them. */
+/* Checks that this sequence of corrections ends in the given state, at its last correction. */
 static void sequences(void)
 {
     static const struct {
@@ -355,7 +355,7 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
     bar(&s, side, direction);
     ask_scene(&s, e, NULL, n, &a);
     scene_free(&s);
-    if (slenderness > 2e4) { /* at the edge: within what rounding moves, or refused by name */
+    if (slenderness > 2e4) { /* at the limit: within the effect of rounding, or rejected by name */
         if (a.status == STATUS_SINGULAR)
             gsl_test(strstr(a.reason, "round-off") == NULL,
                      "%s, slenderness %g, %d elements: the cause is named: %s", e->name,
@@ -365,7 +365,7 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
     } else if (!ask_count(tally, &a, "bar of slenderness %g, %d elements", slenderness, n)) {
         return;
     }
-    /* eps (L/side)^2 from the forces, with room, and what the mesh rounds */
+    /* eps (L/side)^2 from the forces, with a margin, and rounding of the mesh */
     const double settles = 64 * DBL_EPSILON * slenderness * slenderness + 1e-14 * n;
     for (int k = 0; k < 3; k++)
         gsl_test(!(fabs(a.value[k] / exact - direction[k]) <= settles),
@@ -373,7 +373,8 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
                  e->name, slenderness, n, k, a.value[k] / exact - direction[k]);
 }
 
-/* No correction shows it in one element, whose forces are rounded alike each time. */
+/* With one element no correction reveals the error, because its forces are rounded in the same way
+ * each time. */
 static void too_slender(const element_type *e)
 {
     static const double direction[3] = {0.8, 0.6, 0};
@@ -396,7 +397,8 @@ static void slender_bars(const element_type *e, ask_tally *tally)
                 pushed(e, tally, slenderness, direction[d], n);
 }
 
-/* Where factors have no more than two digits: the same as with fewer elements, which settle. */
+/* If the factors have only two correct digits, the result is the same as with fewer elements, which
+ * converge. */
 static void compliance_of_many(void)
 {
     static answer coarse, fine;

@@ -1,4 +1,4 @@
-/* A small frame with one feature of the table of inputs and one analysis of it, posed and solved.
+/* Builds and solves a small frame with one row of the table of inputs and one analysis.
  */
 #ifndef BEAMWORK_POSED_H
 #define BEAMWORK_POSED_H
@@ -24,7 +24,7 @@ static section_spec spec_of(double size)
     return spec;
 }
 
-/* A cantilever of two members, pushed along itself and across. */
+/* A cantilever of two members under axial and transverse forces. */
 static void base(scene *s)
 {
     scene_init(s, "base");
@@ -38,7 +38,7 @@ static void base(scene *s)
     scene_add_load(s, SCENE_FORCE, TIP, -300, 90, 60);
 }
 
-/* Half a shallow arch of the same, which snaps through whatever else acts. */
+/* Half a shallow arch of the same members, which snaps through whatever else acts. */
 static void arch(scene *s)
 {
     base(s);
@@ -64,11 +64,11 @@ static scene_load *spread(scene *s, double from, double to)
     return load;
 }
 
-/* A section that warps, twisted by a force beside the axis, which has a potential. */
+/* A section that warps, twisted by an eccentric force, which has a potential. */
 static void twist(scene *s)
 {
     s->section[0].constants.Iw = 5e-9;
-    scene_set_body(s, TIP, (scene_body){.inertia = {2, 1, 1, 0, 0, 0}}); /* it turns first */
+    scene_set_body(s, TIP, (scene_body){.inertia = {2, 1, 1, 0, 0, 0}}); /* it rotates first */
     scene_add_load(s, SCENE_FORCE, scene_add_attached(s, TIP, 1, 0.2, 0), 0, 5, 40);
 }
 
@@ -80,7 +80,7 @@ static void ended_in_a_fork(scene *s)
     scene_fork(s, TIP, axis, web);
 }
 
-/* So that nothing of what is strained gives way along itself. */
+/* Prevents free axial expansion of strained members. */
 static void hold_tip(scene *s)
 {
     scene_hold_all(s, TIP);
@@ -95,7 +95,7 @@ static double length_of(const scene *s, int member)
                 (q[2] - p[2]) * (q[2] - p[2]));
 }
 
-/* Load cases 0 and 1, and what an analysis has of them. */
+/* Load cases 0 and 1, and the combination for an analysis. */
 static void combine(scene *s)
 {
     const int all = scene_add_combination(s, "all");
@@ -103,7 +103,7 @@ static void combine(scene *s)
     scene_add_term(s, all, scene_add_case(s, "live"), -1.5);
 }
 
-/* What the base is without, so that the input has something to act on; then the input. */
+/* Adds what the input needs to act on, then the input. */
 static void add(scene *s, const char *name)
 {
     static const double from = 0, whole = 1;
@@ -298,12 +298,13 @@ static void add(scene *s, const char *name)
     } else if (IS("damping"))
         for (int i = 0; i < s->members; i++)
             scene_member_at(s, i)->damping = 1e-4;
-    else if (!IS("velocity at the start") && !IS("rotating axes")) /* which are the analysis's */
+    else if (!IS("velocity at the start") &&
+             !IS("rotating axes")) /* which belong to the analysis */
         s->name[0] = '\0';
 #undef IS
 }
 
-/* Without the input, but with what was only added to carry it. */
+/* Adds what the input needs, without the input itself. */
 static void carry(scene *s, const char *name)
 {
     static const char *const held[] = {"temperature",       "strain of a member", "pretension",
@@ -321,21 +322,21 @@ static void carry(scene *s, const char *name)
 
 static const double end_of_continuation = 0.01;
 
-/* A scene of the table: the input or not, and what a law changes beside it. */
+/* A scene of the table, with or without the input, and the changes that a law makes to it. */
 typedef struct posed {
     const char *name;
     scene_column column;
     int with;
-    double times; /* what the input's loads, strains and motions are times */
-    double size;  /* what all loads, strains and motions are times, */
-    double grown; /* and those loads that do not stay */
+    double times; /* factor of the input's loads, strains and motions */
+    double size;  /* factor of all loads, strains and motions, */
+    double grown; /* and of the loads that are not constant */
     double end;   /* of the static path */
-    double pull;  /* [N] at the tip along y, from the begin of the path on */
-    int turns;    /* 1: the axes of the paths turn */
+    double pull;  /* [N] at the tip along y, from the start of the path */
+    int turns;    /* 1: the axes of the paths rotate */
     int follows;  /* 1: a force at the tip follows it */
 } posed;
 
-/* Loads without a potential are asked for flutter. */
+/* For loads without a potential, flutter is requested. */
 static int flutters(const char *name, scene_column column)
 {
     for (const scene_input *in = scene_inputs; in->name != NULL; in++)
@@ -346,8 +347,7 @@ static int flutters(const char *name, scene_column column)
     return 0;
 }
 
-/* Does it lie at nodes of the mesh that are there for it? Then its member has other elements
- * without it. */
+/* Does the input add nodes to the mesh? Then its member has other elements without it. */
 static int divides(const char *name)
 {
     return strstr(name, "within a member") != NULL || strstr(name, "part of a member") != NULL;
@@ -368,7 +368,7 @@ static posed pose(const char *name, scene_column column, int with)
 
 static const double shaking = 17; /* [Hz] */
 
-/* Of a node for a force or a moment at it, by the real or the imaginary part. */
+/* Adds responses of a node to a force or a moment on it, by real or imaginary part. */
 static void respond(scene *s, const char *name, int analysis, int node, int component, int along,
                     scene_vibration_part part, double at)
 {
@@ -384,7 +384,7 @@ static void respond(scene *s, const char *name, int analysis, int node, int comp
     scene_set_at(scene_add_quantity(s, name, unit, analysis, scene_response_to(what)), at);
 }
 
-/* The analysis of a column; what follows has its own before it. */
+/* Adds the analysis of a column, after the analysis that it follows, if any. */
 static int analyse(scene *s, const posed *p)
 {
     const scene_column column = p->column;
@@ -430,7 +430,7 @@ static int analyse(scene *s, const posed *p)
     }
 }
 
-/* What the analyses have of themselves. */
+/* Adds inputs that belong to the analyses. */
 static void begin(scene *s, const posed *p)
 {
     scene_analysis *last = &s->analysis[s->analyses - 1];
@@ -495,7 +495,7 @@ static void want(scene *s, scene_column column, int analysis)
     }
 }
 
-/* What a member has of strains by itself, times a number. */
+/* Multiplies a member's initial strains by a factor. */
 static void strain(scene_member *m, double length, double times)
 {
     m->strain[0] *= times;
@@ -506,7 +506,7 @@ static void strain(scene_member *m, double length, double times)
         m->unstressed_length = length + times * (m->unstressed_length - length);
 }
 
-/* All of it but analyses. */
+/* Builds the scene without analyses. */
 static void structure(const posed *p, scene *s)
 {
     static const double from = 0, whole = 1;
@@ -519,11 +519,11 @@ static void structure(const posed *p, scene *s)
         add(s, p->name);
     else
         carry(s, p->name);
-    /* what comes before refuses feedback */
+    /* the analysis before it rejects feedback */
     if (p->with && strcmp(p->name, "feedback") == 0 &&
         (p->column == SCENE_OF_HARMONIC_LINEAR || p->column == SCENE_OF_HARMONIC_ABOUT))
         scene_set_factor(s, s->loads - 1, 2, (const double[]){0, 1}, (const double[]){0, 0});
-    /* the search for a limit point wants elements of one length */
+    /* the search for a limit point needs elements of equal length */
     for (int i = 0; i < s->loads && p->column == SCENE_OF_BUCKLING_ABOUT; i++)
         for (int k = 0; k < 2; k++)
             s->load[i].range[k] = round(2 * s->load[i].range[k]) / 2;
@@ -547,7 +547,7 @@ static void structure(const posed *p, scene *s)
         follow(s, scene_add_load(s, SCENE_FORCE, TIP, -3000, 0, 0));
 }
 
-/* The rest of the loads is of the first case, and analyses of loads are of the combination. */
+/* The remaining loads belong to the first case, and load analyses use the combination. */
 static void act(scene *s)
 {
     const unsigned unloaded = 1u << SCENE_MODAL | 1u << SCENE_COMPLIANCE | 1u << SCENE_HARMONIC;

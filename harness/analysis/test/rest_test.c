@@ -1,6 +1,6 @@
-/* No load, no drive, no initial strain: nothing moves and nothing pulls, in every case at every
- * parameter point that is verified, for every formulation and every choice of its options that is
- * judged.  What is checked is counted. */
+/* Without loads, drives and initial strains all displacements and forces are zero: in every case at
+ * every verified parameter point, for every formulation and every evaluated choice of its options.
+ * Checks are counted. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,15 +13,15 @@
 #include "harness/study/study.h"
 
 enum { COMPONENTS = 6, CHOICES = 64 };
-/* Of the structure's size, one radian, and the stiffest force EA of its members: rounding of an
- * arc's curvature in slender members. */
+/* Relative to the structure's size, one radian, and the largest EA of its members; the source is
+ * rounding of an arc's curvature in slender members. */
 static const double still = 1e-10, unstressed = 1e-12;
 
 enum { FORMULATIONS = 64 };
 
 typedef struct rest_tally {
     int points, checked, not_offered;
-    int of[FORMULATIONS]; /* checked, of each formulation */
+    int of[FORMULATIONS]; /* number of checks of each formulation */
 } rest_tally;
 
 static double dimension(const scene *s)
@@ -45,7 +45,7 @@ static double stiffest(const scene *s)
     return EA;
 }
 
-/* The structure alone: loads and drives are there, with value zero. */
+/* The structure alone: loads and drives exist, with value zero. */
 static void leave_alone(scene *s)
 {
     for (int i = 0; i < s->loads; i++)
@@ -90,7 +90,7 @@ static void ask_for_all(scene *s)
             }
 }
 
-/* Largest value, of its limit; and whose it is. */
+/* Largest value relative to its limit, and its quantity. */
 static double largest(const scene *s, const solve_result *r, const char **whose)
 {
     const double size = dimension(s), EA = stiffest(s);
@@ -129,7 +129,7 @@ static void rests(const sweep_point *p, const formulation *chosen, int elements)
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, &f);
         worst = outcome == STATUS_OK ? largest(&s, &r, &whose) : INFINITY;
-        /* Elements whose arcs rise beyond their declared limit are refused by name. */
+        /* Elements whose arcs rise beyond their declared limit are rejected by name. */
         if (outcome == STATUS_NOT_CONVERGED && chosen->type->limits & LIMIT_FLAT_ARC &&
             strstr(f.text, "radii of gyration") != NULL)
             worst = 0;
@@ -141,7 +141,7 @@ static void rests(const sweep_point *p, const formulation *chosen, int elements)
     scene_free(&s);
 }
 
-/* The default and the choices that are judged. */
+/* The default and the evaluated choices. */
 static int choices_of(const element_type *type, formulation list[CHOICES])
 {
     int count = 1;

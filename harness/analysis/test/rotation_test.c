@@ -1,6 +1,6 @@
-/* Structures that turn steadily, through the program's own door: what does not depend on the frame,
- * the formulation's algorithm or the reference point of a body; the stretch of a thick beam; and
- * that a structure at rest pays nothing. */
+/* Structures in steady rotation, through the public interface: results that do not depend on the
+ * frame, the formulation's algorithm or the reference point of a body; the elongation of a thick
+ * beam; and a structure at rest, which costs nothing extra. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -35,8 +35,8 @@ static double value_of(const char *case_name, const char *chosen, int n,
     return value;
 }
 
-/* k = Omega L/c = 1/2 with c the speed of sound: L (tan k/k - 1), by elements of higher order and
- * in the limit of the others. */
+/* k = Omega L/c = 1/2 with c the speed of sound: L (tan k/k - 1), with elements of higher order,
+ * and in the limit with the others. */
 static void stretch(void)
 {
     const char *const thick[] = {"omega_star=5", "slenderness=10", NULL};
@@ -55,7 +55,7 @@ static void stretch(void)
     }
 }
 
-/* Whichever way equilibrium is found. */
+/* The result does not depend on the algorithm for equilibrium. */
 static void algorithms(void)
 {
     const char *const inclined[] = {"axis=0.7", "omega_star=12", "slenderness=30", NULL};
@@ -83,7 +83,7 @@ static const parameter_type with_body_parameters[] = {
     {0},
 };
 
-/* An inclined channel that turns about an axis beside it. */
+/* An inclined channel that rotates about an axis next to it. */
 static status build_with_body(const double value[], scene *s, fault *f)
 {
     (void)f;
@@ -165,7 +165,7 @@ static void at_rest(void)
     cell_result_free(&turning);
 }
 
-/* An inward beam buckles under its own centrifugal force, and the result says so. */
+/* An inward-pointing beam buckles under its own centrifugal force, and this is reported. */
 static void instability_is_named(void)
 {
     const char *const inward[] = {"hub_radius=-2", "omega_star=4", NULL};
@@ -186,16 +186,17 @@ static void rotation_tests(void)
     instability_is_named();
 }
 
-/* A beam that nothing holds: six motions of a rigid body at no frequency, then those of the free
- * beam, (k_i L)^2 sqrt(EI/(rho A L^4)) with cos(k_i L) cosh(k_i L) = 1. The stiffness matrix is
- * singular; its shift must leave no trace in the frequencies. */
+/* A free beam: six rigid-body modes of frequency zero, then the bending modes, (k_i L)^2
+ * sqrt(EI/(rho A L^4)) with cos(k_i L) cosh(k_i L) = 1. The stiffness matrix is singular; its shift
+ * must not affect the frequencies. */
 
 enum { MODES = 10, RIGID = 6 };
 static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.1e11,
                     density = 7300; /* m, m, m, Pa, kg/m^3 */
 static const double root[2] = {4.7300407448627040, 7.8532046240958376};
 
-/* 0: bending about the weak axis, then about the strong one, then the second of each. */
+/* Index 0: bending about the weak axis; then about the strong axis, then the second mode of each.
+ */
 static double exact(int i)
 {
     const double height = i % 2 == 0 ? thickness : width, k = root[i / 2] / length;
@@ -221,13 +222,14 @@ static void free_beam_tests(void)
 {
     frequencies("beamw_vlasov", 32, 1e-5);
     frequencies("beamw_first", 32, 1e-5);
-    /* so many elements that assembling them changes the stiffness: solutions are refined */
+    /* so many elements that rounding in the assembly changes the stiffness: solutions are refined
+     */
     frequencies("beamw_vlasov", 600, 2e-7);
     frequencies("beamw_vlasov", 2400, 2e-7);
 }
 
-/* Model and solvers through their public door: what is left out changes nothing, round-off stays
- * small. */
+/* Model and solvers through their public interface: omitted physics changes nothing, and round-off
+ * stays small. */
 
 static double solve_value_of(const char *case_name, const char *formulation_text, int n,
                              int keep_all, const char *assignment, const char *quantity,
@@ -282,8 +284,8 @@ static void newton(void)
              "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
 }
 
-/* In a first step of 15 degrees the ends of short elements change places: the strains cannot tell,
- * the solver must. */
+/* In a first step of 15 degrees the ends of short elements change places: the strains cannot show
+ * this, so the solver must detect it. */
 static void no_element_is_turned_round(void)
 {
     const double value = solve_value_of("spherical_joint", "beamw_consistent", 32, 0, "wagner=0",
@@ -305,7 +307,7 @@ static void fine_mesh(void)
              order);
 }
 
-/* Far below the largest values the geometric stiffness alone decides the pivots of K - A/s, and
+/* Far below the largest values the geometric stiffness alone determines the pivots of K - A/s, and
  * here they vanish. */
 static void frame_of_strips(void)
 {
@@ -318,7 +320,7 @@ static void frame_of_strips(void)
     }
 }
 
-/* Equal elements round alike: their errors add up to much more than independent ones, and the
+/* Equal elements have equal rounding errors, which add up to much more than independent errors; the
  * inertia is that of the sums. */
 static void equal_elements(void)
 {
@@ -327,8 +329,8 @@ static void equal_elements(void)
     gsl_test_rel(critical, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
 }
 
-/* Two elements between forks have 14 motions, of which two are axial; in some of the others no
- * vertex moves, and only sections turn and warp: they are no axial ones either. */
+/* Two elements on fork supports have 14 modes, two of them axial; in some of the others no node
+ * moves, and only cross-sections rotate and warp, so these are not axial either. */
 static void modes_in_place(void)
 {
     for (int keep_all = 0; keep_all < 2; keep_all++)

@@ -1,5 +1,5 @@
-/* A stiffness matrix that cannot be factored: what is not held is told from what is lost in
- * round-off, and nothing wrong is reported as an answer. */
+/* A stiffness matrix that cannot be factored: a missing support is distinguished from digits lost
+ * in round-off, and no wrong result is reported. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "harness/model/model.h"
 #include "harness/tools/kit/cells.h"
 
-/* Two beams along x, the second beside the first and held by itself; loads along z. */
+/* Two beams along x, the second next to the first and supported separately; loads along z. */
 static void two_beams(scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -35,7 +35,7 @@ static void let_go(scene *s, int node, int first, int last)
                        : &scene_node_at(s, node)->angle[k - SCENE_RX]) = SCENE_FREE;
 }
 
-/* Each lets the second beam go in one way: what its motion is. */
+/* Each case frees the second beam in one way, with the motion that results. */
 static void everywhere(scene *s)
 {
     let_go(s, 2, SCENE_UX, SCENE_RZ);
@@ -53,12 +53,12 @@ static void about_a_hinge(scene *s)
     let_go(s, 2, SCENE_RY, SCENE_RY);
 }
 static void
-between_hinges(scene *s) /* held at both ends, free to turn about the line between them */
+between_hinges(scene *s) /* held at both ends, free to rotate about the line between them */
 {
     let_go(s, 2, SCENE_RX, SCENE_RZ);
     scene_hold(s, 3, SCENE_UX, SCENE_UZ);
 }
-static void between_forks(scene *s) /* nothing holds it along x */
+static void between_forks(scene *s) /* not held along x */
 {
     const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1};
     let_go(s, 2, SCENE_UX, SCENE_RZ);
@@ -82,7 +82,7 @@ static const struct {
     const char *what;
     void (*change)(scene *);
     double motion[6];
-    int any; /* several motions are loose: which one is named does not matter */
+    int any; /* several motions are free: which of them is named does not matter */
 } changes[] = {
     {"all is held", nothing, {0}, 0},
     {"nothing holds it", everywhere, {0}, 1},
@@ -165,8 +165,8 @@ static void all_cases_are_held(void)
     }
 }
 
-/* Stiffnesses 1e-20 apart, and as many elements: no support is blamed, and no number is given for
- * an answer. */
+/* Stiffnesses that differ by 1e-20, and very many elements: no missing support is reported, and no
+ * number is given as a result. */
 static void round_off(void)
 {
     static const struct {
@@ -200,8 +200,8 @@ static void round_off(void)
     gsl_test(lost < 2, "%d were lost in round-off", lost);
 }
 
-/* A V of equal arms, divided differently: what drives its apex along its axis moves it across by
- * round-off, and cannot meet a condition there. */
+/* A V of equal arms with different meshes: a drive of its apex along the axis moves it sideways
+ * only by round-off, and cannot satisfy a condition there. */
 static void driver_that_moves_nothing(double half_angle, int condition_component)
 {
     const double c = cos(half_angle), d = sin(half_angle), z[3] = {0, 0, 1}, path[2] = {0, 1},

@@ -1,5 +1,5 @@
-/* Strains that members have by themselves (heat, a misfit), in analyses about the undeformed state:
- * against closed forms, for every formulation that has them. */
+/* Initial strains (temperature, misfit) in analyses about the undeformed state, against closed
+ * forms, for every formulation that supports them. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -31,7 +31,7 @@ static double euler(void)
     return PI * PI * E * Iz / (L * L);
 }
 
-/* Two members along x, from 0 over L/2 to L, of these strains, not held. Nodes 0, 1, 2. */
+/* Two members along x, from 0 over L/2 to L, with these strains and no supports. Nodes 0, 1, 2. */
 static void two_members(scene *s, const char *name, const double first[3], const double second[3])
 {
     scene_init(s, name);
@@ -43,7 +43,7 @@ static void two_members(scene *s, const char *name, const double first[3], const
                i ? second : first, 3 * sizeof *first);
 }
 
-/* Between walls that it cannot push away, free to turn about y and z there. */
+/* Between rigid walls, free to rotate about y and z there. */
 static void pin(scene *s)
 {
     for (int i = 0; i < 3; i += 2)
@@ -57,7 +57,7 @@ static int asked(scene *s, const element_type *e, ask_tally *tally, int n, answe
     return ask_count(tally, a, "%s, %d elements", s->name, n);
 }
 
-/* Two clamped members, one of them hot: N = -EA eps/2, and the middle gives way by eps L/4. */
+/* Two clamped members, one of them hot: N = -EA eps/2, and the middle moves by eps L/4. */
 static void clamped(const element_type *e, ask_tally *tally)
 {
     static const double eps = 1e-4, hot[3] = {1e-4, 0, 0}, none[3] = {0};
@@ -79,7 +79,7 @@ static void clamped(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[3], eps * L / 4, 1e-9, "%s: the hot one pushes the other", e->name);
 }
 
-/* Free at one end: grows, and is bent by nothing. */
+/* Free at one end: it elongates without bending. */
 static void cantilever(const element_type *e, ask_tally *tally)
 {
     static const double hot[3] = {1e-3, 0, 0}, cold[3] = {-2e-4, 0, 0};
@@ -122,8 +122,8 @@ static void portal(const element_type *e, ask_tally *tally)
     scene_add_quantity(&s, "N", "N", linear, scene_internal_at(1, 0.5, SCENE_N));
     if (!asked(&s, e, tally, 4, &a))
         return;
-    /* half of it: a column under a force at its head, which the beam holds by 2 EI/width against
-     * turning, and half of the beam */
+    /* half of the frame: a column under a force at its head, restrained against rotation by the
+     * beam with 2 EI/width, and half of the beam */
     const double k = E * Iz, head = height * height / (2 * k) / (height / k + width / (2 * k)),
                  flexibility = height * height * height / (3 * k) -
                                head * height * height / (2 * k) + width / (2 * E * A);
@@ -134,7 +134,7 @@ static void portal(const element_type *e, ask_tally *tally)
 /* f = f0 sqrt(1 - N/N_Euler), heated and cooled; and the deflection of the middle by a force. */
 static void pinned(const element_type *e, ask_tally *tally)
 {
-    static const double part[] = {0.5, -1.5}; /* of Euler's load, pressure positive */
+    static const double part[] = {0.5, -1.5}; /* relative to Euler's load, compression positive */
     static answer a;
     for (int i = 0; i < 2; i++) {
         const double P = part[i] * euler(), hot[3] = {P / (E * A), 0, 0},
@@ -160,8 +160,8 @@ static void pinned(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A hot column between walls, pushed at its middle: the force P in one half and -P in the other add
- * to what the heat presses with, which does not grow. */
+/* A hot column between walls, pushed at its middle: the forces P in one half and -P in the other
+ * add to the thermal thrust, which does not grow. */
 static void column(const element_type *e, ask_tally *tally)
 {
     static answer a;
@@ -172,11 +172,11 @@ static void column(const element_type *e, ask_tally *tally)
     scene_add_load(&s, SCENE_FORCE, 1, -2, 0, 0);
     scene_add_quantity(&s, "P", "N", scene_add_buckling(&s, SCENE_NONE),
                        scene_critical_factor(1, 0));
-    if (asked(&s, e, tally, 16, &a)) /* own determinant of two spans */
+    if (asked(&s, e, tally, 16, &a)) /* determinant of two spans, derived here */
         gsl_test_rel(2 * a.value[0], 28005.43, 1e-5, "%s: critical load of a hot column", e->name);
 }
 
-/* Nothing holds it, so that heat stresses nothing. */
+/* The structure is free, so heating causes no stress. */
 static void flying(const element_type *e, ask_tally *tally)
 {
     static const double hot[3] = {1e-3, 0, 0}, none[3] = {0};
@@ -193,7 +193,7 @@ static void flying(const element_type *e, ask_tally *tally)
                      e->name, i);
 }
 
-/* Of a formulation without. */
+/* A formulation without initial strains rejects them. */
 static void refuses(const element_type *e)
 {
     static const double hot[3] = {1e-3, 0, 0};
@@ -229,14 +229,15 @@ static void strain_tests(void)
     gsl_test(walked < 3, "%d formulations have initial strains", walked);
 }
 
-/* Nodes that turn by themselves, because all their members release that: what else they do is
- * defined, in a plane and in space, along the axes and across them; their angle is not. */
+/* Nodes that can rotate freely, because all their members release that rotation: their
+ * displacements are defined, in a plane and in space, along the axes and obliquely; their angle is
+ * not. */
 
 enum { PLANE = 1, BALL = 2 };
 static const double turn_E = 210e9, I = 1e-6, P = 960;
 
-/* Two members of 1 m that meet in hinges about their z, which is `R` times it; how: PLANE: all but
- * the frame's plane is held, BALL: all turns are released. */
+/* Two members of 1 m that meet in hinges about their z axis, rotated by `R`; how: PLANE: motion out
+ * of the frame's plane is held, BALL: all rotations are released. */
 static void two_hinges(scene *s, const double R[9], int how, int moment)
 {
     double at[3][3], y[3], force[3];
@@ -296,7 +297,7 @@ static void ask_one(const element_type *e, ask_tally *tally, const double R[9], 
     scene_free(&s);
     if (!ask_count(tally, &a, "%s", what))
         return;
-    /* two cantilevers share the load; shear adds little where it is rigid in these sections */
+    /* two cantilevers share the load; with these sections shear adds little */
     gsl_test_rel(along_force(&a, R), P / 6 / (turn_E * I), 5e-3, "%s: %s", e->name, what);
     gsl_test(!(a.value[4] > 0), "%s: %s has a frequency", e->name, what);
 }
@@ -311,7 +312,7 @@ static void angle(const element_type *e, const double R[9], int how, const char 
     scene_add_quantity(&s, "rz", "rad", linear, scene_coordinate(1, SCENE_RZ));
     ask_scene(&s, e, NULL, 1, &a);
     scene_free(&s);
-    if (a.count < 2) /* not offered */
+    if (a.count < 2) /* not supported */
         return;
     gsl_test(!isfinite(a.value[0]), "%s: %s moves", e->name, what);
     gsl_test(!isnan(a.value[1]) || strstr(a.why[1], "can rotate freely") == NULL,
@@ -344,8 +345,8 @@ static void idle_turn_tests(void)
     scene_free(&s);
 }
 
-/* Linear buckling where one load stays and another grows: along one line the critical factor is
- * less by what stays. */
+/* Linear buckling with one constant and one growing load: if both act along one line, the constant
+ * load reduces the critical factor by its value. */
 
 enum { NO_MODE, PUSHES, PULLS, BOTH_GROW, CRITICAL, BENT, WAYS };
 
@@ -359,7 +360,7 @@ static void staying_column(int way, scene *s)
     scene_init(s, "column");
     const int tip = scenes_cantilever(s, &spec);
     const int push = scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
-    if (way == BOTH_GROW) /* from a half to the whole */
+    if (way == BOTH_GROW) /* from a half to the full load */
         scene_set_factor(s, push, 3, ends, growing);
     else if (way == BENT)
         scene_set_factor(s, push, 3, ends, bent);

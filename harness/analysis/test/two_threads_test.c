@@ -1,5 +1,5 @@
-/* A model does not change once it is made: solutions of it in two threads at once have the bits of
- * one alone. */
+/* A model does not change once it is made: two simultaneous solutions in two threads are bitwise
+ * equal to a single one. */
 #include <gsl/gsl_test.h>
 #include <pthread.h>
 #include <string.h>

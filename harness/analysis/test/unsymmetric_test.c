@@ -1,5 +1,5 @@
-/* Small motions about states with an unsymmetric stiffness: columns under a load that follows their
- * tip, beside Beck's characteristic equation and LAPACK. */
+/* Small motions about states with an unsymmetric stiffness: columns under a follower load at the
+ * tip, against Beck's characteristic equation and LAPACK. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,8 +15,8 @@
 #include "harness/numerics/test/matrices.h"
 #include "harness/study/study.h"
 
-/* Clamped column of length 1, EI = 1, mass 1, with a mass at its tip, in `planes` planes that do
- * not touch, the stiffness of the second one `ratio` times that of the first; P follows the tip. */
+/* Clamped column of length 1, EI = 1, mass 1, with a mass at its tip, in `planes` uncoupled planes;
+ * the stiffness in the second plane is `ratio` times that in the first; P follows the tip. */
 typedef struct checked_column {
     sparse K, M, C;
 } checked_column;
@@ -99,7 +99,7 @@ static double difference(double P, int elements, double tip)
     return value;
 }
 
-/* Where two frequencies meet: bisection, then a line on the unstable side. */
+/* Load at which two frequencies meet: bisection, then linear interpolation on the unstable side. */
 static double flutter_load(double low, double high, int elements, double tip)
 {
     while (high - low > 1e-3 * high) {
@@ -130,7 +130,7 @@ static void columns(void)
     gsl_test_rel(flutter_load(12, 25, 16, 1), 16.21213, 2e-5, "Pflueger 1");
 }
 
-/* Frequencies, sum and product of the two that meet, and no growth before. */
+/* Frequencies, sum and product of the two that meet, and no growth below the flutter load. */
 static void near_flutter(void)
 {
     static const double load[] = {19, 20.05, 20.0509, 20.052, 20.1, 22};
@@ -164,7 +164,7 @@ static void near_flutter(void)
         }
 }
 
-/* Damping of the member: the load is another, 10.94 for little of it. */
+/* Member damping changes the flutter load: 10.94 for small damping. */
 static void damped(void)
 {
     static const double load[] = {10.9, 10.97, 20};
@@ -183,7 +183,7 @@ static void damped(void)
     }
 }
 
-/* Without a load all is symmetric: frequencies of a clamped column, none of them growing. */
+/* Without a load the matrices are symmetric: frequencies of a clamped column, without growth. */
 static void unloaded(void)
 {
     static const double root[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.995540735};
@@ -208,9 +208,9 @@ static void unsymmetric_tests(void)
     unloaded();
 }
 
-/* A rigid body is what its points are: masses without inertia at attached nodes give the motions of
- * one body with their centre and inertia, at rest, loaded and in a frame that turns, wherever on
- * the body it is said to be, and however the body may turn. */
+/* A rigid body is equivalent to its point masses: masses at attached nodes give the motions of one
+ * body with their centre and inertia, at rest, under load and in a rotating frame, for any
+ * reference point and any orientation of the body. */
 
 enum { AS, SUPPORT, LOADED };
 enum { POINTS, AT_HUB, BESIDE };
@@ -230,7 +230,7 @@ static const double mass[MASSES] = {0.31, 0.17, 0.23, 0.41}, hub_at[3] = {0.53, 
                                         {0.58, 0.13, -0.16},
                                         {0.66, 0.02, -0.09}};
 
-/* Of the points, its centre from `from`. */
+/* Body equivalent to the points; its centre is measured from `from`. */
 static scene_body body_of_points(const double from[3])
 {
     scene_body b = {0};
@@ -379,14 +379,14 @@ static void body_tests(void)
     algorithms();
 }
 
-/* What a mode looks like, asked of motions that are made up: each family, any number of half-waves,
- * members in any direction, and motions in which no vertex leaves its place. */
+/* Classification of modes, tested with constructed motions: each family, any number of half-waves,
+ * members in any direction, and modes in which no node is displaced. */
 
 enum { ELEMENTS = 24, MEMBERS = 2, MOST_WAVES = 5, TURN_Y = 4, TURN_Z = 5, WARPING = 6 };
 static const double length = 2;
 
-/* Two equal members along x', the first axis of any triad: the second does not count for
- * half-waves. */
+/* Two equal members along x', the first axis of a given triad; the second is not included in the
+ * count of half-waves. */
 static int make(const double R[9], scene *s, model **m)
 {
     fault f = {""};
@@ -408,8 +408,8 @@ static int make(const double R[9], scene *s, model **m)
     return made == STATUS_OK;
 }
 
-/* Adds to a mode: local component k of every vertex of a member follows a sine of so many
- * half-waves. */
+/* Adds to a mode: local component k at every node of a member follows a sine with the given number
+ * of half-waves. */
 static void add(const model *m, const double R[9], int member, int k, int waves, double size,
                 double x[])
 {
@@ -472,7 +472,7 @@ static void in_direction(const double R[9])
                             (modes_part[]){{k, waves, k == 3 ? 1 / r : 1},
                                            {other, waves + 2, other == 3 ? 0.8 / r : 0.8}},
                             moved[k], waves, "the larger of two motions");
-            /* of sections that turn in place, and of warping */
+            /* of sections that rotate in place, and of warping */
             static const int turn[] = {TURN_Z, TURN_Y, WARPING};
             const double unit[] = {1 / r, 1 / r, 1 / (r * r)};
             for (int k = 0; k < 3; k++) {
@@ -497,7 +497,7 @@ static void in_direction(const double R[9])
     scene_free(&s);
 }
 
-/* What a quantity asks for. */
+/* The request of a quantity: family and order. */
 static void families(void)
 {
     for (int family = SCENE_AXIAL; family <= SCENE_TORSION; family++)

@@ -1,4 +1,4 @@
-/* Gravity on bodies: forces m g at centres of mass that move with their nodes. */
+/* Gravity on bodies: forces m g at centres of mass, which move with their nodes. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +26,7 @@ static int leaf_profile(scene *s)
 static const scene_body heavy = {
     .mass = 0.4, .centre = {0.02, -0.03, 0.05}, .inertia = {2e-4, 3e-4, 4e-4, 1e-5, 0, 0}};
 
-/* Its weight as it is, or by hand. */
+/* Adds the weight by gravity, or as a force by hand. */
 static void add_weight(scene *s, int node, const double by[3], int by_hand)
 {
     const double m = by_hand ? s->node[node].body.mass : 1;
@@ -47,7 +47,7 @@ static void add_balances(scene *s, int motion, int scheme)
     }
 }
 
-/* A cantilever with a body beside its tip, in all analyses. */
+/* A cantilever with an eccentric body at its tip, in all analyses. */
 static void all_analyses(scene *s, int by_hand)
 {
     static const double down[3] = {0.3, -9.81, 1.2}, spin[3] = {3, -2, 5}, path = 2e-4;
@@ -80,7 +80,7 @@ static void all_analyses(scene *s, int by_hand)
     }
 }
 
-/* Every analysis has the very bits of the force by hand. */
+/* Every analysis agrees bitwise with the force set by hand. */
 static void by_hand(void)
 {
     scene s;
@@ -98,8 +98,8 @@ static void by_hand(void)
                  one.value[i], other.value[i]);
 }
 
-/* Hung on a short stiff bar: the reaction is both weights, the moment that of the centre where it
- * is then. */
+/* Hung on a short stiff bar: the reaction is the sum of both weights, and the moment is about the
+ * displaced centre. */
 static void hung(void)
 {
     static const double down[3] = {0, -9.81, 0};
@@ -127,7 +127,7 @@ static void hung(void)
                  "moment, but for the bar's own weight where it bends");
 }
 
-/* A body on a pin that lets it turn about z alone, or freely on what is held there. */
+/* A body on a pin that rotates about z only, or freely, with the given supports. */
 static int pinned(scene *s, int holds, scene_body body)
 {
     static const int last[] = {SCENE_RY, SCENE_UZ, SCENE_UY, SCENE_UY},
@@ -143,8 +143,8 @@ static int pinned(scene *s, int holds, scene_body body)
     return pin;
 }
 
-/* Small swings of a body whose centre is beside its pin, of any amplitude near none: 2 pi sqrt(I/m
- * g d). */
+/* Small oscillations of a body whose centre is at a distance from its pin, for any small amplitude:
+ * 2 pi sqrt(I/m g d). */
 static void period(void)
 {
     static const double steps[] = {[SCENE_ALPHA] = 5000,
@@ -179,8 +179,8 @@ static void period(void)
                      steps[i] > 1000 ? 2e-7 : 2e-8, "period of scheme %d: %s", i, a.reason);
 }
 
-/* A heavy top that falls, on a pin or on one that slides along z, or in the plane: the work of its
- * weight is what -m g . r_c loses, and all of it is energy. */
+/* A heavy top that falls, on a fixed pin or on a pin that slides along z or in the plane: the work
+ * of its weight equals the decrease of -m g . r_c, and becomes energy completely. */
 static void top(int holds)
 {
     static const scene_body body = {
@@ -222,8 +222,7 @@ static void top(int holds)
     gsl_test(!(moved > 0.1), "it falls: %g m", moved);
 }
 
-/* A column without mass under a body whose centre is `above` its head: k L tan(k L) = L/above, of
- * any height without. */
+/* A massless column under a body whose centre is `above` its head: k L tan(k L) = L/above. */
 static void column(double above)
 {
     const double L = 0.5, mass = 0.25, EI = 210e9 * 10e-3 * pow(2e-3, 3) / 12;
@@ -262,19 +261,19 @@ static void weight_tests(void)
     column(0.2);
 }
 
-/* Forks: the web stays between the guides however the beam is bent, the reaction turns with the
- * section, and nothing depends on the axes in which the scene is written.  A rotation held about a
- * fixed axis fails all three. */
+/* Fork supports: the web stays between the guides however the beam is bent, the reaction rotates
+ * with the section, and nothing depends on the axes of the scene. A rotation held about a fixed
+ * axis fails all three checks. */
 
 enum {
     MOVED = 0,
     MOMENT = 3,
     TURN = 6,
     VALUES = 9
-}; /* of the middle, on the first fork, of the first fork */
+}; /* of the middle, on the first fork, and of the first fork */
 
-/* Both ends in forks, translations held, a force in the middle; everything turned by Q from: beam
- * along x, web along z. */
+/* Fork supports at both ends, translations held, a force in the middle; everything rotated by Q
+ * from a beam along x with its web along z. */
 static void bent_beam(const double Q[9], const double force[3], scene *s)
 {
     static const char *const name[VALUES] = {"u0", "u1", "u2", "M0", "M1", "M2", "t0", "t1", "t2"};
@@ -324,8 +323,8 @@ static int solve(const element_type *type, const double Q[9], const double force
 
 static const double straight[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* In a state bent in both planes the web is at right angles to the guides' normal, and their
- * moment to web and normal. */
+/* In a state bent in both planes the web is perpendicular to the guides' normal, and their moment
+ * is perpendicular to both. */
 static void web_between_guides(const element_type *type, ask_tally *tally)
 {
     const double force[3] = {0, 0.6, -6}, normal[3] = {0, -1, 0}, z[3] = {0, 0, 1};
@@ -346,7 +345,7 @@ static void web_between_guides(const element_type *type, ask_tally *tally)
              "%s: the fork's moment %g is not across web and normal: %g", type->name, size, part);
 }
 
-/* The same beam in other axes: vectors turn with it. */
+/* The same beam in other axes: vectors rotate with it. */
 static void in_other_axes(const element_type *type, ask_tally *tally)
 {
     const double force[3] = {0, 0.6, -6}, turn[3] = {0.7, -1.1, 0.4};
@@ -415,18 +414,18 @@ static void fork_tests(void)
     refuse("an axis across the member", axis_across);
 }
 
-/* Compliance of a node whose prescribed motion is released: forces and moments of fixed axes are
- * dead, whether they are loads or reactions. What is a load is no reaction, so the compliance does
- * not depend on how both share what holds the node where it is. */
+/* Compliance of a node whose prescribed motion is released: forces and moments about fixed axes are
+ * dead, whether they are loads or reactions. Loads are not counted as reactions, so the compliance
+ * does not depend on how the two share the force that holds the node. */
 
 static const double young = 2e11, side = 0.02, length = 1;
 
 typedef struct released_request {
-    double force, moment; /* loads at the driven node, parts of EI/l^2, EI/l */
+    double force, moment; /* loads at the driven node, in units of EI/l^2, EI/l */
     unsigned driven;      /* components of the tip */
 } released_request;
 
-/* A cantilever, its tip driven away; all entries of the compliance that Fx .. Mz make of the driven
+/* A cantilever with a driven tip, and all entries of the compliance from Fx ... Mz to the driven
  * components. */
 static void make(scene *s, const released_request *what)
 {
@@ -467,7 +466,8 @@ static void released_solve(const element_type *type, const released_request *wha
     scene_free(&s);
 }
 
-/* Largest difference of an entry, by the geometric mean of its diagonal ones. */
+/* Largest difference of an entry, relative to the geometric mean of the corresponding diagonal
+ * entries. */
 static double apart(const answer *a, const answer *b)
 {
     double worst = 0;
