@@ -10,12 +10,12 @@ static status prepare(const element_request *request, element_data *out, fault *
 
 const element_type element_beamw = {
     .name = "beamw",
-    .summary =
-        "BEAMW as printed, misprints corrected: shear-deformable thin-walled beam, second order",
+    .summary = "BEAMW as published, with misprints corrected: shear-deformable thin-walled beam, "
+               "second order",
     .source = "J Eqs. 7, 66, App. A",
     BEAMW_VARIANT_TYPE,
     .offers = BEAMW_OFFERS | FEATURE_SHEAR,
     .shear_theories = SHEAR_OWN,
-    .own_theory = "J Eq. 66: modified modes that see no shear (reference/ERRATA.md, J 58/62/66)",
+    .own_theory = "J Eq. 66: modified modes that exclude shear (reference/ERRATA.md, J 58/62/66)",
     .prepare = prepare,
 };

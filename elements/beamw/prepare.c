@@ -16,8 +16,8 @@ const parameter_type beamw_prepare_inside[] = {
     {"torsion", "", BEAMW_TWIST_CUBIC, 0, 0, "cubic|hyperbolic",
      "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion"},
     {"inside", "", 1, 0, 0, "linear|following",
-     "bending, shear and warping inside the element: as without stress, or in equilibrium under "
-     "stress"},
+     "bending, shear and warping inside the element: as in the stress-free element, or in "
+     "equilibrium under stress"},
     {0},
 };
 

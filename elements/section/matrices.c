@@ -17,8 +17,8 @@ static status make_symmetric(double A[36], const char *name, double *asymmetry, 
     for (int i = 0; i < 36; i++)
         if (!isfinite(A[i]))
             return fault_set(f, STATUS_REFUSED,
-                             "section: the %s matrix has an entry that is not a number; give "
-                             "36 finite ones, or the six of its diagonal",
+                             "section: the %s matrix has an entry that is not a number; give 36 "
+                             "finite entries, or the six on its diagonal",
                              name);
     for (int i = 0; i < N; i++)
         for (int j = 0; j < i; j++)
@@ -109,10 +109,11 @@ static status check_mass(section *c, fault *f)
     const int slice = make_slice(M);
     const double m = M[0];
     if (!slice)
-        return fault_set(f, STATUS_REFUSED,
-                         "section: the mass matrix is not that of a slice: m on the first three of "
-                         "the diagonal, (1, 5) = -(2, 4) = m cz, -(1, 6) = (3, 4) = m cy, and "
-                         "moments of inertia in the last three rows and columns");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "section: the mass matrix is not that of a slice of a beam: it needs m in the first "
+            "three entries of the diagonal, (1, 5) = -(2, 4) = m cz, -(1, 6) = (3, 4) = m cy, and "
+            "moments of inertia in the last three rows and columns");
     section_matrices_centre(c, centre);
     const double square = vec3_dot(centre, centre);
     for (int i = 0; i < 3; i++)
@@ -120,10 +121,11 @@ static status check_mass(section *c, fault *f)
             J[3 * i + j] =
                 M[N * (3 + i) + 3 + j] - m * ((i == j ? square : 0) - centre[i] * centre[j]);
     if (!is_semidefinite(J))
-        return fault_set(f, STATUS_REFUSED,
-                         "section: the mass matrix has a negative moment of inertia about the "
-                         "centre of mass (0, %g, %g) m; give larger ones in its last three rows",
-                         centre[1], centre[2]);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "section: the mass matrix has a negative moment of inertia about the centre of mass "
+            "(0, %g, %g) m; increase the entries in its last three rows",
+            centre[1], centre[2]);
     return STATUS_OK;
 }
 

@@ -194,7 +194,7 @@ static status apply_given(const section_spec *s, section *out, fault *f)
         if (!isnan(whole[i].value) && s->kind != SECTION_WALLS)
             return fault_set(f, STATUS_REFUSED,
                              "section: 'given: {%s}' applies to thin walls; other sections compute "
-                             "it from their sizes: remove it, or give 'constants'",
+                             "it from their dimensions: remove it, or give 'constants'",
                              whole[i].name);
     override(&out->A, s->given.A);
     override(&out->Iy, s->given.Iy);

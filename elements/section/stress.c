@@ -179,8 +179,8 @@ status stress_points_of(const section_spec *spec, const section *constants, stre
         break;
     }
     return fault_set(f, STATUS_REFUSED,
-                     "stresses of a section that is given by numbers: it has no points; describe "
-                     "it by sizes or walls, or request resultants");
+                     "a section given by constants has no points for stresses; describe it by "
+                     "dimensions or walls, or request resultants");
 }
 
 /* Stresses at a fibre: along it, and in y and z across it. */

@@ -43,11 +43,10 @@ static status check_walls(const section_spec *p, const section_spec *q, fault *f
     for (int w = 0; !differ && w < p->walls; w++)
         differ = p->wall[w].from != q->wall[w].from || p->wall[w].to != q->wall[w].to;
     if (differ)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "its section changes from %d walls to %d that are "
-            "connected differently; give both the same points and walls, with other sizes",
-            p->walls, q->walls);
+        return fault_set(f, STATUS_REFUSED,
+                         "its section changes from %d walls to %d that are connected differently; "
+                         "give both the same points and walls, with different dimensions",
+                         p->walls, q->walls);
     return STATUS_OK;
 }
 
@@ -91,8 +90,8 @@ static int walls_change(const section_spec *p, const section_spec *q)
 static status check_warping(const section_spec *p, const section_spec *q,
                             const section *const ends[2], fault *f)
 {
-    static const char remedy[] = "omit its warping (given: {Iw: 0} at both ends), or let only "
-                                 "sizes change that keep both";
+    static const char remedy[] = "omit its warping (given: {Iw: 0} at both ends), or change only "
+                                 "dimensions that change neither";
     const double size = sqrt(ends[0]->Ip / ends[0]->A) + sqrt(ends[1]->Ip / ends[1]->A);
     if (!(ends[0]->Iw > 0) && !(ends[1]->Iw > 0))
         return STATUS_OK;
@@ -103,15 +102,14 @@ static status check_warping(const section_spec *p, const section_spec *q,
             moves |= out_of_plane(p, q, ends, w) > same * size;
     if (moves)
         return fault_set(f, STATUS_REFUSED,
-                         "its section warps, and along it the shear centre moves or walls leave "
-                         "their planes, which couples warping with torsion; %s",
+                         "its section warps, and along the member the shear centre moves or walls "
+                         "leave their planes, which couples warping with torsion; %s",
                          remedy);
     if (p->cells > 0 && walls_change(p, q))
         return fault_set(
             f, STATUS_REFUSED,
-            "its closed cells change along it, "
-            "and so does their sectorial coordinate, which couples warping with torsion; omit "
-            "its warping (given: {Iw: 0} at both ends)");
+            "its closed cells change along the member, and so does their sectorial coordinate, "
+            "which couples warping with torsion; omit its warping (given: {Iw: 0} at both ends)");
     return STATUS_OK;
 }
 
@@ -132,7 +130,7 @@ status section_taper_check(const section_spec *p, const section_spec *q,
     if (p->given.A != q->given.A && !isnan(p->given.A))
         return fault_set(f, STATUS_REFUSED,
                          "its section changes from one rolled profile, or given A, to another, and "
-                         "the constants between them are not known; give both by their sizes");
+                         "the constants between them are not known; give both by their dimensions");
     if (p->kind == SECTION_WALLS)
         TRY(check_walls(p, q, f));
     return check_warping(p, q, ends, f);

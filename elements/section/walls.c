@@ -239,9 +239,10 @@ static status check_walls(const section_spec *s, fault *f)
     for (int w = 0; w < s->walls; w++) {
         const int a = s->wall[w].from, b = s->wall[w].to;
         if (a < 0 || a >= s->points || b < 0 || b >= s->points)
-            return fault_set(f, STATUS_REFUSED,
-                             "section: wall %d names point %d of %d; number points from 0", w,
-                             a < 0 || a >= s->points ? a : b, s->points);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "section: wall %d names point %d, but the %d points are numbered from 0", w,
+                a < 0 || a >= s->points ? a : b, s->points);
         if (!(s->wall[w].thickness > 0) || !isfinite(s->wall[w].thickness))
             return fault_set(f, STATUS_REFUSED,
                              "section: thickness of wall %d is %g m; it must be positive", w,

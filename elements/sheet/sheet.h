@@ -277,7 +277,7 @@ element_order sheet_base_order(element_analysis, const double options[]);
     .lanes = LANES_TOGETHER, .strain_many = sheet_base_strain_many
 #define SHEET_BASE_WITHOUT_SHEAR                                                                   \
     .offers = SHEET_BASE_OFFERS, .shear_theories = SHEAR_OWN,                                      \
-    .own_theory = "N Eq. 37: generalized strains that see no shear (reference/ERRATA.md, N 37)"
+    .own_theory = "N Eq. 37: generalized strains that exclude shear (reference/ERRATA.md, N 37)"
 
 /* Second-order elements of N sections 2.3-2.4: quadratic deformation function, linear stress
  * function (N Eqs. 33-36). */

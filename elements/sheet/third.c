@@ -83,7 +83,7 @@ status sheet_third_prepare(const element_request *request, int printed, element_
     if (request->strain[1] != 0)
         return fault_set(
             f, STATUS_REFUSED,
-            "initial shear strain %g along the thickness: N Eq. 50 has none; remove it",
+            "initial shear strain %g along the thickness: N Eq. 50 does not include it; remove it",
             request->strain[1]);
     out->bending =
         request->length * request->length / (request->section->young * request->section->Iz);

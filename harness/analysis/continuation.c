@@ -131,7 +131,7 @@ static status try_step(continuation *p, path_goal goal, double station, int last
     if (t->doubt == NULL && !hidden)
         TRY(continuation_critical(p, goal, &jump, f));
     if (hidden)
-        t->doubt = "stability changes and changes back within it";
+        t->doubt = "stability changes and changes back within the step";
     if (jump)
         t->doubt = "the pivots of its tangent stiffness change without a critical point";
     return STATUS_OK;

@@ -263,7 +263,7 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
             p->undecided_from, p->undecided_to);
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason);
     } else
-        quantity_no_value(r, o->status, "no such point on the path");
+        quantity_no_value(r, o->status, "the path has no such point");
 }
 
 int continuation_extract(const analysis_context *c, const scene_quantity *q,

@@ -140,7 +140,7 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
     if (outcome != STATUS_OK || growth == 0)
         return outcome;
     return fault_set(f, STATUS_REFUSED,
-                     "nothing vibrates steadily, because a mode grows with %.4g 1/s: see modal: "
+                     "there are no steady vibrations, because a mode grows at %.4g 1/s: see modal: "
                      "{damped: yes}; add damping, or make %s smaller",
                      growth, v->loops > 0 ? "gains of feedback" : "cross terms of springs");
 }
@@ -202,8 +202,8 @@ static status find_modes_with(vibration *v, const sparse *const of[], matrix_fac
     const status factored = factor_numeric(factor, of[0], &why);
     if (factored == STATUS_SINGULAR)
         return fault_set(f, STATUS_REFUSED,
-                         "damped modes require stiffness against every motion, but one motion has "
-                         "none: hold the structure, or support it by a soft spring%s",
+                         "damped modes require stiffness in every direction, but the structure "
+                         "can move freely in one: hold it, or support it by a soft spring%s",
                          closed ? ", or give feedback a proportional gain" : "");
     if (factored != STATUS_OK)
         return fault_set(f, factored, "%s", why.text);

@@ -29,8 +29,8 @@ static int is_turned(const scene *s, int node, int component, fault *f)
     if (idle == 0 || (idle == SCENE_IDLE_AXIS && fabs(axis[component - SCENE_RX]) <= 1e-9))
         return 1;
     fault_set(f, STATUS_REFUSED,
-              "%s can rotate freely, since all members there release that: its angle is "
-              "undefined; request the angle of a member's other end, or join one of them",
+              "%s can rotate freely, since all members there release this rotation: its angle is "
+              "undefined; request the angle of a member's other end, or join one of the members",
               scene_called(s, SCENE_NODES, node).text);
     return 0;
 }

@@ -276,7 +276,7 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
     } else if (!known) {
         quantity_no_value(r, STATUS_NO_VALUE,
                           q->reduction >= SCENE_CROSSING && q->reduction <= SCENE_PER_SECOND
-                              ? "the motion does not cross the level so often in that time"
+                              ? "the motion crosses the level fewer times in this time"
                               : "no part of the motion lies in that time window");
     } else {
         r->value = quantity_scaled(q, found->value);
@@ -292,9 +292,10 @@ static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quan
     char why[FAULT_TEXT];
     if (!peak->known)
         return;
-    snprintf(why, sizeof why,
-             "unbounded at %.6g Hz, where nothing damps it; add damping, or write take: curve",
-             peak->hertz);
+    snprintf(
+        why, sizeof why,
+        "unbounded at %.6g Hz, where nothing damps the motion; add damping, or write take: curve",
+        peak->hertz);
     if (peak->unbounded) {
         quantity_no_value(r, STATUS_NO_VALUE, why);
         return;

@@ -171,8 +171,8 @@ static status look_between(search *s, station a, station b, station c, int i, fa
 /* The search ends after `last`. */
 static status is_lost(const search *s, const char *why, fault *f)
 {
-    return fault_set(f, STATUS_NOT_CONVERGED,
-                     "no critical load from path 0 to %g; from there on %s", s->last.path, why);
+    return fault_set(f, STATUS_NOT_CONVERGED, "no critical load from path 0 to %g; beyond %s",
+                     s->last.path, why);
 }
 
 /* Is the growth at `next` larger than round-off? */
@@ -182,7 +182,7 @@ static status confirm(search *s, fault *f)
     TRY(look_closely(s, s->next.path, 1, &again, f));
     return again.kind != FLUTTER_NONE
                ? STATUS_OK
-               : is_lost(s, "growing motions are lost in round-off of the tangent", f);
+               : is_lost(s, "growing modes are lost in the round-off of the tangent", f);
 }
 
 /* From the kept state, which is that of `last`, to the first unstable station s->next. */
@@ -214,7 +214,7 @@ static status walk(search *s, fault *f)
         if (s->next.kind != FLUTTER_NONE)
             return confirm(s, f);
         if (s->next.count < s->last.count)
-            return is_lost(s, "slow motions are lost in round-off of the tangent", f);
+            return is_lost(s, "slow modes are lost in the round-off of the tangent", f);
         const station c = s->next;
         for (int i = 0; stations > 0 && !s->of.massless && !s->of.damped && i + 1 < WATCHED + 2 &&
                         i + 1 < c.count;
@@ -322,7 +322,7 @@ static status run(search *s, flutter_point *out, fault *f)
     if (s->last.kind != FLUTTER_NONE)
         return fault_set(
             f, STATUS_REFUSED,
-            "the state at path 0 is not stable: %s; critical loads require a stable one",
+            "the state at path 0 is not stable: %s; critical loads require a stable state",
             flutter_name(&s->of, s->last.kind));
     TRY(walk(s, f));
     return close_in(s, out, f);

@@ -52,8 +52,8 @@ status harmonic_input(const vibration *v, const scene_response *r, double w, dou
         }
     return moves ? STATUS_OK
                  : fault_set(f, STATUS_REFUSED,
-                             "%s is held or driven against the force, which therefore moves "
-                             "nothing; name another component, or a motion with 'drive'",
+                             "%s is held or driven, so a force along it moves nothing; name "
+                             "another component, or a motion with 'drive'",
                              scene_called(model_scene(m), SCENE_NODES, r->forced).text);
 }
 

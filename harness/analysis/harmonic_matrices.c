@@ -58,8 +58,8 @@ static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
         history_stability_at(c->result, c->scene->analysis[v->analysis].follows, at);
     if (stands == STEP_UNSTABLE || stands == STEP_GROWS)
         return fault_set(f, STATUS_REFUSED,
-                         "the state at path %g is unstable: nothing vibrates steadily about it; "
-                         "end the path before it",
+                         "the state at path %g is unstable, so there are no steady vibrations "
+                         "about it; end the path before this state",
                          at);
     model_linearisation lin = {.path = at, .K = &v->K, .residual = v->room};
     return linearise_state(&c->eq, &c->run->memory, v->state, &lin, f);
@@ -80,13 +80,14 @@ status harmonic_matrices(vibration *v, int whole, fault *f)
     if (follows == SCENE_NONE) {
         if (linear_initial(c->model) > 0)
             return fault_set(f, STATUS_REFUSED,
-                             "members have initial strains, whose stresses the undeformed state "
-                             "lacks; name a static analysis with 'about'");
+                             "members have initial strains, whose stresses are absent in the "
+                             "undeformed state; name a static analysis with 'about'");
         TRY(linear_system_of(v, NULL, f));
     } else if (c->scene->analysis[follows].kind == SCENE_LINEAR) {
         const analysis_outcome *o = &c->outcomes[follows];
         if (o->status != STATUS_OK)
-            return fault_set(f, o->status, "its base analysis: %.150s", o->reason);
+            return fault_set(f, o->status, "the analysis of the base state failed: %.150s",
+                             o->reason);
         TRY(linear_system_of(v, outcome_displacements(o, c->eq.loading.acting), f));
     } else {
         TRY(tangent_of(v, &c->outcomes[follows], f));

@@ -61,7 +61,7 @@ static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
                      factor_count(m->factor).negative_pivots < 0
                          ? "undamped modes require a symmetric stiffness, but follower loads or "
                            "springs make it unsymmetric; remove 'solution' and 'ratios'"
-                         : "the state is unstable: nothing vibrates steadily about it");
+                         : "the state is unstable, so there are no steady vibrations about it");
 }
 
 status harmonic_modes_blocks(vibration *v, harmonic_modes *m, fault *f)

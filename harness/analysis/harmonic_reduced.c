@@ -289,7 +289,7 @@ status harmonic_modes_factor(vibration *v, double w, fault *f)
     if (!(m->positive > 0))
         return fault_set(f, STATUS_NOT_CONVERGED,
                          "at %g Hz the first %d modes give no error bound; use more modes, up to "
-                         "frequencies well above it, or remove solution: modal",
+                         "well above this frequency, or remove solution: modal",
                          w / (2 * PI), m->kept);
     v->c->run->counters.dense_operations += (double)count * (double)count * (double)count;
     if (size == 0)

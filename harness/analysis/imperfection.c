@@ -91,8 +91,8 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
     if (same.count == 1)
         return STATUS_OK;
     if (same.count > 2 || vec3_norm(p->direction) == 0)
-        return fault_set(f, STATUS_REFUSED, "%s: %s is one of %d with the same value; %s", who.text,
-                         mode, same.count,
+        return fault_set(f, STATUS_REFUSED, "%s: %s is one of %d modes with the same value; %s",
+                         who.text, mode, same.count,
                          same.count > 2 ? "give shifts of nodes, or make parts unequal"
                                         : "give its direction: [x, y, z]");
     double *u = calloc(2 * ((size_t)size.vertices * NODE_COORDINATES + n + (size_t)size.driven) + 1,
@@ -112,8 +112,8 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
     free(u);
     return found ? STATUS_OK
                  : fault_set(f, STATUS_REFUSED,
-                             "%s: its direction does not choose between modes %d and %d, which are "
-                             "equal; give another one",
+                             "%s: modes %d and %d are equal, and the direction does not choose "
+                             "between them; give another direction",
                              who.text, same.mode[0], same.mode[1]);
 }
 

@@ -174,8 +174,8 @@ static status begin_at_rest(newton_run *n, fault *f)
     return factor_count(n->factor).negative_pivots == 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "critical loads require a stable state; neither the start state nor the "
-                           "state at path 0 is stable");
+                           "critical loads require a stable state, but neither the start state nor "
+                           "the state at path 0 is stable; reduce the loads there");
 }
 
 static int loads_wanted(const analysis_context *c, int analysis)
@@ -280,7 +280,9 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
         *stable &= !s->lost;
         if (s->lost)
             (void)fault_set(f, STATUS_NOT_CONVERGED,
-                            "the structure jumps near path %g, before any loss of stiffness", path);
+                            "the structure jumps to another equilibrium near path %g, before it "
+                            "loses its stiffness",
+                            path);
         else if (*stable)
             s->rate = rate;
     }
@@ -402,9 +404,10 @@ static status find_critical(loaded_search *s, fault *f)
                ? fault_set(f, STATUS_NOT_CONVERGED,
                            "the critical load was not found: near path %g it still changes by %.1e",
                            s->estimate, s->change)
-               : fault_set(f, STATUS_NOT_CONVERGED,
-                           "no critical load from path %g to %g: no stiffness is lost there",
-                           s->begin, s->p[0]);
+               : fault_set(
+                     f, STATUS_NOT_CONVERGED,
+                     "no critical load from path %g to %g: the structure loses no stiffness there",
+                     s->begin, s->p[0]);
 }
 
 /* Number of negative eigenvalues at `path`, computed from the stored state, which becomes this
@@ -486,7 +489,7 @@ static status hand_over(loaded_search *s, outcome_side *out, fault *f)
         out->status = more;
         snprintf(out->reason, sizeof out->reason, "%s", why.text);
     } else if (count < s->wanted) {
-        snprintf(out->reason, sizeof out->reason, "none up to path %g",
+        snprintf(out->reason, sizeof out->reason, "no critical load up to path %g",
                  kinematics_state_path(s->stable));
     }
     return more == STATUS_FAULT ? fault_set(f, more, "%s", why.text) : STATUS_OK;
@@ -553,13 +556,11 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
     if (first.frequency > 0)
         snprintf(how, sizeof how, " at %.6g Hz", first.frequency / (2 * PI));
     snprintf(found->meaning, sizeof found->meaning, "%s%s%s", first.what, how,
-             first.massless ? "; without a mass flutter was not searched for" : "");
+             first.massless ? "; flutter was not searched for (no mass)" : "");
     if (c->result->reason[0] == '\0')
         snprintf(c->result->reason, sizeof c->result->reason,
                  "stability is lost at path %.6g: %s%s%s", first.path, first.what, how,
-                 first.massless
-                     ? "; flutter was not searched for, because the structure has no mass"
-                     : "");
+                 first.massless ? "; flutter was not searched for (no mass)" : "");
     return STATUS_OK;
 }
 
@@ -586,7 +587,7 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
     loaded_search s = {.unstable = INFINITY, .estimate = INFINITY};
     outcome_side *back = &o->left.spectrum.negative;
     snprintf(back->reason, sizeof back->reason,
-             "about a loaded state, loads are followed in the direction of its path only; reverse "
+             "about a loaded state, loads are followed only in the direction of its path; reverse "
              "the loads");
     const status result = run(c, analysis, &s, &o->left.spectrum, f);
     if (result == STATUS_NOT_CONVERGED && !isfinite(s.estimate)) {

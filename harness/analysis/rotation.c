@@ -259,8 +259,8 @@ static void note_unproven(analysis_context *c, const rotation_modes *modes, doub
 {
     if (modes->unproven > 0 && c->result->reason[0] == '\0')
         snprintf(c->result->reason, sizeof c->result->reason,
-                 "at path %g the modes found do not account for %d negative eigenvalues of the "
-                 "stiffness; other modes may grow",
+                 "at path %g, %d negative eigenvalues of the stiffness belong to none of the modes "
+                 "found; other modes may grow",
                  path, modes->unproven);
 }
 

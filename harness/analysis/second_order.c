@@ -389,12 +389,12 @@ static status read_node(const scene *s, const char *text, const char *list, cons
     }
     if (*node == SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,
-                         "--reduce %.60s: there is no node %.*s; name nodes of the scene", text,
-                         (int)length, at);
+                         "--reduce %.60s: the scene has no node %.*s; name nodes of the scene",
+                         text, (int)length, at);
     for (const char *one = list; one < at; one += strcspn(one, ",") + 1)
         if (strcspn(one, ",") == length && strncmp(one, at, length) == 0)
             return fault_set(f, STATUS_REFUSED,
-                             "--reduce %.60s: node %.*s is there twice; name it once", text,
+                             "--reduce %.60s: node %.*s is named twice; name it once", text,
                              (int)length, at);
     return STATUS_OK;
 }
@@ -411,8 +411,8 @@ static status read_interface(const vibration *v, const char *text, int *modes, c
     *modes = many < INT_MAX ? (int)many : INT_MAX;
     if (at == text || many < 0 || (*at != '\0' && *at != ':'))
         return fault_set(f, STATUS_REFUSED,
-                         "--reduce %.60s: write the number of modes, or it and the interface "
-                         "nodes, as in 10:base,tip",
+                         "--reduce %.60s: write the number of modes, then the interface nodes if "
+                         "there are any, as in 10:base,tip",
                          text);
     while (*at != '\0') {
         TRY(read_node(v->c->scene, text, list, ++at, &node, f));

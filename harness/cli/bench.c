@@ -77,7 +77,8 @@ static const verb_option own[] = {
      "and 0.01 % that both reach)",
      IN(error)},
     {"inject-slowdown", 0, "PERCENT",
-     "add this percentage to the time of the other one, to check that the comparison detects it",
+     "add this percentage to the time of the other, to check that the comparison "
+     "detects it",
      IN(slowdown), .least = 0, .most = 1000},
     {0}};
 static const verb_group shared[] = {

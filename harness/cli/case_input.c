@@ -19,10 +19,9 @@ static status read_either(const verb_option *o, void *member, const char *value,
     if (length > 4 && strcmp(value + length - 4, ".csv") == 0)
         return option_take(&table, &t->own, value, f);
     if (t->packed != NULL)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "--truths is given twice with packed reference values; give one, and tables (.csv) "
-            "in addition");
+        return fault_set(f, STATUS_REFUSED,
+                         "--truths names two files of packed reference values; give one; tables "
+                         "(.csv) may be added");
     t->packed = value;
     return STATUS_OK;
 }
@@ -154,7 +153,7 @@ static int check_values(const case_options *r)
 const case_type *case_input_scene(case_options *r)
 {
     if (r->name != NULL) {
-        message_fail(STATUS_REFUSED, "a case and --scene: give one of them");
+        message_fail(STATUS_REFUSED, "a case and --scene were given; give one of them");
         return NULL;
     }
     /* parameters set on the command line count instead of the defaults */
@@ -177,7 +176,7 @@ void case_input_tell_units(const scene_file *file, const double parameter[])
         scene_looks_foreign(&s, words))
         fprintf(stderr, "beamwork: warning: %s; %s\n", words,
                 given ? "numbers are in the 'units' of the scene: with mm, N, MPa densities are in "
-                        "t/mm^3, as 7.85e-9"
+                        "t/mm^3, such as 7.85e-9"
                       : "numbers are in m, N, Pa and kg, unless the scene gives units: mm, N, MPa");
     scene_free(&s);
 }

@@ -189,14 +189,14 @@ static status check(const duel *d, const bench_options *r, fault *f)
                              d->s.series[i].formulation.key, d->s.series[i].missing,
                              d->s.point[0].type->name);
     if (d->s.seriess != 2)
-        return fault_set(f, STATUS_REFUSED, "-k '%.100s' leaves one formulation; select quantities",
+        return fault_set(f, STATUS_REFUSED,
+                         "-k '%.100s' selects only one formulation; use it to select quantities",
                          r->select);
     return meeting_asked(&d->s, &d->t) > 0
                ? STATUS_OK
-               : fault_set(
-                     f, STATUS_REFUSED,
-                     "no reference value for errors: no quantity has a reference value, or an "
-                     "agreement, for both; give -n for meshes of your choice");
+               : fault_set(f, STATUS_REFUSED,
+                           "errors cannot be computed: no quantity has a reference value or an "
+                           "agreement for both formulations; give -n to compare two meshes");
 }
 
 static status compare(duel *d, const bench_options *r, fault *f)
@@ -219,8 +219,8 @@ static status check_models(const sweep *s, fault *f)
     for (int i = 0; i < s->seriess; i++)
         if (s->series[i].without.other)
             return fault_set(f, STATUS_REFUSED,
-                             "%.60s solves another model of %.60s, without %.100s, so there is no "
-                             "common error; select meshes with -n",
+                             "%.60s solves a different model of %.60s, without %.100s, so their "
+                             "errors cannot be compared; select meshes with -n",
                              s->series[i].formulation.key, s->point[s->series[i].point].type->name,
                              s->series[i].without.words);
     return STATUS_OK;
@@ -356,8 +356,9 @@ int contest_run(bench_options *r)
     fault f = {""};
     if (r->of.line->arguments + (r->of.scene_path != NULL) != 1 || r->chosen.formulations > 1 ||
         r->meshes.count > 2)
-        return message_fail(STATUS_REFUSED, "--against compares two: give one CASE or --scene, one "
-                                            "-f, and no -n, one, or two (for A and for B)");
+        return message_fail(STATUS_REFUSED,
+                            "--against compares two: give one CASE or --scene, one -f, "
+                            "and at most two -n (for A and for B)");
     if (r->output != NULL)
         return message_fail(STATUS_REFUSED,
                             "--against does not write a file; remove -o, or give --format json");

@@ -68,7 +68,8 @@ static status read_lap(contestant *c, FILE *from, double *seconds, fault *f)
     json_decref(root);
     return *seconds > 0 ? STATUS_OK
                         : fault_set(f, STATUS_FAULT,
-                                    "%s: its 'solve --format json' reports no seconds", c->program);
+                                    "%s: the output of its 'solve --format json' contains no times",
+                                    c->program);
 }
 
 static status lap_elsewhere(contestant *c, double *seconds, fault *f)

@@ -119,12 +119,13 @@ const verb verb_element_test = {
     "[FORMULATION...|all]",
     "checks a formulation against the interface: what to correct, and what it supports",
     "Checks a formulation against the interface requirements: derivatives against differences, "
-    "energy, symmetry, rigid motion, calls without memory, bounds, mass; each failure states what "
+    "energy, symmetry, rigid motion, calls that run out of memory, bounds, mass; each failure "
+    "states what "
     "to correct. It also measures uniform and linear states, locking and orders of convergence. "
     "With --element no name is needed. A part that takes longer than the time limit (60 s) fails. "
     "Exit status: 0 the requirements are satisfied, 1 one is violated, a uniform or linear state "
     "has a wrong limit (a stiffness of the section), or an order is below the declared one, 2 "
-    "refused, 4 file, disk or memory.",
+    "invalid input, 4 file, disk or memory.",
     "beamwork element-test collocation\n"
     "beamwork element-test --element ./mine.so\n"
     "beamwork element-test --element ./mine.so --format latex -o table.tex\n"

@@ -95,9 +95,9 @@ static int explain_inputs(const char *word)
             printf(" %c", i->part[k]);
         putchar('\n');
     }
-    printf("  u used   s used, refused in a state whose tangent is not symmetric\n"
-           "  i used in rotating axes, and where the tangent is not symmetric; else no part\n"
-           "  - no part: the answer is the same without   x refused by name\n");
+    printf("  u used   s used, but rejected in a state whose tangent is not symmetric\n"
+           "  i used in rotating axes and where the tangent is not symmetric; no effect elsewhere\n"
+           "  - no effect: the result is the same without it   x rejected by name\n");
     return 1;
 }
 

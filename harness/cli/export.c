@@ -41,10 +41,10 @@ static status export(const export_request *r, const case_type *type, scene *s, f
 {
     char of[PARAMETERS_TEXT + PATH_MAX];
     if (r->to == NULL || strcmp(r->to, "calculix") != 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "the program of the deck is missing; add --to calculix");
+        return fault_set(f, STATUS_REFUSED, "the target program is missing; add --to calculix");
     if (r->meshes.count > 1)
-        return fault_set(f, STATUS_REFUSED, "a deck has one mesh; give one number with -n");
+        return fault_set(f, STATUS_REFUSED,
+                         "an input deck contains one mesh; give a single number with -n");
     TRY(files_check(r->of.line, 0, NULL, f));
     TRY(cell_scene(type, r->of.parameter, NULL, s, f));
     name_of(r, type, of, sizeof of);
@@ -70,14 +70,14 @@ static int answer(const command_line *l, void *request)
 }
 
 #define IN(at) .member = offsetof(export_request, at)
-static const verb_option own[] = {{"to", 0, "calculix", "the program that the deck is for", IN(to)},
-                                  {0}};
+static const verb_option own[] = {
+    {"to", 0, "calculix", "the program that will read the input deck", IN(to)}, {0}};
 static const verb_group shared[] = {
     SHARED(case, of), SHARED(meshes, meshes), SHARED(output, output), {NULL, 0}};
 const verb verb_export = {
     "export",
     "[CASE]",
-    "a structure as solids, as an input deck of another program",
+    "a structure as a solid model, in an input deck of another program",
     "Writes a case, or your own scene (--scene FILE), as solids in an input deck of another "
     "program: rectangles and straight walls at right angles become bricks with 20 nodes and "
     "reduced integration, ends and bodies are rigid; -n elements along each member (default 20), "

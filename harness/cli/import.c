@@ -112,7 +112,7 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(import_request, at)
 static const verb_option own[] = {{"map", 0, "FILE.yaml",
-                                   "which columns of files without a header are which quantities",
+                                   "the quantities in the columns of files without a header",
                                    IN(map), .traits = OPTION_INPUT},
                                   {0}};
 static const verb_group shared[] = {SHARED(output, output), SHARED(record, format), {NULL, 0}};

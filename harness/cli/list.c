@@ -194,7 +194,7 @@ static void list_formulations(void)
     for (int i = 0; formulations_at(i) != NULL; i++)
         paragraph_write(stdout, printf("  %-*s", NAMES - 2, formulations_at(i)->name), NAMES,
                         formulations_at(i)->summary);
-    printf("options of all of them (-f NAME:OPTION=VALUE)\n");
+    printf("options of all formulations (-f NAME:OPTION=VALUE)\n");
     for (const parameter_type *o = formulation_common; o->name != NULL; o++)
         list_formulation_option(o);
 }

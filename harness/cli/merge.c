@@ -67,7 +67,8 @@ static status add_all(const batch_label *label, const command_line *l, again *ou
 {
     const char *name = json_string_value(json_object_get(label->origin, "verb"));
     if (name == NULL)
-        return fault_set(f, STATUS_FAULT, "%.200s: its batches do not name their request",
+        return fault_set(f, STATUS_FAULT,
+                         "%.200s: the batches do not say which request they belong to",
                          l->argument[0]);
     TRY(add(out, "beamwork", f));
     TRY(add(out, name, f));

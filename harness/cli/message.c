@@ -77,7 +77,7 @@ static void crashed(int number)
     if (getpid() == program) {
         say("beamwork: crashed; check an element of your own with 'beamwork element-test'; in the "
             "source tree, run valgrind on a program built with 'make DEBUG=1'; libraries also "
-            "crash when memory is short\n");
+            "crash when memory runs out\n");
         output_abandon();
     }
     end_by(number);
@@ -89,8 +89,8 @@ static void ended(int code, void *unused)
     (void)unused;
     if (getpid() != program || (code >= EXIT_AS_EXPECTED && code <= EXIT_INTERRUPTED))
         return;
-    say("beamwork: a library or an element ended the program; libraries do this when memory is "
-        "short\n");
+    say("beamwork: a library or an element ended the program; libraries do this when memory runs "
+        "out\n");
     output_abandon();
     _exit(EXIT_FAULT);
 }

@@ -84,23 +84,23 @@ static int answer(const command_line *l, void *request)
 #define IN(at) .member = offsetof(motion_options, at)
 static const verb_option own[] = {
     {"vary", 0, "NAME=A..B/N|A,B,C",
-     "one parameter: N equal parts (N + 1 values), with ':log' added: equal ratios; a list of "
-     "values or words",
+     "the parameter to vary: N equal parts (N + 1 values), with ':log' added: equal ratios; a list "
+     "of values or words",
      IN(vary), .traits = OPTION_REPEATS},
     {"integrator", 0, "NAME[,NAME...]",
      "alpha, alpha:rho=R, hht, hht:alpha=A, trapezoidal, conserving, radau, explicit (default: six "
      "of them)",
      IN(integrators)},
     {"step", 0, "H[,H...]|H..H",
-     "steps of integration [s]; a range is halved from the first to the last (default: 2, 1, 1/2 "
-     "and 1/4 of that of the motion)",
+     "time steps [s]; a range is halved from the first to the last (default: 2, 1, 1/2 and 1/4 of "
+     "the step of the motion)",
      IN(step_lengths)},
     {"tolerance", 0, "R[,R...]|R..R",
      "error per step that controls the step size, for integrators that estimate it; a range is "
      "divided by 100 repeatedly",
      IN(tolerances)},
     {"conservation-only", 0, NULL,
-     "only energy and momenta, without a reference solution and without halved steps",
+     "check only energy and momenta, without a reference solution and without halved steps",
      IN(conservation_only)},
     {"expected", 0, "FILE.csv", "table of expected verdicts, instead of a case", IN(expected),
      .traits = OPTION_INPUT},
@@ -118,8 +118,8 @@ const verb verb_motion = {
     "for each the time error (against radau at 1e-10 on the same mesh), its order, the change of "
     "energy and momenta, and the cost. With --conservation-only: long motions with large steps, to "
     "see whether the energy grows or a step fails. With --expected: the verdicts of a table. Exit "
-    "status: 0 as expected, 1 a verdict differs or no motion reaches its end, 2 refused, 3 nothing "
-    "was run, 4 file, disk or memory.",
+    "status: 0 as expected, 1 a verdict differs or no motion reaches its end, 2 invalid input, 3 "
+    "nothing was run, 4 file, disk or memory.",
     "beamwork motion free_flight_space -f collocation -n 8 --integrator alpha,radau "
     "--step 0.1..0.0125\n"
     "beamwork motion --expected harness/experiments/expected.csv",

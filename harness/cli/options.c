@@ -43,9 +43,10 @@ static const struct {
                {"plant", "inject-slowdown"},       {"derive", "compute-references"},
                {"no-errors", "conservation-only"}, {"ends", "save-state"}};
 
-const verb_option verb_help[] = {{"help", 'h', NULL, "this list", .traits = OPTION_ASIDE},
-                                 {"usage", 0, NULL, "the options in short", .traits = OPTION_ASIDE},
-                                 {0}};
+const verb_option verb_help[] = {
+    {"help", 'h', NULL, "this list", .traits = OPTION_ASIDE},
+    {"usage", 0, NULL, "a short list of the options", .traits = OPTION_ASIDE},
+    {0}};
 
 /* Option i of an array; if i is too large, reduces it by the number of options. */
 static const verb_option *among(const verb_option *list, int *i)
@@ -183,7 +184,8 @@ static status add_text(const verb_option *o, text_list *list, const char *value,
             return fault_set(f, STATUS_REFUSED, "--%s %.200s is given twice; give it once", o->name,
                              value);
     if (list->count == most)
-        return fault_set(f, STATUS_REFUSED, "too many --%s; give at most %d", o->name, most);
+        return fault_set(f, STATUS_REFUSED, "--%s is given too often; give at most %d", o->name,
+                         most);
     list->text[list->count++] = value;
     return STATUS_OK;
 }
@@ -301,15 +303,16 @@ static const verb_option cli_options_results[] = {
      .traits = OPTION_OUTPUT},
     {0}};
 static const verb_option format[] = {{"format", 0, "text|json|csv",
-                                      "form of the output (default text)", .traits = OPTION_ASIDE,
+                                      "format of the output (default text)", .traits = OPTION_ASIDE,
                                       .read = read_format},
                                      {0}};
-static const verb_option record[] = {{"format", 0, "text|json", "form of the output (default text)",
-                                      .traits = OPTION_ASIDE, .read = read_record},
+static const verb_option record[] = {{"format", 0, "text|json",
+                                      "format of the output (default text)", .traits = OPTION_ASIDE,
+                                      .read = read_record},
                                      {0}};
 static const verb_option selection[] = {
     {"select", 'k', "EXPRESSION",
-     "words joined by and, or, not and brackets; each is searched in "
+     "words joined by and, or, not and brackets; each is matched against "
      "case/parameters/formulation/quantity, also inside names; =NAME: the whole name",
      .traits = 0},
     {0}};
@@ -320,7 +323,7 @@ static const verb_option json[] = {{"json", 0, "FILE", "verdicts as JSON", .trai
                                    {0}};
 static const verb_option meshes[] = {
     {"elements", 'n', "N[,N...]",
-     "elements per member; of each piece where loads begin, end or act within it",
+     "elements per member; per piece of a member where loads begin, end or act within the member",
      .traits = OPTION_REPEATS, .read = read_meshes},
     {0}};
 static const verb_option reports[] = {
@@ -365,9 +368,10 @@ static status check_input(const void *context, const char *input, fault *f)
     file_place in;
     if (input != NULL && input[0] != '\0' && place_find(input, &in, NULL) == STATUS_OK &&
         place_same(&in, &out->where))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s %.100s would replace %.100s, which is an input; give it another name",
-                         out->option, out->path, input);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s %.100s would overwrite %.100s, which is an input; give the output another name",
+            out->option, out->path, input);
     return STATUS_OK;
 }
 

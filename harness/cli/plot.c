@@ -42,7 +42,7 @@ static status divide(scene_path *path, double begin, double end, int parts, int 
 {
     double *more = realloc(path->value, ((size_t)parts + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a picture");
+        return fault_set(f, STATUS_FAULT, "out of memory for a figure");
     *path = (scene_path){0, more};
     for (int i = first; i < parts; i++)
         more[path->stations++] = begin + i * ((end - begin) / parts);
@@ -85,7 +85,7 @@ static status add_phase(scene *s, int quantity, fault *f)
     phase.what = what;
     scene_quantity *added = scene_add_quantity(s, name, "rad", phase.analysis, what);
     if (s->out_of_memory)
-        return fault_set(f, STATUS_FAULT, "out of memory for a picture");
+        return fault_set(f, STATUS_FAULT, "out of memory for a figure");
     added->acting = phase.acting;
     added->reduction = SCENE_CURVE;
     added->x = phase.x;
@@ -219,7 +219,8 @@ static status solve_all(const plot_request *r, const case_type *type, FILE *to, 
     fputc(']', to);
     return fflush(to) == 0 && fseek(to, 0, SEEK_SET) == 0
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "no room for a temporary file");
+               : fault_set(f, STATUS_FAULT,
+                           "a temporary file cannot be written (is the disk full?)");
 }
 
 /* In the child. */
@@ -240,10 +241,10 @@ static status draw(FILE *solutions, const char *folder, const char *form, FILE *
     if (child > 0 && waitpid(child, &how, 0) == child && how == 0)
         return STATUS_OK;
     if (child > 0 && WIFEXITED(how) && WEXITSTATUS(how) == COULD_NOT)
-        return fault_set(f, STATUS_FAULT, "no picture; see above");
+        return fault_set(f, STATUS_FAULT, "no figure was drawn; the reason is above");
     return fault_set(f, STATUS_FAULT,
-                     "the program that draws cannot be run; it needs %s and "
-                     "python3-matplotlib (sudo apt-get install python3-matplotlib)",
+                     "the plotting program cannot be run; it needs %s and python3-matplotlib (sudo "
+                     "apt-get install python3-matplotlib)",
                      python);
 }
 
@@ -266,7 +267,7 @@ static status find_reports(char folder[PATH_MAX], fault *f)
     TRY(derive_script("../../reports/graph.py", script, f)); /* beside the reference values */
     if (access(script, R_OK) != 0 || realpath(script, folder) == NULL)
         return fault_set(f, STATUS_FAULT,
-                         "%.200s: the program that draws is not here; run from a clone or an "
+                         "%.200s: the plotting program was not found; run from a clone or an "
                          "installed copy, or set BEAMWORK_REFERENCE",
                          script);
     for (int i = 0; i < 2; i++)
@@ -305,9 +306,10 @@ static int answer(const command_line *l, void *request)
     snprintf(path, sizeof path, "%s%s", r->output != NULL ? r->output : type->name,
              r->output != NULL ? "" : ".png");
     FILE *solutions = tmpfile();
-    const status outcome = solutions != NULL
-                               ? draw_from(r, type, solutions, path, &f)
-                               : fault_set(&f, STATUS_FAULT, "no room for a temporary file");
+    const status outcome =
+        solutions != NULL
+            ? draw_from(r, type, solutions, path, &f)
+            : fault_set(&f, STATUS_FAULT, "a temporary file cannot be written (is the disk full?)");
     if (solutions != NULL)
         fclose(solutions);
     return message_exit(outcome, &f);
@@ -316,7 +318,7 @@ static int answer(const command_line *l, void *request)
 #define IN(at) .member = offsetof(plot_request, at)
 static const verb_option own[] = {
     {"output", 'o', "FILE",
-     "picture (.png, .svg, .pdf), or table with a column for each quantity (.csv); default: "
+     "figure (.png, .svg, .pdf), or table with a column for each quantity (.csv); default: "
      "NAME.png in this folder",
      IN(output), .traits = OPTION_OUTPUT},
     {"steps", 0, "N",
@@ -333,13 +335,13 @@ static const verb_group shared[] = {SHARED(case, of),
 const verb verb_plot = {
     "plot",
     "CASE",
-    "curves of quantities as a picture: histories, paths, responses",
+    "curves of quantities as a figure: histories, paths, responses",
     "Solves one case, or your own scene (CASE is then the path of the file), and draws its "
     "quantities as curves: over time, over a path, over frequency (Bode diagrams: amplitudes by "
-    "decades, with phases), or over the quantity that 'x' of the scene names. Quantities that are "
-    "one value of a motion, a path or a harmonic analysis are drawn as curves, too (except times "
-    "and periods). Motions without spectra are read at 300 instants, static paths of one station "
-    "at 20 states. Several -f are several lines, -k selects quantities. Pictures need "
+    "decades, with phases), or over the quantity that 'x' of the scene names. A quantity that is a "
+    "single value of a motion, a path or a harmonic analysis is drawn as a curve, too (except "
+    "times and periods). Motions without spectra are sampled at 300 instants, static paths with "
+    "one station at 20 states. Each -f adds a line; -k selects quantities. Figures need "
     "python3-matplotlib.",
     "beamwork plot lee_frame -f collocation -n 4 -o frame.png\n"
     "beamwork plot elastica -k theta -f beamw -f collocation -n 4 -o angle.pdf",

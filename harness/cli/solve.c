@@ -98,9 +98,9 @@ static void tell_apart(const scene *s, const state_matrices *m)
 {
     if (m->model.apart > 0)
         fprintf(stderr,
-                "beamwork: state space of %s: without the mass inside elements (M_inside): its "
-                "responses differ by at most %.1e of the largest (%s); more elements lower this, "
-                "'mass: lumped' has none\n",
+                "beamwork: state space of %s: the mass inside elements (M_inside) is omitted; its "
+                "responses differ by at most %.1e of the largest (%s); use more elements, or "
+                "'mass: lumped', which has no mass inside elements\n",
                 scene_name(s, SCENE_ANALYSES, m->analysis).text, m->model.apart,
                 s->quantity[m->model.farthest].name);
 }
@@ -193,7 +193,7 @@ static status range_of(const solve_request *r, const case_type *type, follow_req
     return fabs(out->to - out->from) > 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "--follow '%.60s': both ends are the same; give two different ones",
+                           "--follow '%.60s': both ends are the same; give two different values",
                            r->follow);
 }
 
@@ -273,7 +273,7 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
             f, STATUS_REFUSED,
             "--state-space adds to the matrices of --matrices FOLDER; give the folder");
     if (r->reduce != NULL && !r->state_space)
-        return fault_set(f, STATUS_REFUSED, "--reduce reduces what --state-space writes; add it");
+        return fault_set(f, STATUS_REFUSED, "--reduce requires --state-space; add it");
     TRY(files_check(r->of.line, r->shapes > 0, own_tables_packed(&r->truths), f));
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
     if (known != STATUS_OK && r->truths.packed == NULL && r->of.scene == NULL)
@@ -395,25 +395,25 @@ static const verb_option own[] = {
      "most 5); -o FILE becomes HDF5 for ParaView",
      IN(shapes), .least = 1, .most = SHAPES_ALL},
     {"follow", 0, "NAME=A..B/N",
-     "modes over a parameter, in N equal or smaller steps; modes are matched by their shapes, so "
-     "crossing modes keep their numbers",
+     "computes modes over a parameter, in N equal or smaller steps; modes are matched by their "
+     "shapes, so that modes whose frequencies cross keep their numbers",
      IN(follow)},
     {"matrices", 0, "FOLDER",
-     "also stiffness, mass and gyroscopic matrices about every state, as Matrix Market, with a "
-     "table of their rows, into a new folder",
+     "also write the stiffness, mass and gyroscopic matrices about every state (Matrix Market), "
+     "with a table of their rows, into a new folder",
      IN(matrices), .traits = OPTION_OUTPUT | OPTION_FOLDER},
     {"state-space", 0, NULL,
-     "with --matrices: also x' = A x + B u, y = C x + D u about every state, and the same in "
-     "second "
-     "order; forces, motions and loads are the inputs, responses and displacements the outputs",
+     "with --matrices: also write x' = A x + B u, y = C x + D u about every state, and the same "
+     "system in second order; the inputs are forces, motions and loads, the outputs are responses "
+     "and displacements",
      IN(state_space)},
     {"reduce", 0, "MODES[:NODE,...]",
-     "with --state-space: also reduced models, of static shapes of these interface nodes and modes "
-     "with them fixed (Craig-Bampton), without nodes of modes and static shapes of forces; their "
-     "errors are printed",
+     "with --state-space: also write reduced models of N modes: with interface nodes their static "
+     "shapes and modes with them fixed (Craig-Bampton), without nodes free modes and static shapes "
+     "of the forces; the errors of the reduced models are printed",
      IN(reduce)},
     {"save-state", 0, "FILE",
-     "also store the last state of motions (HDF5): --restart continues there", IN(ends),
+     "also store the last state of motions (HDF5), from which --restart continues", IN(ends),
      .traits = OPTION_OUTPUT | OPTION_HDF5},
     {"restart", 0, "FILE",
      "continue the motions of another run from its --save-state file: the same scene with later "

@@ -52,10 +52,10 @@ static const verb_group shared[] = {SHARED(formulations, chosen), SHARED(select,
 const verb verb_stress = {
     "stress",
     "",
-    "every formulation at extremes: an accurate value, or a reported failure",
+    "every formulation at extremes: is each result accurate, or a reported failure?",
     "Runs every formulation at extremes where numerical errors become critical, and classifies "
     "every result: accurate, under-resolved, a reported failure, or wrong. Exit status: 0 all as "
-    "expected, 1 one differs, 2 refused, 3 nothing was run, 4 file, disk or memory.",
+    "expected, 1 one differs, 2 invalid input, 3 nothing was run, 4 file, disk or memory.",
     "beamwork stress -k \"thin_sheet and collocation\"",
     shared,
     NULL,

@@ -191,7 +191,7 @@ static const verb_option own[] = {
      "compute a reference value where none is stored: about half a second for each point (for a "
      "scene 4 s)",
      IN(derive)},
-    {"error", 0, "R", "requested error (default 1%)", IN(error), .read = option_error},
+    {"error", 0, "R", "required error (default 1%)", IN(error), .read = option_error},
     {"verbose", 'v', NULL, "also the smallest number of elements for each quantity", IN(verbose),
      .traits = OPTION_ASIDE},
     {"quiet", 'q', NULL, "no tables", IN(shards.quiet), .traits = OPTION_ASIDE},
@@ -212,7 +212,7 @@ const verb verb_sweep = {
     "CASE",
     "one case over ranges of its parameters: where is the error target met?",
     "Solves a case, or a structure of your own (--scene FILE), at many points of its parameters "
-    "and shows where formulations are within an error (--error, default 1 %): the share of points "
+    "and shows where formulations reach an error (--error, default 1 %): the share of points "
     "for each mesh, the smallest number of elements over the parameters, and the worst points. "
     "--vary NAME=A..B/N: N equal parts, ends included; A..B/N:log: equal ratios; A,B,C: these "
     "values, or words of a choice. Several options make a grid; the last one varies fastest. "
@@ -247,7 +247,7 @@ status spread_asked(const shard_options *r, int *asked, fault *f)
     *asked = r->into != NULL || r->shard != NULL || r->from.count > 0;
     if (r->from.count > 0 && (r->into != NULL || r->shard != NULL))
         return fault_set(f, STATUS_REFUSED,
-                         "--from reads batches, --into computes them: give one of the two");
+                         "--from reads batches and --into computes them; give one of them");
     if (r->shard != NULL && r->into == NULL)
         return fault_set(f, STATUS_REFUSED, "--shard %.40s requires a folder; give --into FOLDER",
                          r->shard);

@@ -137,7 +137,7 @@ static status print_scene_of(const case_type *type, const double parameter[], FI
     scene_free(&s);
     TRY(outcome);
     TRY(derive_scene(script, text, &value, &count, f));
-    printf("derived, as lines for the file\ntruths:\n");
+    printf("derived values, as lines for the scene file\ntruths:\n");
     for (int i = 0; i < count; i++)
         print_line(&value[i], type, parameter);
     free(value);

@@ -43,9 +43,9 @@ static const char *name_at(const void *context, int i)
 
 static const manual_row examples[] = {
     {"beamwork list", "look up"},
-    {"beamwork solve elastica", "one answer, with its error"},
-    {"beamwork converge c_column -k buckling_load", "formulations side by side"},
-    {"beamwork explain \"wrong limit\"", "what a word means"},
+    {"beamwork solve elastica", "solve a case, with its error"},
+    {"beamwork converge c_column -k buckling_load", "compare formulations"},
+    {"beamwork explain \"wrong limit\"", "explain a term"},
     {NULL, NULL},
 };
 static const manual_row statuses[] = {

@@ -198,7 +198,7 @@ const verb verb_verify = {
     "exit status: its own known deviations apply (--deviations; none by default), and the "
     "interface requirements are checked first (element-test). A built-in formulation that is not "
     "accepted yet affects it only if it is named. Exit status: 0 every verdict as expected; 1 a "
-    "verdict differs, or an interface requirement is violated (undecided did not pass: it differs "
+    "verdict differs, or an interface requirement is violated ('undecided' counts as different "
     "unless a known deviation expects it; more meshes, --refine, or a larger --tolerance may "
     "decide it); 2 invalid input; 3 no verdict; 4 file, disk or memory; 5 interrupted (Ctrl-C, "
     "SIGTERM): finished verdicts are in files named .partial. With --exit-zero 0 instead of 1 and "

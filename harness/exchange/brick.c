@@ -334,7 +334,7 @@ static status face_of(const section_spec *spec, const section *constants, face *
     memset(out, 0, sizeof *out);
     if (is_overridden(spec))
         return fault_set(f, STATUS_REFUSED,
-                         "the constants of a solid follow from its sizes; remove 'given'");
+                         "the constants of a solid follow from its dimensions; remove 'given'");
     if (spec->kind == SECTION_WALLS)
         return fill_walls(spec, constants->centroid, out, f);
     if (spec->kind != SECTION_RECTANGLE)

@@ -63,7 +63,7 @@ static status check_member(const scene *s, int member, fault *f)
     if (m->release[0].count + m->release[1].count > 0)
         return fault_set(f, STATUS_REFUSED,
                          "%s: released ends cannot be written as solids; remove the release, and "
-                         "let a node with its own rotation turn",
+                         "use a node with its own rotation",
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (scene_is_founded(m))
         return fault_set(f, STATUS_REFUSED,
@@ -75,9 +75,10 @@ static status check_member(const scene *s, int member, fault *f)
                          "node at the end (part_of)",
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (m->warp_p != SCENE_WARP_FIXED || m->warp_q != SCENE_WARP_FIXED)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: its ends can warp, but rigid faces cannot; write warping: fixed",
-                         scene_called(s, SCENE_MEMBERS, member).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: its ends can warp, but the rigid faces of solids cannot; write warping: fixed",
+            scene_called(s, SCENE_MEMBERS, member).text);
     return check_section(s, member, f);
 }
 
@@ -135,7 +136,7 @@ static status check_load(const scene *s, int load, fault *f)
             scene_called(s, SCENE_LOADS, load).text);
     if (!rigid_moves(s, l->where))
         return fault_set(
-            f, STATUS_REFUSED, "%s: no solid ends at its %s; put it on the moving body",
+            f, STATUS_REFUSED, "%s: no solid ends at its %s; apply it to the moving body",
             scene_called(s, SCENE_LOADS, load).text, scene_called(s, SCENE_NODES, l->where).text);
     if (l->kind == SCENE_MOMENT && carried_static(s) != SCENE_NONE &&
         rigid_single_axis(&s->node[l->where]) == SCENE_NONE &&
@@ -163,7 +164,7 @@ static status check_analysis(const scene *s, int analysis, fault *f)
                          scene_called(s, SCENE_ANALYSES, analysis).text);
     if (a->kind == SCENE_COMPLIANCE && !rigid_moves(s, scene_compliance_of(a)->node))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: no solid ends at its node; request the moving body",
+                         "%s: no solid ends at its node; request the value of the moving body",
                          scene_called(s, SCENE_ANALYSES, analysis).text);
     return STATUS_OK;
 }
@@ -192,7 +193,8 @@ status carried_check(const scene *s, fault *f)
     for (int i = 0; i < s->drivers; i++)
         if (s->driver[i].condition_driver != SCENE_NONE)
             return fault_set(f, STATUS_REFUSED,
-                             "driver '%s' is fixed by a condition, which decks cannot express",
+                             "driver '%s' is determined by a condition, which input decks cannot "
+                             "express; give its values",
                              s->driver[i].name);
     for (int i = 0; i < s->loads; i++)
         TRY(check_load(s, i, f));
@@ -242,10 +244,10 @@ static status check_last(const scene *s, const scene_quantity *q, fault *f)
         if ((other->what.kind == SCENE_COMPLIANCE_ENTRY ||
              other->what.kind == SCENE_STIFFNESS_ENTRY) &&
             s->analysis[other->analysis].follows != SCENE_NONE)
-            return refuse(
-                q,
-                "a deck has one stiffness of a loaded state; request the others in separate scenes",
-                f);
+            return refuse(q,
+                          "an input deck contains one stiffness of a loaded state; request the "
+                          "others in separate scenes",
+                          f);
     return STATUS_OK;
 }
 

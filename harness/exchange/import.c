@@ -446,7 +446,7 @@ status import_cells_add(sweep *s, int point_index, imported *found, fault *f)
     series *one = &more[place];
     memset(one, 0, sizeof *one);
     found->type = (element_type){.name = found->program,
-                                 .summary = "another program: its values were imported",
+                                 .summary = "another program, whose values were imported",
                                  .source = found->file,
                                  .abi = ELEMENT_ABI,
                                  .order = any_order};

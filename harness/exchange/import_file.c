@@ -266,8 +266,8 @@ static status read_lines(file_reader *r, FILE *from, char **line, fault *f)
     TRY(close_block(r, f));
     if (r->rows == 0 && r->m->count == 0)
         mistakes_add(r->m, r->line > 0 ? r->line : 1, 1,
-                     "no values; the first line that is not a comment names the columns, the "
-                     "others are values");
+                     "the file has no values; the first line that is not a comment names the "
+                     "columns, the following lines are values");
     return mistakes_status(r->m, f);
 }
 

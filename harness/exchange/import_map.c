@@ -261,7 +261,7 @@ static status read_keys(map_reader *r, const char *map, const char *const file[]
     const document_node *values = document_find(r->root, "values");
     if (values != NULL && values->kind == DOCUMENT_MAP && values->count > 0)
         return read_values(r, values, map, file, files, into, f);
-    mistakes_add(r->m, 1, 3, "values: which quantities the files have");
+    mistakes_add(r->m, 1, 3, "values: names the quantities in the files");
     return STATUS_OK;
 }
 

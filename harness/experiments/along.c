@@ -316,19 +316,20 @@ static void check_taken(const specimen *s, claims *c)
     status outcome = forces_under(&of, x, F, K);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
         outcome = stencil_first(forces_of, &of, X, a, found[a]) ? STATUS_NOT_CONVERGED : STATUS_OK;
-    claims_asks(derives, outcome == STATUS_OK,
-                "along: a state under a small load is outside the range that it can evaluate%s",
-                s->words);
+    claims_asks(
+        derives, outcome == STATUS_OK,
+        "along: a state under a small load is outside the range that the element can evaluate%s",
+        s->words);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
         for (int b = 0; b < X; b++) { /* the symmetric part is that of the exponential chart */
             const double ua = chart_unit(a, l), ub = chart_unit(b, l),
                          change = (found[a][b] * ub + found[b][a] * ua) * FINER / 2,
                          scale = sqrt(fabs(K[a * (X + 1)] * K[b * (X + 1)]));
-            claims_departs(
-                derives, fabs(K[a * X + b] - change / (ua * ub)) / fmax(scale, size * l * l),
-                "along: the derivative of force %d in coordinate %d is %.6g, differences "
-                "give %.6g%s",
-                a + 1, b + 1, K[a * X + b], change / (ua * ub), s->words);
+            claims_departs(derives,
+                           fabs(K[a * X + b] - change / (ua * ub)) / fmax(scale, size * l * l),
+                           "along: the derivative of force %d in coordinate %d is %.6g, but "
+                           "differences give %.6g%s",
+                           a + 1, b + 1, K[a * X + b], change / (ua * ub), s->words);
         }
     double point[ELEMENT_ALONG_POINTS], weight[ELEMENT_ALONG_POINTS];
     quadrature_points(ELEMENT_ALONG_POINTS, point, weight);

@@ -161,7 +161,7 @@ void batch_clean(const char *folder, const char *name, int gone)
 
 static status no_batch(const char *path, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "%.200s: no batch of this program, or damaged", path);
+    return fault_set(f, STATUS_FAULT, "%.200s: not a batch of this program, or damaged", path);
 }
 
 /* Returns 0, or -1 if the string is missing or too long. */

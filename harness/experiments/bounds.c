@@ -192,7 +192,7 @@ static void check(const specimen *s, claims *c)
 {
     double room[GUARD + M + GUARD], kept[M], *e = room + GUARD;
     node_state x[ELEMENT_MAX_NODES], given[ELEMENT_MAX_NODES];
-    claim *inputs = claims_open(c, "inputs are left as they are", 0);
+    claim *inputs = claims_open(c, "inputs are not changed", 0);
     specimen_state(s, 0.02, 53, x);
     memcpy(given, x, sizeof given);
     strains(s, x, c);
@@ -326,7 +326,7 @@ static int in_its_place(const specimen *s, const call_account *before, const nod
     const int again = s->type.prepare(&s->request, s->data, &f) == STATUS_OK;
     if (!again) {
         memcpy(s->data, kept, s->size);
-        claims_asks(one, 0, "prepare: the same element is refused when it is prepared again: %s%s",
+        claims_asks(one, 0, "prepare: rejects the same element when it is prepared again: %s%s",
                     f.text, s->words);
     } else {
         tell(s, x, &after);

@@ -22,7 +22,7 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"along", "loads along one element are as exact as forces at its nodes", checks_along},
     {"rotating", "centrifugal and gyroscopic terms derive from the kinetic energy",
      checks_rotating},
-    {"in_time", "forces of inertia in time derive from the kinetic energy", checks_in_time},
+    {"in_time", "inertia forces in time derive from the kinetic energy", checks_in_time},
 };
 
 /* Invariances: rigid motion, the order of the nodes, the unit of length. */

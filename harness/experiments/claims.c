@@ -96,8 +96,8 @@ static void theories(const element_type *t, claim *one)
     claims_asks(one, flexible == (t->shear_theories != 0),
                 flexible ? "shear_theories: the type supports shear but declares no theory; set "
                            "SHEAR_ENGESSER, SHEAR_HARINGX or SHEAR_OWN"
-                         : "shear_theories: a theory of shear is declared without FEATURE_SHEAR; "
-                           "support the latter, or remove the theory");
+                         : "shear_theories: a shear theory is declared without FEATURE_SHEAR; "
+                           "support shear, or remove the theory");
     claims_asks(
         one,
         ((t->offers & FEATURE_ENGESSER) != 0) == ((t->shear_theories & SHEAR_ENGESSER) != 0) &&
@@ -109,7 +109,7 @@ static void theories(const element_type *t, claim *one)
                 "set it alone");
     claims_asks(one, own == (t->own_theory != NULL),
                 own ? "own_theory: describe SHEAR_OWN and its source in one line"
-                    : "own_theory: it is given, but shear_theories has no SHEAR_OWN; remove it, or "
+                    : "own_theory: is given, but shear_theories has no SHEAR_OWN; remove it, or "
                       "set SHEAR_OWN");
 }
 
@@ -126,15 +126,15 @@ static void words(const element_type *t, claim *one)
         one, (t->lacks != 0) == (t->lacks_by != NULL),
         t->lacks != 0
             ? "lacks_by: name the equations that omit it"
-            : "lacks_by: it is given, but 'lacks' is empty; remove it, or declare what is lacking");
+            : "lacks_by: is given, but 'lacks' is empty; remove it, or declare what is lacking");
     claims_asks(one, !(t->lacks & LACKS_SHEAR_Y) || t->offers & FEATURE_SHEAR,
                 "lacks: LACKS_SHEAR_Y is for types that support shear; remove it");
     claims_asks(one, !(t->offers & FEATURE_ROTARY_INERTIA) || t->offers & FEATURE_MASS,
                 "offers: FEATURE_ROTARY_INERTIA requires FEATURE_MASS");
     claims_asks(one, ((t->limits & LIMIT_TENSION) != 0) == (t->tension != NULL),
-                "tension: it requires LIMIT_TENSION; give both or none");
+                "tension: requires LIMIT_TENSION; give both or none");
     claims_asks(one, !t->spreads || (t->inertia != NULL && t->offers & FEATURE_MASS),
-                "spreads: it requires 'inertia' and FEATURE_MASS; give them or remove it");
+                "spreads: requires 'inertia' and FEATURE_MASS; add them, or remove 'spreads'");
 }
 
 static void orders(const formulation *chosen, claim *one)

@@ -42,11 +42,10 @@ static void compare_J(const specimen *s, int strain, int c, double given, double
 {
     char where[SPECIMEN_WORDS];
     const double unit = chart_unit(c, s->request.length);
-    claims_departs(one, size > 0 ? fabs(given - found) / size : fabs(given - found),
-                   "J: the derivative of strain %d in coordinate %d (%s) is %.6g, differences give "
-                   "%.6g%s",
-                   strain + 1, c + 1, specimen_coordinate(c, where), given / unit, found / unit,
-                   s->words);
+    claims_departs(
+        one, size > 0 ? fabs(given - found) / size : fabs(given - found),
+        "J: the derivative of strain %d in coordinate %d (%s) is %.6g, but differences give %.6g%s",
+        strain + 1, c + 1, specimen_coordinate(c, where), given / unit, found / unit, s->words);
 }
 
 /* Compares strain by strain: [strains x n] times units. */
@@ -276,8 +275,8 @@ static void compare_stresses(const many_batch *b, int k, claim *one)
     const double sigma = many_largest(m, a->sigma), C = many_largest(m * m, a->C);
     char what[SPECIMEN_WORDS];
     claims_asks(one, a->outcome == t->outcome,
-                "many at once gives status '%s' for element %d of %d, which alone ends with '%s'%s",
-                status_name(t->outcome), k + 1, MANY, status_name(a->outcome), b->of[k]->words);
+                "many at once: element %d of %d has status '%s', but '%s' when evaluated alone%s",
+                k + 1, MANY, status_name(t->outcome), status_name(a->outcome), b->of[k]->words);
     if (a->outcome != STATUS_OK || t->outcome != STATUS_OK)
         return;
     differ(b, k, "energies", "energy", a->energy, t->energy, fabs(a->energy), one);

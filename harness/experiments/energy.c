@@ -66,11 +66,10 @@ static void check_gradient(const energy_place *at, const double sigma[], const d
         found /= unit_of(s);
         const double size =
             fmax(fabs(sigma[i]), size_of(s, C, i, i) * moved_by * s->request.length);
-        claims_departs(
-            one, outcome == 0 ? claims_share(fabs(sigma[i] - found), size) : NAN,
-            "stress: sigma %d is %.6g, the energy's derivative in strain %d is %.6g: one "
-            "of them is wrong%s",
-            i + 1, sigma[i], i + 1, found, s->words);
+        claims_departs(one, outcome == 0 ? claims_share(fabs(sigma[i] - found), size) : NAN,
+                       "stress: sigma %d is %.6g, but the derivative of the energy in strain %d is "
+                       "%.6g: one of them is wrong%s",
+                       i + 1, sigma[i], i + 1, found, s->words);
     }
 }
 
@@ -87,8 +86,8 @@ static void check_stiffness(const energy_place *at, const double C[], claims *c)
             const double size = size_of(s, C, i, j), found = column[i] / unit_of(s);
             claims_departs(derives,
                            outcome == 0 ? claims_share(fabs(C[i * m + j] - found), size) : NAN,
-                           "C: the derivative of sigma %d in strain %d is %.6g, differences of the "
-                           "stress give %.6g%s",
+                           "C: the derivative of sigma %d in strain %d is %.6g, but differences of "
+                           "the stress give %.6g%s",
                            i + 1, j + 1, C[i * m + j], found, s->words);
             claims_departs(
                 symmetric, claims_share(fabs(C[i * m + j] - C[j * m + i]), size),
@@ -172,7 +171,7 @@ static void check(const specimen *s, claims *c)
         s, e, inner,
         &(stress_output){.energy = &energy, .sigma = sigma, .C = C, .residual = &residual});
     claims_asks(claims_open(c, "moderate strains have a stress", 0), outcome == STATUS_OK,
-                "stress: strains of a few hundredths of the length end with status '%s'%s",
+                "stress: strains of a few hundredths of the length give status '%s'%s",
                 status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
@@ -311,16 +310,16 @@ static void own_motion(const specimen *s, const node_state x[], const inertia_ou
     if (s->section.matrices || s->made.features & FEATURE_ROTARY_INERTIA)
         claims_departs(claims_open(c, "the frame's motion has the centrifugal energy", 1e-11),
                        fabs(dense_dot(n, v, Mv) / 2 / -*out->potential - 1),
-                       "inertia: the potential is %.6g J, minus the kinetic energy of the frame's "
-                       "own motion, 1/2 v^T M v, is %.6g J%s",
+                       "inertia: the potential is %.6g J, but minus the kinetic energy of the "
+                       "motion of the frame, 1/2 v^T M v, is %.6g J%s",
                        *out->potential, -dense_dot(n, v, Mv) / 2, s->words);
     for (int i = 0; i < n; i++)
         largest = fmax(largest, fabs(out->force[i]) * chart_unit(i, s->request.length));
     for (int i = 0; i < n; i++)
         claims_departs(claims_open(c, "Coriolis is twice the centrifugal force", 1e-11),
                        fabs(Gv[i] + 2 * out->force[i]) * chart_unit(i, s->request.length) / largest,
-                       "inertia: G times the frame's own motion is %.6g in coordinate %d (%s), not "
-                       "minus twice the centrifugal force, %.6g%s",
+                       "inertia: G times the motion of the frame is %.6g in coordinate %d (%s), "
+                       "not minus twice the centrifugal force, %.6g%s",
                        Gv[i], i + 1, specimen_coordinate(i, where), -2 * out->force[i], s->words);
 }
 

@@ -282,7 +282,7 @@ static const schema_field key_of_measure[] = {
     {0}};
 static const schema_field fields_of_measure[] = {
     {"order", "1", FIELD_DOUBLE, "order of the errors", AT(element_measure, order)},
-    {"least", "1", FIELD_INT, "least order that the formulation declares; 0: none is required",
+    {"least", "1", FIELD_INT, "lowest order that the formulation declares; 0: none is required",
      AT(element_measure, least)},
     {"highest", "1", FIELD_INT, "highest order that it declares", AT(element_measure, highest)},
     {"locks", "", FIELD_FLAG, "the errors grow as the structure becomes thin",

@@ -334,7 +334,7 @@ static const schema_field fields_of_count[] = {
     {"survived", "1", FIELD_INT, "accurate or under-resolved cells", AT(extreme_count, survived)},
     {"coarse", "1", FIELD_INT, "under-resolved cells", AT(extreme_count, coarse)},
     {"named_failures", "1", FIELD_INT,
-     "cells with a reported failure: not converged, singular, refused, no value",
+     "cells with a reported failure: not converged, singular, rejected, no value",
      AT(extreme_count, named)},
     {"wrong", "1", FIELD_INT, "cells with wrong values", AT(extreme_count, wrong)},
     {"faults", "1", FIELD_INT, "cells that crashed or ran out of memory",

@@ -186,7 +186,7 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
     if (one->missing[0] != '\0')
         set_kind(o, OUTCOME_SKIP, one->missing);
     else if (other)
-        set_kind(o, OUTCOME_SKIP, "the exact value belongs to another theory of shear");
+        set_kind(o, OUTCOME_SKIP, "the exact value belongs to another shear theory");
     else if (p->status != STATUS_OK)
         set_failure(o, p->status, p->reason);
     else if (r == NULL)
@@ -432,9 +432,8 @@ void extreme_table(FILE *to, const void *found)
     print_counts(to, s);
     if (s->is_new > 0)
         paragraph_say(to, 0, 0,
-                      "%d outcomes of new formulations, which do not affect the exit status, are "
-                      "neither a value nor "
-                      "coarse and would need findings",
+                      "%d outcomes of new formulations are neither accurate nor under-resolved and "
+                      "would need known deviations; they do not affect the exit status",
                       s->is_new);
     fprintf(to, "%d outcomes differ from the expected ones, %d findings not observed\n",
             s->unexpected, s->unobserved);

@@ -54,9 +54,9 @@ static void accepted(const formulation *chosen, unsigned features, const char *w
     fault why = {""};
     claims_doing(c, "prepare, strain and stress with %s", what);
     const feature_outcome found = evaluated(chosen, features, &why);
-    claims_asks(claims_open(c, "everything it supports is present", 0), found == FINITE,
-                "offers: asked for %s, %s%s; give it, or do not declare it", what,
-                why.text[0] != '\0' ? "it is refused: " : "the stiffness is not finite", why.text);
+    claims_asks(claims_open(c, "all declared features are supported", 0), found == FINITE,
+                "offers: with %s the element fails (%s%s); support it, or do not declare it", what,
+                why.text[0] != '\0' ? "rejected: " : "the stiffness is not finite", why.text);
 }
 
 /* Checks that a type accepts no features, each supported feature with its prerequisites, and all
@@ -122,13 +122,14 @@ static void feature_subsets(const formulation *chosen, claims *c)
         claims_doing(c, "prepare, strain and stress with %s", words);
         const feature_outcome found = evaluated(chosen, features, &why);
         count[found]++;
-        claims_asks(finite, found != BAD,
-                    "prepare: asked for %s alone, %s; support it, or refuse it with a reason",
-                    words, why.text[0] != '\0' ? why.text : "the stiffness is not finite");
+        claims_asks(
+            finite, found != BAD,
+            "prepare: with only %s the element fails (%s); support it, or reject it with a reason",
+            words, why.text[0] != '\0' ? why.text : "the stiffness is not finite");
     }
     claims_departs(few, (double)count[REFUSED] / (1 << OPTIONAL),
-                   "prepare: %d of %d subsets of what it offers are refused; at most half may be, "
-                   "where one feature presupposes another",
+                   "prepare: %d of %d subsets of the declared features are rejected; at most half "
+                   "may be, where one feature requires another",
                    count[REFUSED], 1 << OPTIONAL);
 }
 
@@ -270,16 +271,15 @@ static void effects_check(const formulation *chosen, claims *c)
         claim *one = claims_open(c, name, 0);
         if (bit == FEATURE_WARPING)
             claims_asks(one, anywhere(chosen, all, 0) != 0,
-                        "offers warping, but nothing depends on the warping amplitudes; let "
-                        "strains depend on them, "
-                        "or do not declare it");
+                        "declares warping, but no result depends on the warping amplitudes; let "
+                        "strains depend on them, or do not declare warping");
         else /* shear theories are requested together with shear */
             claims_asks(
                 one,
                 anywhere(chosen, all,
                          bit == FEATURE_SHEAR ? bit | FEATURE_ENGESSER | FEATURE_HARINGX : bit) !=
                     0,
-                "offers %s, but nothing changes with it: strains, energy, stress and C are those "
+                "declares %s, but no result depends on it: strains, energy, stress and C are those "
                 "of the element without it; let them depend on it, or do not declare it",
                 feature_name(bit));
     }
@@ -326,8 +326,8 @@ static void positive(const specimen *s, const double A[], claim *one)
         }
     const int pivot = dense_cholesky(n, scaled);
     claims_asks(one, pivot == 0,
-                "inertia: M is not positive: some motion of the nodes up to coordinate %d (%s) has "
-                "negative kinetic energy%s",
+                "inertia: M is not positive definite: some motion of the nodes up to coordinate %d "
+                "(%s) has negative kinetic energy%s",
                 pivot, specimen_coordinate(pivot > 0 ? pivot - 1 : 0, where), s->words);
 }
 
@@ -445,7 +445,7 @@ static void check(const specimen *s, claims *c)
     claims_doing(c, "inertia%s", s->words);
     specimen_state(s, 0.05, 31, x);
     const status outcome = s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M});
-    claims_asks(claims_open(c, "it has a mass matrix", 0), outcome == STATUS_OK,
+    claims_asks(claims_open(c, "the element has a mass matrix", 0), outcome == STATUS_OK,
                 "inertia: status '%s' in a strained state%s", status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;

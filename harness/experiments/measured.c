@@ -38,7 +38,7 @@ static void conclude(element_measure *one)
     one->locks = thin > 10 * thick + 0.01;
     if (one->locks)
         snprintf(one->words, sizeof one->words,
-                 "it locks: the error grows from %.2g %% to %.2g %% as it becomes thin",
+                 "the element locks: its error grows from %.2g %% to %.2g %% as it becomes thin",
                  100 * thick, 100 * thin);
 }
 
@@ -203,7 +203,7 @@ static void compare_units(measures *out)
     const double thousands = log10(times) / 3;
     if (!(fabs(thousands) > 0.5) || fabs(thousands - round(thousands)) > 1e-3)
         return;
-    snprintf(out->words, sizeof out->words, "everything is %.0e times too %s: units?",
+    snprintf(out->words, sizeof out->words, "every value is %.0e times too %s: check the units",
              fmax(times, 1 / times), times > 1 ? "soft" : "stiff");
 }
 

@@ -284,8 +284,8 @@ static void print_reference(FILE *to, const pace *p, const pace_group *g)
     char stopped[160] = "";
     if (pace_order_is_stopped(g))
         snprintf(stopped, sizeof stopped,
-                 "; between these two its order is %.1f of %d: motions faster than its steps take "
-                 "part",
+                 "; between these two its order is %.1f instead of %d: motions faster than its "
+                 "steps contribute",
                  g->order, PACE_REFERENCE_ORDER);
     paragraph_say(to, 0, 2,
                   "time errors: against radau at %g on the same mesh (%d steps), whose error is "
@@ -355,7 +355,8 @@ static void print_orders(FILE *to, const pace *p, const pace_group *g)
             paragraph_say(to, 0, 2, "order of %s: %.2f, %.2f (nominal %d): %s", l.method->name,
                           l.before, l.order, l.method->order, pace_order_name(l.kind));
         else if (l.count > 2)
-            paragraph_say(to, 0, 2, "order of %s: %s, no errors that show it (nominal %d)",
+            paragraph_say(to, 0, 2,
+                          "order of %s: %s, it cannot be measured from the errors (nominal %d)",
                           l.method->name, pace_order_name(l.kind), l.method->order);
         i += l.count;
     }

@@ -34,7 +34,7 @@ status pace_plan_usual(pace_plan_request *r, fault *f)
     const int analysis = outcome == STATUS_OK ? motion_of(&s) : -1;
     if (outcome == STATUS_OK && analysis < 0)
         outcome = fault_set(f, STATUS_REFUSED,
-                            "%s is not a motion in time; 'beamwork list' shows those that are",
+                            "%s is not a motion in time; 'beamwork list' shows the motions",
                             r->type->name);
     if (outcome == STATUS_OK) {
         if (r->elements == 0)

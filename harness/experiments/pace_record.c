@@ -121,12 +121,14 @@ static const schema_field fields_of_reference[] = {
     {"status", "", FIELD_ENUM, "status of the motion", .get = get_reference_status,
      .word = fields_keys_word_of_status, .words = STATUSES},
     {"reason", "", FIELD_TEXT, "reason for a missing reference", AT(pace_group, reason)},
-    {"uncertainty", "1", FIELD_DOUBLE, "bound of its uncertainty", AT(pace_group, uncertainty)},
-    {"order", "1", FIELD_DOUBLE, "its observed order, from the steps and errors of its checks",
+    {"uncertainty", "1", FIELD_DOUBLE, "bound of the uncertainty of the reference solution",
+     AT(pace_group, uncertainty)},
+    {"order", "1", FIELD_DOUBLE,
+     "observed order of the reference solution, from the steps and errors of its checks",
      AT(pace_group, order)},
     {"end", "s", FIELD_DOUBLE, "status of the motion", AT(pace_group, end)},
     {"alone_from", "s", FIELD_DOUBLE,
-     "time after which no load acts; infinite: loads act until the end", AT(pace_group, from)},
+     "time after which no load acts; infinite if loads act until the end", AT(pace_group, from)},
     {0}};
 static const record_type record_pace_reference = {
     "reference", "references", "reference solutions for time errors", {KEYS, fields_of_reference}};

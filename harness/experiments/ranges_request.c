@@ -186,9 +186,9 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
         const char *words;
     } part[] = {
         {kind[ROWS_STORED], "a stored reference value"},
-        {kind[ROWS_DERIVED], "a reference value computed there"},
-        {kind[ROWS_LIMIT], alone ? "the limit from the same meshes, which shows convergence only"
-                                 : "the limit of the meshes of all formulations of one theory"},
+        {kind[ROWS_DERIVED], "a reference value computed for the point"},
+        {kind[ROWS_LIMIT], alone ? "the limit from the same meshes, which only shows convergence"
+                                 : "the limit from the meshes of all formulations of one theory"},
         {kind[ROWS_NONE], "nothing: no limit has an uncertainty below half of the error (use finer "
                           "-n, or --compute-references)"},
         {kind[ROWS_DISPUTED], "nothing: limits of formulations disagree"}};
@@ -241,7 +241,7 @@ static void write_without_scene(FILE *to, const tally *t)
     ranges_points_text(r, at, where, sizeof where);
     cell_scene(r->request.type, value, NULL, &s, &why);
     scene_free(&s);
-    paragraph_say(to, fprintf(to, "  %ld points have no scene", t->without_scene), 6,
+    paragraph_say(to, fprintf(to, "  no scene can be built at %ld points", t->without_scene), 6,
                   ", the first at %s: %s", where, why.text);
 }
 
@@ -392,9 +392,9 @@ void ranges_table_map(FILE *to, const tally *t, int every)
         has_mixed(t) ? "; *: against a reference value, elsewhere against limits of meshes, which "
                        "do not show what a theory omits"
                      : "",
-        is_coarse(t)
-            ? "; a field shows what all its points need; column and row give its lower bounds"
-            : "");
+        is_coarse(t) ? "; each field shows the number that suffices for all its points; column and "
+                       "row give its lower bounds"
+                     : "");
     for (int q = 0; q < r->quantities && every && r->quantities > 1; q++)
         write_maps_of(to, t, q);
     write_maps_of(to, t, r->quantities > 1 ? r->quantities : 0);

@@ -137,7 +137,7 @@ static void write_leasts(FILE *to, const tally *t)
     const parameter_ranges *r = t->of;
     for (int first = 0; first < r->formulations; first += BESIDE) {
         const int end = first + BESIDE < r->formulations ? first + BESIDE : r->formulations;
-        fprintf(to, "%-*s", RANGES_TABLE_NAME + 2, "n that is enough for");
+        fprintf(to, "%-*s", RANGES_TABLE_NAME + 2, "sufficient n for");
         for (int i = first; i < end; i++)
             fprintf(to, " %*.*s", WIDTH - 1, WIDTH - 1, r->formulation[i].key);
         fputc('\n', to);

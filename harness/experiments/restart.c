@@ -18,8 +18,8 @@ status restart_possible(const scene *s, fault *f)
     for (int i = 0; i < s->loads; i++)
         if (s->load[i].feedback.node != SCENE_NONE && s->load[i].feedback.integral != 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s (feedback): --save-state does not store its integral; integrate "
-                             "in one run",
+                             "%s (feedback): --save-state does not store the integral of the "
+                             "error; integrate in one run",
                              scene_called(s, SCENE_LOADS, i).text);
     for (int i = 0; i < s->analyses; i++)
         if (s->analysis[i].kind == SCENE_MOTION)
@@ -65,7 +65,7 @@ static status drop_stations(const outcome_end *e, scene *s, fault *f)
     if (kept == 0)
         return fault_set(f, STATUS_REFUSED,
                          "the motion continues from %.10g s, but its last station is at %.10g s: "
-                         "give it a later one",
+                         "add a later station",
                          e->time, last);
     m->path.stations = kept;
     return STATUS_OK;
@@ -79,7 +79,8 @@ status restart_begin(const restart *r, solution_request *of, scene *s, fault *f)
         const int k = r->end[i].analysis;
         if (k < 0 || k >= s->analyses || s->analysis[k].kind != SCENE_MOTION)
             return fault_set(f, STATUS_REFUSED,
-                             "--restart: %s is not a motion of the scene; store its end again",
+                             "--restart: %s is not a motion of the scene; write its state again "
+                             "with --save-state",
                              scene_called(s, SCENE_ANALYSES, k).text);
         TRY(drop_stations(&r->end[i], s, f));
     }
@@ -333,10 +334,9 @@ static status restart_text(const scene *s, char **out, fault *f)
         return STATUS_OK;
     free(*out);
     *out = NULL;
-    return fault_set(
-        f, STATUS_REFUSED,
-        "scene files cannot express this scene, by which a continued motion is identified: "
-        "remove --save-state and --restart");
+    return fault_set(f, STATUS_REFUSED,
+                     "a continued motion is identified by its scene, but scene files cannot "
+                     "express this scene: remove --save-state and --restart");
 }
 
 /* Length of the line without leading spaces, which are skipped. */

@@ -92,8 +92,8 @@ static status tell_change(const solution_request *r, const solution_choice *why,
         return out->status;
     out->status = STATUS_NOT_CONVERGED;
     snprintf(out->reason, sizeof out->reason,
-             "values still change with the mesh: %.200s, and %.3g %% was requested; use -n %d, or "
-             "raise --error",
+             "values still change with the mesh: %.200s; %.3g %% was requested; use -n %d, or a "
+             "larger --error",
              why->elements, 100 * asked, 2 * r->elements);
     return fault_set(f, STATUS_NOT_CONVERGED, "%s", out->reason);
 }

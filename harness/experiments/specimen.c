@@ -215,12 +215,11 @@ static void one_way(const way *w, claims *c, specimens_check *check)
     const status outcome = specimen_make(&w->made, &s, &f);
     describe(&w->made, w->chosen, &s);
     const int refused = outcome == STATUS_REFUSED && f.text[0] != '\0';
-    claims_asks(
-        claims_open(c, "prepare", 0), outcome == STATUS_OK || (refused && !w->usual),
-        "prepare: an element%s is refused (%s): %s; support it, or refuse it with a reason and "
-        "do not offer it",
-        s.words[0] != '\0' ? s.words + 1 : " of a rectangle with all that is offered",
-        status_name(outcome), f.text[0] != '\0' ? f.text : "no reason is given");
+    claims_asks(claims_open(c, "prepare", 0), outcome == STATUS_OK || (refused && !w->usual),
+                "prepare: rejects an element%s (%s): %s; support it, or reject it with a reason "
+                "and do not declare the feature",
+                s.words[0] != '\0' ? s.words + 1 : " of a rectangle with all declared features",
+                status_name(outcome), f.text[0] != '\0' ? f.text : "no reason is given");
     if (outcome == STATUS_OK && gives_answers(&s, c))
         check(&s, c);
     specimen_free(&s);
@@ -335,9 +334,10 @@ static void check_force(const specimen_place *at, const double F[], claim *one)
         double found = NAN;
         const double unit = chart_unit(i, s->request.length);
         stencil_first(energy_at, at, 1, i, &found);
-        claims_departs(one, claims_share(fabs(work[i] - found), size),
-                       "force: F in coordinate %d (%s) is %.6g, the energy's derivative is %.6g%s",
-                       i + 1, specimen_coordinate(i, where), F[i], found / unit, s->words);
+        claims_departs(
+            one, claims_share(fabs(work[i] - found), size),
+            "force: F in coordinate %d (%s) is %.6g, but the derivative of the energy is %.6g%s",
+            i + 1, specimen_coordinate(i, where), F[i], found / unit, s->words);
     }
 }
 
@@ -361,7 +361,7 @@ static void check_stiffness(const specimen_place *at, const double K[], claim *o
                          found = (column[j][i] * ui + column[i][j] * uj) / 2;
             claims_departs(one, claims_share(fabs(given - found), size),
                            "K: the derivative of the force in coordinate %d (%s) along coordinate "
-                           "%d (%s) is %.6g, differences of F give %.6g%s",
+                           "%d (%s) is %.6g, but differences of F give %.6g%s",
                            i + 1, specimen_coordinate(i, first), j + 1,
                            specimen_coordinate(j, other), given / (ui * uj), found / (ui * uj),
                            s->words);
@@ -416,7 +416,7 @@ static void check(const specimen *s, claims *c)
              &(force_output){
                  .energy = &energy, .F = leaves & LEAVES_FORCE ? NULL : F, .K = leaves ? NULL : K});
     claims_asks(claims_open(c, "moderate strains have a force", 0), outcome == STATUS_OK,
-                "force: a state moved by a few hundredths ends with status '%s'%s",
+                "force: a state displaced by a few hundredths ends with status '%s'%s",
                 status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;

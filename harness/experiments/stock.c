@@ -33,7 +33,7 @@ static status add_kind(stock *s, const machine *of, fault *f)
         }
     stock_kind *more = realloc(s->kind, ((size_t)s->kinds + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for kinds of machines");
+        return fault_set(f, STATUS_FAULT, "out of memory for the kinds of machines");
     s->kind = more;
     s->kind[s->kinds++] = (stock_kind){*of, 1};
     return STATUS_OK;
@@ -255,8 +255,8 @@ status stock_first(const char *folder, batch_label *out, fault *f)
     free(entry);
     return found ? STATUS_OK
                  : fault_set(f, STATUS_REFUSED,
-                             "%.200s: no batches in it; run a verb with --shard K/N --into this "
-                             "folder",
+                             "%.200s: the folder contains no batches; run a verb with --shard K/N "
+                             "--into this folder",
                              folder);
 }
 
@@ -352,7 +352,7 @@ static status take(const shard_work *w, const stock *s, int batch, fault *f)
     if (outcome == STATUS_OK && ftell(from) != end)
         outcome =
             fault_set(f, STATUS_FAULT,
-                      "%.200s: its length differs from that of its contents; remove it", path);
+                      "%.200s: the file is longer or shorter than its contents; remove it", path);
     fclose(from);
     return outcome;
 }

@@ -113,7 +113,7 @@ static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f
                ? fault_set(f, STATUS_REFUSED, "-k '%.100s' selects no quantity of %.60s", w->select,
                            r->request.type->name)
                : fault_set(f, STATUS_REFUSED,
-                           "%.60s has no single-valued quantity that a formulation can show",
+                           "%.60s has no single-valued quantity that a formulation can compute",
                            r->request.type->name);
 }
 

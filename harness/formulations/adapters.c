@@ -147,8 +147,8 @@ static status check(const element_type *given, const double options[], fault *f)
 {
     const int nodes = element_nodes(given, options);
     if (given->prepare == NULL)
-        return refuse(
-            given, "'prepare' is missing, without which the element does not know its section", f);
+        return refuse(given,
+                      "'prepare' is missing; without it the element does not know its section", f);
     if ((given->force != NULL) == (given->strain != NULL || given->stress != NULL))
         return refuse(given, "give either 'strain' and 'stress', or 'force'", f);
     if (given->force == NULL && (given->strain == NULL || given->stress == NULL))

@@ -72,8 +72,8 @@ status formulations_add(const element_type *t, const char *from, fault *f)
     int count = 0;
     if (is_reserved(t->name))
         return fault_set(f, STATUS_REFUSED,
-                         "no formulation can be called '%s', which is a word of the command line; "
-                         "give it another name",
+                         "'%s' is a word of the command line and cannot be the name of a "
+                         "formulation; use another name",
                          t->name);
     if (formulations_named(t->name, strlen(t->name)) != NULL)
         return fault_set(f, STATUS_REFUSED, "formulation %s already exists; use another name",

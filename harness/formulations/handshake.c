@@ -195,7 +195,7 @@ static status only_known_keys(const handshake_reading *r)
         for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
             known |= strcmp(keys[i], key) == 0;
         if (!known)
-            return refuse(r, key, "no such key in this protocol; remove it");
+            return refuse(r, key, "the protocol has no such key; remove it");
     }
     return STATUS_OK;
 }
@@ -232,7 +232,8 @@ static status read_all(const handshake_reading *r, handshake *out)
     if (!out->whole)
         TRY(number_of(r, "strains", 1, ELEMENT_MAX_STRAINS, -1, &out->constants.strains));
     else if (json_object_get(r->said, "strains") != NULL)
-        return refuse(r, "strains", "a formulation of whole elements has none; remove it");
+        return refuse(r, "strains",
+                      "formulations of whole elements do not have this key; remove it");
     TRY(orders_of(r, out->constants.order));
     TRY(inertia_of(r, out));
     return handshake_options(r->who, json_object_get(r->said, "options"), &t->options[0], r->f);

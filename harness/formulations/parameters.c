@@ -39,7 +39,7 @@ status words_split(const char *command, char ***words, fault *f)
     }
     out[count] = NULL;
     if (from == NULL)
-        why = "a quote does not end";
+        why = "a quotation mark is not closed";
     else if (*from != '\0')
         why = "too many words; put them into a script";
     else if (count == 0 || out[0][0] == '\0')

@@ -380,7 +380,7 @@ static status refused(channel *c, status outcome, size_t bytes, size_t had, faul
     size_t more = 0;
     const size_t here = had - CHANNEL_ANSWER;
     if (bytes > MESSAGE || here > bytes)
-        return channel_break(c, "the line of its refusal is longer than 300 bytes", f);
+        return channel_break(c, "the reason for its rejection is longer than 300 bytes", f);
     memcpy(text, rest, here);
     if (here < bytes) {
         const child_event what =

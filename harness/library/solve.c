@@ -114,9 +114,10 @@ static status solve(const bw_scene *from, const char *name, int elements, const 
     if (from == NULL || out == NULL)
         return fault_set(f, STATUS_REFUSED, "bw_solve: give a scene and a place for the result");
     if (elements < 0 || elements > MESHES_FINEST)
-        return fault_set(f, STATUS_REFUSED,
-                         "number of elements %d: give a whole number from 1 to %d, or 0: chosen",
-                         elements, MESHES_FINEST);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "number of elements %d: give a whole number from 1 to %d, or 0 to have it chosen",
+            elements, MESHES_FINEST);
     solution_request what = {
         .type = source_case(from->from), .parameter = from->parameter, .elements = elements};
     TRY(read_options(options, &what, f));

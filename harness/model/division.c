@@ -204,14 +204,14 @@ static status check_between(const model *m, int member, const section *c, fault 
     const char *limit =
         missing_in_section(m->mesh.type, c, cells, (m->features & FEATURE_WARPING) != 0);
     if ((c->Iw > 0) != (p->Iw > 0 || q->Iw > 0))
-        limit = "warping in a part of a member only";
+        limit = "warping in only a part of a member";
     else if (features_eccentric(c) && !features_eccentric(p) && !features_eccentric(q))
-        limit = "a shear centre that leaves the centroid between the ends only";
+        limit = "a shear centre that leaves the centroid only between the ends";
     if (limit == NULL)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%s: its section has a property between its ends that the ends do not have: "
-                     "%s; put a node with another section there",
+                     "%s: between the ends the section has a property that it does not have at the "
+                     "ends: %s; put a node with another section there",
                      scene_called(m->scene, SCENE_MEMBERS, member).text, limit);
 }
 

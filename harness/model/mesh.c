@@ -309,7 +309,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
         }
         if (rotation_triad(between, y, triad[0]) != 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: its elements rotate too far; use more elements",
+                             "%s: its elements turn through too large an angle; use more elements",
                              scene_called(m->scene, SCENE_MEMBERS, member).text);
         for (int i = 1; i <= last && i < ELEMENT_MAX_NODES; i++)
             memcpy(triad[i], triad[0], sizeof triad[0]);
@@ -480,8 +480,8 @@ static status allocate(model *m, fault *f)
     snprintf(what, sizeof what, "%.0f elements", total);
     TRY(memory_check(total * per_element, what, "give fewer", f));
     if (total > most)
-        return fault_set(f, STATUS_REFUSED, "%.0f elements: at most %.0f can be numbered", total,
-                         most);
+        return fault_set(f, STATUS_REFUSED, "%.0f elements are too many; at most %.0f are possible",
+                         total, most);
     const int ends = release_count(s);
     m->mesh.first_release = s->nodes + (int)total * (m->mesh.nodes - 1) - s->members;
     m->mesh.vertices = m->mesh.first_release + ends;
@@ -495,8 +495,8 @@ static status allocate(model *m, fault *f)
     if (m->mesh.release == NULL || m->mesh.vertex == NULL || m->mesh.element == NULL ||
         m->triad == NULL || m->mesh.kind == NULL || m->mesh.warp == NULL ||
         m->mesh.first_element == NULL)
-        return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer",
-                         total);
+        return fault_set(f, STATUS_REFUSED,
+                         "%.0f elements need more memory than there is; use fewer", total);
     return STATUS_OK;
 }
 
@@ -528,8 +528,8 @@ status mesh_build(model *m, fault *f)
         m->mesh.first_element[member] = m->mesh.elements;
         if ((a.bow[0] != 0 || a.bow[1] != 0) && n < 2 * a.half_waves)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: %d elements do not show an imperfection of %d half waves; give "
-                             "at least %d",
+                             "%s: %d elements cannot represent an imperfection of %d half waves; "
+                             "use at least %d",
                              scene_called(s, SCENE_MEMBERS, member).text, n, a.half_waves,
                              2 * a.half_waves);
         for (int i = 0; i < n; i++)

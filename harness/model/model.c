@@ -126,10 +126,10 @@ static status note_means(model *m, fault *f)
     double axis[3];
     for (int i = 0; i < s->nodes; i++)
         if (scene_idle_turn(s, i, axis) != 0)
-            TRY(coordinates_note_left_out(
-                m, f,
-                "the free rotation of %s, which all its members release: nothing depends on it",
-                scene_called(s, SCENE_NODES, i).text));
+            TRY(coordinates_note_left_out(m, f,
+                                          "the free rotation of %s, which all its members release: "
+                                          "nothing depends on this rotation",
+                                          scene_called(s, SCENE_NODES, i).text));
     for (int i = 0; i < s->sections; i++)
         if (m->section[i].asymmetry > 0)
             TRY(coordinates_note_left_out(
@@ -226,8 +226,8 @@ static status build(model *m, const model_request *request, fault *f)
     if (adapters_words(type)[0] != '\0')
         TRY(coordinates_note_left_out(m, f, "%s", adapters_words(type)));
     if (process_serves(type))
-        TRY(coordinates_note_left_out(m, f,
-                                      "of the times: what the process of the formulation takes"));
+        TRY(coordinates_note_left_out(
+            m, f, "of the times: the time that the process of the formulation takes"));
     return allocate(m, f);
 }
 

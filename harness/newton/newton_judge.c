@@ -262,12 +262,12 @@ status newton_judge_rest(const model *m, fault *f)
         return STATUS_OK;
     const int member = model_element(m, index)->member, first = model_first_element(m, member),
               count = model_first_element(m, member + 1) - first;
-    return fault_set(f, STATUS_NOT_CONVERGED,
-                     "the arc of element %d of %d of %s rises by %.3g radii of gyration of its "
-                     "section, and %s is right below %g: use %.0f elements or another formulation",
-                     index - first + 1, count,
-                     scene_called(model_scene(m), SCENE_MEMBERS, member).text, rise,
-                     model_type(m)->name, most, floor(count * sqrt(rise / most)) + 1);
+    return fault_set(
+        f, STATUS_NOT_CONVERGED,
+        "the arc of element %d of %d of %s rises by %.3g radii of gyration of its section, and %s "
+        "is accurate only below %g: use %.0f elements or another formulation",
+        index - first + 1, count, scene_called(model_scene(m), SCENE_MEMBERS, member).text, rise,
+        model_type(m)->name, most, floor(count * sqrt(rise / most)) + 1);
 }
 
 /* Near a full revolution, a moment normal to the rotation axis has an unbounded effect. */

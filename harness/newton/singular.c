@@ -93,8 +93,8 @@ static void name_motion(const scene *s, int node, const double motion[6], double
     const int turns = vec3_norm(turn) * length > 1e-6 * vec3_norm(shift);
     const double *v = turns ? turn : shift, size = vec3_norm(v);
     fault_set(f, STATUS_SINGULAR,
-              "%s at (%.4g, %.4g, %.4g) is not held, and neither is what it is joined to: it can "
-              "%s (%.3g, %.3g, %.3g); hold this motion",
+              "neither %s at (%.4g, %.4g, %.4g) nor any part joined to it is held: it can %s "
+              "(%.3g, %.3g, %.3g); hold this motion",
               scene_called(s, SCENE_NODES, node).text, at[0], at[1], at[2],
               turns ? "turn about" : "move along", v[0] / size, v[1] / size, v[2] / size);
 }
@@ -113,8 +113,8 @@ status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
     for (int i = 0; i < 3; i++)
         axis[i] = fabs(v[i]) > 1e-9 * size ? v[i] / size : 0;
     return fault_set(f, STATUS_SINGULAR,
-                     "%s can %s (%.3g, %.3g, %.3g) while nothing deforms: %s form a mechanism; "
-                     "join one of them, hold it against that, or drive it",
+                     "%s can %s (%.3g, %.3g, %.3g) without deformation: %s form a mechanism; join "
+                     "one of them, hold this motion, or drive it",
                      node >= 0 ? scene_called(c->scene, SCENE_NODES, node).text
                                : scene_called(c->scene, SCENE_MEMBERS, member).text,
                      turns ? "turn about" : "move along", axis[0], axis[1], axis[2],
@@ -232,8 +232,8 @@ void singular_explain(analysis_context *c, fault *f)
     condition_at_rest(c, &c->eq, &lost);
     if (lost == NO_NUMBER)
         fault_set(f, STATUS_SINGULAR,
-                  "the formulation returned NaN or Inf: look at its energy, stresses or "
-                  "derivatives at rest");
+                  "the formulation returned NaN or Inf: check its energy, stresses and derivatives "
+                  "in the undeformed state");
     else if (lost)
         explain_loss(c, f);
     else

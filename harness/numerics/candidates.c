@@ -345,9 +345,10 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
             break;
     }
     if (*missing < 0)
-        return fault_set(
-            f, STATUS_NOT_CONVERGED,
-            "%d eigenvalues found where the inertia counts fewer, or cannot be counted", q);
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "%d eigenvalues were found, but the inertia of the matrix counts fewer or "
+                         "cannot be computed",
+                         q);
     return STATUS_OK;
 }
 

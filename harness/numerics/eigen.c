@@ -298,11 +298,12 @@ status eigen_solve(const eigen_problem *e, eigen_result *r, fault *f)
     memset(r, 0, sizeof *r);
     r->n = e->K->n;
     if (negative != 0)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "eigenvalues need a positive definite stiffness: this one has %d negative pivots%s",
-            negative,
-            negative > 0 ? ", the structure is beyond a critical point" : " (it is not symmetric)");
+        return fault_set(f, STATUS_REFUSED,
+                         "the eigenvalue solver requires a positive definite stiffness matrix; "
+                         "this one has %d negative pivots%s",
+                         negative,
+                         negative > 0 ? ", the structure is beyond a critical point"
+                                      : " (it is not symmetric)");
     if (r->n == 0)
         return STATUS_OK;
     return solve_upper(e, r, f);

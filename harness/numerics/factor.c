@@ -350,7 +350,7 @@ static status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric
         return STATUS_OK;
     if (fu->common.status == KLU_SINGULAR)
         return fault_set(f, STATUS_SINGULAR,
-                         "the matrix is singular whatever its numbers: something is not held");
+                         "the matrix is singular whatever its values: some part is not held");
     return fault_set(f, STATUS_FAULT, "out of memory for ordering %d unknowns", fu->n);
 }
 

@@ -110,7 +110,7 @@ static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
     }
     if (counts->entries > INT_MAX)
         return fault_set(f, STATUS_FAULT,
-                         "a factor of %ld entries is more than its indices can count",
+                         "a factor of %ld entries exceeds the range of its indices",
                          counts->entries);
     const size_t fill = (size_t)fs->L_column[n] + 1;
     fs->L_row = malloc(fill * sizeof *fs->L_row);

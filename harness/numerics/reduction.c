@@ -49,11 +49,11 @@ static status decompose(reduction *b, fault *f)
                                                    b->inner, b->K, b->inner, b->mu);
     if (info > b->inner)
         return fault_set(f, STATUS_REFUSED,
-                         "its stiffness with the interface fixed is not positive: what is free to "
-                         "move has no reduced model; name interface nodes that hold it");
+                         "its stiffness with the interface fixed is not positive: a structure that "
+                         "is free to move has no reduced model; name interface nodes that hold it");
     return info == 0 ? STATUS_OK
                      : fault_set(f, STATUS_NOT_CONVERGED,
-                                 "the modes of a reduced model did not converge");
+                                 "the modes for a reduced model did not converge");
 }
 
 /* Not more than have mass, apart from round-off: there are fewer than coordinates. */

@@ -276,7 +276,8 @@ static status take_modes(split *s, double L[], double G[], double V[], fault *f)
         TRY(decompose(s, L, G, V, &positive, f));
     }
     if (!positive)
-        return fault_set(f, STATUS_REFUSED, "its masses are not positive: check inertias");
+        return fault_set(f, STATUS_REFUSED,
+                         "its mass matrix is not positive definite: check the inertias");
     if (s->shift > 0) {
         double least = INFINITY;
         for (size_t i = 0; i < p; i++) {
@@ -450,9 +451,9 @@ static status fill_outputs(const split *s, const double rows[], const double pos
             for (int times = 0; times < rate; times++) {
                 if (passes_through(s, rows, c, out->states)) {
                     out->improper = (int)y;
-                    return fault_set(f, STATUS_REFUSED,
-                                     "it follows an input at once, without a mass between them, "
-                                     "and its rate has no state space");
+                    return fault_set(
+                        f, STATUS_REFUSED,
+                        "no mass separates it from an input, so its rate has no state space");
                 }
                 memset(d, 0, width * sizeof *d);
                 for (size_t k = 0; k < states; k++)

@@ -67,11 +67,11 @@ static void tell_foreign(const listing *l, int which, const char **last)
     comparison_lines_heading(&here, which == 0 ? CHANGE_GONE : CHANGE_NEW);
     if (which == 0 && instead != NULL)
         fprintf(l->to,
-                ": is it '%.80s' now? Then write '# version:' in the file to import, and keep the "
-                "version out of '# program:'",
+                ": was it renamed to '%.80s'? Then write the version in '# version:' of the "
+                "imported file, not in '# program:'",
                 instead);
     else if (which == 0)
-        fputs(": give it with --imported (an element of your own with --element), or accept the "
+        fputs(": give the file with --imported (your own element with --element), or accept the "
               "new run",
               l->to);
     fputc('\n', l->to);
@@ -362,7 +362,8 @@ static void compare_errors(const listing *l, const result_series *a, const resul
     if (largest || least || fabs(change) <= slack)
         return;
     comparison_lines_heading(l, change > 0 ? CHANGE_WORSE : CHANGE_BETTER);
-    fprintf(l->to, ": errors between the least and the largest moved by %+.4f decades in all\n",
+    fprintf(l->to,
+            ": errors between the smallest and the largest moved by %+.4f decades in total\n",
             change);
 }
 

@@ -11,7 +11,8 @@
 
 static const schema_field fields_of_scene[] = {
     {"scene", "", FIELD_TEXT,
-     "scene file that solves to the same bits, loops and expressions written out", .address = 1},
+     "scene file with the same solution, bit for bit, and with loops and expressions expanded",
+     .address = 1},
     {0}};
 const record_type record_scene = {
     "scene", "scenes", "a parameter point as a scene file", {keys_of_point, fields_of_scene}};
@@ -111,7 +112,7 @@ static void get_assumption(const subject *s, field_value *out)
 
 static const schema_field fields_of_assumption[] = {
     {"kind", "", FIELD_ENUM,
-     "not known: the numbers of the section do not determine it; not modelled: no formulation "
+     "not known: the constants of the section do not determine it; not modelled: no formulation "
      "supports it",
      .get = get_kind, .word = assumptions_kind, .words = ASSUMPTION_KINDS},
     {"section", "", FIELD_TEXT, "name of the section", .get = get_section},
@@ -137,7 +138,8 @@ static void get_curve(const subject *s, field_value *out)
 
 static const schema_field fields_of_meaning[] = {
     {"meaning", "", FIELD_TEXT, "description in one line", .get = get_meaning},
-    {"curve", "", FIELD_FLAG, "it has a value at every station of a path", .get = get_curve},
+    {"curve", "", FIELD_FLAG, "the quantity has a value at every station of a path",
+     .get = get_curve},
     {0}};
 const record_type record_meaning = {"meaning",
                                     "meanings",
@@ -236,12 +238,12 @@ static const schema_field fields_of_verdict[] = {
     {"truth_uncertainty", OWN_UNIT, FIELD_DOUBLE, "uncertainty of the reference value",
      OF(TRUTH, truth, uncertainty)},
     {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(TRUTH, truth, kind)},
-    {"theory", "", FIELD_TEXT, "theory of shear in stability of the reference value",
+    {"theory", "", FIELD_TEXT, "shear theory in stability of the reference value",
      TEXT_OF(TRUTH, truth, theory)},
     {"source", "", FIELD_TEXT, "source of the reference value", TEXT_OF(TRUTH, truth, source)},
     {"below_digits", "", FIELD_FLAG, "the error is below the uncertainty of the reference value",
      AT(verdict, below_digits)},
-    {"predicted", OWN_UNIT, FIELD_DOUBLE, "limit derived for the formulation",
+    {"predicted", OWN_UNIT, FIELD_DOUBLE, "limit that theory predicts for the formulation",
      .get = get_predicted},
     {"contradicted", OWN_UNIT, FIELD_DOUBLE, "published value that the limit excludes",
      .get = get_contradicted},
@@ -253,7 +255,7 @@ static const schema_field fields_of_verdict[] = {
      OF(MODEL_TRUTH, truth, value)},
     {"model_truth_kind", "", FIELD_TEXT, "exact, independent, ...",
      TEXT_OF(MODEL_TRUTH, truth, kind)},
-    {"model_theory", "", FIELD_TEXT, "theory of shear in stability of this value",
+    {"model_theory", "", FIELD_TEXT, "shear theory in stability of this value",
      TEXT_OF(MODEL_TRUTH, truth, theory)},
     {"model_error", "1", FIELD_DOUBLE, "relative error of the limit against this value",
      AT(verdict, model_error)},

@@ -215,7 +215,7 @@ static void write_ranking(FILE *to, const reach_question *q, const reached list[
 /* Writes the formulations that use the general cost coefficients for their number of strains. */
 static void write_unpriced(FILE *to, const sweep *s, const reached list[], int count)
 {
-    const char *before = "; without cost coefficients of its own: ";
+    const char *before = "; no own cost coefficients: ";
     for (int i = 0; i < count; i++) {
         const formulation *one = &s->series[list[i].series].formulation;
         if (price_own(price_rows, one))
@@ -279,7 +279,7 @@ static void write_others(FILE *to, const reach_question *q, const reached list[]
 /* Writes the other models that were solved, each once. */
 static void write_other_models(FILE *to, const reach_question *q)
 {
-    const char *before = "; another model, which is not ranked: ";
+    const char *before = "; a different model, not ranked: ";
     for (int i = 0; i < q->s->seriess; i++) {
         const series *one = &q->s->series[i];
         if (one->point != q->point || !one->without.other)
@@ -356,8 +356,8 @@ static void write_model_error(FILE *to, const reach_question *q, reached list[])
     rounding_digits(100 * most->model_error, 2, percent);
     rounding_known(solid->value, solid->uncertainty, value);
     fprintf(to,
-            "Beams are not the structure: %s of another model is %s %s (%s); the limit of %s is "
-            "%s%s %% from it. The %g %% apply to beams only.\n",
+            "The beam model differs from the structure: %s of another model is %s %s (%s); the "
+            "limit of %s is %s%s %% from it. The %g %% apply to the beam model only.\n",
             q->s->point[q->point].scene.quantity[most->quantity].name, value, solid->unit,
             solid->source, q->s->series[most->series].formulation.key,
             most->model_error > 0 ? "+" : "", percent, 100 * q->level);
@@ -395,7 +395,7 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
     if (known > 0) {
         write_others(to, q, list, count, 1, "; not reached by ");
         write_others(to, q, list, count, 0,
-                     "; without a reference value of its theory for all of it: ");
+                     "; without a reference value of the same theory for every quantity: ");
     }
     write_other_models(to, q);
     fputc('\n', to);

@@ -169,8 +169,8 @@ void junit_write(FILE *to, const sweep *s, const judgement *j)
         write_failed(to, "contract", j->breach[i].formulation, j->breach[i].why);
     for (int i = 0; i < j->regressions; i++)
         write_failed(to, "not-worse-than", j->regression[i].of, j->regression[i].why);
-    write_ledger(to, "findings", j->unobserved, "findings were not observed");
-    write_ledger(to, "truths", j->unmet, "reference values refer to nothing that exists");
+    write_ledger(to, "findings", j->unobserved, "known deviations were not observed");
+    write_ledger(to, "truths", j->unmet, "reference values refer to unknown names");
     write_ledger(to, "cells", j->flaws, "inconsistent run records");
     if (judgement_exit(j) == JUDGED_NOTHING)
         write_ledger(to, "run", 1, "run judged nothing: no verdict against a reference value");

@@ -32,8 +32,8 @@ static int is_hdf5(const char *path)
 static status unfit(const char *path, fault *f)
 {
     return fault_set(f, STATUS_REFUSED,
-                     "%.200s: HDF5 that is damaged or not a result file; its contents would be "
-                     "lost; move it, or give another name",
+                     "%.200s: a damaged HDF5 file, or not a results file; its contents would be "
+                     "lost; move the file, or give another name",
                      path);
 }
 

@@ -255,7 +255,7 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
     if (j->unobserved > 0)
         fprintf(to, "; %d known deviations were not observed", j->unobserved);
     if (j->unmet > 0)
-        fprintf(to, "; %d reference values refer to nothing that exists", j->unmet);
+        fprintf(to, "; %d reference values refer to unknown names", j->unmet);
     if (j->flaws > 0)
         fprintf(to, "; %d inconsistent run records", j->flaws);
     fprintf(to, ". Commit %s, %s.\n", e->commit, e->compiler);

@@ -159,14 +159,13 @@ static status check_form(const char *path, const file_place *to, output_form for
         return fail(path, EISDIR, f);
     if (form == OUTPUT_TEXT && output_is_hdf5(path))
         return fault_set(f, STATUS_REFUSED,
-                         "%.200s: this command writes text there, not HDF5; give it a name that "
-                         "does not end in %s ('solve' writes HDF5 with --shapes)",
+                         "%.200s: this command writes text, not HDF5; give a name that does not "
+                         "end in %s ('solve' writes HDF5 with --shapes)",
                          path, strrchr(path, '.'));
     if (to->kind == PLACE_STREAM && form == OUTPUT_WHOLE_FILE)
-        return fault_set(f, STATUS_REFUSED,
-                         "%.200s is %s; HDF5 needs a regular file: give the name of one", path,
-                         to->descriptor >= 0 ? "the file of standard output or error"
-                                             : "a pipe or a device");
+        return fault_set(
+            f, STATUS_REFUSED, "%.200s is %s; HDF5 needs a regular file; give its name", path,
+            to->descriptor >= 0 ? "the file of standard output or error" : "a pipe or a device");
     if (to->kind != PLACE_FREE && access(to->path, W_OK) != 0)
         return fail(path, errno, f);
     return STATUS_OK;
@@ -300,7 +299,8 @@ static status find(const char *path, output_folder *out, fault *f)
     size_t length = strlen(path);
     memset(out, 0, sizeof *out);
     if (length == 0)
-        return fault_set(f, STATUS_REFUSED, "an output without a name; give the name of a folder");
+        return fault_set(f, STATUS_REFUSED,
+                         "the name of an output is empty; give the name of a folder");
     if (length >= sizeof plain)
         return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place",
                          path, strerror(ENAMETOOLONG));

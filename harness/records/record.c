@@ -21,7 +21,7 @@ static status open_file(record_file *r, const char *name, hid_t access, fault *f
     if (r->file >= 0 && r->scalar >= 0)
         return STATUS_OK;
     H5Sclose(r->scalar);
-    return fault_set(f, STATUS_FAULT, "no memory for results");
+    return fault_set(f, STATUS_FAULT, "out of memory for results");
 }
 
 status record_open(record_file *r, fault *f)
@@ -70,7 +70,8 @@ static status write_image(const record_file *r, const char *path, fault *f)
     char *image = size > 0 ? malloc((size_t)size) : NULL;
     if (image == NULL || H5Fget_file_image(r->file, image, (size_t)size) != size) {
         free(image);
-        return fault_set(f, STATUS_FAULT, "%.200s: no memory for the file's image", path);
+        return fault_set(f, STATUS_FAULT, "%.200s: out of memory for the contents of the file",
+                         path);
     }
     const status outcome = write_bytes(image, (size_t)size, path, f);
     free(image);

@@ -338,7 +338,7 @@ static status read_file(sweep_file *s, stored_results *out, fault *f)
     if ((bad = read_request(s, out)) != NULL || (bad = read_lists(s)) != NULL)
         return damaged(s, bad, f);
     if (s->word == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the words of a sweep");
+        return fault_set(f, STATUS_FAULT, "out of memory for the choices of a sweep");
     if ((bad = read_columns(s)) != NULL)
         return damaged(s, bad, f);
     TRY(check_size(s, f));

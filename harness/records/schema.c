@@ -174,7 +174,8 @@ status place_find(const char *path, file_place *out, fault *f)
     const size_t length = strlen(path);
     memset(out, 0, sizeof *out);
     if (length == 0)
-        return fault_set(f, STATUS_REFUSED, "an output without a name; give the name of a file");
+        return fault_set(f, STATUS_REFUSED,
+                         "the name of an output is empty; give the name of a file");
     if (length >= sizeof out->path)
         return fail(path, ENAMETOOLONG, f);
     memcpy(out->path, path, length + 1);

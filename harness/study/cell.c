@@ -392,9 +392,7 @@ void omission_words(const omission *o, char text[OMISSION_TEXT])
                  "another model: %s not modelled (changes %s by about %.*f %%)", o->words,
                  o->quantity, o->change < 0.01 ? 2 : o->change < 0.1, 100 * o->change);
     else if (isnan(o->change))
-        snprintf(text, OMISSION_TEXT,
-                 "another model: %s not modelled (how much it changes is not "
-                 "known: %s)",
+        snprintf(text, OMISSION_TEXT, "another model: %s not modelled (its effect is unknown: %s)",
                  o->words, o->why);
     else
         snprintf(text, OMISSION_TEXT,

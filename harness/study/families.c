@@ -237,7 +237,7 @@ static const char *kept_out(const sweep *s, int index, int quantity, const truth
     if (type->family == NULL || type->misprint != NULL)
         return type->family == NULL ? "of no family" : "kept with a misprint";
     if (!may_vote(s, one, t))
-        return "known to deviate here";
+        return "with a known deviation here";
     const mesh_limit fit = verdict_limit(s, index, quantity, 0);
     return isfinite(fit.limit) && isfinite(fit.limit_uncertainty)
                ? NULL

@@ -138,8 +138,8 @@ status follow_match_next(const follow_shapes *before, const state_matrices *s, f
         free(w.taken);
         return fault_set(
             f, STATUS_REFUSED,
-            "the structure has %d free coordinates here and had %d: modes of different "
-            "coordinates are not compared; vary a parameter that leaves them alone",
+            "the structure has %d free coordinates here and had %d before; such modes cannot be "
+            "compared; vary a parameter that does not change the coordinates",
             s->M.rows, before->rows);
     }
     status outcome = allocate(before->modes, before->rows, out, f);
@@ -189,9 +189,9 @@ static status solve_at(follow_walk *w, double value, cell_result *cell,
         if (cell->solve.systems.state[i].analysis == w->analysis)
             *state = &cell->solve.systems.state[i];
     if (*state == NULL || w->out->modes == 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "no modes to follow: the scene has no modal analysis with frequencies as "
-                         "quantities");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "no modes to follow: the scene needs a modal analysis with frequencies as quantities");
     return STATUS_OK;
 }
 

@@ -45,7 +45,8 @@ static void expect(const sweep *s, truths *t, verdict *v)
             continue;
         if (v->rule != NULL) {
             snprintf(v->reason, sizeof v->reason,
-                     "two known deviations apply to it: %.60s and %.60s", v->rule->name, r->name);
+                     "two known deviations apply to this quantity: %.60s and %.60s", v->rule->name,
+                     r->name);
             v->expected = VERDICT_PASS;
             return;
         }
@@ -58,7 +59,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
                          programs */
         if (is_beyond(r, v))
             snprintf(v->reason, sizeof v->reason,
-                     "its limit is %+.3g %% from %s, beyond the %.3g %% of known deviation %.60s",
+                     "the limit is %+.3g %% from %s, beyond the %.3g %% of known deviation %.60s",
                      100 * v->departure,
                      v->predicted != NULL ? "the derived one" : "the reference value",
                      100 * r->largest_error, r->name);
@@ -103,11 +104,10 @@ static status check_unit(const sweep_point *p, const truth *row, fault *f)
     for (int q = 0; q < p->scene.quantities; q++) {
         const scene_quantity *here = &p->scene.quantity[q];
         if (strcmp(here->name, row->quantity) == 0 && strcmp(here->unit, row->unit) != 0)
-            return fault_set(
-                f, STATUS_FAULT,
-                "case %s: %s is in '%s', its reference value in '%s'; correct the table and "
-                "build again",
-                p->type->name, here->name, here->unit, row->unit);
+            return fault_set(f, STATUS_FAULT,
+                             "case %s: %s is in '%s', but its reference value is in '%s'; correct "
+                             "the table and build again",
+                             p->type->name, here->name, here->unit, row->unit);
     }
     return STATUS_OK;
 }

@@ -141,7 +141,7 @@ static void check_prediction(findings_reader *r, const char *word)
     const char *slash = strchr(word, '/');
     snprintf(of, sizeof of, "%.*s", (int)strcspn(word, "/"), word);
     if (slash == NULL || slash[1] == '\0' || own_names_case(r->run, of) == NULL)
-        WRONG(r, PREDICTED, "prediction '%.60s' is not case/quantity of an existing case", word);
+        WRONG(r, PREDICTED, "prediction '%.60s': write CASE/QUANTITY of an existing case", word);
 }
 
 static void check_list(findings_reader *r, int column,
@@ -169,13 +169,13 @@ static void check_grounds(findings_reader *r)
 {
     if (r->row->field[CAUSE][0] == '\0' || strcmp(r->row->field[CAUSE], PROPOSAL_CAUSE) == 0)
         WRONG(r, CAUSE,
-              "known deviation %.60s has no cause yet; state why it does not pass, or correct the "
-              "element and remove the row",
+              "known deviation %.60s has no cause yet; state the cause, or correct the element and "
+              "remove the row",
               r->row->field[RULE]);
     else if (r->row->field[PROOF][0] == '\0')
         WRONG(r, PROOF,
-              "known deviation %.60s has no proof; state what shows its cause: a derivation, a "
-              "publication, a run",
+              "known deviation %.60s has no proof; name a derivation, a publication, or a run that "
+              "shows the cause",
               r->row->field[RULE]);
 }
 

@@ -60,7 +60,9 @@ static void take_elements(truths_reader *r, int *out)
     if (text[0] == '\0')
         return;
     if (*end != '\0' || count < 1 || count > INT_MAX)
-        WRONG(r, ELEMENTS, "elements '%.40s' is not a number above zero; the continuum has none",
+        WRONG(r, ELEMENTS,
+              "elements '%.40s' is not a number above zero; leave it empty for a value of the "
+              "continuum",
               text);
     else
         *out = (int)count;
@@ -77,7 +79,8 @@ static void check_quantity(truths_reader *r, const case_type *type, const double
     const int built = case_build(type, value, &s, &why) == STATUS_OK;
     const scene_quantity *q = own_names_quantity(&s, name);
     if (!built)
-        WRONG(r, PARAMETERS, "%s is rejected there: %.200s", type->name, why.text);
+        WRONG(r, PARAMETERS, "%s is rejected at this parameter point: %.200s", type->name,
+              why.text);
     else if (q == NULL)
         WRONG(r, QUANTITY, "%s has no quantity '%.60s'%s", type->name, name,
               own_names_near_quantity(&s, name, near));
@@ -163,7 +166,7 @@ static void check_row(truths_reader *r, const truth *row)
     for (int i = 0; i < COLUMNS && wrong != NULL; i++)
         if (same(names[i], wrong) && i == ELEMENTS)
             WRONG(r, i,
-                  "a value of one mesh has formulation and elements, a predicted limit has a "
+                  "a value of one mesh needs a formulation and elements, a predicted limit needs a "
                   "formulation, and any other reference value has neither");
         else if (same(names[i], wrong))
             WRONG(r, i, "%s '%.40s' is not known; 'beamwork explain truth' lists them", wrong,
@@ -171,7 +174,8 @@ static void check_row(truths_reader *r, const truth *row)
     const truth *other = r->good ? known(r->t, row) : NULL;
     if (other != NULL)
         WRONG(r, QUANTITY,
-              "a reference value of this kind already exists: %.10g (%.100s); only one is compared",
+              "a reference value of this kind already exists: %.10g (%.100s); only one can be "
+              "compared, so remove the other",
               other->value, other->source);
 }
 

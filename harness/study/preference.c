@@ -155,8 +155,8 @@ static status find(const scene *s, const rule_subject *where, const rule *rules,
         *all = candidates_of(s, where, rules, count, 1);
     if (all->count == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "no formulation supports all that %.60s needs; 'beamwork list' shows what "
-                         "each supports",
+                         "no formulation supports everything that %.60s needs; 'beamwork list' "
+                         "shows what each one supports",
                          s->name);
     const int *against = all->here[0].against;
     snprintf(why, FAULT_TEXT, "%s%s%s",
@@ -165,7 +165,7 @@ static status find(const scene *s, const rule_subject *where, const rule *rules,
              rules == NULL                ? ""
              : against[AGAINST_HERE] == 0 ? ", no known deviation here"
                                           : ", but has a known defect here",
-             against[AGAINST_THEORY] ? ", not the requested theory of shear" : "");
+             against[AGAINST_THEORY] ? ", not the requested shear theory" : "");
     return STATUS_OK;
 }
 
@@ -331,7 +331,7 @@ static void tell_elements(const scene *s, const runner *r, char why[FAULT_TEXT])
                  s->quantity[r->last.which].name, 100 * r->last.largest, r->before);
     else
         snprintf(why, FAULT_TEXT, "the finest mesh that was tried%s",
-                 r->unstable ? "; coarser ones met unstable states" : "");
+                 r->unstable ? "; coarser meshes met unstable states" : "");
 }
 
 /* Returns the runner whose values changed least, if none has converged. */

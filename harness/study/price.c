@@ -136,7 +136,7 @@ const char *reach_defect_words(verdict_kind kind)
     case VERDICT_LOW_ORDER:
         return "of low order";
     case VERDICT_UNDECIDED:
-        return "with a limit that is not known";
+        return "with an unknown limit";
     default:
         return "with a different limit";
     }
@@ -185,7 +185,7 @@ const char *reach_unranked(const element_type *type)
     if (process_serves(type))
         return "in another process";
     if (type->misprint != NULL)
-        return "kept with its misprint";
+        return "implemented with its misprint";
     return adapters_words(type)[0] != '\0' ? "by differences" : "";
 }
 

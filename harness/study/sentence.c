@@ -41,7 +41,8 @@ static void undecided(const verdict *v, char *text, size_t size)
         return;
     }
     doubt_of(v, doubt);
-    snprintf(text, size, "undecided: its limit is %+.3g %% off, known to %s only (%s, %d meshes)",
+    snprintf(text, size,
+             "undecided: the limit is %+.3g %% off, but known only to %s (%s, %d meshes)",
              100 * v->error, doubt, limit_kind_name(v->fit.kind), v->fit.meshes);
 }
 
@@ -66,10 +67,9 @@ static void biased(const verdict *v, char *text, size_t size)
 static void unjudged(const verdict *v, char *text, size_t size)
 {
     if (v->theory_truth != NULL && v->theory_truth->theory[0] != '\0')
-        snprintf(
-            text, size,
-            "no reference value for its theory of shear; its limit is %+.3g %% from that of %s",
-            100 * (v->fit.limit / v->theory_truth->value - 1), v->theory_truth->theory);
+        snprintf(text, size,
+                 "no reference value for its shear theory; its limit is %+.3g %% from that of %s",
+                 100 * (v->fit.limit / v->theory_truth->value - 1), v->theory_truth->theory);
     else if (v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0)
         snprintf(text, size,
                  "no reference value to compare with; its limit is %+.2g %% from that on which %s",
@@ -182,8 +182,8 @@ static void failures(const judgement *j, char *text, size_t size)
     count_part(text, size, &parts, j->flaws, "inconsistent run record", "inconsistent run records");
     count_part(text, size, &parts, j->unobserved, "known deviation was not observed",
                "known deviations were not observed");
-    count_part(text, size, &parts, j->unmet, "reference value refers to nothing that exists",
-               "reference values refer to nothing that exists");
+    count_part(text, size, &parts, j->unmet, "reference value refers to an unknown name",
+               "reference values refer to unknown names");
 }
 
 /* Numbers of expected verdicts other than pass: due to a derived limit, or to a rule alone. */
@@ -213,8 +213,8 @@ static void new_ones(const judgement *j, char *text, size_t size)
 {
     if (j->proposed == 0)
         snprintf(text, size, "%d %s: none needs a known deviation", j->is_new,
-                 j->is_new == 1 ? "is of a new formulation, which does not affect the exit status"
-                                : "are of new formulations, which do not affect the exit status");
+                 j->is_new == 1 ? "belongs to a new formulation and does not affect the exit status"
+                                : "belong to new formulations and do not affect the exit status");
     else
         snprintf(text, size,
                  "without effect on the exit status: %d of %d %s %s not a pass and would need a "

@@ -92,7 +92,8 @@ static status read_tables(const char *path, hid_t file, const truths_wanted *wha
 {
     const hid_t all = H5Gopen2(file, what->group, H5P_DEFAULT);
     if (all < 0)
-        return fault_set(f, STATUS_FAULT, "%s: no %s in it; build it again ('make all')", path,
+        return fault_set(f, STATUS_FAULT,
+                         "%s: the file contains no %s; build it again ('make all')", path,
                          what->group);
     const status outcome = read_cases(path, all, what->only, out, f);
     if (outcome == STATUS_OK)
@@ -185,13 +186,13 @@ static status check_schema(hid_t file, const char *path, fault *f)
         H5Aread(number, H5T_NATIVE_INT, &version);
     handles_close(3, (const hid_t[]){number, type, schema});
     if (strcmp(name, "beamwork-truths") != 0)
-        return fault_set(f, STATUS_FAULT, "%s: not a file of truths; build it with 'make all'",
-                         path);
+        return fault_set(f, STATUS_FAULT,
+                         "%s: not a file of reference values; build it with 'make all'", path);
     if (version != TRUTHS_VERSION)
-        return fault_set(
-            f, STATUS_FAULT,
-            "%s: truths of version %d, this program reads %d; build it again ('make all')", path,
-            version, TRUTHS_VERSION);
+        return fault_set(f, STATUS_FAULT,
+                         "%s: reference values of version %d, but this program reads version %d; "
+                         "build the file again ('make all')",
+                         path, version, TRUTHS_VERSION);
     return STATUS_OK;
 }
 

@@ -286,7 +286,7 @@ int worker_bury(workload *w, int self, worker *dead)
     solve_result *r = &workload_cell(w, i)->solve;
     const int late = child_ended(how, dead->stopped, w->time_limit, r->reason, sizeof r->reason);
     if (dead->damaged)
-        snprintf(r->reason, sizeof r->reason, "its process wrote an invalid result");
+        snprintf(r->reason, sizeof r->reason, "the worker process wrote an invalid result");
     r->status = late ? STATUS_TIME_LIMIT : STATUS_FAULT;
     workload_done(w, i);
     return 1;
@@ -361,6 +361,6 @@ int child_ended(int how, int late, int seconds, char *words, size_t size)
     else if (WIFSIGNALED(how))
         snprintf(words, size, "crashed with signal %d", WTERMSIG(how));
     else
-        snprintf(words, size, "its process ended with status %d", WEXITSTATUS(how));
+        snprintf(words, size, "the worker process ended with status %d", WEXITSTATUS(how));
     return over;
 }

@@ -81,13 +81,12 @@ static void contradictions(FILE *to, const sweep *s, const judgement *j)
             continue;
         const sweep_point *p = &s->point[s->series[v->series].point];
         fprintf(to, "\n%s", p->type->name);
-        paragraph_say(
-            to, (int)strlen(p->type->name), 2,
-            "%s%s, %s: the published %.10g +- %.1g is contradicted by %d limits, the first "
-            "%.10g (%s)",
-            p->text[0] != '\0' ? ": " : "", p->text, v->contradicted->quantity,
-            v->contradicted->value, v->contradicted->uncertainty, count, v->fit.limit,
-            s->series[v->series].formulation.key);
+        paragraph_say(to, (int)strlen(p->type->name), 2,
+                      "%s%s, %s: the published value %.10g +- %.1g contradicts %d limits, the "
+                      "first of them %.10g (%s)",
+                      p->text[0] != '\0' ? ": " : "", p->text, v->contradicted->quantity,
+                      v->contradicted->value, v->contradicted->uncertainty, count, v->fit.limit,
+                      s->series[v->series].formulation.key);
     }
 }
 
@@ -168,8 +167,8 @@ void table_run(FILE *to, const sweep *s, const judgement *j, double seconds)
                 j->waiting);
     if (j->unread > 0)
         fprintf(to,
-                "%d reference values of motions, for times and structures that are not run here, "
-                "are checked by make lab L=motions\n",
+                "%d reference values of motions are for times and structures that verify does not "
+                "run; make lab L=motions checks them\n",
                 j->unread);
     if (contradicted > 0)
         fprintf(to,

@@ -540,7 +540,7 @@ static void damping_line(FILE *to, const motion_extent *e)
     if (part > account_stated)
         paragraph_say(to, fprintf(to, "numerical damping: "), MOTION_INDENT,
                       "until %.4g s the integrator has lost %.3g J of energy, %.2g %% of %.3g J; "
-                      "less with a smaller step or tolerance",
+                      "use a smaller step or tolerance to lose less",
                       when, lost, 100 * part, of);
 }
 
@@ -654,5 +654,5 @@ void table_follow(FILE *to, const char *parameter, const follow_curves *c)
             fprintf(to, ", %.2g %% apart\n", 100 * e->gap);
     }
     if (between > 0)
-        fprintf(to, "%d values between, where shapes change fast\n", between);
+        fprintf(to, "%d intermediate values where shapes change fast\n", between);
 }

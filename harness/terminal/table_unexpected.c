@@ -166,12 +166,12 @@ static void print_unmet(FILE *to, const truths *t, int *number)
         if (row->met || (row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL))
             continue;
         parameters_text(row->type, row->parameter, text, sizeof text);
-        print_heading(to, ++*number, "reference value of nothing that exists: %s%s%s, %s%s%s (%s)",
+        print_heading(to, ++*number, "reference value with an unknown name: %s%s%s, %s%s%s (%s)",
                       row->type->name, text[0] != '\0' ? ": " : "", text, row->quantity,
                       row->formulation[0] != '\0' ? ", " : "", row->formulation, row->source);
     }
     if (t->strangers > 0) {
-        print_heading(to, ++*number, "reference values of %d unknown cases, the first: %s",
+        print_heading(to, ++*number, "reference values for %d unknown cases, the first: %s",
                       t->strangers, t->stranger);
     }
 }
@@ -393,9 +393,10 @@ static void write_errors(FILE *to, const sweep *s, int quantity, int reference)
     for (int i = 0; i < s->seriess; i++)
         running += s->series[i].missing[0] == '\0';
     const int at = fprintf(to, "\n%s [%s] over %s [%s], ", q->name, q->unit, q->x.name, q->x.unit);
-    paragraph_say(to, at - 1, 4,
-                  "largest error over the curve, of its largest value, against the finest mesh%s",
-                  running > 1 ? "; of the finest one, from that of another formulation" : "");
+    paragraph_say(
+        to, at - 1, 4,
+        "largest error over the curve, relative to its largest value, against the finest mesh%s",
+        running > 1 ? "; of the finest one, from that of another formulation" : "");
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
         if (one->missing[0] != '\0')

@@ -176,7 +176,7 @@ static status check(const model *m, fault *f)
         if (v->angles == 2 && free == 2)
             return fault_set(f, STATUS_REFUSED,
                              "%s rotates by two free angles: the integrator conserving supports "
-                             "one, three, or driven ones; use alpha or radau",
+                             "one or three free angles, or driven angles; use alpha or radau",
                              scene_called(model_scene(m), SCENE_NODES, i).text);
     }
     return STATUS_OK;
@@ -223,7 +223,7 @@ static status check_constraints(const model *m, const carried_masses *masses, fa
         if (tied && turns_freely(m, node) &&
             vec3_norm(masses->mass[k].moment) > 1e-12 * masses->mass[k].mass * model_length(m))
             return refuse_constraint(
-                m, node, "constrained translations of a node that rotates with a mass beside it",
+                m, node, "constrained translations of a node that rotates with an eccentric mass",
                 f);
     }
     return STATUS_OK;

@@ -148,7 +148,8 @@ static status accelerate_joined(const model *m, const carried_masses *masses, in
     for (int k = 0; k < g->count; k++)
         g->value[k] = g->unit[k] * residual[g->index[k]];
     if (g->count > 0 && dense_lu_regular(g->count, g->M, g->used) != 0)
-        return fault_set(f, STATUS_SINGULAR, "%s: two angles of its rotation turn about one axis",
+        return fault_set(f, STATUS_SINGULAR,
+                         "%s: two angles of its rotation are about the same axis",
                          scene_called(model_scene(m), SCENE_NODES, body).text);
     dense_lu_solve(g->count, 1, g->M, g->used, g->value);
     for (int k = 0; k < g->count; k++)
@@ -312,12 +313,11 @@ static status explicit_check(const model *m, const carried_masses *masses, fault
     for (int i = 0; i < model_scene(m)->members; i++)
         if (scene_is_beside(&model_scene(m)->member[i], 0) ||
             scene_is_beside(&model_scene(m)->member[i], 1))
-            return fault_set(
-                f, STATUS_REFUSED,
-                "integrator explicit: %s has an offset, which it does not support; end "
-                "it at a node that is part_of the other, or use alpha, conserving or "
-                "radau",
-                scene_called(model_scene(m), SCENE_MEMBERS, i).text);
+            return fault_set(f, STATUS_REFUSED,
+                             "integrator explicit: %s has an offset, which this integrator does "
+                             "not support; end the member at a node that is part_of the other, or "
+                             "use alpha, conserving or radau",
+                             scene_called(model_scene(m), SCENE_MEMBERS, i).text);
     if (model_releases(m) > 0)
         return fault_set(f, STATUS_REFUSED,
                          "integrator explicit: released ends of members have no inertia of their "
@@ -383,7 +383,8 @@ static status settle_rates(const explicit_scheme *s, int i, double time, fault *
         before = change;
     }
     return fault_set(f, STATUS_NOT_CONVERGED,
-                     "element %d: its own equations are not solved in %d steps", i, MOST);
+                     "element %d: its internal equations were not solved in %d iterations", i,
+                     MOST);
 }
 
 static status accelerations(explicit_scheme *s, double time, fault *f)

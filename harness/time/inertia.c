@@ -298,7 +298,8 @@ static status stored(const equations *eq, const model_state *s, double time, dou
                                                      s->e + (size_t)i * (size_t)model_strains(m),
                                                      inner, &(stress_output){.energy = &energy});
         if (outcome != STATUS_OK)
-            return fault_set(f, outcome, "element %d: outside what %s can evaluate", i,
+            return fault_set(f, outcome,
+                             "element %d: its state is outside the range that %s can evaluate", i,
                              model_type(m)->name);
         *out += energy;
     }

@@ -113,7 +113,7 @@ static status check_drivers(const model *m, const double inc[], fault *f)
         if (c >= model_unknowns(m) && fabs(inc[c]) > nothing * (1 + model_length(m)))
             return fault_set(f, STATUS_REFUSED,
                              "driver %s starts %g away from its value in the start state: give it "
-                             "that value at 0 s",
+                             "the value of the start state at 0 s",
                              model_scene(m)->driver[d].name, inc[c]);
     }
     return STATUS_OK;
@@ -254,7 +254,7 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     if (newton == NEWTON_DENSE)
         return fault_set(f, STATUS_REFUSED,
                          "motions in time need a factored tangent, which newton=dense does not "
-                         "make; give newton=mixed");
+                         "form; give newton=mixed");
     if (newton == NEWTON_DISPLACEMENT && how->scheme == SCENE_CONSERVING)
         return fault_set(f, STATUS_REFUSED,
                          "the integrator conserving needs strains as unknowns; give newton=mixed");
@@ -280,8 +280,8 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
     if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_MOTION &&
         model_spreads(c->model, follows) != spreads)
         return fault_set(f, STATUS_REFUSED,
-                         "a motion continues with the mass of the motion before it; give both "
-                         "lumped or both consistent");
+                         "a motion that continues another must use the same mass; make both lumped "
+                         "or both consistent");
     return STATUS_OK;
 }
 

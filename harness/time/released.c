@@ -210,7 +210,8 @@ static status begin(const equations *eq, int members, run_damping *d, fault *f)
                                   kinematics_rest(m)->inner + (size_t)i * (size_t)model_inner(m),
                                   &(stress_output){.C = d->stiffness + (size_t)kind * n * n});
         if (outcome != STATUS_OK)
-            return fault_set(f, outcome, "element %d: outside what %s can evaluate", i,
+            return fault_set(f, outcome,
+                             "element %d: its state is outside the range that %s can evaluate", i,
                              model_type(m)->name);
     }
     eq->run->damping = d;

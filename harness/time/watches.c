@@ -33,7 +33,7 @@ status watches_alloc(watches *s, fault *f)
     s->one = calloc((size_t)what->quantities + 1, sizeof *s->one);
     s->out->passing = calloc((size_t)what->quantities + 1, sizeof *s->out->passing);
     if (s->one == NULL || s->out->passing == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for what a motion passes through");
+        return fault_set(f, STATUS_FAULT, "out of memory for the states of a motion");
     for (int i = 0; i < what->quantities; i++)
         if (what->quantity[i].analysis == s->analysis &&
             scene_is_passed(&what->quantity[i], SCENE_MOTION) &&
@@ -367,7 +367,7 @@ status resume_before(const analysis_context *c, int before, const outcome_end **
     const analysis_outcome *all = &c->outcomes[before];
     *out = &outcome_motion_of(all)->end;
     if (all->status != STATUS_OK || (*out)->value == NULL)
-        return fault_set(f, STATUS_NOT_CONVERGED, "the motion that this one continues: %s",
+        return fault_set(f, STATUS_NOT_CONVERGED, "the motion that is continued failed: %s",
                          all->reason);
     return STATUS_OK;
 }
@@ -381,8 +381,8 @@ status resume_take(const analysis_context *c, const outcome_end *e, instant *now
     if (here.states != e->states || here.coordinates != e->coordinates ||
         here.strains != e->strains || (e->released > 0 && e->released != instant_ends(c->model)))
         return fault_set(f, STATUS_REFUSED,
-                         "the motion that this one continues has %zu numbers, but this mesh %zu: "
-                         "use its formulation and elements",
+                         "the motion that is continued has %zu numbers, but this mesh has %zu: use "
+                         "the same formulation and elements",
                          e->states, here.states);
     const double *from = e->value;
     parts_of(now, &control->extent, e, of);

@@ -304,7 +304,7 @@ class ExamplesTest(SceneCase):
         self.refused(2, "is already in this run", "verify", "--built-in", "--scene", taken)
         self.refused(2, "given twice", "solve", "--scene", euler, "--scene", euler, "-f", "beamw",
                      "-n", 1)
-        self.refused(2, "would replace", "verify", "--scene", self.folder, "-o", taken)
+        self.refused(2, "would overwrite", "verify", "--scene", self.folder, "-o", taken)
 
     def test_leaf_spring_guide(self):
         """Stiffnesses at rest are those computed by hand; those of the displaced stage come from the deriving

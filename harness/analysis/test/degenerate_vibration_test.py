@@ -93,7 +93,7 @@ class Degenerate(ProgramTest):
 
     def test_nothing_resists(self):
         """What has neither stiffness nor mass has no frequency, and the refusal names that."""
-        alone = "a motion has neither stiffness nor mass"
+        alone = "some coordinate has neither stiffness nor mass"
         spring = "springs: {k: {to: b, stiffness: [100, 200, 300, 0, 0, 0]}}"
         other = "m: {from: a, to: z, section: light, y: [1, 0, 0]}"
         arm = f"{bar()}, {BEYOND % ('light', ', release: {from: [ry, rz]}')}"

@@ -194,7 +194,7 @@ class DampedModesTest(ProgramTest):
                 (MASSES % ("0..0", "0..0", "0..0", "0..0", 1, "damping: {mass: 1}", modes(1)), "add damped: yes"),
                 (scene % ("hold: all", load, "  before: {static: {stations: [1]}}", ", about: before", modes(1)), "is unstable"),
                 (scene % ("hold: all", load, spun, ", about: before", modes(1)), "rotating axes"),
-                (free % ("0..0", "0..0", "0..0", "0..0", 1, "damped: yes", modes(1)), "hold the structure")):
+                (free % ("0..0", "0..0", "0..0", "0..0", 1, "damped: yes", modes(1)), "can move freely in one: hold it")):
             done = run("solve", "--scene", self.write(text), "-f", "collocation", "-n", 1)
             self.assertRegex(done.stdout + done.stderr, words)
 
@@ -366,7 +366,7 @@ quantities:
         path = self.folder/"scene.yaml"
         path.write_text((self.OSCILLATOR % ("[1, 2, 5]", 0, "")).replace(", damping: {ratio: 0}", ""), encoding="utf-8")
         self.assertRegex(" ".join(run("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout.split()),
-                         r"most - unbounded at 3\.1831 Hz, where nothing damps it; add damping")
+                         r"most - unbounded at 3\.1831 Hz, where nothing damps the motion; add damping")
 
     PAIR = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 1e9, shear_modulus: 4e8}}
@@ -405,7 +405,7 @@ quantities:
                 path.write_text(self.PAIR % more + (line % (node, "amplitude", "max", node, "amplitude", "max"))
                                 .replace("force: middle", "force: " + node), encoding="utf-8")
                 said = " ".join(run("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout.split())
-                self.assertRegex(said, "unbounded at %s Hz, where nothing damps it" % hertz)
+                self.assertRegex(said, "unbounded at %s Hz, where nothing damps the motion" % hertz)
 
 
 class HarmonicTest(ProgramTest):
@@ -572,7 +572,7 @@ quantities:
         buckled = "loads: {push: {force: [-2000, 0, 0], on: tip}, aside: {force: [0, 0.1, 0], on: tip}}"
         spun = "  before: {static: {stations: [1], spin: {omega: [0, 0, 5]}}}"
         for text, words in (
-                (BEAM % ("hold: all", "", "", "", held), "root is held or driven against the force"),
+                (BEAM % ("hold: all", "", "", "", held), "root is held or driven, so a force along it moves nothing"),
                 (BEAM % ("hold: all", "", "", "", "  n: {internal: {analysis: steady, member: m, resultant: Mz, where: 0}}"),
                  "join two nodes in place of one by a stiff spring"),
                 (BEAM % ("hold: all", "", spun, ", about: before", FORCED), "rotating axes"),

@@ -56,7 +56,7 @@ class AboutState(ProgramTest):
         """Pulled: the range that was searched is named."""
         found, said = self.factors(force=1, status=1)
         self.assertEqual(found, [None])
-        self.assertRegex(said, r"no critical load from path 1 to [0-9.e+]+: no stiffness is lost")
+        self.assertRegex(said, r"no critical load from path 1 to [0-9.e+]+: the structure loses no stiffness")
 
 
 # Whether a tangent is symmetric is a matter of its state: what the loads of a scene could make of

@@ -116,11 +116,11 @@ class Forms(unittest.TestCase):
                     for q in s["quantities"] if q["model_truth_kind"] == "independent"),
                    key=lambda q: abs(q["model_error"]))
         self.assertRegex(whole["sentence"],
-                         rf"\. Beams are not the structure: {most['quantity']} of another model is .*; the limit of "
+                         rf"\. The beam model differs from the structure: {most['quantity']} of another model is .*; the limit of "
                          rf"collocation is [+]?{100 * most['model_error']:.2g} % from it")
         text = run("converge", "sheet_cantilever", "-f", "collocation", "-n", "2,4,8").stdout
-        self.assertIn("\nBeams are not the structure: ", text)
-        self.assertNotIn("Beams are not", converge("text"))
+        self.assertIn("\nThe beam model differs from the structure: ", text)
+        self.assertNotIn("The beam model differs", converge("text"))
         self.assertFalse(converge("text").endswith("\n\n"))
 
     def test_without_a_truth_families_agree(self):
@@ -216,7 +216,7 @@ class Beside(ProgramTest):
     def test_values_where_there_is_nothing_to_measure_by(self):
         text = self.agree("c_column", "-k", "buckling_load", "-n", "2,4,8,16")
         said = " ".join(text.split())
-        self.assertRegex(said, r"collocation: no reference value for its theory of shear; its limit is -4\.[34]\d* % from "
+        self.assertRegex(said, r"collocation: no reference value for its shear theory; its limit is -4\.[34]\d* % from "
                                "that of engesser")
         self.agree("--scene", BESIDE_LEAF, "-n", "1,2,4", "--set", "stroke=0.009")
 

@@ -13,7 +13,7 @@ ENTRY = "    if (out->e == NULL)"  # the beginning of the example's strain
 FAULTS = {
     "energy": (
         ("e[i] * e[i] / 2;", "e[i] * e[i];"),
-        "stress: sigma 1 is", "the energy's derivative in strain 1"),
+        "stress: sigma 1 is", "the derivative of the energy in strain 1"),
     "stiffness": (
         ("= d->stiffness[i];\n", "= 2 * d->stiffness[i];\n"),
         "C: the derivative of sigma", "differences of the stress give"),
@@ -84,7 +84,7 @@ FAULTS = {
         "in units of 0.001 m", "is a bare number compared with a length?"),
     "ignored shear": (
         ("request->features & FEATURE_SHEAR ? ", "request->features & 0 ? "),
-        "offers shear, but nothing changes with it", "do not declare it"),
+        "declares shear, but no result depends on it", "do not declare it"),
     "theory": (
         ("    .shear_theories = SHEAR_HARINGX,\n", ""),
         "shear_theories: the type supports shear but declares no theory"),
@@ -95,7 +95,7 @@ FAULTS = {
         ("    (void)f;\n",
          "    if (request->features & FEATURE_SHEAR)\n"
          "        return (void)(f && strcpy(f->text, \"no shear today\")), STATUS_REFUSED;\n"),
-        "offers: asked for all features, it is refused: no shear today", "do not declare it"),
+        "offers: with all features the element fails (rejected: no shear today)", "do not declare it"),
     "options": (
         ("    .leaves = LEAVES_J,",
          "    .leaves = LEAVES_J,\n    .options = {(const parameter_type[])"
@@ -117,17 +117,17 @@ FAULTS = {
     "status": (
         ("    return STATUS_OK;\n}\n\nstatic int strains",
          "    return energy > 1 ? STATUS_SINGULAR : STATUS_OK;\n}\n\nstatic int strains"),
-        "stress: strains of a few hundredths of the length end with status 'singular'"),
+        "stress: strains of a few hundredths of the length give status 'singular'"),
 }
 
 # The same of the example that gives forces and stiffness.
 FORCE_FAULTS = {
     "sign": (
         ("F[i] = n * r[i];", "F[i] = -n * r[i];"),
-        "force: F in coordinate 1 (displacement along x of node 1) is", "the energy's derivative"),
+        "force: F in coordinate 1 (displacement along x of node 1) is", "the derivative of the energy"),
     "energy": (
         ("energy = n * n / d->axial / 2;", "energy = n * n / d->axial;"),
-        "force: F in coordinate", "the energy's derivative"),
+        "force: F in coordinate", "the derivative of the energy"),
     "geometric stiffness": (
         ("        add(3, N, 3, 0, B, W, K + b * N);", "        (void)W;"),
         "K: the derivative of the force in coordinate", "differences of F give"),
@@ -289,7 +289,7 @@ class Measured(Tested):
         made = self.compiled("timoshenko.c", ("out->stiffness, one, sizeof one);",
                               "out->stiffness, one, sizeof one);\n    for (int i = 0; i < STRAINS; "
                               "i++)\n        out->stiffness[i] *= 1e-3;"))
-        self.assertIn("everything is 1e+03 times too soft: units?",
+        self.assertIn("every value is 1e+03 times too soft: check the units",
                       run("element-test", "--element", made).stdout)
 
     def test_shear_locking(self):
@@ -299,7 +299,7 @@ class Measured(Tested):
                               code=1)
         one = found["cantilever with shear, force"]
         self.assertTrue(one["locks"])
-        self.assertIn("the error grows from", one["words"])
+        self.assertIn("its error grows from", one["words"])
         self.assertLess(one["error"][-1], -0.99)
 
     def test_constant_shear(self):

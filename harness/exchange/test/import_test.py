@@ -198,7 +198,7 @@ class Import(ProgramTest):
         self.answered("compare", old, "-o", table)
         for name, new, code, words in (
             ("version", text.format("mine", "4.3") + "".join(rows), 0, ""),
-            ("name", text.format("mine 4.3", "") + "".join(rows), 1, "is it 'mine 4.3' now? Then write '# version:'"),
+            ("name", text.format("mine 4.3", "") + "".join(rows), 1, "was it renamed to 'mine 4.3'? Then write the version in '# version:'"),
             ("mesh", text.format("mine", "4.2") + "".join(rows[:-1]), 1, "/mine n=32")):
             done = self.beside(new, "new.h5", "--imported-must-pass", "--not-worse-than", table)
             self.assertEqual(done.returncode, code, (name, done.stdout))
@@ -217,7 +217,7 @@ class Import(ProgramTest):
         select = ("verify", "-k", "elastica and w_over_L and not shear", "-f", "collocation")
         done = run(*select, "--not-worse-than", table, "-o", self.folder / "new.h5")
         self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertIn("/mine: gone: give it with --imported", " ".join(done.stdout.split()))
+        self.assertIn("/mine: gone: give the file with --imported", " ".join(done.stdout.split()))
         self.assertEqual(run("compare", old, self.folder / "new.h5").returncode, 1)
         self.refused(2, "--imported-must-pass requires --imported FILE.h5", *select, "--imported-must-pass")
         self.refused(2, "nothing of", "verify", "-k", "roll_up/default", "-f", "collocation", "--imported",
@@ -265,7 +265,7 @@ class Import(ProgramTest):
                      self.folder / "theirs.h5", "--imported", self.folder / "copy.h5")
         self.refused(2, "is given twice; give it once", *select, "--imported",
                      self.folder / "theirs.h5", "--imported", self.folder / "theirs.h5")
-        self.refused(2, "would replace", *select, "--imported", self.folder / "copy.h5", "--imported",
+        self.refused(2, "would overwrite", *select, "--imported", self.folder / "copy.h5", "--imported",
                      self.folder / "theirs.h5", "-o", self.folder / "theirs.h5")
 
     def test_mistakes_as_json(self):
@@ -384,7 +384,7 @@ class Import(ProgramTest):
     def test_no_input_is_replaced(self):
         path = self.folder / "a.csv"
         path.write_text(HEAD + COLUMNS + ROWS, encoding="utf-8")
-        self.refused(2, "would replace", "import", path, "-o", path)
+        self.refused(2, "would overwrite", "import", path, "-o", path)
 
 
 if __name__ == "__main__":

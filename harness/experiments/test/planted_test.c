@@ -256,7 +256,7 @@ static void derivatives(void)
     PLANT(strain, no_H, "derivatives", "H: the second derivative of strain", "is 0, differences");
     PLANT(strain, term_of_H, "derivatives", "in coordinates 5 and 5",
           "rotation about y of node 1, rotation about y of node 1");
-    PLANT(stress, half_energy, "energy", "stress: sigma", "the energy's derivative");
+    PLANT(stress, half_energy, "energy", "stress: sigma", "but the derivative of the energy");
     PLANT(stress, softer, "energy", "C: the derivative of sigma 1 in strain 1", "differences");
     PLANT(stress, unsymmetric, "energy", "C: entry 2, 1", "symmetric");
     PLANT(stress, stressed_at_rest, "energy", "stress: sigma 1 of the undeformed element", "N");
@@ -270,12 +270,12 @@ static void the_rest(void)
     PLANT(strain, beyond_J, "bounds", "strain: J: it has 112 entries", "entry 113");
     PLANT(strain, before_e, "bounds", "strain: e", "before its first");
     PLANT(prepare, stiff_in_units, "motion", "in units of", "instead of");
-    PLANT(prepare, no_reason, "features", "it is refused: no reason is given",
-          "asked for no feature");
-    PLANT(prepare, no_wagner, "features", "offers wagner moments, but nothing changes",
+    PLANT(prepare, no_reason, "features", "rejected: no reason is given",
+          "with no feature the element fails");
+    PLANT(prepare, no_wagner, "features", "declares wagner moments, but no result depends",
           "do not declare it");
-    PLANT(prepare, no_shear, "features", "offers shear, but nothing changes", "do not declare it");
-    PLANT(strain, no_amplitudes, "features", "offers warping", "nothing depends on the warping");
+    PLANT(prepare, no_shear, "features", "declares shear, but no result depends", "do not declare it");
+    PLANT(strain, no_amplitudes, "features", "declares warping", "no result depends on the warping");
     PLANT(strain_many, one_strain, "many", "many at once: the strains differ", "of 5");
     PLANT(stress_many, one_energy, "many", "many at once: the energies differ", "of 5");
     PLANT(strain, deaf_to_places, "unsound", "a position of node 1 that is", "gives finite");
@@ -356,12 +356,12 @@ static void planted_inertia_tests(void)
     PLANT(inertia, unsymmetric_softening, "rotating", "N entry 3, 2", "its transposed entry is");
     PLANT(inertia, unsymmetric_turns, "rotating", "N entry 6, 5", "its transposed entry is");
     PLANT(inertia, not_skew, "rotating", "G entry 2, 2", "skew");
-    PLANT(inertia, half_coriolis, "rotating", "G times the frame's own motion", "centrifugal");
+    PLANT(inertia, half_coriolis, "rotating", "G times the motion of the frame", "centrifugal");
     PLANT(inertia, no_frame, "rotating", "status 'singular'", "rotating frame");
-    PLANT(inertia, half_convective, "in_time", "inertia: the force taken in coordinate",
+    PLANT(inertia, half_convective, "in_time", "inertia: the inertia force in coordinate",
           "differences of the kinetic energy");
-    PLANT(inertia, wrong_rates, "in_time", "C entry 5, 4", "differences of the forces taken");
-    PLANT(inertia, fixed_taken, "in_time", "inertia: the force taken in coordinate 2",
+    PLANT(inertia, wrong_rates, "in_time", "C entry 5, 4", "differences of the inertia forces");
+    PLANT(inertia, fixed_taken, "in_time", "inertia: the inertia force in coordinate 2",
           "the same element rotated as a whole");
     PLANT(inertia, beyond_taken, "bounds", "inertia: taken: it has 14 entries", "entry 15");
     PLANT(inertia, beyond_M, "bounds", "inertia: M: it has 196 entries", "entry 197");

@@ -18,7 +18,7 @@ class Refused(Speaker):
         self.refuse("exec:", "no command is given")
         self.refuse("exec:  ", "no command is given")
         self.refuse("exec:''", "no command is given")
-        self.refuse("exec:python3 'my beam.py", "a quote does not end")
+        self.refuse("exec:python3 'my beam.py", "a quotation mark is not closed")
         self.refuse("exec:" + 70 * "a ", "too many words")
 
     def test_rubbish(self):

@@ -414,7 +414,7 @@ static void not_every_quantity(void)
     line_expect(
         &b, 0.01,
         "for 1 % in 1 of 3 quantities (without a reference: sway, tilt): red n = 4; blue n = 4; "
-        "green n = 4; without cost coefficients of its own: red, blue, green\n");
+        "green n = 4; no own cost coefficients: red, blue, green\n");
     b.s.seriess = 1;
     b.t.rows--;
     line_expect(&b, 0.01,
@@ -431,25 +431,24 @@ static void other_models(void)
     line_make(&b, 2 * price_noise);
     b.s.seriess = 1;
     add_model(&b, "agreement", 4);
-    line_expect(
-        &b, 0.01,
-        "for 1 % in every quantity: red n = 4; without cost coefficients of its own: red\n");
+    line_expect(&b, 0.01, "for 1 % in every quantity: red n = 4; no own cost coefficients: red\n");
     add_model(&b, "independent", 3.1);
-    line_expect(
-        &b, 0.01,
-        "for 1 % in every quantity: red n = 4; without cost coefficients of its own: red\n"
-        "Beams are not the structure: load of another model is 3.1 N (of the test); the limit of "
-        "red is -3.2 % from it. The 1 % apply to beams only.\n");
+    line_expect(&b, 0.01,
+                "for 1 % in every quantity: red n = 4; no own cost coefficients: red\n"
+                "The beam model differs from the structure: load of another model is 3.1 N (of the "
+                "test); the limit of "
+                "red is -3.2 % from it. The 1 % apply to the beam model only.\n");
     line_expect(&b, 1e-9,
                 "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
                 "(load: 0.0098 %)\n");
     b.s.seriess = 4;
     line_expect(
         &b, 0.2,
-        "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
-        "cost coefficients of its own: grey, red, blue, green\n"
-        "Beams are not the structure: load of another model is 3.1 N (of the test); the limit of "
-        "grey is +6.5 % from it. The 20 % apply to beams only.\n");
+        "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; no own "
+        "cost coefficients: grey, red, blue, green\n"
+        "The beam model differs from the structure: load of another model is 3.1 N (of the test); "
+        "the limit of "
+        "grey is +6.5 % from it. The 20 % apply to the beam model only.\n");
     finish(&b);
 }
 
@@ -458,9 +457,8 @@ static void reach_line_tests(void)
     reach_line_bench b;
     line_make(&b, 2 * price_noise);
     line_expect(&b, 0.01,
-                "for 1 % in every quantity: red n = 4; blue n = 4; green n = 4; without cost "
-                "coefficients of its "
-                "own: red, blue, green; not reached by grey (load: 10 %)\n");
+                "for 1 % in every quantity: red n = 4; blue n = 4; green n = 4; no own cost "
+                "coefficients: red, blue, green; not reached by grey (load: 10 %)\n");
     line_expect(
         &b, 1e-9,
         "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
@@ -469,11 +467,11 @@ static void reach_line_tests(void)
     line_make(&b, 1 + (price_noise - 1) / 2);
     line_expect(
         &b, 0.2,
-        "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
-        "cost coefficients of its own: grey, red, blue, green\n");
+        "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; no own "
+        "cost coefficients: grey, red, blue, green\n");
     line_expect(&b, 0.03,
                 "for 3 % in every quantity: red n = 2, blue n = 2: costs tie; green n = 2; "
-                "without cost coefficients of its own: red, blue, green; not reached by grey "
+                "no own cost coefficients: red, blue, green; not reached by grey "
                 "(load: 10 %)\n");
     finish(&b);
     not_every_quantity();

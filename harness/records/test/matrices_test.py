@@ -430,7 +430,7 @@ class StateSpace(Matrices):
         self.refused(2, "add it", *work, "--reduce", "4")
         for text, words in (("4:nix", "no node nix; name nodes"), ("few", "write the number of modes"), ("4;tip", "write the number"),
                             ("4:", "has no name; name it"), ("4:tip,,mid", "has no name; name it"),
-                            ("4:tip,mid,tip", "node tip is there twice; name it once"),
+                            ("4:tip,mid,tip", "node tip is named twice; name it once"),
                             ("5000", "with mass; give at most"), ("9"*30, "give at most"),
                             ("100:tip", "with mass while the interface is fixed; give at most")):
             self.refused(1, words, *work, "--state-space", "--reduce", text, silent=False)

@@ -52,8 +52,7 @@ static void theories(void)
     bench_expect(&b, VERDICT_NO_TRUTH, 3, "a reference value of another theory does not judge");
     gsl_test_rel(b.j.verdict[0].model_error, 1e-3, 1e-6, "the models differ");
     bench_says(
-        &b,
-        "no reference value for its theory of shear; its limit is +0.1 % from that of engesser");
+        &b, "no reference value for its shear theory; its limit is +0.1 % from that of engesser");
     bench_add_row(&b, 3.003)->theory = words[HARINGX];
     bench_expect(&b, VERDICT_PASS, 0, "one of its own does");
     haringx.shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX;
@@ -380,11 +379,12 @@ static void doubts(void)
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
     bench_expect(&b, VERDICT_UNDECIDED, 1, "alternating values");
-    bench_says(&b,
-               "undecided: its limit is -0.333 % off, known to 2.0 % only (oscillating, 5 meshes)");
+    bench_says(
+        &b,
+        "undecided: the limit is -0.333 % off, but known only to 2.0 % (oscillating, 5 meshes)");
     b.p.scene.quantity[0].near_zero = 5;
     bench_expect(&b, VERDICT_UNDECIDED, 1, "of a reference value below what counts as near zero");
-    bench_says(&b, "undecided: its limit is -0.2 % off, known to 0.060 in its unit only "
+    bench_says(&b, "undecided: the limit is -0.2 % off, but known only to 0.060 in its unit "
                    "(oscillating, 5 meshes)");
     b.p.scene.quantity[0].near_zero = 0;
     for (int i = 0; i < MESHES; i++)

@@ -139,7 +139,7 @@ class Feedback(ProgramTest):
         self.refusal(gains + ", from: tool", motion, "", "feedback of node tool from itself")
         self.refusal(gains, "  held: {static: {stations: [1]}}\n" + motion.replace(
             "radau", "radau, about: held"), "", "(static) and load motor (feedback): it acts in motions, harmonic")
-        self.refusal(gains + ", integral: 1", motion, "", "motor (feedback): --save-state does not store its integral",
+        self.refusal(gains + ", integral: 1", motion, "", "motor (feedback): --save-state does not store the integral of the error",
                      "--save-state", self.folder / "end.h5")
 
 

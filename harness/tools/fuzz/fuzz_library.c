@@ -33,9 +33,9 @@ static int is_json(const char *text)
 /* Checks the outcome of a call; made: the object that it should have returned. */
 static void must_tell(bw_status got, const void *made, char *why)
 {
-    fuzz_must((got == BW_OK) == (why == NULL), "a failure has a reason, and nothing else has");
-    fuzz_must(got != BW_OK || made != NULL, "a call that is well makes something");
-    fuzz_must(got != BW_REFUSED || made == NULL, "what is refused makes nothing");
+    fuzz_must((got == BW_OK) == (why == NULL), "only a failure has a reason");
+    fuzz_must(got != BW_OK || made != NULL, "a successful call creates an object");
+    fuzz_must(got != BW_REFUSED || made == NULL, "a rejected call creates nothing");
     fuzz_must(why == NULL || is_utf8(why), "a reason is UTF-8");
     fuzz_must(why == NULL || (why[0] == '{' ? is_json(why) : strchr(why, '\n') == NULL),
               "and a line, or a list of mistakes");

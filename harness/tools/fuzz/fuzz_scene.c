@@ -18,7 +18,7 @@ static char *written(const scene_file *file, size_t *size)
     fault f = {""};
     parameter_defaults(type->parameters, value);
     scene_init(&s, type->name);
-    fuzz_must(case_build(type, value, &s, &f) == STATUS_OK, "what was accepted can be built");
+    fuzz_must(case_build(type, value, &s, &f) == STATUS_OK, "an accepted scene can be built");
     fuzz_must(scene_validate(&s, &f) == STATUS_OK, "and is valid");
     FILE *to = open_memstream(&text, size);
     fuzz_must(to != NULL, "there is memory");
@@ -40,7 +40,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fault f = {""};
     const status outcome = scene_file_read_bytes((const char *)data, size, path, &file, &m, &f);
     fuzz_must((outcome == STATUS_OK) == (m.count == 0 && !m.out_of_memory),
-              "what is refused has a mistake");
+              "a rejected scene has an error");
     for (int i = 0; i < m.count; i++)
         fuzz_must(m.list[i].line >= 1 && m.list[i].column >= 1 && m.list[i].text[0] != '\0' &&
                       strchr(m.list[i].text, '\n') == NULL,
@@ -54,10 +54,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char *text = written(file, &one), *same = NULL;
     if (text != NULL) {
         fuzz_must(scene_file_read_bytes(text, one, path, &again, &m, &f) == STATUS_OK,
-                  "what is written can be read");
+                  "a written scene can be read");
         same = written(again, &two);
         fuzz_must(same != NULL && one == two && memcmp(text, same, one) == 0,
-                  "and is written the same way");
+                  "and is written the same way again");
     }
     free(text);
     free(same);

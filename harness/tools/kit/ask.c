@@ -65,8 +65,8 @@ static void settle(const scene *s, const element_type *type, const solve_result 
     out->outcome = outcome_of(s, type, outcome, all);
     char words[OMIT_WORDS];
     if (out->outcome == ASK_NOT_OFFERED && missing_refused(s, type, words, sizeof words))
-        gsl_test(outcome != STATUS_REFUSED, "%s, %s: what is not offered is refused (%s)", s->name,
-                 type->name, status_name(outcome));
+        gsl_test(outcome != STATUS_REFUSED, "%s, %s: a value that is not offered is rejected (%s)",
+                 s->name, type->name, status_name(outcome));
 }
 
 /* Returns 1 if the change of the scene is defined for the case at these parameters. */
