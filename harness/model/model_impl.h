@@ -17,6 +17,11 @@ int division_elements(const division *, int member);
 int division_piece(const division *, int member, int number, double ends[2]);
 
 status discrete_build(model *, fault *);
+/* rigid_body.c: Inertia of a body by its node's coordinates [7: translation, spatial rotation,
+ * warping (not moved)]; x has the position, and in R the rotation since the undeformed state. frame
+ * NULL: the frame is at rest. */
+void body_inertia(const scene_body *b, const node_state *x, const element_rotating_frame *frame,
+                  inertia_output *out);
 
 /* Features that the scene requires, and those of them that the type does not support, or a limit
  * that the scene exceeds, in words; 0: the type can solve it. */

@@ -34,4 +34,14 @@ typedef struct span_twist {
         warping[SPAN_GRID_POINTS]; /* k, B, M_w */
 } span_twist;
 
+/* span_grid.c */
+/* share[SPAN_GRID_POINTS]: weight of each grid point in the value at x. */
+void span_grid_at(const span_grid *g, double x, double share[]);
+/* out[i][k] = integral from 0 to x[i] of component k; values [points x count], row-major. */
+void span_grid_integrate(const span_grid *g, int count, const double values[], double out[]);
+/* Starts from x[n], n <= FIXED_POINT_MAX. Stops when no entry changes by more than `enough`, or
+ * when the change no longer decreases. Returns the largest last change; INFINITY when the map
+ * failed. */
+double fixed_point_find(int n, fixed_point_map map, void *context, double enough, double x[]);
+
 #endif
