@@ -194,7 +194,8 @@ static int is_in(const char *folder, const char *below, const char *name, char p
 /* Searches next to bin/ and lib/, where share/ is; lib/x86_64-linux-gnu is one level deeper. */
 static int is_near(const char *folder, const char *name, char path[PATH_MAX])
 {
-    static const char *const below[] = {"", "../", "../share/beamwork/", "../../share/beamwork/"};
+    static const char *const below[] = {"", "../", "../../", "../share/beamwork/",
+                                        "../../share/beamwork/"};
     for (size_t i = 0; i < sizeof below / sizeof below[0]; i++)
         if (is_in(folder, below[i], name, path))
             return 1;
