@@ -1,4 +1,4 @@
-"""Members: quantities along them, in their pieces and as they are discretised."""
+"""Members: quantities along members, in their parts and as discretised."""
 import json
 import math
 import unittest
@@ -6,9 +6,9 @@ import unittest
 from harness.tools.kit.program import ProgramTest, run
 
 
-# Loads along a member with one element and linear theory, for every formulation: as exact as forces
-# and moments at the nodes are. Closed forms are those of Timoshenko's beam (J.S. Przemieniecki, Theory
-# of Matrix Structural Analysis, 1968, sec. 5 and 10).
+# Loads along a member with one element and linear theory, for every formulation: as exact as with
+# forces and moments at the nodes. The closed forms are those of the Timoshenko beam (J.S.
+# Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5 and 10).
 L, q, m = 0.7, 3.0, 2.0
 E, G, A, Iy, Iz, It = 70e3, 27e3, 0.04, 3e-4, 2e-4, 4e-4
 HELD = {"clamped": ("all", "all"), "cantilever": ("all", "[]"), "propped": ("all", "[ux, uy, uz, rx]"),
@@ -18,7 +18,7 @@ RIGID = {"beamw_vlasov": "yz", "sheet_second": "y", "sheet_third": "y", "sheet_t
 
 
 def flexibility(formulation, along):
-    """1/(k G A) [1/N] of the formulation: its section is rigid where it is."""
+    """1/(k G A) [1/N] of the formulation; zero if it is rigid in shear."""
     return 0 if along in RIGID.get(formulation, "") else 12 / (G * A)
 
 
@@ -124,13 +124,13 @@ class AlongMembers(ProgramTest):
                         self.check(formulation, support, kind)
 
 
-# Loads that begin, end or act within a member lie at nodes of the mesh: resultants on either side of
-# jumps by statics, the same as with members that end there, in either order of the member's nodes, and
-# orders of convergence as without such loads.
+# Loads that begin, end or act within a member add nodes to the mesh. Resultants on both sides of
+# jumps follow statics and agree with members that end there, in either order of the member's nodes;
+# orders of convergence are the same as without such loads.
 SECTION = """sections: {s: {constants: {A: 0.04, Iy: 3e-4, Iz: 2e-4, It: 4e-4,
                F: [0.001, 0, 0, 0, 0.001, 0, 0, 0, 0]}, young: 70e3, shear_modulus: 27e3}}
 """
-# Hinged, length 1: 1 at 0.3, and from 2 at 0.5 to 4 at 0.8; at its first end acts this.
+# Hinged, length 1: load 1 at 0.3, and a load from 2 at 0.5 to 4 at 0.8; reaction at the first end.
 ROOT = -(0.7 + 2 * 0.3 * 0.35 + 2 * 0.15 * 0.3)
 HINGED = "beamwork: 1\n" + SECTION + """nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]},
         b: {at: [1, 0, 0], hold: [ux, uy, uz]}%s}
@@ -214,7 +214,7 @@ class DividedMember(ProgramTest):
                 step = [values[i + 1][name] - values[i][name] for i in range(3)]
                 for i in range(2):
                     if abs(step[i + 1]) < 1e-11 * abs(values[0][name]):
-                        continue  # rounding: collocation has loads in its equilibrium
+                        continue  # only rounding: collocation includes loads in its equilibrium
                     order = math.log2(abs(step[i] / step[i + 1]))
                     self.assertGreater(order, 3.6, f"{formulation}, {name}")
 
@@ -246,8 +246,8 @@ class DividedMember(ProgramTest):
         self.assertIn("'beam' is a member; a tension acts between two nodes; name a node", done.stderr)
 
 
-# What only the mesh makes is no answer: a stiffness that is indefinite at rest, a critical load
-# that grows with the square of the number of elements.
+# Artefacts of the mesh are not reported as results: a stiffness that is indefinite at rest, a
+# critical load that grows with the square of the number of elements.
 RING = """beamwork: 1
 sections: {leaf: {rectangle: {width: 20e-3, thickness: %(t)s}, young: 200e9, shear_modulus: 80e9}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0.1, 0.1, 0]}}
@@ -270,7 +270,7 @@ quantities:
   tension: {critical_factor: {analysis: b, which: 0, sign: negative}}
   compression: {critical_factor: {analysis: b, which: 0}}
 """
-# Clamped, drawn by N, pushed across at its tip.
+# Clamped, under tension N, with a transverse force at its tip.
 WIRE = """beamwork: 1
 sections: {s: {constants: {A: 1e-2, Iy: 1e-9, Iz: 1e-9, It: 2e-9, Iw: 0, wagner_torque: 0%(more)s}, young: 2e11,
                shear_modulus: 8e10, density: 7800}}
@@ -283,7 +283,7 @@ quantities:
   f: {frequency: {analysis: m, which: 0}, unit: Hz}
 omit: [trapeze, rotary_inertia]
 """
-# Two bars at right angles, pulled down between their ends by far more than their bending stiffness.
+# Two perpendicular bars, pulled down between their ends by a force far beyond their bending stiffness.
 TRUSS = """beamwork: 1
 sections: {s: {constants: {A: 1e-2, Iy: 1e-9, Iz: 1e-9, It: 2e-9, Iw: 0, wagner_torque: 0}, young: 2e11,
                shear_modulus: 8e10}}
@@ -308,7 +308,8 @@ class Discretised(ProgramTest):
         return done.returncode, values, said
 
     def test_arcs(self):
-        """Only EA l^4 k^2/EI of one element counts: 64 rises^2, in radii of gyration, 2 of them are the limit."""
+        """Only EA l^4 k^2/EI of one element matters: 64 rise^2, with the rise in radii of gyration; the limit is 2
+        radii."""
         for n in (1, 2, 4, 8):
             turn = math.pi / 2 / n
             for side in (0.25, 0.98, 1.02, 30):
@@ -340,7 +341,8 @@ class Discretised(ProgramTest):
                 self.assertGreater(values["compression"], 0, (formulation, n))
 
     def test_tension_of_states(self):
-        """N l^2/EI of one element: 12, 60 and 30 + sqrt(1620). Beyond it the tip answers with any sign."""
+        """N l^2/EI of one element: 12, 60 and 30 + sqrt(1620). Beyond this limit the tip displacement may have either
+        sign."""
         for formulation, most in (("geometrically_exact:nodes=2", 12), ("geometrically_exact", 60),
                                   ("sheet_third", 30 + math.sqrt(1620)), ("sheet_third_printed", 30 + math.sqrt(1620))):
             for n in (1, 2, 16):
@@ -360,7 +362,7 @@ class Discretised(ProgramTest):
                         self.assertIsNone(values.get("u"))
                         self.assertEqual(self.solve(WIRE % {"N": N, "more": ""}, formulation, 2*n)[0], 0, (formulation, n))
         for formulation in ("geometrically_exact", "sheet_third", "collocation"):
-            for ends, status in (("[ry, rz]", 0), ("[rz]", 1)):  # a bar between two hinges is not bent
+            for ends, status in (("[ry, rz]", 0), ("[rz]", 1)):  # a bar between two hinges does not bend
                 done, values, said = self.solve(TRUSS % (ends, ends, ends, ends), formulation, 1)
                 self.assertEqual(done, status if formulation != "collocation" else 0, (formulation, said))
                 if done == 0:
@@ -370,7 +372,8 @@ class Discretised(ProgramTest):
         self.assertNotIn("too long for its axial force", " ".join(run("list", "collocation").stdout.split()))
 
     def test_tension_with_shear(self):
-        """Three nodes that shear have no bending in the place of shear; with two it is beside the shear."""
+        """With three nodes and shear, bending does not replace the shear; with two nodes it acts in addition to
+        shear."""
         shear = ", F: [%r, 0, 0, 0, %r, 0, 0, 0, 0]" % (8e10 * 1e-4, 8e10 * 1e-4)  # 1/GA = 1e-4
         for formulation, N, status in (("geometrically_exact", 9000.0, 0), ("geometrically_exact:nodes=2", 1900.0, 0),
                                        ("geometrically_exact:nodes=2", 1990.0, 1)):

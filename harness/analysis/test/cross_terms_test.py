@@ -1,4 +1,5 @@
-"""Springs with unsymmetric stiffness and damping at bodies, beside offset and released ends, in constraints: against matrices by hand."""
+"""Springs with unsymmetric stiffness and damping at bodies, at offset and released ends, and in constraints:
+against matrices computed independently."""
 import math
 
 import numpy
@@ -35,7 +36,7 @@ COMPONENTS = ("ux", "uy", "uz", "rx", "ry", "rz")
 
 
 def cross(scale, skewed):
-    """A symmetric part that is positive, and a skew one."""
+    """A positive definite symmetric part, and a skew part."""
     A, B = RANDOM.normal(size=(6, 6)), RANDOM.normal(size=(6, 6))
     units = numpy.diag([1, 1, 1, 0.1, 0.1, 0.1])
     return scale * units @ (A @ A.T + skewed * (B - B.T)) @ units
@@ -46,7 +47,7 @@ SPRINGS = {"SP": cross(100, 0.2), "DP": cross(4, 0.2), "SC": cross(80, 0.2), "DC
 
 
 def shift(arm):
-    """Motion [6] of a point by that of its body."""
+    """Motion [6] of a point due to the motion of its body."""
     T = numpy.eye(6)
     T[:3, 3:] = -numpy.array([[0, -arm[2], arm[1]], [arm[2], 0, -arm[0]], [-arm[1], arm[0], 0]])
     return T
@@ -71,7 +72,7 @@ def beam_end(release):
 
 
 def matrices(release):
-    """K, C, M of the motions of b [6], c along z, e [6], and what moves b, p, c, e."""
+    """K, C, M for the motions of b [6], c along z and e [6], and the motions of b, p, c, e due to these."""
     G = {"b": numpy.eye(13)[:6], "p": shift((0.1, 0.15, -0.05)) @ numpy.eye(13)[:6], "e": numpy.eye(13)[7:], "c": numpy.zeros((6, 13))}
     G["c"][0, 0], G["c"][2, 6] = -2, 1
     end, apart = shift((0, -0.05, 0.02)) @ G["b"], G["e"] - G["b"]
@@ -94,7 +95,7 @@ class CrossTerms(ProgramTest):
         self.assertLess(abs(found - wanted), within * size, f"{words}: {found} instead of {wanted}")
 
     def test_linear(self):
-        """Displacements and compliances: of the node itself, and of one on an arm."""
+        """Displacements and compliances of the node itself, and of a node on an arm."""
         for release in (False, True):
             K, _, _, G = matrices(release)
             load = (G["b"].T @ [3, 2, -4, 0.3, -0.2, 0.1] + G["p"].T @ [1, 2, 3, 0, 0, 0] + G["c"].T @ [2, 0, 5, 0, 0, 0])
@@ -123,7 +124,7 @@ class CrossTerms(ProgramTest):
             for k, (n, c, m, d) in enumerate(sees):
                 text += "".join(f"  {part}{k}: {{response: {{analysis: H, node: {n}, component: {c}, force: {m}, along: {d}, part: {part}}}}}\n" for part in ("real", "imaginary"))
             found = self.values(release, "{D: {modal: {damped: yes}}, H: {harmonic: {frequencies: [1.3]}}}", text)
-            pairs = [(2 * math.pi * found[f"f{i}"], found[f"d{i}"]) for i in range(8) if found[f"f{i}"] > 0]  # others do not vibrate
+            pairs = [(2 * math.pi * found[f"f{i}"], found[f"d{i}"]) for i in range(8) if found[f"f{i}"] > 0]  # the other modes do not vibrate
             self.assertGreater(len(pairs), 3)
             for (frequency, ratio), root in zip(pairs, roots):
                 self.near(frequency, root.imag, abs(root), f"frequency, release {release}")

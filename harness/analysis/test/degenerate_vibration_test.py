@@ -1,12 +1,13 @@
-"""Frequencies: equal ones, and their order."""
+"""Frequencies: equal frequencies, and their order."""
 import math
 import unittest
 
 from harness.tools.kit.program import ProgramTest
 
 
-# Frequencies of structures at the edge of what vibrates: modes of one frequency, motions without a stiffness or
-# without a mass, ends that pass nothing on; closed forms, or the same structure written otherwise. All formulations.
+# Frequencies of degenerate structures: equal frequencies, motions without stiffness or mass, ends
+# that transmit no force. Compared with closed forms, or with an equivalent description of the
+# structure, for all formulations.
 YOUNG, SHEAR, DENSITY, AREA, INERTIA, TWIST = 2e11, 8e10, 8000.0, 1e-4, 1e-9, 1.4e-9
 LINE = DENSITY * AREA
 WAVE = math.sqrt(YOUNG * INERTIA / LINE) / (2 * math.pi)  # Hz of factor 1, length 1
@@ -41,7 +42,7 @@ def cross(a, b):
 
 
 def turned(v):
-    """By a quaternion of no special direction."""
+    """Rotates by a quaternion with a general direction."""
     size = math.sqrt(0.7**2 + 0.4**2 + 0.3**2 + 0.5**2)
     w, *r = (q / size for q in (0.7, 0.4, -0.3, 0.5))
     half = [c + w * x for c, x in zip(cross(r, v), v)]
@@ -51,7 +52,7 @@ def turned(v):
 class Degenerate(ProgramTest):
 
     def each(self):
-        """All formulations, and the variants that have another mass or other nodes."""
+        """All formulations, and the variants with a different mass or different nodes."""
         return [f["formulation"] for f in self.record("list", "formulations")["formulations"]] + [
             "geometrically_exact:nodes=2", "beamw:mass=lumped"]
 
@@ -61,7 +62,7 @@ class Degenerate(ProgramTest):
         return path
 
     def found(self, formulation, nodes, members, more="", wanted=8, n=4):
-        """[Hz] Ascending; None: the mesh has no further mode."""
+        """Frequencies [Hz], ascending; None: the mesh has no further mode."""
         path = self.scene(nodes, members, more, wanted)
         return [q["value"] for q in self.record("solve", "--scene", path, "-f", formulation, "-n", n)["quantities"]]
 
@@ -74,8 +75,8 @@ class Degenerate(ProgramTest):
                                      (found, right, *what))
 
     def test_two_of_each(self):
-        """A section that is alike in all directions: frequencies in pairs, clamped and free, and free ones after six
-        that are zero."""
+        """A section with equal stiffness in all directions has frequencies in pairs, clamped and free; for the free
+        bar they follow six zeros."""
         for formulation in self.each():
             within = 3e-2 if formulation.endswith("lumped") else 1e-3 if "exact" in formulation else 2e-4
             found = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=4, n=8)
@@ -92,7 +93,7 @@ class Degenerate(ProgramTest):
                          "solve", "--scene", self.scene(f"{nodes}, {tip()}", bar("light")))
 
     def test_nothing_resists(self):
-        """What has neither stiffness nor mass has no frequency, and the refusal names that."""
+        """A motion with neither stiffness nor mass has no frequency, and the message names it."""
         alone = "some coordinate has neither stiffness nor mass"
         spring = "springs: {k: {to: b, stiffness: [100, 200, 300, 0, 0, 0]}}"
         other = "m: {from: a, to: z, section: light, y: [1, 0, 0]}"
@@ -104,7 +105,8 @@ class Degenerate(ProgramTest):
             self.refused(1, words, "solve", "--scene", self.scene(*scene), "-f", "collocation", "-n", 2, silent=False)
 
     def test_zeros(self):
-        """As many as the supports leave: in space, in a plane, of two bars apart, of a hinge."""
+        """There are as many zero frequencies as the supports leave: in space, in a plane, for two separate bars, for
+        a hinge."""
         apart = f"{FREE}, {tip()}, c: {{at: [0, 3, 0]}}, d: {{at: [1, 3, 0]}}"
         two = f"{bar()}, n: {{from: c, to: d, section: s, y: [0, 1, 0]}}"
         hinge = f"{bar()}, {BEYOND % ('s', ', release: {from: [rz]}')}"
@@ -120,8 +122,8 @@ class Degenerate(ProgramTest):
                                  (formulation, scene, found))
 
     def test_one_member_has_mass(self):
-        """A light arm beyond the end of a cantilever changes nothing; a light bar is exact with one element, whatever
-        the heavy one behind it has."""
+        """A massless arm beyond the end of a cantilever changes nothing; a massless bar is exact with one element,
+        whatever the mesh of the heavy bar after it."""
         end = "c: {at: [1, 0, 0.5]}"
         arm = "arm: {from: b, to: c, section: light, y: [0, 1, 0]}"
         pair = f"{bar('light', ', divisions: %d')}, {BEYOND % ('s', ', divisions: 4')}"
@@ -133,8 +135,8 @@ class Degenerate(ProgramTest):
             self.same(one, many, 1e-8, formulation)
 
     def test_light_member_between_masses(self):
-        """Held: sqrt(3 EI/m L^3), and no mode beyond those of the mass. Free: two bodies that a spring of the bar's
-        stiffness joins."""
+        """Held: sqrt(3 EI/m L^3), and no modes other than those of the mass. Free: two bodies joined by a spring with
+        the bar's stiffness."""
         stretch, twist, bend = YOUNG * AREA, SHEAR * TWIST, YOUNG * INERTIA
         for formulation in self.each():
             found = self.found(formulation, f"{HELD}, {tip(', mass: 2')}", bar("light"), wanted=5, n=2)
@@ -148,7 +150,7 @@ class Degenerate(ProgramTest):
             self.same(found[7:11:2], found[8:11:2], 1e-8, formulation)
 
     def test_bodies(self):
-        """One that springs alone hold; one of no mass is none."""
+        """A body held by springs only; a body without mass has no mode."""
         spring = "springs: {k: {to: b, stiffness: [100, 200, 300, 40, 50, 60]}}"
         mass, about = (100, 200, 300), (40, 50, 60)
         right = sorted(math.sqrt(k / m) / 2 / math.pi for m, all_of in ((2, mass), (3, about)) for k in all_of)
@@ -161,7 +163,7 @@ class Degenerate(ProgramTest):
             self.assertEqual(bare, none, formulation)
 
     def test_released_at_both_ends(self):
-        """Hinges in both directions at both ends: pi^2 and 4 pi^2, twice, as with nodes that turn."""
+        """Hinges in both directions at both ends: pi^2 and 4 pi^2, each twice, as with nodes that rotate."""
         ends = f"{HELD}, {tip(', hold: all')}"
         hinged = bar(more=", release: {from: [ry, rz], to: [ry, rz]}")
         turning = "a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, b: {at: [1, 0, 0], hold: [ux, uy, uz, rx]}"
@@ -172,7 +174,7 @@ class Degenerate(ProgramTest):
             self.same(found, self.found(formulation, turning, bar(), wanted=4, n=8), 1e-8, formulation)
 
     def test_equal_legs(self):
-        """A frame that its mirror image takes into itself has the frequencies of it, and two legs alone each twice."""
+        """A frame has the frequencies of its mirror image, and two separate equal legs have each frequency twice."""
         nodes = ("{0}: {{at: [0, 0, 0], hold: all}}, p: {{at: [0, 0, 1]}}, q: {{at: [0.7, 0, 1]}}, "
                  "{1}: {{at: [0.7, 0, 0], hold: all}}")
         leg = "{0}l: {{from: {0}, to: {1}, section: flat, y: [0, 1, 0]}}"
@@ -196,12 +198,13 @@ class Degenerate(ProgramTest):
         right = [math.sqrt(c * k / LINE) / 2 / math.pi for c in (1, 2, 2, 6, 6)]
         for formulation in self.each():
             if formulation.endswith("lumped"):
-                continue  # the moment of inertia of a bar of lumps is another
+                continue  # the moment of inertia of a bar with lumped mass is different
             found = self.found(formulation, f"{FREE}, {tip()}", bar(), springs, wanted=5, n=8)
             self.same(found, right, 1e-3, formulation)
 
     def test_offsets(self):
-        """A node beyond a rigid arm: as a support it is the clamped end, as a body its mass at that place."""
+        """A node beyond a rigid arm: as a support it is equivalent to the clamped end, as a body to its mass at that
+        place."""
         for formulation in self.each():
             plain = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=6)
             beside = "z: {at: [0, 0.3, 0.2], hold: all}, a: {at: [0, 0, 0], part_of: z}"
@@ -212,7 +215,7 @@ class Degenerate(ProgramTest):
             self.same(heavy, carried, 1e-9, formulation)
 
     def test_turned(self):
-        """Any direction in space, and the nodes exchanged."""
+        """The frequencies do not depend on the direction in space or the order of the nodes."""
         for formulation in self.each():
             right = self.found(formulation, f"{HELD}, {tip()}", bar("flat"), wanted=6)
             x, y = turned((1, 0, 0)), turned((0, 1, 0))
@@ -222,8 +225,8 @@ class Degenerate(ProgramTest):
                 self.same(self.found(formulation, nodes, member % (ends, *y), wanted=6), right, 1e-8, formulation)
 
 
-# Frequencies of straight members without stress against closed forms: bending with shear and
-# rotary inertia, stretch, torsion, restrained warping, with bodies and springs at the ends.
+# Frequencies of straight unstressed members against closed forms: bending with shear and rotary
+# inertia, axial vibration, torsion, restrained warping, with bodies and springs at the ends.
 E, NU, RHO, LENGTH = 2e11, 0.25, 8000.0, 1.0
 G = E / 2 / (1 + NU)
 ALL = ("collocation", "beamw", "beamw_vlasov", "beamw_first", "beamw_consistent", "sheet_second",
@@ -254,7 +257,7 @@ WITH_SHEAR = "trapeze, wagner_moments, wagner_torque"
 
 
 def root(function, low, high):
-    """Of a function that changes its sign once between the two."""
+    """Root of a function that changes sign once between `low` and `high`."""
     sign = function(low) > 0
     for _ in range(200):
         middle = (low + high) / 2
@@ -266,7 +269,7 @@ def root(function, low, high):
 
 
 def timoshenko(section, wave, upper=False):
-    """[Hz] Hinged: deflection and rotation are sine and cosine of wave x (2 x 2 problem)."""
+    """Frequency [Hz] of a hinged beam: deflection and rotation are sine and cosine of wave x (2 x 2 problem)."""
     area, inertia, shear = section["A"], section["Iz"], G / section["F"][0]
     k11, k12, k22 = shear * wave**2, -shear * wave, shear + E * inertia * wave**2
     m1, m2 = RHO * area, RHO * inertia
@@ -277,7 +280,7 @@ def timoshenko(section, wave, upper=False):
 
 
 def warped(section):
-    """[Hz] First torsion of a cantilever whose root does not warp."""
+    """First torsional frequency [Hz] of a cantilever with warping restrained at the root."""
     EIw, GIt, inertia = E * section["Iw"], G * section["It"], RHO * (section["Iy"] + section["Iz"])
 
     def determinant(f):
@@ -319,15 +322,15 @@ class FrequencyOrder(ProgramTest):
                     self.assertGreater(math.log2(coarse / fine), least)
 
     def bending(self, factor):
-        """[Hz] of the slender beam, omega = factor sqrt(EI/rho A)/L^2."""
+        """Frequency [Hz] of the slender beam, omega = factor sqrt(EI/rho A)/L^2."""
         return factor * math.sqrt(E * SECTION["Iz"] / (RHO * SECTION["A"])) / (2 * math.pi)
 
     def test_slender_bending(self):
-        """3.51602, 22.0345 of a cantilever, 22.3733 of the free bar, and higher modes."""
+        """3.51602 and 22.0345 for a cantilever, 22.3733 for the free bar, and higher modes."""
         for formulation in ALL:
             for factor, held in ((3.5160152685, ", hold: all"), (22.034491565, ", hold: all"),
                                  (22.373285448, "")):
-                # Simpson's masses of three nodes have more error than the field
+                # Simpson's lumped masses at three nodes have a larger error than the displacement field
                 self.assertLess(self.near(self.bending(factor), formulation, 8, a=held),
                                 1e-4 if formulation == "geometrically_exact" else 5e-7,
                                 (formulation, factor))
@@ -336,7 +339,7 @@ class FrequencyOrder(ProgramTest):
                     a=", hold: all")
 
     def test_shear(self):
-        """Hinged, shear and rotary inertia, elements down to 3 radii of gyration."""
+        """Hinged beams with shear and rotary inertia, with elements as short as 3 radii of gyration."""
         section = {**SECTION, "Iz": 4e-6, "Iy": 9e-6, "It": 1.3e-5,
                    "F": [1.2 / 4e-4, 0, 0, 0, 1.2 / 4e-4, 0, 0, 0, 0]}
         held = {"a": ", hold: [ux, uy, uz, rx]", "b": ", hold: [uy, uz]"}
@@ -353,7 +356,7 @@ class FrequencyOrder(ProgramTest):
                 self.fourth(ALL, mode * speed / 4, a=", hold: all")
 
     def test_bodies_and_springs(self):
-        """Stretch and bending with a mass at the tip, stretch against a spring."""
+        """Axial and bending modes with a mass at the tip, axial modes against a spring."""
         speed, line = math.sqrt(E / RHO), RHO * SECTION["A"]
         x = root(lambda b: b * math.tan(b) - 1, 0.1, 1.5)
         self.fourth(ALL, x * speed / (2 * math.pi), a=", hold: all", b=f", mass: {line!r}")
@@ -368,7 +371,7 @@ class FrequencyOrder(ProgramTest):
                     more=f"springs:\n  s: {{to: b, stiffness: [{stiffness!r}, 0, 0, 0, 0, 0]}}\n")
 
     def test_warping(self):
-        """A root that does not warp; lengths of its layer from 0.3 to 0.03."""
+        """Warping restrained at the root, with decay lengths from 0.3 to 0.03."""
         for decay in (3, 30):
             section = {**SECTION, "Iw": G * SECTION["It"] / E / decay**2}
             self.fourth(WARPING, warped(section), constants=section, least=3.4, meshes=(16, 32),

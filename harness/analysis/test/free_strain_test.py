@@ -1,4 +1,4 @@
-"""Temperature, pretension, lengths and curvatures without stress: closed forms, by all formulations."""
+"""Temperature, pretension, unstressed lengths and free curvatures against closed forms, for all formulations."""
 import json
 import math
 import unittest
@@ -33,7 +33,7 @@ loads: {{{loads}}}
 
 class FreeStrains(ProgramTest):
     def test_cantilever(self):
-        """Free to expand and to bend it does so, on an exact arc, without stress, in linear analyses to first order."""
+        """A free member expands and bends to an exact arc without stress; in linear analyses, to first order."""
         kappa, warm = -ALPHA * 50e3, ALPHA * 100
         text = beam("[]", loads="t: {temperature: 100, gradient: [50e3, 0], on: m}", more="""
 analyses: {li: {linear: {}}, st: {static: {stations: [0.5, 1]}}}
@@ -52,7 +52,7 @@ quantities:
                     self.assertAlmostEqual(got[name], exact.get(name, 0), delta=1e-9 if name in exact else 1e-6)
 
     def test_where_the_path_begins(self):
-        """At station 0 there is what acts there: pretension, a load that stays; of what follows it too."""
+        """At station 0 pretension and constant loads act, also in analyses that follow this state."""
         for keys, loads, force in ((", pretension: 10000", "", 10000),
                                    (f", unstressed_length: {L * (1 - 1e-4)}", "", E * A * 1e-4),
                                    ("", "t: {temperature: -50, on: m, path: [0], factor: [1]}", E * A * ALPHA * 50)):
@@ -89,7 +89,7 @@ quantities:
             self.assertIn(words, solve.stderr)
 
     def test_clamped(self):
-        """Held at both ends it takes -EA alpha T and EI alpha g, about both axes, without moving."""
+        """Held at both ends, the member carries -EA alpha T and EI alpha g, about both axes, without moving."""
         text = beam("all", loads="t: {temperature: 20, gradient: [300, 500], on: m}", more="""
 analyses: {li: {linear: {}}, st: {static: {stations: [1]}}}
 quantities:
@@ -106,8 +106,8 @@ quantities:
                     self.assertAlmostEqual(got[name], size, delta=tolerance * abs(size))
 
     def test_length(self):
-        """A member that is too short pulls, one that is pretensioned does so with that force; half of it is left where
-        a like member gives way."""
+        """A member that is too short is in tension, and a pretensioned member has its pretension; half of it remains
+        if an equal member is in series."""
         for keys, force in ((", pretension: 500", 500), (f", unstressed_length: {L * (1 - 1e-5)}", E * A * 1e-5),
                             (", strain: [-1e-5, 0, 0]", E * A * 1e-5)):
             text = f"""nodes: {{a: {{at: [0, 0, 0], hold: all}}, b: {{at: [{L}, 0, 0], hold: [uy, uz, rx, ry, rz]}},
@@ -124,8 +124,8 @@ quantities: {{li: {{internal: {{analysis: li, member: n, end: to, resultant: N}}
                         self.assertAlmostEqual(got[name], force / 2, delta=1e-5 * force)
 
     def test_bent(self):
-        """A straight blank along an arc between two clamps has the moment -EI k, a bent one that is mounted straight EI
-        k; loosened at one end, either takes its own shape."""
+        """A straight blank mounted along an arc between two clamps has the moment -EI k, a bent blank mounted
+        straight has EI k; released at one end, both take their stress-free shape."""
         k = 0.5
         for formulation in ("collocation", "geometrically_exact", "sheet_second_consistent"):
             for own, free in ((k, -k), (0, k)):
@@ -146,7 +146,8 @@ quantities:
                     self.assertAlmostEqual(loose["rz"], free * length, delta=1e-6)
 
     def test_stability_and_frequencies(self):
-        """Pinned and heated: alpha T = pi^2 I/(A L^2), of a path too; f = f_0 sqrt(1 + N/N_E). A string in tension."""
+        """Pinned and heated: buckling at alpha T = pi^2 I/(A L^2), also on a path; f = f_0 sqrt(1 + N/N_E). Also a
+        string in tension."""
         text = beam("[ux, uy, uz, rx]", loads="t: {temperature: 1, on: m}", more="""
 analyses: {cold: {modal: {}}, lin: {buckling: {}}, st: {static: {stations: [2, 4]}}, on: {buckling: {about: st}},
            warm: {modal: {about: st}}}
@@ -168,7 +169,8 @@ omit: [rotary_inertia, trapeze]
                 self.assertAlmostEqual(got["f"] / square, math.sqrt(1 - 4 / critical), delta=rough)
 
     def test_in_time(self):
-        """Heated slowly against a wall its force follows, by each integrator, and the energy is what the heat puts in."""
+        """A member heated slowly between walls develops the static force with each integrator, and its energy is the
+        work of the heating."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent", "sheet_second"):
             for integrator in ("alpha", "radau"):
                 text = beam("[uy, uz, rx, ry, rz]", loads="t: {temperature: 10, gradient: [100, 0], on: m, time: t^2}",
@@ -191,7 +193,8 @@ quantities:
                     self.assertAlmostEqual(got["drift"] / work, 0, delta=2e-4)
 
     def test_part(self):
-        """A third of it is heated, from a fifth on: it elongates by that, and turns where it is bent."""
+        """A third of the member, starting at a fifth, is heated: it elongates accordingly, and the tip rotates if
+        that part bends."""
         text = beam("[]", loads=f"t: {{temperature: 90, gradient: [900, 0], on: m, from: 0.2, to: {0.2 + 1 / 3}}}", more="""
 analyses: {li: {linear: {}}}
 quantities:
@@ -205,7 +208,7 @@ quantities:
                 self.assertAlmostEqual(got["uy"], -ALPHA * 300 * (0.8 - 1 / 6) * L**2, delta=1e-12)
 
     def test_refused(self):
-        """An element that gives forces and no strains is refused, by what changes them."""
+        """An element that returns forces without strains is rejected for inputs that change strains."""
         element = compile_shared(EXAMPLES / "corotational.c", self.folder / "corotational.so")
         for text, who in ((beam("[]", loads="t: {temperature: 90, on: m}"), "load t"),
                           (beam("[]", keys=", pretension: 9"), "member m")):

@@ -1,4 +1,5 @@
-"""Stops behind gaps: one load step finds what many find, and each is at rest or pressed as far as its force says."""
+"""Stops with gaps: one load step finds the same state as many, and each stop is either open or compressed in
+proportion to its force."""
 import random
 import re
 
@@ -9,7 +10,8 @@ STIFFNESS = 3*200e9*0.02*0.01**3/12/LENGTH**3
 
 
 def scene(seed, stations):
-    """A cantilever between stops on both sides, up to a million times as stiff; their gaps and stiffness."""
+    """A cantilever between stops on both sides that are up to a million times as stiff, with their gaps and
+    stiffness."""
     draw = random.Random(seed)
     stiffness, force = STIFFNESS*10**draw.uniform(0, 6), 10**draw.uniform(0, 2.5)
     nodes, members, springs, gaps = "", "", "", []

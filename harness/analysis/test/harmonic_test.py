@@ -1,4 +1,4 @@
-"""Harmonic responses against closed forms, and what a harmonic analysis refuses."""
+"""Harmonic responses against closed forms, and inputs that a harmonic analysis rejects."""
 import cmath
 import json
 import math
@@ -40,8 +40,9 @@ SHAKEN = reading("u", component="uy", drive="shake") + reading("r", component="u
 
 
 def beam(hertz, tension, length, by_mass=0.0, by_stiffness=0.0):
-    """v(x) of EI v'''' - N v'' - mu w^2 v = 0 by its four exponentials: the roots, and EI. The mass stays, and
-    moments go by the rotation per initial length. Proportional damping: EI (1 + i w b), mu (1 - i a/w)."""
+    """Solves EI v'''' - N v'' - mu w^2 v = 0 by its four exponentials: returns the roots, and EI. Mass is
+    conserved, and moments are proportional to the rotation per initial length. Proportional damping: EI (1 +
+    i w b), mu (1 - i a/w)."""
     w = 2*math.pi*hertz
     stiff = EI*length*(1 + 1j*w*by_stiffness)
     s = cmath.sqrt((tension/(2*stiff))**2 + MU/length*w*(w - 1j*by_mass)/stiff)
@@ -50,7 +51,7 @@ def beam(hertz, tension, length, by_mass=0.0, by_stiffness=0.0):
 
 
 def solve(rows, right):
-    """Gaussian elimination with complex numbers."""
+    """Solves by Gaussian elimination with complex numbers."""
     n = len(rows)
     table = [list(map(complex, row)) + [complex(r)] for row, r in zip(rows, right)]
     for k in range(n):
@@ -64,7 +65,7 @@ def solve(rows, right):
 
 
 def exact(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
-    """Deflection and slope at the tip, of a force there or a shift of the root."""
+    """Deflection and slope at the tip, due to a force there or a displacement of the root."""
     amplitude, roots, at, _ = waves(hertz, force, shift, tension, length, **damping)
     return (sum(a*e for a, e in zip(amplitude, at)),
             sum(a*k*e for a, k, e in zip(amplitude, roots, at)))
@@ -105,7 +106,7 @@ def modes(count):
 class DampedModesTest(ProgramTest):
 
     def found(self, text, formulation="collocation", n=1):
-        """Eigenvalues s, and ratios."""
+        """Eigenvalues s, and damping ratios."""
         path = self.folder/"scene.yaml"
         path.write_text(text, encoding="utf-8")
         record = self.record("solve", "--scene", path, "-f", formulation, "-n", n)
@@ -124,7 +125,7 @@ class DampedModesTest(ProgramTest):
             self.assertLess(abs(one - other), most*abs(other), (found, expected))
 
     def test_one_mass(self):
-        """Of frequency 20 rad/s: damped, undamped, and with two rates of decay."""
+        """One mass with frequency 20 rad/s: damped, undamped, and with two decay rates."""
         for ratio in (1e-6, 0.1, 0.9, 0.999):
             found, ratios = self.masses(1, 2*ratio*40)
             self.same(found, [20*complex(-ratio, math.sqrt(1 - ratio**2))])
@@ -134,7 +135,7 @@ class DampedModesTest(ProgramTest):
         found, ratios = self.masses(1, 2*3*40)
         self.same(found, [20*(-3 + math.sqrt(8)), 20*(-3 - math.sqrt(8))])
         self.same(ratios, [1, 1])
-        found, ratios = self.masses(1, 2*40) # a double value, known to the root of round-off
+        found, ratios = self.masses(1, 2*40) # a double eigenvalue, accurate to the square root of round-off
         self.same(found[:1], [-20], 1e-6)
 
     def test_two_equal_masses(self):
@@ -143,7 +144,7 @@ class DampedModesTest(ProgramTest):
         self.same(ratios, [0.1]*2)
 
     def test_proportional(self):
-        """(a/w + b w)/2 of every mode of a beam, whose frequencies are those without damping."""
+        """Every mode of a beam has the ratio (a/w + b w)/2, and its frequency is the undamped one."""
         scene = BEAM.replace("c: 15", "c: 0").replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {%s}}")
         for formulation in ("collocation", "geometrically_exact", "sheet_third"):
             plain = self.record("solve", "--scene", self.write(scene % ("hold: all", "", "", "", "".join(
@@ -161,8 +162,8 @@ class DampedModesTest(ProgramTest):
         return path
 
     def test_dashpot_at_the_tip(self):
-        """The determinant of the exact beam vanishes at the eigenvalue: 1/u(s) by the secant method; without tension,
-        about a stretched state, and beyond the critical load, where a motion grows."""
+        """The determinant of the exact beam vanishes at the eigenvalue: 1/u(s) by the secant method. Without tension,
+        about a state in tension, and beyond the critical load, where a mode grows."""
         scene = BEAM.replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {damped: yes%s}}")
         stretched = 1 + 2000/(210e9*0.02*0.01)
         load = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
@@ -200,7 +201,7 @@ class DampedModesTest(ProgramTest):
 
 
 class ByModesTest(ProgramTest):
-    """Solutions by modes against direct ones of the same scene, and against closed forms."""
+    """Modal solutions against direct solutions of the same scene, and against closed forms."""
 
     def solved(self, text, formulation="collocation", n=8):
         """Curves, values and the stated errors."""
@@ -227,7 +228,7 @@ class ByModesTest(ProgramTest):
 
     @staticmethod
     def scenes():
-        """Of a force, a base that shakes, about a stretched state, and of a free and a driven pinned beam."""
+        """A force, a shaking base, a state in tension, and a free and a driven pinned beam."""
         load = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
         shake = "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}"
         yield lambda k: BEAM % ("hold: all", "", "", k, FORCED)
@@ -247,7 +248,7 @@ class ByModesTest(ProgramTest):
                 self.close(text, ", solution: modal", formulation, n=4)
 
     def test_few_modes(self):
-        """Within what is stated, which is not much more than the error."""
+        """The error is within the stated bound, which is not much larger."""
         for text in self.scenes():
             for damping in ("", ", damping: {mass: 7, stiffness: 1e-3}"):
                 for modes, most in ((5, 1e-3), (8, 1e-5), (14, 1e-6)):
@@ -279,7 +280,7 @@ class ByModesTest(ProgramTest):
         self.assertRegex(done.stdout + done.stderr, "require a symmetric stiffness")
 
     def test_many_modes_wanted(self):
-        """More than there are, of a structure that is mostly without mass."""
+        """More modes are requested than exist, for a structure that is mostly massless."""
         text = MASSES.replace("analyses: {modes: {modal: {%s}}}",
                               "analyses: {steady: {harmonic: {frequencies: [1, 3, 9]%s}}}")
         each = "0..1"
@@ -293,7 +294,7 @@ class ByModesTest(ProgramTest):
             self.close(scene(c, ", damping: {ratio: 0.3}"), ", solution: modal")
 
     def test_one_mass(self):
-        """At 0, 1 and 2 times its resonance, where without damping there is no response."""
+        """At 0, 1 and 2 times the resonance; without damping there is no response at resonance."""
         base = MASSES.replace("to: body_$i, ", "from: base, to: body_$i, ").replace(
             "nodes:", "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}\nnodes:\n"
             "  base: {at: [0, -1, 0], hold: [ux, uz, rx, ry, rz], drive: {uy: shake}}")
@@ -317,7 +318,7 @@ class ByModesTest(ProgramTest):
 
 
 class ExtremesTest(ProgramTest):
-    """Of one mass on a spring, between the frequencies of the analysis: closed form."""
+    """Extremes between the frequencies of the analysis, for one mass on a spring: closed form."""
     OSCILLATOR = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 2e11, shear_modulus: 8e10}}
 nodes: {body: {at: [0, 0, 0], mass: 2, hold: [ux, uz, rx, ry, rz]}, top: {at: [1, 0, 0]}}
@@ -337,7 +338,8 @@ quantities:
                 self.answered("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout)
 
     def test_closed_form(self):
-        """Whatever the frequencies; also where the half-power width is far below their distance."""
+        """The extremes do not depend on the frequencies, even if the half-power bandwidth is far below their
+        spacing."""
         hertz = 20/(2*math.pi)
         for ratio in (0.2, 0.01, 1e-5):
             for frequencies in ("1..10/8:log", "1..10/200:log", "[3, 4]"):
@@ -347,7 +349,7 @@ quantities:
                     self.assertLess(abs(got["most"]["value"]/exact - 1), 1e-8, (ratio, frequencies))
                     self.assertLess(abs(got["most"]["x"]/(hertz*math.sqrt(1 - 2*ratio**2)) - 1), 1e-6)
                     self.assertRegex(text, r"(?m)^most .*, at 3\.\d+ Hz")
-                    if hertz*math.sqrt(1 + 2*ratio) < 4:  # the real part is least there
+                    if hertz*math.sqrt(1 + 2*ratio) < 4:  # the real part is smallest there
                         self.assertLess(abs(got["least"]["value"]*800*4*ratio*(1 + ratio) + 1), 1e-8)
 
     def test_at_an_end(self):
@@ -386,7 +388,8 @@ quantities:
 """
 
     def test_what_is_not_excited(self):
-        """Undamped modes of another part, and one against which a force in the middle has no arm: never unbounded."""
+        """The response is never unbounded due to undamped modes of another part, or a mode that a force in the middle
+        does not excite."""
         w = 2*math.pi*numpy.linspace(0.5, 9, 850001)
         k, own = 700/3, 800/3 - w*w
         exact = {"middle": own/(own*(2j*w + 2*k) - 2*k*k), "left": k/(own*(2j*w + 2*k) - 2*k*k)}
@@ -416,7 +419,7 @@ class HarmonicTest(ProgramTest):
         return path
 
     def curves(self, text, formulation, n):
-        """name -> complex values at the frequencies."""
+        """Returns name -> complex values at the frequencies."""
         record = self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", n)
         by_name = {}
         for curve in record["curves"]:
@@ -433,7 +436,7 @@ class HarmonicTest(ProgramTest):
         return [f["formulation"] for f in self.record("list", "formulations")["formulations"]]
 
     def test_dashpot_at_the_tip(self):
-        """Of a beam in bending, every formulation; velocities are those of displacements."""
+        """A beam in bending, with every formulation; velocities are derivatives of displacements."""
         text = BEAM % ("hold: all", "", "", "", FORCED)
         expected = [exact(f, force=1) for f in FREQUENCIES]
         for formulation in self.formulations():
@@ -450,7 +453,8 @@ class HarmonicTest(ProgramTest):
         self.near(found["r"], [u - 1 for u in expected], 2e-6, "as seen from the base")
 
     def test_reaction(self):
-        """Of the root to a force at the tip, and to its own motion; by modes too, and of a mass on a base."""
+        """Reaction of the root to a force at the tip and to its own motion, directly and by modes; also of a mass on
+        a base."""
         for keys in ("", ", solution: modal", ", solution: modal, modes: 40"):
             text = BEAM % ("hold: [ux, uz, rx, ry, rz], drive: {uy: shake}",
                            "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}", "", keys,
@@ -462,7 +466,7 @@ class HarmonicTest(ProgramTest):
             self.near(found["s"], [waves(f, shift=1)[3] for f in FREQUENCIES], 2e-6, keys)
 
     def test_reaction_with_ratios(self):
-        """m w^2 x of a mass that nothing else holds; and what has no reaction."""
+        """The reaction is m w^2 x for a mass that is otherwise free; requests without a reaction are rejected."""
         base = MASSES.replace("to: body_$i, ", "from: base, to: body_$i, ").replace(
             "nodes:", "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}\nnodes:\n"
             "  base: {at: [0, -1, 0], hold: [ux, uz, rx, ry, rz], drive: {uy: shake}}").replace(
@@ -481,7 +485,8 @@ class HarmonicTest(ProgramTest):
                 self.assertRegex(done.stdout + done.stderr, words)
 
     def test_proportional_damping(self):
-        """Of all formulations; of a base that shakes, the mass is damped by its velocity in fixed axes."""
+        """Proportional damping with all formulations; with a shaking base the mass is damped by its absolute
+        velocity."""
         damping = {"by_mass": 7, "by_stiffness": 2e-3}
         keys = ", damping: {mass: 7, stiffness: 2e-3}"
         forced = BEAM % ("hold: all", "", "", keys, FORCED)
@@ -494,7 +499,7 @@ class HarmonicTest(ProgramTest):
                   [exact(f, shift=1, **damping)[0] for f in FREQUENCIES], 2e-6, "base")
 
     def test_stiffness_is_that_of_all_members_and_springs(self):
-        """About a bent, stretched state and beside a spring and a foundation."""
+        """About a bent state in tension, and with a spring and a foundation."""
         loads = "loads: {pull: {force: [-300, 200, 50], on: tip}}"
         with_spring = BEAM.replace("damping: [0, c", "stiffness: [0, 900, 0, 0, 0, 3], damping: [0, c")
         keys = with_spring % ("hold: all", loads, "  before: {static: {stations: [1], steps: 4}}",
@@ -507,7 +512,7 @@ class HarmonicTest(ProgramTest):
         self.near(one, other, 1e-12, "all")
 
     def test_stiffness_of_tables(self):
-        """Proportional damping takes the line of a table that the state is on."""
+        """Proportional damping uses the segment of a table in which the state lies."""
         text = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e9, shear_modulus: 4e8}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 2}}
@@ -529,7 +534,7 @@ quantities:
         self.assertAlmostEqual(got["im"] / exact.imag, 1, delta=1e-9)
 
     def test_about_a_state(self):
-        """Under tension: about a static path, on which it is longer, and about a linear analysis."""
+        """Under tension: about a static path, along which the beam elongates, and about a linear analysis."""
         loads = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
         stretched = 1 + 2000/(210e9*0.02*0.01)
         for kind, length in (("{static: {stations: [1]}}", stretched), ("{linear: {}}", 1)):
@@ -538,7 +543,7 @@ quantities:
             self.near(self.curves(text, "collocation", 24)["u"], expected, 5e-5, kind)
 
     def test_equal_ratios(self):
-        """A range of frequencies as the list that it is."""
+        """A range of frequencies gives the same result as the equivalent list."""
         text = BEAM % ("hold: all", "", "", "", FORCED)
         one, other = (self.curves(text.replace("[5, 8, 20, 60]", to), "collocation", 4)["u"]
                       for to in ("0.5..500/3:log", "[0.5, 5, 50, 500]"))
@@ -546,14 +551,14 @@ quantities:
             self.assertLess(abs(a - b), 1e-9*abs(b))
 
     def test_reciprocity(self):
-        """A rotation for a force is a displacement for a moment."""
+        """The rotation due to a force equals the displacement due to a moment."""
         crossed = reading("a", component="rz", force="tip", along="uy") + reading("b", component="uy", force="tip", along="rz")
         found = self.curves(BEAM % ("hold: all", "", "", "", crossed), "sheet_third", 3)
         for one, other in zip(found["a"], found["b"]):
             self.assertLess(abs(one - other), 1e-9*abs(one))
 
     def test_force_in_a_member(self):
-        """By a stiff spring in a cut at the root: its moment is what the beam's exponentials give there."""
+        """A stiff spring in a cut at the root carries the moment given there by the beam's exponentials."""
         scene = BEAM.replace("  tip: {at", "  cut: {at: [0, 0, 0]}\n  tip: {at").replace("from: root", "from: cut").replace(
             "springs: {", "springs: {joint: {from: root, to: cut, stiffness: [k, k, k, k, k, k]}, ").replace("c: 15", "c: 15, k: 1e10")
         scene = scene % ("hold: all", "", "", "", "".join(

@@ -1,4 +1,4 @@
-"""Load cases and combinations: what acts is what stands in them, by every analysis and all formulations."""
+"""Load cases and combinations apply exactly the loads they list, in every analysis and with all formulations."""
 import json
 import unittest
 
@@ -17,7 +17,7 @@ members:
   ab: {from: a, to: b, section: s, y: [0, 1, 0]}
   bc: {from: b, to: c, section: s, y: [0, 1, 0]PRETENSION}
 """
-# each load, with the case it is of and the factor of that
+# each load, with its case and the factor of that case
 LOADS = {"weight": ("gravity: [0, -9.81, 0], on: all", "dead"), "wind": ("distributed: [2, 3, 0], on: bc, from: 0.3", "wind"),
          "hit": ("force: [-40, 5, 0], on: c", "wind"), "twist": ("moment: [0, 0, 2], on: ab, where: 0.4", "live"),
          "sun": ("temperature: 10, gradient: [100, 0], on: bc", "live")}
@@ -31,7 +31,7 @@ QUANTITIES = """  u: {displacement: {analysis: A, WHICH node: c, component: uy}}
 
 
 def loads(factors=None, live=1.0, skip=()):
-    """Entries of the loads, with cases, or without and times these factors."""
+    """Entries of the loads with their cases, or without cases and multiplied by these factors."""
     out = ["loads:"]
     for name, (text, case) in LOADS.items():
         if case in skip:
@@ -66,7 +66,7 @@ class LoadCases(ProgramTest):
             self.assertAlmostEqual(one[name] / two[name], 1, delta=delta, msg=(name, more))
 
     def test_every_analysis(self):
-        """A combination is its loads times their factors."""
+        """A combination is equivalent to its loads multiplied by their factors."""
         kinds = {"linear": "linear: {COMBINED}", "static": "static: {stations: [0.5, 1]COMBINED}",
                  "rotation": "rotation: {omega: [0, 0, 0.1], stations: [1]COMBINED}"}
         for formulation in FORMULATIONS:
@@ -82,7 +82,7 @@ class LoadCases(ProgramTest):
                     self.same(first, text, formulation=formulation)
 
     def test_states_and_motions(self):
-        """What is about a state has the loads of that; critical loads, paths, frequencies and motions too."""
+        """Analyses about a state use the loads of that state: critical loads, paths, frequencies and motions."""
         analyses = """analyses:
   st: {static: {stations: [1]COMBINED}}
   tone: {modal: {about: st}}
@@ -102,7 +102,7 @@ quantities:
   e: {energy: {analysis: on, of: strain}}
 """
         for formulation in ("collocation", "beamw_consistent", "sheet_third"):
-            follows = loads().replace("on: ab, where: 0.4", "on: b, follower: true")  # factor 0: without a part
+            follows = loads().replace("on: ab, where: 0.4", "on: b, follower: true")  # factor 0: a load is absent
             cases = (HEAD + COMBINATIONS).replace("PRETENSION", "") + follows + analyses.replace(
                 "COMBINED", ", combination: ULS").replace("ALONE", "combination: ULS")
             plain = HEAD.replace("PRETENSION", "") + loads(FACTORS, skip=("live",)) + analyses.replace(
@@ -110,7 +110,7 @@ quantities:
             self.same(cases, plain, formulation=formulation, delta=1e-8)
 
     def test_time_buckling_continuation(self):
-        """Functions of time and factors of a path are times the factor of the case."""
+        """Functions of time and path factors are multiplied by the factor of the case."""
         text = """nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
 members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
 loads:
@@ -136,7 +136,7 @@ quantities:
             self.same(cases, plain, formulation=formulation, delta=1e-8)
 
     def test_one_factorisation(self):
-        """Many cases and combinations cost one, and each is what it is alone."""
+        """Many cases and combinations cost one factorisation, and each has the same result as on its own."""
         kinds = {"ULS": "combination: ULS", "SLS": "combination: SLS", "lift": "combination: lift", "dead": "case: dead",
                  "live": "case: live"}
         head = (HEAD + COMBINATIONS).replace("PRETENSION", ", pretension: 200") + loads()
@@ -156,7 +156,8 @@ quantities:
                         self.assertAlmostEqual(got[f"{name}_{quantity}"], value, delta=1e-12 * abs(value))
 
     def test_envelopes(self):
-        """The largest, the least and the largest magnitude of what each combination has, and which it is."""
+        """An envelope gives the largest value, the smallest value or the largest magnitude over the combinations, and
+        names the governing one."""
         head = (HEAD + COMBINATIONS).replace("PRETENSION", "") + loads() + "analyses: {x: {linear: {}}}\nquantities:\n"
         one = {c: values(solved(head + QUANTITIES.replace("A, WHICH", f"x, combination: {c},"))) for c in ("ULS", "SLS", "lift")}
         for kind, best in (("max", max), ("min", min), ("largest", lambda v, key: max(v, key=lambda c: abs(key(c))))):
@@ -172,7 +173,7 @@ quantities:
         self.assertIn(solved(cases)["u"]["meaning"], ("case dead", "case wind", "case live"))
 
     def test_conditions_and_names(self):
-        """Loads that are not there leave their terms out; loops and parameters name combinations."""
+        """Terms of loads that do not exist are omitted; loops and parameters may name combinations."""
         text = (HEAD + "combinations: {ULS: {dead: g, wind: 1.5, live: 1}, \"G$i\": {for: {i: 1..2}, dead: i, wind: 1}}\n").replace(
             "PRETENSION", "") + loads().replace("case: live}", "case: live, if: {with: 1}}") + """analyses: {x: {linear: {}}}
 quantities:
@@ -192,7 +193,7 @@ quantities:
             self.assertEqual([q["value"] for q in got["quantities"]], [q["value"] for q in twice["quantities"]])
 
     def test_refused(self):
-        """What is not said, or cannot be, is refused by name."""
+        """Missing or impossible inputs are rejected by name."""
         head = (HEAD + COMBINATIONS).replace("PRETENSION", "") + loads()
         u = "quantities: {u: {displacement: {analysis: x, WHICH node: c, component: uy}}}\n"
         rows = (
@@ -237,7 +238,7 @@ quantities:
 
 
 class EnvelopeTest(ProgramTest):
-    """Of nonlinear analyses: quantities that are there, and the one that governs."""
+    """Envelopes of nonlinear analyses: existing quantities, and the governing one."""
     TEXT = """beamwork: 1
 UNITS
 sections: {bar: {tube: {diameter: DIAMETER, thickness: WALL}, young: YOUNG, shear_modulus: SHEAR, density: RHO}}
@@ -318,7 +319,7 @@ quantities:
             self.assertIn(words, done.stderr)
 
     def test_sign_of_extremes(self):
-        """The largest value is that of what is reported, in paths, motions and along members."""
+        """The largest value refers to the reported quantity with its sign, in paths, motions and along members."""
         got = values(solved("""beamwork: 1
 sections: {bar: {tube: {diameter: 0.05, thickness: 3e-3}, young: 210e9, shear_modulus: 81e9, density: 7850}}
 nodes: {foot: {at: [0, 0, 0], hold: all}, head: {at: [3, 0, 0], hold: [ux, uy, uz]}, middle: {at: [1.5, 0, 0]}}

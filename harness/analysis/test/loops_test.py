@@ -1,4 +1,4 @@
-"""Loops of feedback in small vibrations: poles, responses and state spaces against closed forms of masses and springs."""
+"""Feedback loops in small vibrations: poles, responses and state spaces against closed forms for masses and springs."""
 import csv
 import json
 import re
@@ -65,7 +65,7 @@ class Plant:
         self.gains = kp, kd, ki
 
     def poles(self):
-        """Roots of the characteristic polynomial, times s where there is an integral."""
+        """Roots of the characteristic polynomial, multiplied by s if there is an integral."""
         kp, kd, ki = self.gains
         P = np.poly1d
         k = [[P([M[i, j], self.C[i, j], self.K[i, j]]) for j in range(2)] for i in range(2)]
@@ -110,7 +110,7 @@ class Loops(ProgramTest):
         return {q["quantity"]: q for q in record["quantities"]}
 
     def test_poles(self):
-        """A damper and a spring, the roots of a cubic, and a loop that drives a mode that it does not see."""
+        """A damper and a spring, the roots of a cubic, and a loop that drives a mode that it does not measure."""
         for at, gains in (("cart", {"kp": 150, "kd": 7}), ("cart", {"kp": 80, "kd": 12, "ki": 90}),
                           ("tool", {"kp": 3, "kd": 0.02, "ki": 2}), ("tool", {"kp": 60, "kd": 9}), ("cart", {"ki": 40}),
                           ("tool", {"kp": 40, "kd": 8, "ki": 100})):
@@ -150,7 +150,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
                 self.assertAlmostEqual(complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])/s, 1, 11)
 
     def test_responses(self):
-        """All inputs and outputs, at rest too, where an integral leaves no error."""
+        """All inputs and outputs, including zero frequency, where an integral leaves no error."""
         quantities = "".join(read(f"{node}_{name}", node=node, component="ux", **keys) for name, keys in INPUTS.items()
                              for node in ("cart", "tool")) + "".join(
             read(f"wall_{name}", node="base", component="ux", of="reaction", **keys) for name, keys in INPUTS.items())
@@ -167,7 +167,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
                         self.assertLess(abs(one - expected), 1e-9*max(abs(expected), 1e-3), (gains, key, hertz))
 
     def test_largest(self):
-        """It is found near the poles of the closed loop, between the frequencies."""
+        """The largest response is found near the poles of the closed loop, between the frequencies."""
         plant = Plant(kp=400, kd=1)
         record = self.solve(plant, "  steady: {harmonic: {frequencies: [0.1, 20]}}\n",
                             "  most: {response: {analysis: steady, node: cart, component: ux, reference: motor, take: max}}\n",
@@ -176,7 +176,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
         self.assertAlmostEqual(self.values(record)["most"]["value"]/most, 1, 6)
 
     def test_unstable(self):
-        """Nothing vibrates steadily; the open loop does."""
+        """An unstable closed loop has no steady vibration; the open loop has."""
         plant = Plant(at="tool", kp=60, kd=9)
         quantities = read("r", node="cart", component="ux", force="cart", along="ux")
         done = self.solve(plant, STEADY, quantities, at="tool", code=1, kp=60, kd=9)
@@ -188,7 +188,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
         self.assertAlmostEqual(record["curves"][0]["curve_value"][0], 1/300, 12)
 
     def test_state_space(self):
-        """Transfer functions of the reference, poles, and the step that a motion makes."""
+        """Transfer functions of the reference, poles, and the step response of a motion."""
         for at, gains in (("cart", {"kp": 80, "kd": 12, "ki": 90}), ("tool", {"kp": 3, "kd": 0.02}), ("cart", {"ki": 40})):
             plant = Plant(at=at, **gains)
             quantities = read("tool", node="tool", component="ux", reference="motor") \
@@ -212,7 +212,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
             found = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0 and abs(s) > 1e-6), key=abs)
             for s, e in zip(found, plant.poles()):
                 self.assertAlmostEqual(s/e, 1, 8)
-            # the step from 0 s on: the reference, which is a state, has its place; e' has no impulse
+            # the step starts at 0 s: the reference, which is a state, is set at once; e' has no impulse
             step = np.zeros(len(A))
             step[np.flatnonzero(B[:, reference] == 1)[-1]] = 0.01
             self.assertAlmostEqual((C @ expm(1.5*A) @ step)[0]/self.values(record)["end"]["value"], 1, 6)

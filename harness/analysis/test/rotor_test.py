@@ -1,4 +1,4 @@
-"""Rotors: a heavy disc on a light shaft, and whether a state that turns is stable; bearings with cross terms."""
+"""Rotors: a heavy disc on a light shaft, stability of rotating states, and bearings with cross terms."""
 import cmath
 import math
 import re
@@ -20,9 +20,9 @@ analyses: {r: {rotation: {omega: [%(omega)r, 0, 0], stations: [1], wanted: 8}}}
 quantities: {f_$n: {for: {n: 0..%(last)d}, frequency: {analysis: r, which: n}, unit: Hz}}
 omit: [%(omit)s]
 """
-# A point mass on a shaft without mass, whose end does not tilt: 12 E I/L^3, in one plane `flat` times that.
+# A point mass on a massless shaft whose end does not tilt: 12 E I/L^3, multiplied by `flat` in one plane.
 JEFFCOTT = SHAFT.replace("mass: 5, inertia: [%(polar)r, 0.02, 0.02, 0, 0, 0]", "mass: 5, hold: [ux, rx, ry, rz]")
-# Stiff arm with a mass at its tip, in a hinge with a soft spring beside the axis: three coordinates have a mass.
+# Stiff arm with a mass at its tip, in an eccentric hinge with a soft spring: three coordinates have a mass.
 ARM = """beamwork: 1
 let: {W: 20, e: 0.1, L: 0.9, k: 1}
 sections: {arm: {constants: {A: 1e-2, Iy: 1e-4, Iz: 1e-4, It: 2e-4}, young: %s, shear_modulus: 80e9}}
@@ -34,7 +34,7 @@ quantities:
   lag:  {frequency: {analysis: r, which: 0}, unit: Hz}
   flap: {frequency: {analysis: r, which: 1}, unit: Hz}
 """
-# Nearly a string in the field of its own mass, whose elements are longer than its bending reaches.
+# Almost a string under the centrifugal force on its mass, with elements longer than its bending boundary layer.
 WIRE = """beamwork: 1
 let: {d: 1e-3}
 sections: {wire: {constants: {A: pi*d^2/4, Iy: pi*d^4/64, Iz: pi*d^4/64, It: pi*d^4/32}, young: 2e9, shear_modulus: 1e9, density: 7800}}
@@ -76,7 +76,7 @@ def expected(omega, polar):
 
 
 def critical(polar):
-    """Where a frequency in the turning frame is zero."""
+    """Speed at which a frequency in the rotating frame is zero."""
     a, b = 1.0, 300.0
     for _ in range(200):
         m = (a + b)/2
@@ -108,7 +108,7 @@ class Rotors(ProgramTest):
         return values(done.stdout)
 
     def close(self, found, exact, omega, within):
-        """What vanishes at the critical speed has the digits of the speed."""
+        """A frequency that vanishes at the critical speed is only as accurate as the speed."""
         self.assertEqual(len(found), len(exact))
         for a, b in zip(found, exact):
             self.assertLess(abs(a - b), within*(b + 1e-2*omega), (found, exact))
@@ -131,7 +131,8 @@ class Rotors(ProgramTest):
                 self.close(found, expected(300, 0.04), 300, 1e-9 + 4e-5*density)
 
     def test_too_light(self):
-        """Frequencies of the shaft itself, where it is too light for them to have digits: none, and why."""
+        """If the shaft is too light for its own frequencies to have correct digits, none are reported, with the
+        reason."""
         for density in (1e-9, 1e-13):
             for omega in (0.5*FIRST, 3*FIRST):
                 scene = JEFFCOTT % {**DEFAULT, "density": density, "omega": omega, "last": 3}
@@ -149,7 +150,7 @@ class Rotors(ProgramTest):
                     self.close(self.frequencies(scene, "collocation", n), expected(omega, polar), omega, 1e-8)
 
     def test_at_the_critical_speed(self):
-        """Right, or refused by name."""
+        """The result is correct, or the request is rejected by name."""
         at = critical(0.04)
         for omega in (at*(1 - 1e-10), at, at*(1 + 1e-10)):
             done = self.text(SHAFT % {**DEFAULT, "omega": omega}, "collocation", 4)
@@ -169,8 +170,8 @@ class Rotors(ProgramTest):
             self.assertLess(abs(q["value"]/right - 1), q["rounding"] + floor, (formulation, n, q["quantity"]))
 
     def test_massless(self):
-        """Three coordinates have a mass; none of the others is a frequency. 200e9 leaves the matrix of 32 elements 3 digits
-        of the soft motions, and the frequencies all of theirs."""
+        """Three coordinates have a mass; the others have no frequency. With 200e9 the matrix of 32 elements has 3
+        digits for the soft motions, but the frequencies keep all their digits."""
         exact = (math.sqrt(400/9 + 1/0.81)/2/math.pi, math.sqrt(400*(1 + 1/9) + 1/0.81)/2/math.pi)
         for young, stretch in (("20e9", 1e-5), ("200e9", 1e-6)):
             for formulation in ("geometrically_exact", "collocation", "beamw"):
@@ -179,20 +180,21 @@ class Rotors(ProgramTest):
                     scene = ARM % young
                     values = [q["value"] for q in self.solved(scene, formulation, n)["quantities"]]
                     first = first or values
-                    for value, right in zip(first, exact):  # of an arm that does not stretch or bend
+                    for value, right in zip(first, exact):  # of a rigid arm
                         self.assertLess(abs(value/right - 1), stretch, (formulation, young))
                     self.known(scene, formulation, n, first, 1e-10)
 
     def test_lost(self):
-        """Where the matrix has no digits left that is said, with what to do; no value is shown."""
+        """If the matrix has no correct digits, this is reported with a remedy, and no value is given."""
         done = self.record("solve", "--scene", self.written(ARM % "200e9"), "-f", "geometrically_exact", "-n", 64, code=1)
         for q in done["quantities"]:
             self.assertIsNone(q["value"])
             self.assertIn("use fewer elements", q["reason"])
 
     def test_uncertainties(self):
-        """Errors against the closed form lie within the estimates: meshes, speeds on both sides of the critical one. What
-        vanishes there loses the digits that its distance has lost, and the estimate tells how many."""
+        """Errors against the closed form lie within the estimates, for several meshes and for speeds on both sides of
+        the critical one. A frequency that vanishes there loses as many digits as its distance from the
+        critical speed, and the estimate shows how many."""
         at = critical(0.04)
         for formulation in ("collocation", "geometrically_exact", "beamw", "sheet_third"):
             for n in (1, 4, 16, 64):
@@ -206,7 +208,7 @@ class Rotors(ProgramTest):
                     self.known(scene, "collocation", n, expected(omega, 0.04), within)
 
     def test_growth(self):
-        """Rates of growth between the two critical speeds of an unequal shaft, and their errors."""
+        """Growth rates between the two critical speeds of a shaft with unequal stiffnesses, and their errors."""
         for flat in (1.001, 1.3):
             high = math.sqrt(flat)
             for part, within in ((1 + 1e-6, 1e-7), ((1 + high)/2, 1e-9), (high*(1 - 1e-6), 1e-7)):
@@ -221,7 +223,7 @@ class Rotors(ProgramTest):
                                within)
 
     def test_moment(self):
-        """Matrices are stored whole where a moment may make them unsymmetric: the gyroscopic one counts once."""
+        """Matrices are stored in full if a moment may make them unsymmetric: the gyroscopic matrix is included once."""
         for moment in ("0", "1e-9"):
             scene = SHAFT % {**DEFAULT, "density": 1e-13}
             scene = scene.replace("analyses:", f"loads: {{turn: {{moment: [0, 0, {moment}], on: disc}}}}\nanalyses:")
@@ -229,7 +231,7 @@ class Rotors(ProgramTest):
                 self.known(scene, "collocation", n, expected(300, 0.04), 1e-11)
 
     def test_indefinite_without_mass(self):
-        """Elements that are too long for the force in them are told, with what to do."""
+        """Elements that are too long for their axial force are reported, with a remedy."""
         done = self.text(WIRE, "geometrically_exact", 8)
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("too long for the axial force", " ".join((done.stdout + done.stderr).split()))
@@ -250,7 +252,7 @@ class Rotors(ProgramTest):
             self.assertEqual("stable without damping" in told, part > 1.1, told)
 
     def test_round_shaft(self):
-        """Equal stiffnesses: |w -+ W|, stable without damping above the critical speed."""
+        """Equal stiffnesses: |w -+ W|; undamped, the shaft is stable above the critical speed."""
         for part in (0.5, 0.999, 1.001, 1.5, 3.0):
             scene = JEFFCOTT % {**DEFAULT, "omega": part*FIRST, "last": 1}
             right = sorted(abs(FIRST*(1 + s*part))/2/math.pi for s in (-1, 1))
@@ -259,7 +261,7 @@ class Rotors(ProgramTest):
             self.assertEqual(self.stability(scene), "stable" if part < 1 else "stable without damping")
 
     def test_without_modes(self):
-        """An odd number of negative eigenvalues is enough; an even one leaves it open."""
+        """An odd number of negative eigenvalues proves instability; an even number does not."""
         for part, said in ((0.9, "stable"), (1.05, "unstable: grows"), (1.5, "undecided")):
             scene = JEFFCOTT % {**DEFAULT, "flat": 1.3, "omega": part*FIRST, "last": 0}
             scene = scene.replace("frequency: {analysis: r, which: n}, unit: Hz",
@@ -268,13 +270,13 @@ class Rotors(ProgramTest):
 
 
 def across(a, b, c, d):
-    """36 entries with a, b; c, d between uy and uz."""
+    """36 entries, with a, b; c, d between uy and uz."""
     rows = [[0]*6 for _ in range(6)]
     rows[1][1:3], rows[2][1:3] = (a, b), (c, d)
     return sum(rows, [])
 
 
-# A disc at the middle of a shaft without mass, on two bearings; its ends tilt freely.
+# A disc at the middle of a massless shaft on two bearings; the ends tilt freely.
 JOURNAL = """beamwork: 1
 sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
 nodes:
@@ -314,7 +316,7 @@ omit: [shear, rotary_inertia]
 
 
 def dynamic(s):
-    """[a, b, c, d] of the disc's coordinates, without those of the bearings."""
+    """[a, b, c, d] for the disc's coordinates, with the bearings' coordinates eliminated."""
     k = SHAFT_STIFFNESS
     a, b, c, d = (2*x + s*2*y for x, y in zip(BEARING, FILM))
     a, d = a + k, d + k
@@ -333,7 +335,7 @@ class Bearings(ProgramTest):
         return done.returncode, " ".join((done.stdout + done.stderr).split())
 
     def test_journal(self):
-        """Damped modes make the determinant vanish, and responses are its inverse."""
+        """The determinant vanishes at damped modes, and responses are the inverse of the dynamic stiffness."""
         for formulation in ("collocation", "geometrically_exact", "beamw"):
             got = self.values(JOURNAL, 2, formulation, stiffness=across(*BEARING), damping=across(*FILM),
                               analyses="d: {modal: {damped: yes}}, A: {harmonic: {frequencies: [9]}}, L: {linear: {}}",
@@ -353,7 +355,7 @@ class Bearings(ProgramTest):
             self.assertLess(abs(got["y"]/(98.1*b/(a*d - b*c)) - 1), 1e-7)
 
     def test_onset(self):
-        """Cross stiffness q and damping c: the whirl grows from q = c w on, and then nothing vibrates steadily."""
+        """Cross stiffness q and damping c: the whirl grows above q = c w, and there is no steady vibration then."""
         stiffness, damping = 192*200e9*8e-9, 40
         onset = damping*math.sqrt(stiffness/10)
         for part in (0.999, 1.001):
@@ -365,7 +367,8 @@ class Bearings(ProgramTest):
             self.assertEqual((code != 0, "a mode grows at" in told), (part > 1, part > 1), told)
 
     def test_motion(self):
-        """z = y + i u from a velocity: m z'' + (c - i g) z' + (K - i q) z = 0, and what films supply."""
+        """Motion z = y + i u from an initial velocity: m z'' + (c - i g) z' + (K - i q) z = 0, and the energy
+        supplied by the films."""
         m, K, q, c, g, t = 10, 192*200e9*8e-9 + 1e5, 3e4, 300, 900, 0.03
         half = complex(c, -g)/(2*m)
         root = cmath.sqrt(half**2 - complex(K, -q)/m)
@@ -383,7 +386,7 @@ class Bearings(ProgramTest):
             self.assertLess(abs(got["lost"]/(m*1e-12/2 - energy) - 1), within, integrator)
 
     def test_part(self):
-        """A part that is turned turns the matrix with it."""
+        """A rotated part rotates the matrix with it."""
         part = """beamwork: 1
 sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
 parts:
@@ -411,7 +414,7 @@ omit: [shear]
             self.assertLess(abs(by_part[name]/in_scene[name] - 1), 1e-9)
 
     def test_refused(self):
-        """Analyses that need a potential name the spring, and what to use."""
+        """Analyses that need a potential name the spring and the analysis to use."""
         words = {"stiffness": across(*BEARING), "damping": across(*FILM)}
         for analyses, quantities, said in (
                 ("m: {modal: {}}", "f: {frequency: {analysis: m}}", "analysis m (modal) and spring a (unsymmetric spring): "

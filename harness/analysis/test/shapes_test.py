@@ -1,5 +1,5 @@
-"""Shapes of solutions: equilibrium along the lines, agreement with the quantities, and the same
-through VTK's own reader."""
+"""Shapes of solutions: equilibrium along the lines, agreement with the quantities, and the same data through
+VTK's reader."""
 import unittest
 
 import h5py
@@ -16,7 +16,7 @@ from harness.tools.kit.program import ProgramTest, run
 
 
 def turned(q, v):
-    """v[..., 3] turned by unit quaternions q[..., 4] (w x y z)."""
+    """v[..., 3] rotated by unit quaternions q[..., 4] (w x y z)."""
     w, u = q[..., :1], q[..., 1:]
     return v + 2 * numpy.cross(u, numpy.cross(u, v) + w * v)
 
@@ -34,7 +34,7 @@ class Solution(ProgramTest):
         return file, next(iter(tables["shapes"].values())), tables
 
     def test_path(self):
-        """The tip of the cantilever is where its quantity says; the resultants there are the
+        """The position of the cantilever's tip agrees with its quantity; the resultants at the root are the
         reactions."""
         for formulation, n in (("sheet_third", 1), ("collocation", 3),
                                ("geometrically_exact:nodes=3", 2)):
@@ -78,7 +78,7 @@ class Solution(ProgramTest):
                                       rtol=1e-12)
 
     def test_modes(self):
-        """The first mode of buckling is drawn: a tenth of the length high, or turned by half a
+        """The first buckling mode is stored with an amplitude of a tenth of the length, or a rotation of half a
         radian."""
         _, shapes, _ = self.solve("c_column", "beamw_consistent", 16, "--shapes")
         kinds = list(shapes["kind"].asstr()[()])
@@ -93,8 +93,8 @@ class Solution(ProgramTest):
         self.assertAlmostEqual(max(moved / 0.1, turn / 0.5), 1, delta=2e-2)
 
     def test_lines(self):
-        """Between two nodes runs the cubic whose slopes at its ends are their x axes, each as long
-        as the element; the sections between stand across it."""
+        """The line between two nodes is the cubic whose end tangents are the nodes' x axes times the element length;
+        the sections between are perpendicular to it."""
         for formulation in ("sheet_third", "collocation"):
             _, shapes, tables = self.solve("sheet_cantilever", formulation, 1, "--shapes")
             position, length = shapes["position"][-1], tables["points"]["length"][0]
@@ -111,7 +111,7 @@ class Solution(ProgramTest):
             self.assertLess(numpy.abs(across).max(), 1e-12, formulation)
 
     def test_bimoments_of_elements(self):
-        """Linear in an element, the same on both sides of a node, none at an end that may warp."""
+        """Bimoments are linear in an element, equal on both sides of a node, and zero at an end free to warp."""
         _, shapes, _ = self.solve("warping_torsion", "collocation", 4, "--shapes")
         bimoment = shapes["bimoment"][-1].ravel()
         size = numpy.abs(bimoment).max()
@@ -123,8 +123,8 @@ class Solution(ProgramTest):
         self.assertEqual(size, abs(bimoment[0]))
 
     def test_supports_and_bimoments(self):
-        """What holds each node, as bits ux uy uz rx ry rz; bimoments are moments over a length:
-        zero where warping is free, and not at the clamp."""
+        """The supports of each node are stored as bits ux uy uz rx ry rz; bimoments are zero where warping is free,
+        and nonzero at the clamp."""
         _, shapes, _ = self.solve("elastica", "collocation", 2, "--shapes")
         self.assertEqual(sorted(shapes["bodies"][:, 1]), [0, 0b111111])
         _, shapes, _ = self.solve("warping_torsion", "collocation", 4, "--shapes")
@@ -135,7 +135,7 @@ class Solution(ProgramTest):
         self.assertLess(numpy.abs(moment[:, 1:]).max(), 1e-6 * numpy.abs(moment[:, 0]).max())
 
     def test_values_of_modes(self):
-        """A mode is drawn with its frequency [Hz] or its critical load, as the quantities say."""
+        """A mode is stored with its frequency [Hz] or critical load, which agrees with the quantity."""
         _, shapes, tables = self.solve("c_column", "beamw_consistent", 16, "--shapes")
         value = {row["quantity"].decode(): row["value"] for row in tables["quantities"][()]}
         kinds, drawn = shapes["kind"].asstr()[()], shapes["value"][()]
@@ -161,7 +161,7 @@ class Solution(ProgramTest):
 
     @unittest.skipIf(vtk is None, "needs python3-vtk9")
     def test_vtk(self):
-        """VTK reads one state: lines and walls with their fields."""
+        """VTK reads a single state: lines and walls with their fields."""
         file, shapes, _ = self.solve("spherical_joint", "sheet_third", 1, "--shapes=1")
         self.assertEqual(list(file["VTKHDF"].attrs["Version"]), [1, 0])
         grid = self.read()
@@ -187,8 +187,7 @@ class Solution(ProgramTest):
         self.assertAlmostEqual(covered / (12 * 0.0681 * 0.0282), 1, delta=2e-3)
 
     def test_vtk_steps(self):
-        """Several states are time steps: the layout of version 2.0, and each step is the state it
-        says."""
+        """Several states are time steps: the layout is that of version 2.0, and each step contains the right state."""
         file, shapes, _ = self.solve("sheet_cantilever", "sheet_third", 2, "--shapes")
         root = file["VTKHDF"]
         self.assertEqual(list(root.attrs["Version"]), [2, 0])

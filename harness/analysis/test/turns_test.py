@@ -1,4 +1,5 @@
-"""States that quantities are read of: turns, symmetry, states solved about, and sheets with wrong input."""
+"""States from which quantities are read: rotations, symmetry, states about which analyses are solved, and
+sheets with invalid input."""
 import json
 import math
 import resource
@@ -7,10 +8,10 @@ import unittest
 from harness.tools.kit.program import ProgramTest, run
 
 
-# Critical loads about a loaded state: the same whatever the load of that state, several when they
-# are asked for, and a range where there is none.
+# Critical loads about a loaded state: independent of the load of that state; several if requested;
+# and a searched range if there is none.
 
-# Euler's load is 1: E Iz = 4 L^2/pi^2 of the clamped column; hardly shortened.
+# Euler's load is 1: E Iz = 4 L^2/pi^2 for the clamped column; its shortening is negligible.
 COLUMN = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: %(Iy)r, Iz: %(Iz)r, It: 1}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -35,7 +36,7 @@ class AboutState(ProgramTest):
                 " ".join((done.stdout + done.stderr).split()))
 
     def test_any_load(self):
-        """A thousandth of the critical load to a thousand times that."""
+        """From a thousandth of the critical load to a thousand times it."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
             for force in (1e-3, 0.5, 0.99, 1.01, 30, 1000):
                 (factor,), _ = self.factors(formulation, -force)
@@ -53,21 +54,21 @@ class AboutState(ProgramTest):
         self.assertEqual(self.factors(more=ZERO)[0], self.factors()[0])
 
     def test_none(self):
-        """Pulled: the range that was searched is named."""
+        """Under tension the searched range is named."""
         found, said = self.factors(force=1, status=1)
         self.assertEqual(found, [None])
         self.assertRegex(said, r"no critical load from path 1 to [0-9.e+]+: the structure loses no stiffness")
 
 
-# Whether a tangent is symmetric is a matter of its state: what the loads of a scene could make of
-# another one refuses nothing, and a load of zero changes no bit.
+# The symmetry of a tangent depends on its own state: an analysis is not rejected because loads
+# could make the tangent of a different state unsymmetric, and a zero load changes no bit.
 BAR = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.005}, young: 210e9, shear_modulus: 81e9,
                density: 7850}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
 members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
 """
-# Each may make tangents unsymmetric somewhere.
+# Each load can make tangents unsymmetric in some state.
 LOADS = {"moment": "{moment: [%(s)s, 0, %(s)s], on: b}",
          "clamped": "{moment: [%(s)s, %(s)s, %(s)s], on: a}",
          "following": "{force: [0, %(s)s, 0], on: b, follower: true}",
@@ -124,20 +125,20 @@ quantities:
                     self.assertEqual(found[q]["value"], value["value"], (formulation, name, q))
 
     def test_bent_column(self):
-        """One that bends from the beginning loses no stiffness: that Newton meets other equilibria beyond Euler's load is
-        no critical load."""
+        """A column that bends from the start loses no stiffness: other equilibria that Newton's method finds beyond
+        Euler's load are not reported as critical loads."""
         scene = BAR + """loads: {p: {force: [-200, 0.5, 0], on: b}}
 analyses: {path: {static: {stations: [1]}}, b: {buckling: {about: path}}}
 quantities: {P: {critical_factor: {analysis: b}}}
 """
         for formulation in FORMULATIONS:
             for n in (4, 8, 16, 32, 64):
-                if (formulation, n) != ("beamw", 16):  # on some processors round-off finds another branch there
+                if (formulation, n) != ("beamw", 16):  # on some processors round-off leads to another branch there
                     self.assertIsNone(self.values(scene, formulation, n, 1)["P"].get("value"), (formulation, n))
 
     def test_bent_column_by_stations(self):
-        """Far beyond Euler's load it is bent to the side that its load across bends it to; a state that it is not in, which one
-        long step ends in, is unstable and said to be."""
+        """Far beyond Euler's load the column is bent to the side of its transverse load; a different state, in which
+        one long step ends, is unstable and reported as such."""
         scene = BAR + """loads: {p: {force: [-200, 0.5, 0], on: b}}
 analyses: {path: {static: {stations: %r}}}
 quantities: {u: {displacement: {analysis: path, node: b, component: uy}, unit: m}}
@@ -155,7 +156,7 @@ quantities: {u: {displacement: {analysis: path, node: b, component: uy}, unit: m
                 self.assertEqual(last, "stable")
 
     def test_what_is_not_symmetric_has_frequencies(self):
-        """Those of the unloaded bar, but for what a small moment changes."""
+        """The frequencies are those of the unloaded bar, apart from the effect of a small moment."""
         rest = """analyses: {path: {static: {stations: [1]}}, v: {modal: {about: path, wanted: 1}}}
 quantities: {f: {frequency: {analysis: v, which: 0}, unit: Hz}}
 """
@@ -165,8 +166,8 @@ quantities: {f: {frequency: {analysis: v, which: 0}, unit: Hz}}
         self.assertLess(abs(loaded/unloaded - 1), 1e-2)
 
 
-# Turns beyond half a circle: springs, drives and readings follow them, in statics, in turning axes and in motion; elements
-# follow as far as they say, and are refused by name beyond.
+# Rotations beyond 180 degrees: springs, drives and quantities follow them, in statics, rotating
+# axes and motions; elements follow up to their declared limit and are rejected by name beyond it.
 ROD = "sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 2e-9}, young: 200e9, shear_modulus: 80e9}}\n"
 WOUND = """beamwork: 1
 """ + ROD + """parameters: {angle: {value: 10, unit: rad, min: -200, max: 200, about: "of the end that is driven"}}
@@ -194,7 +195,7 @@ quantities:
   last:  {displacement: {analysis: st, node: b, component: %s}}
   curve: {displacement: {analysis: st, node: b, component: %s, take: curve}}
 """
-# Driven: 160 N m/rad times the angle, with one element as with many, or no value.
+# Driven: 160 N m/rad times the angle, with one element or many, or no value.
 DRIVEN = """beamwork: 1
 """ + ROD + """parameters: {angle: {value: 10, unit: rad, min: -100, max: 100, about: "of the driven end"}}
 nodes:
@@ -234,7 +235,8 @@ class Turns(ProgramTest):
         return values, {c["quantity"]: c["curve_value"] for c in record["curves"]}
 
     def test_wound_spring(self):
-        """In proportion to the angle, through several turns, either way, with few and many steps."""
+        """The moment is proportional to the angle through several turns, in both directions, with few and many
+        steps."""
         for formulation in EVERY:
             for angle, steps in ((10, 4), (-10, 4), (100, 40)):
                 values, curves = self.solved(WOUND % steps, formulation, 16, "--set", f"angle={angle}")
@@ -246,7 +248,7 @@ class Turns(ProgramTest):
                     self.assertLess(abs(turn/(-right*part/5) - 1), within*max(1, angle*angle/100), (formulation, angle))
 
     def test_readings(self):
-        """A node turns by 10 rad, about its axis and across it."""
+        """A node rotates by 10 rad, about its axis and about a perpendicular one."""
         for component, hold, moment, stiffness in (("rx", ", hold: [uy, uz, ry, rz]", "load, 0, 0", 160),
                                                    ("rz", "", "0, 0, load", 200), ("ry", "", "0, load, 0", 200)):
             for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
@@ -257,7 +259,7 @@ class Turns(ProgramTest):
                     self.assertAlmostEqual(turn, 10*part, delta=0.01, msg=(formulation, component))
 
     def test_elements(self):
-        """Right, or refused by the name of the element and with the remedy."""
+        """The result is correct, or the element is rejected by name, with a remedy."""
         for formulation in EVERY:
             for n, angle in ((1, 0.7), (1, 1.5), (1, 3.2), (1, 10), (2, 5), (3, 10), (8, 10), (64, 10), (64, -30)):
                 done = run("solve", "--scene", self.scene(DRIVEN), "-f", formulation, "-n", n, "--set",
@@ -270,15 +272,15 @@ class Turns(ProgramTest):
                 torque, = (q["value"] for q in json.loads(done.stdout)["quantities"])
                 part = angle/n
                 if formulation.startswith("beamw") and formulation != "beamw_consistent":
-                    right = math.sin(2*part)/(2*part)  # strain sin: what that formulation is, coarse as it is
+                    right = math.sin(2*part)/(2*part)  # this formulation has the strain measure sin, which is inaccurate on a coarse mesh
                     within = 1e-6
                 else:
                     right, within = 1, 5e-2 if formulation == "geometrically_exact" else 1e-6
                 self.assertLess(abs(torque/(160*angle)/right - 1), within, (formulation, n, angle))
 
     def test_spin_in_time(self):
-        """Read through several turns, by every integrator; after a restart too."""
-        for integrator, within in (("alpha", 1e-3), ("conserving", 0.02), ("radau", 1e-3)):  # its steps of 0.1 rad
+        """Angles are read through several turns with every integrator, also after a restart."""
+        for integrator, within in (("alpha", 1e-3), ("conserving", 0.02), ("radau", 1e-3)):  # due to its steps of 0.1 rad
             values, _ = self.solved(SPINNING % ("2", integrator), "collocation", 1)
             self.assertAlmostEqual(values["rx"], 20, delta=within, msg=integrator)
             self.assertAlmostEqual(values["most"], 20, delta=within, msg=integrator)
@@ -288,10 +290,10 @@ class Turns(ProgramTest):
             self.assertAlmostEqual(values["rx"], 20, delta=within, msg=integrator)
 
 
-# Sheets that cannot be, or are extreme: one line and the documented exit code, or an answer; never
-# a silent wrong number.
+# Impossible or extreme sheets lead to one line and the documented exit status, or to an answer;
+# never to a wrong number without a message.
 def question(case, formulation, n, *assignments, memory=None):
-    """Words of the command, and what limits its memory [bytes]."""
+    """Returns the arguments of the command; `memory` [bytes] limits its memory."""
     def limit():
         if memory:
             resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
@@ -349,8 +351,8 @@ class BadInput(ProgramTest):
 
 
 class Extremes(unittest.TestCase):
-    """L/w 0.5 to 20, w/t 10 to 1000, u_y to 0.5 L: an answer, or the reason why there is none.
-    Sheets too thick for N Eq. 50 run as another model, and say so."""
+    """L/w 0.5 to 20, w/t 10 to 1000, u_y to 0.5 L: an answer, or the reason why there is none. Sheets too thick
+    for N Eq. 50 use a different model, and this is reported."""
 
     def test_answer_or_reason(self):
         answers = 0

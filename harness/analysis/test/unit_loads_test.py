@@ -40,7 +40,7 @@ def skew(v):
 
 
 def turn(v):
-    """R of a rotation vector."""
+    """Rotation matrix of a rotation vector."""
     size = numpy.linalg.norm(v)
     return numpy.eye(3) + numpy.sin(size) / size * skew(v) + (1 - numpy.cos(size)) / size**2 * skew(v) @ skew(v)
 
@@ -85,7 +85,7 @@ class UnitLoads(ProgramTest):
         self.assertLess(numpy.max(numpy.abs(C - D) / numpy.outer(size, size)), 1e-6, words)
 
     def test_sequence(self):
-        """A guide holds an angle: its moment rotates with the node and is no load."""
+        """A guide holds an angle: its moment rotates with the node and is not a load."""
         for x, y in (("held", "free"), ("free", "held"), ("free", "free")):
             text = BENT.replace("angle: X", f"angle: {x}").replace("angle: Y", f"angle: {y}")
             self.alike(self.compliance(text, "b"), self.differences(text, "b", 1e-2), f"{x}, {y}")
@@ -93,13 +93,13 @@ class UnitLoads(ProgramTest):
         self.alike(self.compliance(text, "b"), self.differences(text, "b", 1e-2), "two angles")
 
     def test_diaphragm(self):
-        """The diaphragm's moment about its normal is no load: the master, and a node that follows."""
+        """The diaphragm's moment about its normal is not a load, for the master and for a dependent node."""
         text = STOREY.replace("DRIVE", "")
         for node in "AB":
             self.alike(self.compliance(text, node), self.differences(text, node, 1e3), node)
 
     def test_released(self):
-        """A master that is driven and released: the moment that drives the whole floor becomes a load."""
+        """If a driven master is released, the moment that drives the whole floor becomes a load."""
         driven = STOREY.replace("DRIVE", ", drive: {rz: turn}") + "motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.1]}}\n"
         C, R = self.compliance(driven, "A", ", released: [rz]"), turn(self.moved(driven.replace("UNIT", ""), "A", [0] * 6)[3:])
         free, about = STOREY.replace("DRIVE", ""), numpy.arctan2(-R[0, 1], R[1, 1])
