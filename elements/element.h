@@ -4,7 +4,7 @@
  * "J Eq. 66" and "N Eq. 37" are equations of
  *   J: J.B. Jonker, the thin-walled beam element BEAMW with shear deformation and warping,
  *   N: M. Nijenhuis, J.P. Meijaard, M. Naves, R.G.K.M. Aarts (2024), third-order beam element for
- *      sheet flexures; what they misprint: reference/ERRATA.md.
+ *      sheet flexures; for misprints see reference/ERRATA.md.
  *
  * One file in elements/ defines one const element_type whose symbol is
  * element_<file name>; the registry is generated from the files that exist.
@@ -271,16 +271,15 @@ typedef struct element_type {
                        element_data *out);
 } element_type;
 
-/* Returns the order in transient analyses: with consistent mass, four in slender bending and two
- * with shear, stretch and twist; with mass lumped at two nodes, two. */
+/* Makes a symbol visible outside its shared object, also with -fvisibility=hidden. */
 #if defined(__GNUC__)
 #define ELEMENT_EXPORT __attribute__((visibility("default")))
 #else
 #define ELEMENT_EXPORT
 #endif
-/* Returns 1 if transient analyses can use its consistent mass. */
+/* The formulation of a shared object, to be defined after this header, in C or C++. */
 ELEMENT_EXPORT extern const element_type beamwork_element;
-/* Instead of it, for languages whose constants cannot contain addresses of functions (Fortran): a
+/* Alternative for languages whose constants cannot contain addresses of functions (Fortran): a
  * function that returns the formulation, which exists until the program ends. */
 ELEMENT_EXPORT const element_type *beamwork_element_type(void);
 
@@ -292,8 +291,8 @@ static inline element_order element_order_in(const element_type *t, element_anal
         return t->order(a, options);
     return t->constants && t->constants->order[a].highest > 0 ? t->constants->order[a] : usual;
 }
-/* Order in transient analyses: with consistent mass four in slender bending, two with shear,
- * stretch and twist; with mass lumped at two nodes two. */
+/* Returns the order in transient analyses: with consistent mass, four in slender bending and two
+ * with shear, stretch and twist; with mass lumped at two nodes, two. */
 static inline element_order element_order_of_motion(void)
 {
     const element_order usual = {2, 4};
@@ -309,7 +308,7 @@ static inline int element_nodes(const element_type *t, const double options[])
         return t->nodes(options);
     return t->constants && t->constants->nodes > 0 ? t->constants->nodes : 2;
 }
-/* Returns 1 when transient analyses can use its consistent mass. */
+/* Returns 1 if transient analyses can use its consistent mass. */
 static inline int element_spreads(const element_type *t, const double options[])
 {
     return t->spreads && t->inertia != NULL && element_nodes(t, options) == 2 &&

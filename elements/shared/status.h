@@ -37,9 +37,9 @@ __attribute__((format(printf, 3, 4)))
 status
 fault_set(fault *f, status s, const char *format, ...);
 
-/* Returns from the function if a call failed; for functions that have nothing to free. */
+/* Not defined in C++, where other headers may use the name. */
 #ifndef __cplusplus
-/* Returns from the function when a call failed; for functions that have nothing to free. */
+/* Returns from the function if a call failed; for functions that have nothing to free. */
 #define TRY(call)                                                                                  \
     do {                                                                                           \
         const status try_ = (call);                                                                \
