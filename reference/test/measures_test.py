@@ -62,7 +62,7 @@ def jonker_modes(h):
 
 
 def eq66(e, h):
-    """J Eq. 66 as printed."""
+    """Returns J Eq. 66 as printed."""
     _, e2, e3, e4, e5, e6, e7, e8 = e
     tw = e2 - (e7 + e8) / 2
     bending = (2 * e3 ** 2 + e3 * e4 + 2 * e4 ** 2 + 2 * e5 ** 2 + e5 * e6 + 2 * e6 ** 2) / 30

@@ -31,7 +31,7 @@ TWISTED = "C_ux_My", "C_thy_Fx", "C_ux_Fx", "C_uz_Fz", "C_thx_Mx", "C_thy_My"
 
 class Sheet:
     def __init__(self, elements, layers, folder):
-        """elements: along the length and along the width."""
+        """elements: numbers of elements along the length and along the width."""
         ys = THICKNESS * (np.arange(layers + 1) / layers - 0.5)
         self.grid, self.folder = (
             Grid(LENGTH * graded(elements), ys, WIDTH * (graded(elements) - 0.5)),
