@@ -16,7 +16,7 @@ MARKS = {"holds": "✔", "broken": "✘", "not claimed": "–"}
 
 
 def part_of(record, formulation, family, points):
-    """A group of a formulation: its requirements, and measurements with their points."""
+    """Returns a group of a formulation: its requirements, and measurements with their points."""
     def own(table):
         return [row for row in record[table]
                 if (row["formulation"], row["family"]) == (formulation, family["family"])]

@@ -13,7 +13,7 @@ from reports.figures import FONT, Image
 # tested values, from left to right as in the tables.
 
 WIDE, TALL, HEAD, LEFT = 42, 22, 150, 190  # width and height of a field, space for the names above and on the left
-MOST = 22  # extremes beside each other
+MOST = 22  # extremes next to each other
 
 
 def map_text(x, y, words, more=""):

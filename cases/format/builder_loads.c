@@ -44,7 +44,7 @@ static int is_heavy(const scene *s, const scene_member *m)
     return 0;
 }
 
-/* The same gravity for a body. */
+/* Returns the same gravity for a body. */
 static scene_load at_centre(const scene_load *what)
 {
     scene_load out = *what;

@@ -118,8 +118,8 @@ static void read_member_axes(const fields *axes, int node, scene_node *n)
     }
 }
 
-/* A single rotation that moves is a sequence of one angle; several rotations about the node's own
- * axes have no order. */
+/* Reads rotations. A single rotation that moves is a sequence of one angle; several rotations about
+ * the node's own axes have no order. */
 static void turn_about_axes(const fields *f, scene_node *n)
 {
     double R[9];
@@ -498,8 +498,8 @@ static scene_alpha alpha_of(const fields *f)
 
 static const char *const of_alpha[] = {"rho", "hht", "trapezoidal", "parameters"};
 
-/* Without an integrator, alpha is chosen by a parameter that only alpha has, or by constant
- * steps. */
+/* Is alpha chosen without naming an integrator, by a parameter that only alpha has, or by constant
+ * steps? */
 static int asks_for_alpha(const fields *f)
 {
     int asks = fields_have(f, "step") && !fields_have(f, "tolerance");
@@ -518,7 +518,8 @@ static void check_parameters(const fields *f, scene_scheme scheme)
                              "%s applies to the integrator alpha only; remove it", of_alpha[i]);
 }
 
-/* Parameter sets of alpha have their own names in comparisons of integrators (motion -u). */
+/* Returns the scheme. Parameter sets of alpha have their own names in comparisons of integrators
+ * (motion -u). */
 static scene_scheme scheme_of(const fields *f)
 {
     static const char *const set[][2] = {{"hht", "hht: 0.1"}, {"trapezoidal", "trapezoidal: yes"}};

@@ -45,8 +45,8 @@ int scope_accepts(const scope *names, const document_node *key, mistakes *m);
 
 /* Builds a scene from a checked tree and parameter values. */
 
-/* names: the parameters. The scene is valid if no error was found. The caller frees it in any case.
- */
+/* Builds the scene. names: the parameters. The scene is valid if no error was found. The caller
+ * frees it in any case. */
 void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out);
 
 /* Reads only the sections, with their constants as names, into a builder with root and names. */
@@ -289,7 +289,7 @@ typedef struct scene_packed {
     int nodes;
 } scene_packed;
 
-/* The build_from of such a case; context: a scene_packed. */
+/* Builds such a case (case_type.build_from); context: a scene_packed. */
 status scene_packed_build(const void *context, const double value[], scene *s, fault *f);
 
 /* Lists of numbers, explicit or as a range. */
@@ -314,7 +314,7 @@ struct scene_file {
 
 /* Reads the parameter table; without errors, the defaults are within their ranges. */
 void parameter_table_read(scene_file *file, mistakes *m);
-/* Names of the parameters of a table, with these values. */
+/* Returns the names of the parameters of a table, with these values. */
 const scope *parameter_table_names(const parameter_type *, const double value[], arena *a);
 
 /* Constants of sections as names in expressions: SECTION.A. */

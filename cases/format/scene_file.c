@@ -161,7 +161,7 @@ static status read_bytes(const char *path, char *bytes, size_t room, size_t *siz
     return failed ? fault_set(f, STATUS_FAULT, "%.200s cannot be read", path) : STATUS_OK;
 }
 
-/* The caller, scene_file_read, frees the bytes, also after a failure. */
+/* Reads a file. The caller, scene_file_read, frees the bytes, also after a failure. */
 static status read_file(const char *path, char *bytes, size_t room, int built, scene_file **out,
                         mistakes *m, fault *f)
 {
@@ -354,7 +354,8 @@ static void scene_file_truths_check(const scene_file *file, const scene *s, cons
     arena_free(&a);
 }
 
-/* The caller, scene_file_truths, frees the workspace, also after a failure. */
+/* Passes reference values at a point. The caller, scene_file_truths, frees the workspace, also
+ * after a failure. */
 static status give_at(const scene_file *file, const double point[], scene *s, arena *a,
                       scene_truth_taker *take, void *to, fault *f)
 {

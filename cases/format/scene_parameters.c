@@ -38,7 +38,7 @@ static void read_switch(parameter_type *p, const document_node *value, mistakes 
         document_mistake(m, value, 0, "%s: the default is not one of its choices 0|1", p->name);
 }
 
-/* [a, b, c] -> "a|b|c"; NULL after an error. */
+/* Converts [a, b, c] into "a|b|c"; returns NULL after an error. */
 static const char *join_choices(scene_file *file, const document_node *list, mistakes *m)
 {
     char text[400] = "";

@@ -195,7 +195,7 @@ static int is_fed_back(const scene_load *l)
     return l->feedback.node != SCENE_NONE && acts && scene_load_acts(l);
 }
 
-/* Damped modes have no row of their own: they use it. */
+/* Does a load have feedback? Damped modes have no row of their own: they use it. */
 static int has_feedback(const scene *s, int analysis, char *who, int size)
 {
     return !s->analysis[analysis].damped && load_that(s, analysis, is_fed_back, who, size);
@@ -264,7 +264,7 @@ static int has_unsymmetric_dashpot(const scene *s, int analysis, char *who, int 
     return 0;
 }
 
-/* Damped modes have no row of their own; they use this one. */
+/* Is the stiffness of a spring unsymmetric? Damped modes have no row of their own: they use it. */
 static int has_unsymmetric_spring(const scene *s, int analysis, char *who, int size)
 {
     for (int i = 0; i < s->springs && !s->analysis[analysis].damped; i++)

@@ -266,7 +266,7 @@ static status check_across(const scene *s, int i, int node, fault *f)
     return STATUS_OK;
 }
 
-/* The translations of all nodes across the normal and their first angles are those of the
+/* Joins the translations of all nodes across the normal, and their first angles, to those of the
  * master. */
 static status join_across(const scene *s, int i, scene_tie tie[], fault *f)
 {

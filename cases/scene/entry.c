@@ -6,7 +6,7 @@
 
 #include "elements/shared/choice.h"
 
-/* For a map in a group: is it the one that is given? Returns 1 for all others. */
+/* Is this map the given one of its group? Returns 1 for entries that are not maps in a group. */
 static int entry_stands(const entry_field *, const void *entry);
 
 /* Returns the member of the entry that the key sets. */

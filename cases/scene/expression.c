@@ -148,7 +148,7 @@ static double sign_of(double x)
     return (x > 0) - (x < 0);
 }
 
-/* Remainder with the sign of the divisor. */
+/* Returns the remainder with the sign of the divisor. */
 static double modulo(double x, double y)
 {
     const double rest = fmod(x, y);

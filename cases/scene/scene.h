@@ -561,13 +561,13 @@ scene_extract scene_compliance_entry(int row, int column);
 scene_extract scene_stiffness_entry(int component);
 scene_extract scene_critical_factor(int sign, int order);
 scene_extract scene_growth(void);
-/* scene_frequency: any number of half-waves. */
+/* scene_frequency: for any number of half-waves. */
 scene_extract scene_frequency(int order, scene_family family);
 scene_extract scene_factor_at(void);
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
 scene_extract scene_driver_value(int driver);
 scene_extract scene_rate(int node, int component);
-/* Entry of the rotation matrix: row and column 0 .. 2. */
+/* Extracts an entry of the rotation matrix: row and column 0 .. 2. */
 scene_extract scene_orientation_entry(int node, int row, int column);
 scene_extract scene_balance_of(scene_balance what);
 scene_extract scene_relative_to(int node, int component, int from);
@@ -1057,7 +1057,7 @@ int scene_load_turns(const scene_load *load);
 /* Returns "a temperature" or "an elongation". */
 const char *scene_heat_word(const scene_load *load);
 int scene_has_feedback(const scene *s);
-/* 1: in a harmonic analysis or damped modes the load closes a loop. */
+/* Returns 1 if the load closes a loop in a harmonic analysis or in damped modes. */
 int scene_closes_loop(const scene *s, int analysis, int load);
 /* Is it nonzero somewhere on its range? */
 int scene_load_acts(const scene_load *load);
@@ -1094,7 +1094,8 @@ void scene_drive(scene *s, int node, int component,
 /* Computes the unit vectors of the axes of its supports, in columns. Returns 0 if they are those of
  * the scene. */
 int scene_node_axes(const scene_node *n, double R[9]);
-/* The coordinate of a component: of a sequence, the angle about that axis, if there is one. */
+/* Returns the coordinate of a component; for a sequence, the angle about that axis, if there is
+ * one. */
 int scene_node_coordinate(const scene_node *n, int component);
 /* A fork has guides on both sides of the web with the fixed normal n = web x axis. The web remains
  * between them, R web . n = 0, however the section bends: R = exp(n t_1) exp(web t_2). For bending

@@ -8,8 +8,8 @@
  * within it is still detected by its uncertainty. */
 #define SCENE_TOLERANCE 1e-3
 
-/* Component whose table has a slope discontinuity at zero, so that its undeformed stiffness is
- * undefined; SCENE_NONE: none. */
+/* Returns the component whose table has a slope discontinuity at zero, so that its undeformed
+ * stiffness is undefined; SCENE_NONE: none. */
 int scene_spring_kink(const scene_spring *);
 
 /* Bits of rx, ry and rz. */

@@ -122,8 +122,8 @@ typedef struct sheet_prediction {
     double C_xx, C_zz; /* compliance of the tip, spatial moments [m/N] */
 } sheet_prediction;
 
-/* tip_warps: 1 if the tip is free to warp; shear: 0 if rigid in shear; k: shear factor. Values that
- * do not exist are NAN. */
+/* Computes the solution. tip_warps: 1 if the tip is free to warp; shear: 0 if rigid in shear; k:
+ * shear factor. Values that do not exist are NAN. */
 sheet_prediction sheet_prediction_of(const section *c, double length, double deflection,
                                      int tip_warps, int shear, scene_moments moments);
 

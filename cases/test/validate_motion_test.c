@@ -409,7 +409,7 @@ static void validate_node_tests(void)
 /* Rejected analyses and quantities: every rejection names its cause and the remedy in one line.
  * Each invalid scene has a single fault: the scene from which it was made is accepted. */
 
-/* The path of an unknown load factor, which changes loads only. */
+/* Makes the path of an unknown load factor, which changes only loads. */
 static void driven(scene *s)
 {
     const double station[] = {0, 1};

@@ -30,7 +30,7 @@ static double sinh_excess(double h)
     return sum;
 }
 
-/* sinh(lambda y)/sinh(lambda/2), |y| <= 1/2. */
+/* Returns sinh(lambda y)/sinh(lambda/2), |y| <= 1/2. */
 static double sinh_ratio(double lambda, double y)
 {
     const double a = fabs(y),
@@ -174,7 +174,7 @@ static void split(const section *c, double l, beamw_stiffness_shear kind, const 
     dense_lu_solve(3, 3, A, pivot, M);
 }
 
-/* K of the energy 1/2 h^T K h. */
+/* Computes K of the energy 1/2 h^T K h. */
 static void series(const section *c, double l, beamw_stiffness_shear kind,
                    const double stiffness[3], const double M[9], double K[9])
 {

@@ -62,7 +62,7 @@ typedef struct beamw_stiffness_fields {
     double tw[8];    /* l0^2 hg_w */
 } beamw_stiffness_fields;
 
-/* t: beamw_twist_of the same section, length and shear. */
+/* Computes the stiffness. t: beamw_twist_of the same section, length and shear. */
 void beamw_stiffness_of(const section *c, double l0, beamw_stiffness_shear kind,
                         const beamw_twist *t, beamw_stiffness_fields *fields, double S[8 * 8]);
 

@@ -57,7 +57,7 @@ static void add_crossed(double size, const double a[3], const double b[3], doubl
             A[3 * i + j] += size * (b[i] * a[j] - (i == j ? dot : 0));
 }
 
-/* A block [3 x 3] of a matrix of the element. */
+/* Adds a block [3 x 3] to a matrix of the element. */
 static void add_block(double size, const double B[9], int first, int column, double A[N * N])
 {
     for (int i = 0; i < 3; i++)
@@ -274,7 +274,7 @@ static void add_gradients(moving_line *c, const line_point *p)
         add_product(p->mass, T, places_of, c->K);
 }
 
-/* F . d2f/dtheta2 in the exponential chart. */
+/* Adds F . d2f/dtheta2 in the exponential chart. */
 static void add_chart(const double F[3], const double f[3], double B[9])
 {
     add_crossed(0.5, F, f, B);

@@ -43,8 +43,8 @@ typedef struct beamw_inertia_vector {
     } term[TERMS];
 } beamw_inertia_vector;
 
-/* Nonzero entries of the gradients of the strains: all modes except twist depend on the position of
- * q relative to p, and two of the four bending modes rotate with each node. */
+/* Computes the nonzero entries of the gradients of the strains: all modes except twist depend on
+ * the position of q relative to p, and two of the four bending modes rotate with each node. */
 static void gradient_of(const double J[8 * N], const double f[8], double out[N])
 {
     for (int i = 0; i < 3; i++) {

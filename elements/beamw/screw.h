@@ -109,7 +109,7 @@ static inline void beamw_screw_half_way(const node_real x[2], screw *w)
     mat3_mul(x[0].R, half, w->R);
 }
 
-/* l0 [m]: initial length; x[2]: states of the nodes. */
+/* Computes the screw. l0 [m]: initial length; x[2]: states of the nodes. */
 static inline void beamw_screw_of(double l0, const node_real x[2], screw *w)
 {
     real d[3], moved[3];

@@ -189,7 +189,8 @@ typedef enum beamw_prepare_modes {
     BEAMW_PREPARE_PRINTED      /* J Eq. 66 */
 } beamw_prepare_modes;
 
-/* Without FEATURE_SHEAR in the request the stiffness is rigid in shear, for any `shear`. */
+/* Prepares a variant. Without FEATURE_SHEAR in the request, the stiffness is rigid in shear for any
+ * `shear`. */
 status beamw_prepare_variant(const element_request *request, beamw_stiffness_shear shear,
                              beamw_prepare_modes modes, element_data *out, fault *f);
 
@@ -211,7 +212,7 @@ status beamw_prepare_consistent(const element_request *request, beamw_consistent
 
 /* The option of beamw_prepare_variant, and the additional options of beamw_prepare_consistent. */
 extern const parameter_type beamw_prepare_mass[], beamw_prepare_inside[];
-/* Common to all of them. */
+/* Common to all variants. */
 int beamw_prepare_mass_of_field(const double options[]);
 element_order beamw_prepare_order(element_analysis, const double options[]);
 /* element_type.judged for both. */

@@ -53,7 +53,7 @@ typedef struct exact_collocated_load {
     real force[EXACT_STAGES_MAX][3], column[EXACT_STAGES_MAX][9], moved[EXACT_STAGES_MAX][3];
 } exact_collocated_load;
 
-/* e [8], inner [unknowns]: dimensionless. load: NULL: none. */
+/* Evaluates the equations. e [8], inner [unknowns]: dimensionless; load: NULL for none. */
 static inline __attribute__((always_inline)) void
 exact_collocated_evaluate(int stages, const exact_stages *s, const real e[], const real inner[],
                           exact_collocated_load *load, real A[][9])

@@ -150,7 +150,8 @@ static inline real exact_stage_twist(const beam_constants *c, const exact_stage 
     return p->kappa[0] - c->F[6] * p->N[1] - c->F[7] * p->N[2];
 }
 
-/* For sections given by matrices: extremum over gamma of the energy minus N . (e_x + gamma). */
+/* Computes, for sections given by matrices, the extremum over gamma of the energy minus N . (e_x +
+ * gamma). */
 static inline void exact_stage_coupled(const beam_constants *c, const real kappa[3],
                                        const real N[3], exact_stage_material *m)
 {
@@ -172,7 +173,7 @@ static inline void exact_stage_coupled(const beam_constants *c, const real kappa
     m->N[0] -= 1;
 }
 
-/* T: warping torque of the point. */
+/* Computes the energy of a point. T: its warping torque. */
 static inline void exact_stage_energy(const beam_constants *c, const real kappa[3], const real N[3],
                                       real T, exact_stage_material *m)
 {
@@ -280,7 +281,7 @@ static inline void exact_stage_rows_of(const exact_stage *p, const real force[3]
     exact_milenkovic_gradients(&p->orientation, p->x, force, D->Nx, D->NF);
 }
 
-/* w times (D^T M D + second derivatives of kappa and N contracted with the gradient). */
+/* Computes w times (D^T M D + second derivatives of kappa and N contracted with the gradient). */
 static inline void exact_stage_terms_of(const beam_constants *c, const exact_stage *p,
                                         const real force[3], const exact_stage_material *m,
                                         double w, exact_stage_terms *t)

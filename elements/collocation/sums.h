@@ -68,7 +68,8 @@ exact_blocks_eliminate(int rows, int n, int late, real A[][9], real V[][9], real
     }
 }
 
-/* X [rows][9]: K^-1 times block column j of A, for the eliminated rows; `late` as above. */
+/* Computes X [rows][9]: K^-1 times block column j of A, for the eliminated rows; `late` as
+ * above. */
 static inline __attribute__((always_inline)) void exact_blocks_solve(int rows, int late, int j,
                                                                      real V[][9], real X[][9])
 {
@@ -113,7 +114,7 @@ static inline int exact_blocks_definite(int rows, real A[][9], const real d[], i
  * Blocks: x of the inner nodes (stages - 1), F, then the strains 2 X, v, and last (a_p, a_q, 1).
  * The column of 1 contains the gradient, and its last entry twice the energy. */
 
-/* x, x' of all points; at: x of the inner nodes, then 2 X. */
+/* Computes x, x' at all points; at: x of the inner nodes, then 2 X. */
 static inline void exact_sums_geometry(int stages, const exact_stages *s, real at[][3],
                                        const real force[3], exact_stage p[])
 {
@@ -131,8 +132,8 @@ static inline void exact_sums_geometry(int stages, const exact_stages *s, real a
     }
 }
 
-/* Gradient Sz of the warping energy with respect to its arguments (twist at the points, both
- * amplitudes a), and twice the energy. */
+/* Computes the gradient Sz of the warping energy with respect to its arguments (twist at the
+ * points, both amplitudes a). Returns twice the energy. */
 static inline real exact_sums_warping(int stages, const exact_stages *s, const exact_stage p[],
                                       const real a[2], real Sz[])
 {

@@ -38,7 +38,8 @@ typedef struct displacement_field {
     field_rows whole; /* integrated over [0, 1] */
 } displacement_field;
 
-/* nodes: number of nodes. For sections given by matrices the field is that of their constants. */
+/* Prepares the field. nodes: number of nodes. For sections given by matrices, the field is that of
+ * their constants. */
 void field_prepare(const element_request *, int nodes, displacement_field *);
 void field_at(const displacement_field *, double x, field_rows *);
 /* Computes psi . e: the warping amplitude [1/m], for two nodes. */

@@ -61,7 +61,7 @@ static inline void exact_point_axes(const real q[4], real R[9])
     R[8] = 1 - 2 * (x * x + y * y);
 }
 
-/* q [nodes][4], N and dN [nodes]. */
+/* Computes the point. q [nodes][4], N and dN [nodes]. */
 static inline void exact_point_at(int nodes, real q[][4], const double N[], const double dN[],
                                   const real y[3], exact_point *p)
 {

@@ -107,8 +107,8 @@ static void twist_fields(exact_fields *f)
             }
 }
 
-/* -1/2 w/(k EI) (Q -+ M')^2: flexibility due to the part of the moment beyond the polynomial of the
- * points, with its slope M' */
+/* Adds -1/2 w/(k EI) (Q -+ M')^2: the flexibility due to the part of the moment beyond the
+ * polynomial of the points, with its slope M' */
 static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, double flexibility)
 {
     double row[EXACT_FIELDS_MAX_ALL] = {0}; /* on Q, M of the points */

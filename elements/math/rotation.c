@@ -5,7 +5,7 @@
 
 #include "elements/math/dense.h"
 
-/* Finite rotations by unit quaternions. Half-angle formulas throughout: sinc keeps the exponential
+/* Finite rotations by unit quaternions. All formulas use the half-angle: sinc keeps the exponential
  * exact near 0, atan2 keeps the logarithm exact near 0 and near pi. */
 
 void rotation_identity(double q[4])

@@ -40,9 +40,9 @@ int rotation_triad(const double x[3], const double y[3], double R[9]);
 
 /* An arc along which the triad rotates at a constant rate. */
 
-/* rotation [rad]: of the whole arc: its constant torsion and curvature times its length. In the
- * axes at its start q = exp(x rotation~) and r = int_0^x exp(t rotation~) e dt, 0 <= x <= 1; e:
- * direction of the axis in the rotating triad, (1, 0, 0) except for initial strains. */
+/* Computes a point of the arc. rotation [rad]: constant torsion and curvature of the arc times its
+ * length. In the axes at its start q = exp(x rotation~) and r = int_0^x exp(t rotation~) e dt, 0 <=
+ * x <= 1; e: direction of the axis in the rotating triad, (1, 0, 0) except for initial strains. */
 void arc_at(const double rotation[3], const double e[3], double x, double r[3], double q[4]);
 /* Computes r of arc_at minus the value without rotation, x e. */
 void arc_beyond(const double rotation[3], const double e[3], double x, double r[3]);

@@ -48,8 +48,8 @@ fault_set(fault *f, status s, const char *format, ...);
     } while (0)
 #endif
 
-/* "ok", "not_converged", "singular", "refused", "fault", "time_limit", "no_value": the words used
- * in result files. */
+/* Returns "ok", "not_converged", "singular", "refused", "fault", "time_limit" or "no_value": the
+ * words used in result files. */
 const char *status_name(status s);
 
 #ifdef __cplusplus

@@ -40,8 +40,9 @@ typedef struct sheet_local_state {
     real tan_yp, sec_yp, cos_yq, sin_yq, tan_zq, sec_zq;
 } sheet_local_state;
 
-/* chord: initial distance of the nodes [m], from which the elongation is measured. F^T R^p = Ry(yp)
- * Rz(zp), whose first row is n in the axes of p, and F^T R^q = Ry(yq) Rz(zq) Rx(px). */
+/* Computes the local coordinates. chord: initial distance of the nodes [m], from which the
+ * elongation is measured. F^T R^p = Ry(yp) Rz(zp), whose first row is n in the axes of p, and F^T
+ * R^q = Ry(yq) Rz(zq) Rx(px). */
 static inline void sheet_local_of(double chord, const node_real x[2], sheet_local_state *out)
 {
     const real *p = x[0].R, *q = x[1].R;
@@ -124,9 +125,9 @@ typedef struct sheet_strains_table {
     } term[SHEET_STRAINS_TERMS];
 } sheet_strains_table;
 
-/* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, without
- * shear deformation; the values of the section: consistent with shear (derived here). Features:
- * warping, trapeze. */
+/* Prepares the strains. Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both
+ * 0: N Eq. 37, without shear deformation; the values of the section: consistent with shear (derived
+ * here). Features: warping, trapeze. */
 status sheet_strains_prepare(const element_request *request, double Phi_y, double Phi_z,
                              sheet_strains_table *out, fault *f);
 

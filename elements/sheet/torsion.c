@@ -67,9 +67,9 @@ static void closed(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIEN
     }
 }
 
-/* Green's function sinh(lambda y) sinh(lambda (1 - x))/(lambda sinh(lambda)), y < x, over the
- * triangle y = x z. It also gives the end functions: chord - h solves lambda^2 g - g'' = lambda^2
- * chord. */
+/* Integrates with Green's function sinh(lambda y) sinh(lambda (1 - x))/(lambda sinh(lambda)), y <
+ * x, over the triangle y = x z. It also gives the end functions: chord - h solves lambda^2 g - g''
+ * = lambda^2 chord. */
 static void by_quadrature(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIENTS],
                           const double point[POINTS], const double weight[POINTS],
                           sheet_torsion_integrals *out)

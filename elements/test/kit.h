@@ -15,7 +15,7 @@
 uint64_t random_bits(uint64_t *seed);
 /* Returns a number that is uniform in [-1, 1), a multiple of 2^-52. */
 double random_number(uint64_t *seed);
-/* 0 .. count - 1. */
+/* Returns one of 0 .. count - 1. */
 int random_below(uint64_t *seed, int count);
 
 /* Returns the larger of two departures; NaN is the largest, which fmax would drop. */

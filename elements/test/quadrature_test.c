@@ -61,7 +61,7 @@ static void *ask(void *out)
     return NULL;
 }
 
-/* Nobody has asked before. */
+/* Requests tables simultaneously, before any other request. */
 static void at_once(void)
 {
     static quadrature_rule r[THREADS + 1], forked;

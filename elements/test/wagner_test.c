@@ -444,7 +444,7 @@ static void stress_tests(void)
 
 /* Sections that change along a member: their ends, their middle, and rejected ones. */
 
-/* Doubly symmetric, web along z. */
+/* Returns a doubly symmetric I-section with its web along z. */
 static section_spec i_shape(double depth, double flange, double thickness)
 {
     const double b = flange / 2, h = depth / 2,

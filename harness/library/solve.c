@@ -427,7 +427,7 @@ static status source_known(source *s, const truths **out, fault *f)
     return outcome;
 }
 
-/* Functions that need no scene. */
+/* Functions that do not need a scene. */
 
 const char *bw_version(void)
 {

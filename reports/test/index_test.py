@@ -159,7 +159,7 @@ class Bar(unittest.TestCase):
                          (("claims.html", "claims"), ("errata.html", "errata")))
 
     def test_a_page_of_no_group(self):
-        """It is not lost."""
+        """A page in no group is listed with the last group."""
         self.assertIn(("a_new_page.html", "new"), self.groups[-1].pages)
 
     def test_where_a_page_is(self):

@@ -384,7 +384,7 @@ def wrong(solution):
 
 
 class ClosedFormsTest(ProgramTest):
-    """One test a scene."""
+    """One test for each scene."""
 
     def holds(self, path, *options):
         """Checks that the scene has its correct values with these options."""

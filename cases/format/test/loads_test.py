@@ -415,7 +415,7 @@ class StabilityTest(SceneCase):
         self.assertIn("-n 8", line)
 
     def test_turning(self):
-        """Pivots say nothing there."""
+        """Pivots do not indicate stability there."""
         found = self.steps(SHAFT, "press", "collocation")
         self.assertEqual(found[1], "undecided")
         done = run("solve", "--scene", self.scene(SHAFT), "-f", "collocation", "-n", 4)

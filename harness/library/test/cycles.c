@@ -29,7 +29,7 @@ static void cycle(void)
     bw_free_text(why);
 }
 
-/* With reference values and a static path. */
+/* Runs one cycle with reference values and a static path. */
 static void big_cycle(void)
 {
     char *json = NULL;

@@ -27,7 +27,7 @@ static herr_t alter_collect(hid_t at, const char *name, const H5L_info_t *info, 
     return 0;
 }
 
-/* 0 double, 1 byte, 2 text, 3 text of any length, 4 compound, 5 array, 6 opaque */
+/* Returns a type: 0 double, 1 byte, 2 text, 3 text of any length, 4 compound, 5 array, 6 opaque. */
 static hid_t alter_type(unsigned what, unsigned size)
 {
     const hsize_t three = 3;
@@ -86,7 +86,7 @@ static void alter_data(hid_t file, const char *name, unsigned what, unsigned siz
     H5Tclose(type);
 }
 
-/* One column of a table, in memory: numbers, or texts of eight bytes. */
+/* Makes one column of a table in memory: numbers, or texts of eight bytes. */
 static hid_t alter_column(hid_t set, unsigned what)
 {
     const hid_t stored = H5Dget_type(set);
