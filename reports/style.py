@@ -57,7 +57,7 @@ plt.rcParams.update({
 
 
 def extra(keys):
-    """Returns those that a figure drops first: options, then uncorrected misprints and old forms."""
+    """Returns the keys that a figure drops first: options, then uncorrected misprints and old forms."""
     keys = list(keys)
     last = [k for k in keys if ":" in k] + [k for k in LAST if k in keys]
     rest = [k for k in keys if k not in last]

@@ -1216,7 +1216,7 @@ typedef enum entry_kind {
     ENTRY_WORD,   /* one of `words`, or a parameter with such choices: int; double: unchanged if the
                      key is missing */
     ENTRY_FLAG,   /* one of `words`, where odd indices mean 1: int */
-    ENTRY_WORDS,  /* one or several of them: unsigned, one bit each */
+    ENTRY_WORDS,  /* one or several of `words`: unsigned, one bit each */
     ENTRY_NUMBER, /* an expression: double */
     ENTRY_WHOLE,  /* an integer: int */
     ENTRY_VECTOR, /* a list of `count` expressions: double[] */
@@ -1599,10 +1599,10 @@ enum { SCENE_WARP_BY_SUPPORT = -3 };
 
 /* Sets the warping of every end that is SCENE_WARP_BY_SUPPORT. Fixed: all six components of its
  * node are fixed or prescribed, or the node is part of a rigid body to which members or springs are
- * joined at other nodes. Free: a rotation is released there, or the node is a fork, is free, or has
- * only a mass. If exactly two members meet at such a node and continue in one line with the same
- * section and axes, without releases and without specified warping, they share the coordinate: a
- * node does not interrupt a beam. */
+ * joined at other nodes. Free: a rotation is released there, or the node has a fork support, is
+ * free, or has only a mass. If exactly two members meet at such a node and continue in one line
+ * with the same section and axes, without releases and without specified warping, they share the
+ * coordinate: a node does not interrupt a beam. */
 void scene_warping_by_supports(scene *s);
 
 #endif

@@ -146,7 +146,7 @@ class SceneTest(SceneCase):
         self.assertIn("1 verdict against reference values: 1 pass", done.stdout)
 
     def test_refusals(self):
-        """Errors other than in the file's contents are reported in one line."""
+        """Errors that do not concern the contents of the file are reported in one line."""
         self.refused(4, "cannot be read", "solve", "--scene", self.folder / "none.yaml", "-f",
                      "beamw", "-n", 1)
         self.refused(2, "give one of them", "solve", "elastica", "--scene", self.scene(LEAF), "-f",
