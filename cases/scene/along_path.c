@@ -405,9 +405,9 @@ static const char *const
     *const no_spin = "rotates, but this analysis omits the Coriolis forces on moving masses; use a "
                      "'rotation' analysis with that omega for frequencies";
 
-/* Columns: linear, static, continuation, buckling, buckling about a path, modal and about a linear
- * analysis and a path, compliance and about a path, rotation, motion, harmonic and about a linear
- * analysis and a path. */
+/* Columns: linear; static; continuation; buckling of the undeformed structure and about a path;
+ * modal, also about a linear analysis and about a path; compliance, also about a path; rotation;
+ * motion; harmonic, also about a linear analysis and about a path. */
 const scene_input scene_inputs[] = {
     {"force", "uuuuu-uu-uuu-uu", NULL, has_force},
     {"follower force", "uusxu-xu-usu-xu", no_potential, has_following_force},
