@@ -336,6 +336,9 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
 /* Natural frequencies about the undeformed state. */
 
 status modal_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* About the undeformed state. */
+status linear_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+status buckling_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Number of modes that the quantities of an analysis request. */
 int modal_wanted(const analysis_context *, int analysis);
 

@@ -8,7 +8,6 @@
 #include <complex.h>
 #include <stdlib.h>
 
-#include "elements/math/scalar.h"
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/scalar.h"
 #include "harness/time/time.h"
 
 enum { MOST_DENSE = 3000 };

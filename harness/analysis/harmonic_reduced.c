@@ -14,7 +14,6 @@
  * replaces K. */
 #include "harness/analysis/analysis_impl.h"
 
-#include <float.h>
 #include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>

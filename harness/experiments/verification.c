@@ -1,7 +1,5 @@
 #include "harness/experiments/experiments_impl.h"
 
-#include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

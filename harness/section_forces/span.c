@@ -5,7 +5,6 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "elements/math/scalar.h"
 #include "elements/shared/beam_constants.h"
 
 /* R' = R kappa~, r' = R (e_x + gamma) over [0, 1] with the length as unit; kappa[points x 3] and

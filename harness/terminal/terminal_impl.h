@@ -43,4 +43,13 @@ int table_stability_paths(FILE *to, const scene *s, const solve_result *r);
  * failed. */
 void table_stability_meshes(FILE *to, const sweep *s);
 
+/* table_path.c */
+/* Prints nothing if there is no motion. Reports loads that jump at the start of the motion. */
+void table_motion(FILE *to, const scene *, const solve_result *);
+void table_path_steps(FILE *to, const solve_result *r);
+/* Critical points and branch jumps of continued paths. */
+void table_path_events(FILE *to, const solve_result *r);
+/* At the last station reached. */
+void table_path_matrices(FILE *to, const scene *s, const solve_result *r);
+
 #endif

@@ -1,0 +1,279 @@
+/* Steps, events and matrices of a path; a summary of a motion. */
+#include "harness/terminal/terminal_impl.h"
+
+#include <math.h>
+
+#include "cases/scene/scene.h"
+#include "elements/shared/choice.h"
+#include "harness/time/time.h"
+
+enum { MOST_STEPS = 40 };
+
+/* Writes the corrections of the iterations of a step, on several lines if there are many. */
+static void corrections(FILE *to, int column, const solve_result *r, const step_record *k)
+{
+    paragraph words;
+    FILE *list = paragraph_begin(&words, to);
+    for (int j = 0; j < k->iterations; j++)
+        fprintf(list, " %.0e", r->iteration[k->first + j].correction);
+    paragraph_end(&words, column, column);
+}
+
+/* Number of steps to report; those of motions have a short form. */
+static int steps_told(const solve_result *r)
+{
+    int steps = r->steps;
+    for (int i = 0; i < r->motions; i++)
+        steps -= r->motion[i].at.step > 0;
+    return steps;
+}
+
+void table_path_steps(FILE *to, const solve_result *r)
+{
+    const int steps = steps_told(r);
+    if (steps <= 0)
+        return;
+    fprintf(to, "%4s %12s %12s %8s %6s %10s  %s\n", "step", "path", "increment", "rejected",
+            "stable", "iterations", "their corrections");
+    for (int i = 0; i < steps && i < MOST_STEPS; i++) {
+        const step_record *k = &r->step[i];
+        const int column =
+            fprintf(to, "%4d %12.6g %12.4g %8d %6s %10d  ", i + 1, k->path, k->increment,
+                    k->rejected, table_stability_word(k->stability), k->iterations);
+        corrections(to, column, r, k);
+    }
+    if (steps > MOST_STEPS)
+        fprintf(to, "%4s %d more steps: --format json has them all\n", "", steps - MOST_STEPS);
+}
+
+static void matrix(FILE *to, const double value[36], const char *const row[6],
+                   const char *const column[6])
+{
+    fprintf(to, "%7s", "");
+    for (int j = 0; j < 6; j++)
+        fprintf(to, " %14s", column[j]);
+    fputc('\n', to);
+    for (int i = 0; i < 6; i++) {
+        fprintf(to, "%7s", row[i]);
+        for (int j = 0; j < 6; j++)
+            if (isfinite(value[6 * i + j]))
+                fprintf(to, " %14.7g", value[6 * i + j] + 0.0); /* no "-0" */
+            else
+                fprintf(to, " %14s", "-");
+        fputc('\n', to);
+    }
+}
+
+void table_path_matrices(FILE *to, const scene *s, const solve_result *r)
+{
+    static const char *const motion[] = {"ux", "uy", "uz", "thx", "thy", "thz"};
+    static const char *const load[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
+    for (int i = 0; i < r->matrix_sets; i++) {
+        const nodal_matrices *m = &r->matrices[i];
+        if (m->stations == 0)
+            continue;
+        const size_t last = 36 * (size_t)(m->stations - 1);
+        fprintf(to, "compliance of %s at path %g, %s moments [SI]\n",
+                scene_called(s, SCENE_NODES, m->node).text, m->path[m->stations - 1],
+                scene_moments_name(m->moments));
+        matrix(to, m->compliance + last, motion, load);
+        if (!isfinite(m->stiffness[last]))
+            continue;
+        fprintf(to, "stiffness\n");
+        matrix(to, m->stiffness + last, load, motion);
+    }
+}
+
+static void row_of_event(FILE *to, const path_event *e)
+{
+    fprintf(to, "%s at %.9g m, load factor %.9g", result_event_name(e->kind), e->control,
+            e->factor);
+    if (e->kind == EVENT_BRANCH_JUMP)
+        fprintf(to, ": a step led to another branch with %.9g\n", e->other_factor);
+    else if (e->negative_before >= 0)
+        fprintf(to, ": negative pivots %d -> %d\n", e->negative_before, e->negative_after);
+    else
+        fputc('\n', to);
+}
+
+void table_path_events(FILE *to, const solve_result *r)
+{
+    for (int i = 0; i < r->events; i++)
+        row_of_event(to, &r->event[i]);
+}
+
+enum { MOTION_INDENT = 2 };
+
+/* Records [first, end) of one motion, starting with the initial state. */
+typedef struct motion_extent {
+    const motion_record *record;
+    int first, end;
+} motion_extent;
+
+static double length_at(const motion_record *r, int of)
+{
+    const double *v = r->at.balance + of;
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* Writes the integrator and its parameters. */
+static void method(FILE *to, const scene_motion *how)
+{
+    char name[SCENE_NAME];
+    choice_name(SCENE_SCHEME_CHOICES, how->scheme, name, sizeof name);
+    fprintf(to, " by %s", name);
+    if (how->tolerance <= 0)
+        fputs(", without a bound of the time error", to);
+    else if (how->scheme == SCENE_RADAU)
+        fprintf(to, ", each step to %g of the largest motion", how->tolerance);
+    else
+        fprintf(to, " to %g of the largest motion", how->tolerance);
+}
+
+static void steps_line(FILE *to, const motion_extent *e, const scene_motion *how)
+{
+    const double end = how->path.value[how->path.stations - 1];
+    const outcome_step *begin = &e->record[e->first].at, *last = &e->record[e->end - 1].at;
+    const int steps = e->end - e->first - 1;
+    double least = INFINITY, largest = 0;
+    long iterations = 0, rejected = 0;
+    int most = 0;
+    for (int i = e->first + 1; i < e->end; i++) {
+        const outcome_step *one = &e->record[i].at;
+        least = fmin(least, one->step);
+        largest = fmax(largest, one->step);
+        iterations += one->iterations;
+        rejected += one->rejected;
+        most = one->iterations > most ? one->iterations : most;
+    }
+    const int at = fprintf(to, "motion: ");
+    paragraph words;
+    FILE *text = paragraph_begin(&words, to);
+    fprintf(text, "%g to %g s", begin->time, last->time);
+    method(text, how);
+    fprintf(text, "; %d step%s", steps, steps == 1 ? "" : "s");
+    if (steps > 0 && largest - least <= 1e-9 * largest)
+        fprintf(text, " of %.4g s", largest);
+    else if (steps > 0)
+        fprintf(text, " of %.3g to %.3g s", least, largest);
+    fprintf(text, ", %ld longer rejected", rejected);
+    if (iterations > 0)
+        fprintf(text, "; %.1f iterations a step, at most %d", (double)iterations / steps, most);
+    if (last->time < end * (1 - 1e-9))
+        fprintf(text, "; it ends before %g s: give a smaller step, a tolerance or more elements",
+                end);
+    paragraph_end(&words, at, MOTION_INDENT);
+}
+
+static void energy_line(FILE *to, const motion_extent *e)
+{
+    const outcome_step *last = &e->record[e->end - 1].at;
+    double drift = 0, when = 0, size = 0;
+    for (int i = e->first; i < e->end; i++) {
+        const outcome_step *one = &e->record[i].at;
+        size = fmax(size, fabs(one->balance[SCENE_ENERGY]));
+        if (fabs(one->balance[SCENE_DRIFT]) > fabs(drift)) {
+            drift = one->balance[SCENE_DRIFT];
+            when = one->time;
+        }
+    }
+    const int at = fprintf(to, "energy: ");
+    paragraph words;
+    FILE *text = paragraph_begin(&words, to);
+    fprintf(text,
+            "%.6g J at the end, %.6g J of it kinetic; work since the start %.6g J, dissipated "
+            "%.3g J; energy-balance error at most %.2g J",
+            last->balance[SCENE_ENERGY], last->balance[SCENE_KINETIC], last->balance[SCENE_WORK],
+            last->balance[SCENE_DISSIPATED], fabs(drift));
+    if (size > 0 && drift != 0)
+        fprintf(text, ", %.1e of the largest energy, at %.4g s", fabs(drift) / size, when);
+    paragraph_end(&words, at, MOTION_INDENT);
+}
+
+/* Largest energy dissipated by the integrator, relative to the largest energy. */
+static void damping_line(FILE *to, const motion_extent *e)
+{
+    account so_far = {.largest = 0};
+    double part = 0, lost = 0, of = 0, when = 0;
+    for (int i = e->first; i < e->end; i++) {
+        const outcome_step *one = &e->record[i].at;
+        account_take(&so_far, i - e->first, one->balance);
+        const double size = account_size(&so_far), missing = -one->balance[SCENE_DRIFT];
+        if ((i - e->first < ACCOUNT_STEPS && i < e->end - 1) || !(missing > part * size))
+            continue;
+        part = missing / size;
+        lost = missing;
+        of = size;
+        when = one->time;
+    }
+    if (part > account_stated)
+        paragraph_say(to, fprintf(to, "numerical damping: "), MOTION_INDENT,
+                      "until %.4g s the integrator has lost %.3g J of energy, %.2g %% of %.3g J; "
+                      "use a smaller step or tolerance to lose less",
+                      when, lost, 100 * part, of);
+}
+
+/* Largest change of a vector from its initial value. */
+static double change_of(const motion_extent *e, int of)
+{
+    const double *begin = e->record[e->first].at.balance + of;
+    double largest = 0;
+    for (int i = e->first; i < e->end; i++) {
+        const double *v = e->record[i].at.balance + of;
+        double square = 0;
+        for (int k = 0; k < 3; k++)
+            square += (v[k] - begin[k]) * (v[k] - begin[k]);
+        largest = fmax(largest, sqrt(square));
+    }
+    return largest;
+}
+
+static void momentum_line(FILE *to, const motion_extent *e)
+{
+    const motion_record *last = &e->record[e->end - 1];
+    const int at = fprintf(to, "momenta: ");
+    paragraph_say(to, at, MOTION_INDENT,
+                  "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; they change by at most "
+                  "%.2g and %.2g from those at the start",
+                  length_at(last, SCENE_PX), length_at(last, SCENE_LX), change_of(e, SCENE_PX),
+                  change_of(e, SCENE_LX));
+}
+
+/* Reports a load whose factor at the end of the preceding path differs from that at the start of
+ * the motion. */
+static void jump_lines(FILE *to, const scene *s, int analysis, double path)
+{
+    for (int i = 0; i < s->loads && isfinite(path); i++) {
+        const scene_load *load = &s->load[i];
+        double value[3];
+        if (load->function.pieces == 0 ||
+            scene_acting_factor(s, scene_acting_of(s, analysis), load->load_case) == 0)
+            continue;
+        function_at(&load->function, 0, value);
+        const double held = along_path_factor(load, path);
+        if (fabs(held - value[0]) > 1e-9 * fmax(fabs(held), fabs(value[0])))
+            paragraph_say(to, fprintf(to, "load: "), MOTION_INDENT,
+                          "%s has factor %g where the path ends but %g where the motion begins, so "
+                          "it jumps; for a load of the motion only, give path: [0, 1], factor: [0, "
+                          "0] in addition to its function",
+                          scene_name(s, SCENE_LOADS, i).text, held, value[0]);
+    }
+}
+
+void table_motion(FILE *to, const scene *s, const solve_result *r)
+{
+    motion_extent e = {.record = r->motion};
+    for (e.first = 0; e.first < r->motions; e.first = e.end) {
+        e.end = e.first + 1;
+        while (e.end < r->motions && r->motion[e.end].analysis == r->motion[e.first].analysis)
+            e.end++;
+        const int analysis = r->motion[e.first].analysis;
+        steps_line(to, &e, scene_motion_of(&s->analysis[analysis]));
+        jump_lines(to, s, analysis, r->motion[e.first].path);
+        energy_line(to, &e);
+        damping_line(to, &e);
+        momentum_line(to, &e);
+    }
+    if (r->motions > 0)
+        fputs("  --format json has every step; 'beamwork motion' measures the time error\n", to);
+}
