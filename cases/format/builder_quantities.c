@@ -172,6 +172,30 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
                          "an abscissa requires a curve; add take: curve, or remove it");
 }
 
+/* Refuses a window or a level that the quantity does not use. */
+static void check_when(const fields *f, const scene_quantity *q)
+{
+    static const char *const crossing[] = {"direction", "level", "which"};
+    const scene *s = f->b->scene;
+    const fields when = fields_below(f, "when");
+    if (!fields_have(f, "when") || q->what.kind == SCENE_ENVELOPE_OF || q->analysis < 0 ||
+        q->analysis >= s->analyses)
+        return;
+    if (q->transform == SCENE_HISTORY && !scene_is_passed(q, s->analysis[q->analysis].kind))
+        document_mistake(f->b->mistakes, document_find(f->map, "when"), 0,
+                         "when: it is the window of crossings, means, spectra and extremes of a "
+                         "motion between its stations, and this quantity is none of these; remove "
+                         "it, or change 'take'");
+    else
+        for (int i = q->passing.direction == SCENE_RISING; i < 3; i++) /* which is written always */
+            if (fields_have(&when, crossing[i]) && q->reduction != SCENE_CROSSING &&
+                q->reduction != SCENE_PERIOD && q->reduction != SCENE_PER_SECOND)
+                document_mistake(f->b->mistakes, document_find(when.map, crossing[i]), 0,
+                                 "%s: it is for crossings; remove it, or write take: crossing, "
+                                 "period or per_second",
+                                 crossing[i]);
+}
+
 /* Reads the prediction; the text of its source survives a second build of the scene. */
 static void read_prediction(const fields *f, const unrolled *entry, scene_quantity *q)
 {
@@ -264,6 +288,7 @@ void builder_quantities(builder *b)
         else
             read_overs(&what, q);
         read_stations(&f, &what, q);
+        check_when(&f, q);
         read_unit(&f, q);
         read_prediction(&f, entry, q);
     }
