@@ -20,6 +20,13 @@ static const entry_field fields[] = {
      .summary = "load with feedback whose reference moves harmonically, by 1 m or 1 rad",
      .left_out = "the input is a force", ENTRY_IN(scene_quantity, what.of.response.reference),
      .of = SCENE_LOADS},
+    {"unbalance", ENTRY_NAME, .group = 2,
+     .summary = "node with an unbalance of 1 kg m, mass times eccentricity, that rotates with the "
+                "frequency",
+     .left_out = "the input is a force", ENTRY_IN(scene_quantity, what.of.response.unbalanced),
+     .of = SCENE_NODES},
+    {"about", ENTRY_WORD, .words = "rx|ry|rz", .summary = "axis and sense of its rotation",
+     .usual = "rx", ENTRY_IN(scene_quantity, what.of.response.spinning), .first = SCENE_RX},
     {"along", ENTRY_WORD, .words = ENTRY_COMPONENTS, .summary = "component of the force",
      .usual = "ux", ENTRY_IN(scene_quantity, what.of.response.forced_along),
      .turns = ENTRY_COMPONENT},
@@ -34,16 +41,20 @@ static const entry_field fields[] = {
 
 static const char *unit(const scene *s, const scene_quantity *q)
 {
-    static const char *const of[2][4][4] = {{{"m/N", "m/(N s)", "m/(N s^2)", "1"},
-                                             {"1/N", "1/(N s)", "1/(N s^2)", "1/m"},
-                                             {"1", "1/s", "1/s^2", "N/m"},
-                                             {"m/rad", "m/(rad s)", "m/(rad s^2)", "N/rad"}},
-                                            {{"rad/N", "rad/(N s)", "rad/(N s^2)", "m"},
-                                             {"rad/(N m)", "rad/(N m s)", "rad/(N m s^2)", "1"},
-                                             {"rad/m", "rad/(m s)", "rad/(m s^2)", "N"},
-                                             {"1", "1/s", "1/s^2", "N m/rad"}}};
+    static const char *const of[2][5][4] = {
+        {{"m/N", "m/(N s)", "m/(N s^2)", "1"},
+         {"1/N", "1/(N s)", "1/(N s^2)", "1/m"},
+         {"1", "1/s", "1/s^2", "N/m"},
+         {"m/rad", "m/(rad s)", "m/(rad s^2)", "N/rad"},
+         {"1/kg", "1/(kg s)", "1/(kg s^2)", "1/s^2"}},
+        {{"rad/N", "rad/(N s)", "rad/(N s^2)", "m"},
+         {"rad/(N m)", "rad/(N m s)", "rad/(N m s^2)", "1"},
+         {"rad/m", "rad/(m s)", "rad/(m s^2)", "N"},
+         {"1", "1/s", "1/s^2", "N m/rad"},
+         {"rad/(kg m)", "rad/(kg m s)", "rad/(kg m s^2)", "m/s^2"}}};
     const scene_response *r = &q->what.of.response;
-    const int by = r->driver != SCENE_NONE ? 2 + scene_driver_turns(s, r->driver)
+    const int by = r->unbalanced != SCENE_NONE ? 4
+                   : r->driver != SCENE_NONE   ? 2 + scene_driver_turns(s, r->driver)
                    : r->reference != SCENE_NONE
                        ? 2 + (s->load[r->reference].feedback.component >= SCENE_RX)
                        : r->forced_along >= SCENE_RX;
@@ -67,6 +78,11 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
         fprintf(to, " for a unit motion %s", s->driver[r->driver].name);
         return;
     }
+    if (r->unbalanced != SCENE_NONE) {
+        fprintf(to, " for a unit unbalance that rotates about %c", meaning_axis(r->spinning));
+        meaning_node(to, s, "at", r->unbalanced);
+        return;
+    }
     if (r->reference != SCENE_NONE) {
         fprintf(to, " for a unit reference of load %s",
                 scene_name(s, SCENE_LOADS, r->reference).text);
@@ -80,18 +96,22 @@ static int turns(const scene *s, const scene_quantity *q, int i, scene_component
 {
     (void)s;
     const scene_response *r = &q->what.of.response;
-    *out = i == 0 ? (scene_component){r->node, r->component}
-                  : (scene_component){r->forced, r->forced_along};
-    return i < 1 + (r->forced != SCENE_NONE);
+    *out = i == 0                        ? (scene_component){r->node, r->component}
+           : r->unbalanced != SCENE_NONE ? (scene_component){r->unbalanced, r->spinning}
+                                         : (scene_component){r->forced, r->forced_along};
+    return i < 1 + (r->forced != SCENE_NONE || r->unbalanced != SCENE_NONE);
 }
 
 static status check(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_response *r = &q->what.of.response;
-    if ((r->driver != SCENE_NONE) + (r->forced != SCENE_NONE) + (r->reference != SCENE_NONE) != 1)
+    if ((r->driver != SCENE_NONE) + (r->forced != SCENE_NONE) + (r->reference != SCENE_NONE) +
+            (r->unbalanced != SCENE_NONE) !=
+        1)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its input is missing; name the node of a 'force', a motion "
-                         "with 'drive', or a load with feedback with 'reference'",
+                         "quantity %s: its input is missing; name the node of a 'force' or of an "
+                         "'unbalance', a motion with 'drive', or a load with feedback with "
+                         "'reference'",
                          q->name);
     if (r->reference != SCENE_NONE && s->load[r->reference].feedback.node == SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,

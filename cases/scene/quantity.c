@@ -82,6 +82,11 @@ scene_extract scene_response_to(scene_response what)
     return (scene_extract){SCENE_RESPONSE, &quantity_response, {.response = what}};
 }
 
+int scene_unbalance_along(const scene_response *r, int k)
+{
+    return (r->spinning - SCENE_RX + 1 + k) % 3;
+}
+
 scene_extract scene_relative_to(int node, int component, int from)
 {
     return EXTRACT(relative, .relative = {node, component, from});

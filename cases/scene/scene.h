@@ -503,7 +503,8 @@ typedef struct scene_response {
     int from;                 /* the same value of this node is subtracted; SCENE_NONE: none */
     int forced, forced_along; /* node and component of a force or moment; otherwise ... */
     int driver;               /* ... the driver that moves; otherwise ... */
-    int reference; /* ... the load with feedback whose reference moves; both SCENE_NONE: a force */
+    int reference;            /* ... the load with feedback whose reference moves; otherwise ... */
+    int unbalanced, spinning; /* ... the node of an unbalance, and SCENE_RX .. of its rotation */
     scene_vibration of;
     scene_vibration_part part;
 } scene_response;
@@ -572,6 +573,8 @@ scene_extract scene_orientation_entry(int node, int row, int column);
 scene_extract scene_balance_of(scene_balance what);
 scene_extract scene_relative_to(int node, int component, int from);
 scene_extract scene_response_to(scene_response what);
+/* The direction of an unbalance at the start and, of k 1, a quarter of a turn later. */
+int scene_unbalance_along(const scene_response *r, int k);
 /* place: 0 at p .. 1 at q, on the side of q */
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);

@@ -415,8 +415,8 @@ status harmonic_input(const vibration *, const scene_response *, double w, doubl
 int harmonic_carried(const vibration *, const scene_response *, double y[]);
 /* The linear form o of a quantity in the displacements: o^T x. */
 void harmonic_output(vibration *, const scene_response *, double w, double complex o[]);
-/* The part of a unit force input carried by the prescribed motion whose reaction is read. */
-double harmonic_force_at(const vibration *, const scene_response *);
+/* The part of the input carried by the prescribed motion whose reaction is read. */
+double complex harmonic_force_at(const vibration *, const scene_response *, double w);
 /* The forces of a quantity's input, independent of frequency, and its output as forces: out[n
  * each]. Returns their number, at most HARMONIC_SHAPES. */
 int harmonic_shapes(vibration *, const scene_response *, double out[]);

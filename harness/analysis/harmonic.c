@@ -33,7 +33,9 @@ static status factor_at(vibration *v, double hertz, fault *f)
 static int same_input(const scene_response *a, const scene_response *b)
 {
     return a->driver == b->driver && a->reference == b->reference && a->forced == b->forced &&
-           (a->forced == SCENE_NONE || a->forced_along == b->forced_along);
+           a->unbalanced == b->unbalanced &&
+           (a->forced == SCENE_NONE || a->forced_along == b->forced_along) &&
+           (a->unbalanced == SCENE_NONE || a->spinning == b->spinning);
 }
 
 /* x: forces, replaced by the solution. */
@@ -151,7 +153,7 @@ static void read_quantity(vibration *v, int quantity, double w, double *value, d
                                  : r->of == SCENE_ACCELERATION ? -w * w
                                                                : 1,
                          z = times * dot(all, v->output, v->found + (size_t)quantity * all) -
-                             harmonic_force_at(v, r);
+                             harmonic_force_at(v, r, w);
     *value = part_of(r, z);
     *bound = 0;
     if (s->analysis[v->analysis].by_modes && s->analysis[v->analysis].modes > 0) {

@@ -20,6 +20,18 @@ status harmonic_check_motion(const vibration *v, int driver, fault *f)
     return STATUS_OK;
 }
 
+/* Generalised force in coordinate k of the node, T[6 x count]: of 1 along a component, or of an
+ * unbalance of 1, which rotates. */
+static double complex force_of(const scene_response *r, double w, const double T[], int count,
+                               int k)
+{
+    if (r->forced != SCENE_NONE)
+        return T[r->forced_along * count + k];
+    return w * w *
+           (T[scene_unbalance_along(r, 0) * count + k] -
+            I * T[scene_unbalance_along(r, 1) * count + k]);
+}
+
 status harmonic_input(const vibration *v, const scene_response *r, double w, double complex x[],
                       fault *f)
 {
@@ -44,17 +56,18 @@ status harmonic_input(const vibration *v, const scene_response *r, double w, dou
         x[v->all + (loop - v->loop)] = loops_gain(loop, w, &own);
         return STATUS_OK;
     }
-    const int count = kinematics_node_jacobian(m, v->state, r->forced, KINEMATICS_MOST, index, T);
+    const int node = r->forced != SCENE_NONE ? r->forced : r->unbalanced,
+              count = kinematics_node_jacobian(m, v->state, node, KINEMATICS_MOST, index, T);
     for (int k = 0; k < count; k++)
         if (index[k] < v->free) {
-            x[index[k]] = T[r->forced_along * count + k];
-            moves |= T[r->forced_along * count + k] != 0;
+            x[index[k]] = force_of(r, w, T, count, k);
+            moves |= cabs(force_of(r, 1, T, count, k)) > 0;
         }
     return moves ? STATUS_OK
                  : fault_set(f, STATUS_REFUSED,
                              "%s is held or driven, so a force along it moves nothing; name "
                              "another component, or a motion with 'drive'",
-                             scene_called(model_scene(m), SCENE_NODES, r->forced).text);
+                             scene_called(model_scene(m), SCENE_NODES, node).text);
 }
 
 int harmonic_carried(const vibration *v, const scene_response *r, double y[])
@@ -170,18 +183,20 @@ void harmonic_output(vibration *v, const scene_response *r, double w, double com
         add_motion(v, r->from, r->component, -1, o);
 }
 
-double harmonic_force_at(const vibration *v, const scene_response *r)
+double complex harmonic_force_at(const vibration *v, const scene_response *r, double w)
 {
+    const int node = r->forced != SCENE_NONE ? r->forced : r->unbalanced;
     int index[KINEMATICS_MOST], c = 0;
-    double T[6 * KINEMATICS_MOST], sum = 0;
+    double T[6 * KINEMATICS_MOST];
+    double complex sum = 0;
     fault unused = {""};
-    if (r->of != SCENE_REACTING || r->forced == SCENE_NONE ||
+    if (r->of != SCENE_REACTING || node == SCENE_NONE ||
         harmonic_reacting(v, r, &c, &unused) != STATUS_OK)
         return 0;
     const int count =
-        kinematics_node_jacobian(v->c->model, v->state, r->forced, KINEMATICS_MOST, index, T);
+        kinematics_node_jacobian(v->c->model, v->state, node, KINEMATICS_MOST, index, T);
     for (int k = 0; k < count; k++)
-        sum += index[k] == c ? T[r->forced_along * count + k] : 0;
+        sum += index[k] == c ? force_of(r, w, T, count, k) : 0;
     return sum;
 }
 
@@ -196,27 +211,43 @@ static int shapes_of_motion(const vibration *v, int c, double out[])
     return HARMONIC_SHAPES_OF_MOTION;
 }
 
+/* v->output as forces. */
+static void take_shape(const vibration *v, double out[])
+{
+    for (int k = 0; k < v->free; k++)
+        out[k] = creal(v->output[k]);
+}
+
+/* The forces of an input at any frequency. */
+static int shapes_of_input(vibration *v, const scene_response *r, double out[])
+{
+    const size_t n = (size_t)v->free;
+    const int rotates = r->unbalanced != SCENE_NONE,
+              count = r->forced != SCENE_NONE ? 1 : 2 * rotates;
+    if (r->driver != SCENE_NONE)
+        return shapes_of_motion(v, model_driver_coordinate(v->c->model, r->driver), out);
+    for (int i = 0; i < count; i++) {
+        memset(v->output, 0, loops_whole(v) * sizeof *v->output);
+        if (rotates)
+            add_motion(v, r->unbalanced, scene_unbalance_along(r, i), 1, v->output);
+        else
+            add_motion(v, r->forced, r->forced_along, 1, v->output);
+        take_shape(v, out + (size_t)i * n);
+    }
+    return count;
+}
+
 int harmonic_shapes(vibration *v, const scene_response *r, double out[])
 {
     const size_t n = (size_t)v->free;
     fault unused = {""};
-    int c, count = 0;
-    if (r->driver != SCENE_NONE)
-        count += shapes_of_motion(v, model_driver_coordinate(v->c->model, r->driver), out);
-    for (int output = r->driver != SCENE_NONE; output < 2; output++) {
-        if (output && r->of == SCENE_REACTING) {
-            if (harmonic_reacting(v, r, &c, &unused) == STATUS_OK)
-                count += shapes_of_motion(v, c, out + (size_t)count * n);
-            continue;
-        }
-        memset(v->output, 0, (size_t)v->all * sizeof *v->output);
-        if (output)
-            harmonic_output(v, r, 0, v->output);
-        else
-            add_motion(v, r->forced, r->forced_along, 1, v->output);
-        for (size_t k = 0; k < n; k++)
-            out[(size_t)count * n + k] = creal(v->output[k]);
-        count++;
-    }
-    return count;
+    int c;
+    const int count = shapes_of_input(v, r, out);
+    if (r->of == SCENE_REACTING)
+        return harmonic_reacting(v, r, &c, &unused) == STATUS_OK
+                   ? count + shapes_of_motion(v, c, out + (size_t)count * n)
+                   : count;
+    harmonic_output(v, r, 0, v->output);
+    take_shape(v, out + (size_t)count * n);
+    return count + 1;
 }

@@ -63,11 +63,17 @@ status second_order_list(const scene *of, system_matrices *s, fault *f)
                                   .component = c->component,
                                   .from = SCENE_NONE,
                                   .driver = SCENE_NONE,
-                                  .reference = SCENE_NONE};
+                                  .reference = SCENE_NONE,
+                                  .unbalanced = SCENE_NONE};
         } else if (what->kind != SCENE_RESPONSE)
             continue;
         add_output(s, i, &as);
-        if (what->kind == SCENE_RESPONSE && as.reference == SCENE_NONE)
+        for (int k = 0; k < 2 && what->kind == SCENE_RESPONSE && as.unbalanced != SCENE_NONE; k++)
+            add_input(s, &(system_input){.load = SCENE_NONE,
+                                         .driver = SCENE_NONE,
+                                         .node = as.unbalanced,
+                                         .component = scene_unbalance_along(&as, k)});
+        if (what->kind == SCENE_RESPONSE && (as.driver != SCENE_NONE || as.forced != SCENE_NONE))
             add_input(s,
                       &(system_input){.load = SCENE_NONE,
                                       .driver = as.driver,
