@@ -181,7 +181,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
         quantities = read("r", node="cart", component="ux", force="cart", along="ux")
         done = self.solve(plant, STEADY, quantities, at="tool", code=1, kp=60, kd=9)
         growth = max(s.real for s in plant.poles())
-        self.assertIn(f"a mode grows with {growth:.4g} 1/s", done.stderr + done.stdout)
+        self.assertIn(f"a mode grows at {growth:.4g} 1/s", done.stderr + done.stdout)
         self.assertIn("gains of feedback", re.sub(r"\s+", " ", done.stderr + done.stdout))
         opened = STEADY.replace("5]", "5], loops: open")
         record = self.solve(plant, opened, quantities, at="tool", kp=60, kd=9)
