@@ -1,6 +1,6 @@
-/* What one evaluation of every formulation costs: kinematics (strains, gradient, second
- * derivatives), stress with stiffness, and the update of an element's own unknowns, in
- * microseconds; least of many repetitions in one sheet bent by 3 % of its length. */
+/* Cost of one evaluation of every formulation: kinematics (strains, gradient, second derivatives),
+ * stress with stiffness, and the update of an element's own unknowns. In microseconds, the smallest
+ * of many repetitions, for a sheet bent by 3 % of its length. */
 #include <stdio.h>
 
 #include "elements/test/chain.h"

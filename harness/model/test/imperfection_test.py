@@ -1,4 +1,4 @@
-"""Initial shapes of members against closed forms: moments that they magnify, frequencies of a shallow arch, no stress."""
+"""Initial shapes of members against closed forms: magnified moments, frequencies of a shallow arch, no stress."""
 import math
 
 from cases.format.test.scene_case import SceneCase, values
@@ -43,7 +43,7 @@ class ImperfectionTest(SceneCase):
             self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", n, *more))
 
     def test_magnified_moment(self):
-        """N a/(1 - N/N_k) with the buckling load of as many half waves, about both axes."""
+        """The moment is N a/(1 - N/N_k) with the buckling load for the same number of half-waves, about both axes."""
         bow = 1e-5
         for half_waves, part, where in ((1, 0.5, 0.5), (2, 2.0, 0.25), (3, -3.0, 1 / 6)):
             for amplitude, resultant in ((f"[{bow}, 0]", "Mz"), (f"[0, {bow}]", "My")):
@@ -52,12 +52,12 @@ class ImperfectionTest(SceneCase):
                     got = abs(self.solve(
                         column(amplitude, half_waves) + pushed(part, where, resultant), formulation,
                         12 * half_waves)["moment"])
-                    # a path beyond the first buckling load has steps that see no instability of symmetry
+                    # a path beyond the first buckling load does not follow the symmetry-breaking instability
                     self.assertAlmostEqual(got / abs(exact), 1, delta=2e-4,
                                            msg=(formulation, half_waves, resultant))
 
     def test_chords_converge(self):
-        """Formulations without initial curvature take chords: order 2."""
+        """Formulations without initial curvature use chords: order 2."""
         exact = 0.5 * CRITICAL * 1e-5 / 0.5
         for formulation in ("beamw", "beamw_consistent", "beamw_first", "beamw_vlasov"):
             error = [abs(abs(self.solve(column("[1e-5, 0]") + pushed(0.5), formulation, n)["moment"])
@@ -66,7 +66,7 @@ class ImperfectionTest(SceneCase):
             self.assertAlmostEqual(error[0] / error[1], 4, delta=0.4, msg=formulation)
 
     def test_no_stress(self):
-        """Without loads nothing moves and nothing is stressed, however large the bow."""
+        """Without loads there are no displacements and no stress, however large the bow."""
         for formulation in FORMULATIONS:
             got = self.solve(
                 column("[0.3, 0.2]", 3, area=1e-3) +
@@ -81,8 +81,8 @@ class ImperfectionTest(SceneCase):
                 self.assertLess(abs(value), 1e-3 * (1e-6 if name == "ux" else 1), (formulation, name))
 
     def test_either_order_of_ends(self):
-        """A bow is the same when its ends are exchanged: y turns round, and with it its part there;
-        an even number of half waves begins on the other side."""
+        """A bow is the same if its ends are exchanged: y is reversed, and so is its component; with an even number of
+        half-waves it begins on the other side."""
         for half_waves in (1, 2):
             sign = 1 if half_waves == 1 else -1
             for formulation in ("collocation", "beamw", "sheet_third"):
@@ -101,7 +101,7 @@ class ImperfectionTest(SceneCase):
                                            msg=(formulation, half_waves, name))
 
     def test_frequency_of_a_shallow_arch(self):
-        """Between hinges that stay: omega^2 = pi^4 E I/(rho A L^4) (1 + A a^2/(2 I)), slopes small."""
+        """Between fixed hinges: omega^2 = pi^4 E I/(rho A L^4) (1 + A a^2/(2 I)), for small slopes."""
         area, bow = 1e-3, 0.02
         exact = math.sqrt(math.pi**4 * YOUNG * I / (7850 * area * LENGTH**4) *
                           (1 + area * bow**2 / (2 * I))) / (2 * math.pi)
@@ -113,8 +113,8 @@ class ImperfectionTest(SceneCase):
             self.assertAlmostEqual(got / exact, 1, delta=2e-3, msg=formulation)
 
     def test_mode(self):
-        """The first buckling mode, of one load as of two equal ones, is the sine of a bow; so is that of a
-        modal analysis. The critical load stays that of the perfect column."""
+        """The first buckling mode, for a single load and for two equal loads, is the sine of a bow; so is the first
+        mode of a modal analysis. The critical load remains that of the perfect column."""
         bow, exact = 1e-5, 0.5 * CRITICAL * 1e-5 / 0.5
         for inertia, direction, of in ((f"Iy: {100 * I}, Iz: {I}", "", "{buckling: {}}"),
                                        (f"Iy: {I}, Iz: {I}", ", direction: [0, 1, 0]", "{buckling: {}}"),
@@ -133,7 +133,7 @@ class ImperfectionTest(SceneCase):
                     self.assertAlmostEqual(got["critical"], 2, delta=1e-5, msg=formulation)
 
     def test_mode_of_a_twisted_beam(self):
-        """The mode's twist counts: cases/examples/crooked_beam.yaml, order 2 for every formulation."""
+        """The mode's twist is included: cases/examples/crooked_beam.yaml, order 2 for every formulation."""
         path = ROOT / "cases/examples/crooked_beam.yaml"
         for formulation in FORMULATIONS:
             error = [values(self.record("solve", "--scene", path, "-f", formulation, "-n", n))["moved"] / 1e-4 - 1
@@ -174,7 +174,7 @@ omit: [shear]
 """
 
     def test_mode_of_a_frame(self):
-        """Rigid arms by offsets and by bodies, with a hinge: one shape."""
+        """Rigid arms by offsets and by bodies, with a hinge, give the same shape."""
         offsets = self.FRAME.replace("NODE", "").replace("MORE", "").replace(
             "to: LEFT,", "to: knee, offset: {to: [0, -0.2, 0]},").replace(
                 "from: RIGHT,", "from: top, offset: {from: [0.1, -0.1, 0]},")
@@ -192,7 +192,8 @@ omit: [shear]
             self.assertAlmostEqual(one["later"] / one["uz"], 1, delta=1e-6)
 
     def test_shifts(self):
-        """Nodes are where they would be if they had been given there, in a file too; in every analysis."""
+        """Shifted nodes are equivalent to nodes given at the shifted positions, in a written file too, and in every
+        analysis."""
         text = self.FRAME.replace("NODE", ", mass: 5").replace("MORE", "").replace("LEFT", "knee").replace(
             "RIGHT", "top")
         shifted = text.replace("{mode_of: buckle, amplitude: 1e-4}",
@@ -234,7 +235,7 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
                       " ".join((done.stdout + done.stderr).split()))
 
     def test_modes_refused(self):
-        """No mode, equal modes, a direction that says nothing, decks."""
+        """Missing modes, equal modes, a direction that does not distinguish them, and input decks are rejected."""
         for shape, words in (("mode_of: shape, amplitude: 1e-3", "is one of 2 with the same value; give its direction"),
                              ("mode_of: shape, amplitude: 1e-3, direction: [0, 1, 1], which: 999", "there is no mode 999"),
                              ("mode_of: shape, amplitude: 1e-3, direction: [1, 0, 0]", "direction")):
@@ -265,8 +266,8 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
         self.assertIn("meshes: [6, 12, 24, 48]", written)
 
     def test_on_a_foundation(self):
-        """Springs of the foundation have the weights of a straight member, wherever the bow lies in
-        space: a bow of nothing changes nothing, and rounding of its elements' lengths does not matter."""
+        """Springs of the foundation have the weights of a straight member, whatever the direction of the bow in
+        space: a zero bow changes nothing, and rounding of the element lengths does not matter."""
         def founded(bow, tip=(LENGTH, 0, 0), y=(0, 1, 0)):
             return f"""beamwork: 1
 sections:
@@ -280,7 +281,7 @@ omit: [shear]
 analyses: {{tones: {{modal: {{}}}}}}
 quantities: {{f: {{frequency: {{analysis: tones}}}}}}
 """
-        turned = [(0.36, 0.48, -0.8), (0.8, -0.6, 0)]  # x and y axes of a turned scene
+        turned = [(0.36, 0.48, -0.8), (0.8, -0.6, 0)]  # x and y axes of a rotated scene
         for formulation in ("collocation", "beamw", "sheet_third", "geometrically_exact"):
             for n in (4, 8):
                 straight = self.solve(founded(""), formulation, n)["f"]

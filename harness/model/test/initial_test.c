@@ -1,5 +1,5 @@
-/* Initial elongation and shear strains (N Eq. 52): what is free takes them without stress, what is
- * held feels EA g or GA g. */
+/* Initial elongation and shear strains (N Eq. 52): a free member takes them without stress, a held
+ * member has the force EA g or GA g. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -75,7 +75,7 @@ static void elongation(const char *name)
     gsl_test_rel(F[0], -EA * 1e-3, 1e-12, "%s: held at both ends it pushes with EA g", name);
 }
 
-/* Sections slide against each other: the axis is inclined to the sections, which do not turn. */
+/* Sections slide against each other: the axis is inclined to the sections, which do not rotate. */
 static void shear(const char *name, int direction)
 {
     double g[3] = {0}, u[6] = {0}, F[6] = {0};
@@ -108,7 +108,7 @@ static void not_offered(void)
     scene_free(&s);
 }
 
-/* The energy of an element is counted from where it is without stress, whatever its arc. */
+/* The energy of an element is zero in its stress-free state, whatever its arc. */
 static void no_energy_at_rest(const char *name)
 {
     static const double none[ELEMENT_MAX_STRAINS] = {0};
@@ -142,18 +142,18 @@ static void initial_tests(void)
         no_energy_at_rest(names[i]);
         elongation(names[i]);
         if (strncmp(names[i], "sheet_third", 11) !=
-            0) /* N Eq. 50 knows no shear along the thickness: refused */
+            0) /* N Eq. 50 has no shear along the thickness: rejected */
             shear(names[i], 1);
         shear(names[i], 2);
     }
     not_offered();
 }
 
-/* Centre lines for pictures: a shaft that is twisted, a beam that is bent to an arc. */
+/* Centre lines for pictures: a twisted shaft, and a beam bent to an arc. */
 
 enum { POINTS = 13, MOST = 60 };
 
-/* One element; its tip moved and turned. */
+/* One element whose tip is displaced and rotated. */
 static void moved(const char *name, const double tip[6], centreline_point out[POINTS])
 {
     const double end = 1;
@@ -184,8 +184,8 @@ static void moved(const char *name, const double tip[6], centreline_point out[PO
     scene_free(&s);
 }
 
-/* A cubic between ends that are tangents to an arc is off it by angle^3/384; triads follow its
- * tangents, and share a twist evenly. */
+/* A cubic with end tangents of an arc deviates from it by angle^3/384; triads follow its tangents
+ * and distribute a twist evenly. */
 static void arc(const char *name, double angle, double twist)
 {
     const double radius = angle > 0 ? 1 / angle : 0;
@@ -222,11 +222,12 @@ static void centreline_tests(void)
     }
 }
 
-/* Where pieces of members begin and end, and which element is at a place. */
+/* Start and end of the pieces of members, and the element at a position. */
 
 enum { WHOLE, LOADED, OWN };
 
-/* Three members in a row: without loads within, with some, with some and divisions of its own. */
+/* Three members in a row: without loads inside, with loads inside, and with loads and a given
+ * number of elements. */
 static void row(scene *s)
 {
     const double y[3] = {0, 1, 0};
@@ -244,7 +245,7 @@ static void row(scene *s)
     scene_load *part = scene_load_at(s, scene_add_load(s, SCENE_DISTRIBUTED, LOADED, 1, 0, 0));
     part->range[0] = 0.2;
     part->range[1] = 0.7 + 1e-16;
-    scene_add_load_within(s, SCENE_MEMBER_MOMENT, LOADED, 0.7005, 1, 0, 0); /* too near */
+    scene_add_load_within(s, SCENE_MEMBER_MOMENT, LOADED, 0.7005, 1, 0, 0); /* too close */
     scene_add_load_within(s, SCENE_MEMBER_MOMENT, LOADED, 0.9995, 1, 0, 0);
     scene_add_load_within(s, SCENE_MEMBER_MOMENT, OWN, 1, 1, 0, 0);
     scene_add_load_within(s, SCENE_MEMBER_FORCE, OWN, 0.5, 1, 0, 0);
@@ -313,7 +314,7 @@ static void division_tests(void)
     scene_free(&s);
 }
 
-/* Rigid motions about an origin, of a node at a place. */
+/* Rigid motions about an origin, at a node in a given position. */
 
 static void supports_tests(void)
 {

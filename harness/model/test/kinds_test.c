@@ -1,4 +1,4 @@
-/* What elements share: nothing that makes a difference, and everything else. */
+/* Elements share their data if they do not differ in any relevant property. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -23,7 +23,7 @@ typedef struct kinds_link {
     double length, strain, curvature; /* curvature about z; 0: straight */
 } kinds_link;
 
-/* Links in a row along x between two nodes that are clamped; a force along x at the first joint. */
+/* Links in a row along x between two clamped nodes; a force along x at the first joint. */
 static void row_of(int count, const kinds_link links[], double force, scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -55,7 +55,7 @@ static void row_of(int count, const kinds_link links[], double force, scene *s)
     }
 }
 
-/* 1: solved. value: reaction at the end, shift of the first joint. */
+/* Returns 1 if solved. value: reaction at the end, displacement of the first joint. */
 static int solve(const element_type *type, int count, const kinds_link links[], double force,
                  int elements, double value[2], int *kinds)
 {
@@ -80,7 +80,7 @@ static int solve(const element_type *type, int count, const kinds_link links[], 
     return outcome == STATUS_OK;
 }
 
-/* One kind for all elements of equal members, however many; one more for each thing that
+/* One kind for all elements of equal members, however many; one more kind for each property that
  * differs. */
 static void counts(const element_type *type)
 {
@@ -107,7 +107,7 @@ static void counts(const element_type *type)
     }
 }
 
-/* Arcs of one length to either side: their curvature is all that differs. */
+/* Arcs of equal length curved to opposite sides: they differ in curvature only. */
 static void arcs(const element_type *type)
 {
     const kinds_link links[] = {{0, 1, 0, 0.1}, {0, 1, 0, -0.1}};
@@ -117,8 +117,8 @@ static void arcs(const element_type *type)
         gsl_test_int(kinds, 2, "%s: arcs to either side", type->name);
 }
 
-/* Without load and initial strain nothing is stressed: an element that takes another's length
- * would be. */
+/* Without loads and initial strains there is no stress; an element that used the length of another
+ * would be stressed. */
 static void lengths(const element_type *type)
 {
     static const double apart[] = {1e-3, 1e-6, 1e-9, 1e-11};
@@ -152,7 +152,7 @@ static void strains(const element_type *type)
     }
 }
 
-/* Sections that differ by 2e-6 in area carry a force between them by their stiffness. */
+/* Members whose areas differ by 2e-6 share a force in proportion to their stiffness. */
 static void sections(const element_type *type)
 {
     const double A0 = side[0] * side[0], A1 = side[1] * side[1], force = 1e-6 * young * A0;
@@ -183,10 +183,10 @@ static void kinds_tests(void)
     gsl_test(offered < 3, "%d formulations with initial strains", offered);
 }
 
-/* What arc length is measured with: the mean over the moving bodies of (displacement/size)^2 +
- * angle^2, whatever moves, in whichever direction; the same of small steps and between states. */
+/* The metric of arc length: the mean of (displacement/size)^2 + angle^2 over the moving bodies, for
+ * any motion in any direction; small steps and differences of states have the same metric. */
 
-enum { ELEMENTS = 3, BODIES = 6 }; /* of seven vertices one is held */
+enum { ELEMENTS = 3, BODIES = 6 }; /* one of seven vertices is held */
 
 static void one_motion(const model *m, int vertex, int component, double size)
 {
@@ -241,8 +241,8 @@ static void metric_tests(void)
     scene_free(&s);
 }
 
-/* Members whose section changes along them: how many kinds of elements there are, the sections that
- * they have, and what no formulation was asked for. */
+/* Members whose section changes along their length: the number of kinds of elements, their
+ * sections, and properties between the ends that the ends do not have. */
 
 enum { PROFILE_ELEMENTS = 5 };
 
@@ -276,7 +276,8 @@ static model *meshed(const scene *s, const element_type *type, int elements, fau
     return model_alloc(&what, &m, f) == STATUS_OK ? m : NULL;
 }
 
-/* One kind for each element of a change, however many members have it; one for a member without. */
+/* One kind for each element of a taper, however many members have that taper; one kind for a
+ * prismatic member. */
 static void kinds(const element_type *type)
 {
     static const struct {
@@ -320,7 +321,7 @@ static void middles(const element_type *type)
     scene_free(&s);
 }
 
-/* Doubly symmetric at its ends, with its flanges to either side, and a channel between. */
+/* Doubly symmetric at both ends, with the flanges on opposite sides, and a channel in between. */
 static section_spec flanges(double upper, double lower)
 {
     const double point[][2] = {{upper, 0.05}, {0, 0.05}, {0, -0.05}, {lower, -0.05}},
@@ -361,14 +362,14 @@ static void profile_tests(void)
     between();
 }
 
-/* The same structure described in other axes of its section, turned by any angle about the beam:
- * the same answers of every formulation. What belongs to one axis only (a Wagner moment, a shear
- * centre's distance, an entry of D) shows here. */
+/* The same structure with its section described in axes rotated by any angle about the beam: every
+ * formulation gives the same results. The test detects errors in terms of one axis only (a Wagner
+ * moment, a distance of the shear centre, an entry of D). */
 
 enum { ANGLE = CASE_MAX_PARAMETERS - 1, ORIGINAL = CASE_MAX_PARAMETERS - 2 };
 
-/* y = y' cos - z' sin: the local y axis of every member along x turns by the angle, the sections'
- * points by the opposite. */
+/* y = y' cos - z' sin: the local y axis of every member along x rotates by the angle, the sections'
+ * points by its negative. */
 static status turned(const double value[], scene *s, fault *f)
 {
     const double c = cos(value[ANGLE]), d = sin(value[ANGLE]);
@@ -403,8 +404,8 @@ static status turned_solve(int original, double angle, const element_type *eleme
     return cell_run(&request, out, &f);
 }
 
-/* Quantities of one sign and order are the same numbers, save that a turn by half a circle
- * exchanges the signs of moments. */
+/* Quantities of the same sign and order are equal, except that a rotation by 180 degrees exchanges
+ * the signs of moments. */
 static int compare(int original, const element_type *element)
 {
     static const double angle[] = {0.5, 1.5707963267948966, -2.2};
@@ -413,7 +414,7 @@ static int compare(int original, const element_type *element)
     const int runs = turned_solve(original, 0, element, &before) == STATUS_OK;
     gsl_test(!runs && ask_offered(&before.scene, element), "%s, %s: solved where it is offered %s",
              before.scene.name, element->name, before.solve.reason);
-    /* what lacks shear along y is another model where y is another axis */
+    /* a formulation without shear along y is a different model if y is a different axis */
     const int lacks = (element->lacks & LACKS_SHEAR_Y) && !ask_offered(&before.scene, element);
     const size_t angles = runs && !lacks ? sizeof angle / sizeof angle[0] : 0;
     for (size_t k = 0; k < angles; k++) {

@@ -1,5 +1,5 @@
-/* Dimensions of motions are those of exact axes, whatever round-off and units do to the computed
- * ones. */
+/* The dimensions of the spaces of motions are those of exact axes, despite round-off and units in
+ * the computed axes. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -11,8 +11,8 @@
 #include "harness/experiments/experiments.h"
 #include "harness/model/model.h"
 
-/* Columns of T: `shifts` displacements along the axes, then turns about unit axes in a plane (or
- * in space) of random orientation, seen at an offset of about `length`. */
+/* Columns of T: `shifts` displacements along the axes, then rotations about unit axes in a plane
+ * (or in space) of random orientation, at an offset of about `length`. */
 static int fill(uint64_t *state, int shifts, int turns, int in_plane, double length, double T[36])
 {
     const int columns = shifts + turns;
@@ -51,7 +51,7 @@ static double apart_from_unit(const movable *v)
     return worst;
 }
 
-/* What is left of a column outside the span. */
+/* The part of a column outside the span. */
 static double outside(int columns, const double *T, double length, const movable *v)
 {
     double worst = 0;
@@ -86,8 +86,8 @@ static void dimensions(void)
     }
 }
 
-/* Two turns span the plane of x and y but for round-off: whole components, the third stays exactly
- * out. */
+/* Two rotations span the plane of x and y up to round-off: the result is whole components, and the
+ * third component is excluded exactly. */
 static void whole_components(void)
 {
     const double c = cos(0.35), s = sin(0.35),
@@ -100,8 +100,8 @@ static void whole_components(void)
         gsl_test(v.span[i] != (double)(i == 6 || i == 9), "unit vectors: %g at %d", v.span[i], i);
 }
 
-/* Columns of one component each, one of them twice and one that is nothing: the same motions as
- * those of columns that are not known to be such by their zeros. */
+/* Columns with one component each, one of them repeated and one zero: the motions are the same as
+ * without detecting single components by their zeros. */
 static void components_alone(void)
 {
     const double alone[24] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0,
@@ -117,7 +117,7 @@ static void components_alone(void)
     gsl_test(memcmp(&v, &w, sizeof v) != 0, "the same motions");
 }
 
-/* One driver behind two opposite turns moves nothing. */
+/* A driver of two opposite rotations moves nothing. */
 static void nothing(void)
 {
     const double T[6] = {1e-19, 0, 0, 1e-17, -1e-17, 0};
@@ -128,8 +128,8 @@ static void nothing(void)
     gsl_test(v.count != 0, "no coordinates: %d dimensions", v.count);
 }
 
-/* Free turns exert no moment: what is left is across them, and exactly nothing when they span
- * space. */
+/* Free rotations transmit no moment: the remaining moment is perpendicular to them, and exactly
+ * zero if they span space. */
 static void prescribed_moment(void)
 {
     uint64_t state = 3;
@@ -167,7 +167,7 @@ static void movable_tests(void)
 
 enum { MOST = SPECIMEN_COORDINATES };
 
-/* What a scene with `mass: lumped` has, with all formulations alike. */
+/* Mass matrix of a scene with `mass: lumped`, the same for all formulations. */
 static void at_nodes(const specimen *s, const node_state x[], double M[])
 {
     const lumped_mass whole = lumped_of(&s->section, s->request.features, s->request.length);
@@ -180,9 +180,9 @@ static void make(const char *name, const specimen_request *what, specimen *out)
     gsl_test(specimen_make(what, out, &f) != STATUS_OK, "%s: prepared %s", name, f.text);
 }
 
-/* Masses at the nodes of an element stand as the rule for loads does: trapezoids with two nodes,
- * Simpson's with three, whose second moment about the end is exact. The twist has the section's own
- * polar inertia, whatever gives it. */
+/* Lumped masses at the nodes of an element follow the rule for loads: the trapezoidal rule with two
+ * nodes, Simpson's rule with three, whose second moment about the end is exact. Twist has the
+ * section's own polar inertia, however it is given. */
 static void lumped_moments(const char *name)
 {
     formulation chosen;
@@ -211,7 +211,7 @@ static void lumped_moments(const char *name)
     specimen_free(&s);
 }
 
-/* The mass matrix of one node of two is half that of the slice times its length. */
+/* The mass matrix of one node of a two-node element is half that of the slice times the length. */
 static void slice(const char *name)
 {
     formulation chosen;
@@ -244,8 +244,8 @@ static void inertia_moments_tests(void)
     slice("collocation");
 }
 
-/* Springs: their derivatives against differences, whatever the turn between their ends; nothing
- * while both ends move as one; and the deformations that are known. */
+/* Springs: derivatives against differences, for any relative rotation of their ends; no deformation
+ * if both ends move as one rigid body; and known deformations. */
 
 static void two_ends(const element_data *data, const node_state x[], strain_output *out)
 {
@@ -299,7 +299,8 @@ static void derivatives(int nodes, double angle, uint64_t *seed)
              angle, found.asymmetry);
 }
 
-/* Both ends move as one rigid body: nothing; then one turns about an axis of the other. */
+/* Both ends move as one rigid body: no deformation; then one end rotates about an axis of the
+ * other. */
 static void known(uint64_t *seed)
 {
     double d[SPRING_MOST], e[SPRING_STRAINS];

@@ -1,4 +1,4 @@
-/* What a scene needs: each kind of coupling in shear by itself is no double symmetry, and
+/* Features that a scene needs: each kind of shear coupling on its own violates double symmetry, and
  * frequencies under load need the stiffness of that load. */
 #include <gsl/gsl_test.h>
 #include <math.h>

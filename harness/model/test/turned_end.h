@@ -1,4 +1,4 @@
-/* A model whose last end is turned relative to its node, which no scene asks for. */
+/* A model whose last end is rotated relative to its node, which no scene can describe. */
 #ifndef BEAMWORK_TEST_TURNED_END_H
 #define BEAMWORK_TEST_TURNED_END_H
 
@@ -8,7 +8,8 @@
 #include "elements/math/rotation.h"
 #include "harness/model/model_impl.h"
 
-/* By a vector, from how the ends of the last element were before; own: its triads from here on. */
+/* Rotates the last end by a vector, from its present orientation; own: the element's triads from
+ * here on. */
 static inline void turned_end(model *m, const double vector[3], mesh_triad own[ELEMENT_MAX_NODES],
                               mesh_triad *before)
 {

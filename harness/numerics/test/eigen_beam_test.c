@@ -1,5 +1,5 @@
-/* Buckling loads and frequencies of a simply supported beam of many elements: how far round-off
- * lets them be computed. */
+/* Buckling loads and frequencies of a simply supported beam with many elements: the accuracy
+ * allowed by round-off. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ typedef struct beam {
     sparse K, G, M; /* G: at unit tension */
 } beam;
 
-/* Ends that cannot move across and are free to turn, length 1, EI = 1, mass per length 1. */
+/* Simply supported ends, length 1, EI = 1, mass per length 1. */
 static void beam_init(beam *b, int elements)
 {
     double k[16], g[16], m[16];
@@ -31,7 +31,7 @@ static void beam_init(beam *b, int elements)
     matrices_add_elements(&b->M, elements, 2, 0, m);
     sparse *const all[] = {&b->K, &b->G, &b->M};
     for (int i = 0; i < 3;
-         i++) { /* the two held deflections become unknowns of their own that carry nothing */
+         i++) { /* the two held deflections become separate unknowns without load */
         const int held[2] = {0, 2 * elements};
         for (int e = 0; e < 2; e++)
             for (int j = 0; j < all[i]->n; j++)
@@ -48,7 +48,7 @@ static void beam_free(beam *b)
     matrices_free(&b->M);
 }
 
-/* Bending strains: the slopes less that of the chord. */
+/* Bending strains: the end slopes minus the slope of the chord. */
 static double beam_energy(void *context, const double x[])
 {
     const beam *b = context;
@@ -83,8 +83,8 @@ static double mesh_value(const beam *b, int k, int vibration)
     return (q + sqrt(q * q - 4 * p * r)) / (2 * p);
 }
 
-/* Euler's loads and frequencies (k pi)^2: the mesh's loads are above by (k pi h)^4/720 of
- * themselves, its frequencies by half of that. */
+/* Euler's loads and frequencies (k pi)^2: the mesh's loads are too high by a factor 1 + (k pi
+ * h)^4/720, its frequencies by half of that difference. */
 static double expected_value(const beam *b, int k, int vibration)
 {
     if (b->elements <= 20)
@@ -92,8 +92,8 @@ static double expected_value(const beam *b, int k, int vibration)
     return k * PI * k * PI * (1 + pow(k * PI * b->h, 4) / (vibration ? 1440 : 720));
 }
 
-/* The values and the errors that the solver estimates: they must cover the actual ones, and
- * rounding in n^2 of the form of A. */
+/* Checks the values and the errors estimated by the solver, which must cover the actual errors and
+ * rounding of order n^2 in the form of A. */
 static void compare(const beam *b, const eigen_side *found, int vibration, double allowed)
 {
     const double rounding = 1e-15 + 1e-17 * b->elements * b->elements;
@@ -135,10 +135,10 @@ static void test_beam(int elements, double allowed)
     beam_free(&b);
 }
 
-/* The matrix of the test has lost digits, its elements have not. */
+/* A matrix that has lost digits, whose elements have not. */
 typedef struct spoilt {
     const sparse *K; /* as it should be */
-    double rounding; /* of x^T K x, in parts of it */
+    double rounding; /* of x^T K x, relative */
 } spoilt;
 
 static double spoilt_energy(void *context, const double x[])
@@ -156,8 +156,8 @@ static void spoilt_product(void *context, const double x[], double y[])
     sparse_mul(((const spoilt *)context)->K, x, y);
 }
 
-/* Whatever assembling K has changed, the answer is that of the elements; and an error that is told
- * is the error. */
+/* Whatever the assembly of K has changed, the result is that of the elements, and a reported error
+ * is the actual error. */
 static void test_spoilt(double part)
 {
     enum { ELEMENTS = 60, WANTED = 5 };
@@ -174,7 +174,7 @@ static void test_spoilt(double part)
     for (int j = 0; j < b.K.n; j++)
         for (int k = b.K.column[j]; k < b.K.column[j + 1]; k++)
             if (b.K.row[k] == j &&
-                j % 2 == 1) /* turning meets a spring of its own, stiffer along the column */
+                j % 2 == 1) /* rotation has a separate spring, stiffer along the column */
                 b.K.value[k] += part * 20 * b.h * (1 + 3.0 * j / b.K.n);
     spoilt context = {&good, 1e-4};
     p.K_energy = spoilt_energy;
@@ -216,10 +216,11 @@ static void eigen_beam_tests(void)
     test_beam(2000, 3e-9);
 }
 
-/* Candidates for eigenvalues: sorted, counted by the inertia, and completed by what they leave. */
+/* Candidates for eigenvalues: sorted, counted by the inertia, and completed in the complement of
+ * the known ones. */
 
-/* What happens when the iteration has found one copy of a repeated eigenvalue: the inertia says so,
- * and the others come out of what that copy leaves. */
+/* If the iteration has found one copy of a repeated eigenvalue, the inertia shows it, and the
+ * others are found in the complement of that copy. */
 static void test_missed_copies(void)
 {
     enum { COPIES = 3, MASSES = 40, N = COPIES * MASSES };
@@ -242,7 +243,7 @@ static void test_missed_copies(void)
     for (int c = 0; c < COPIES; c++)
         for (int i = 0; i < MASSES; i++)
             all[c * N + i * COPIES + c] = 1e5 * sin((i + 1) * PI / (MASSES + 1));
-    for (int i = 0; i < MASSES; i++) /* the second mode of one string */
+    for (int i = 0; i < MASSES; i++) /* the second mode of the first string */
         x[i * COPIES] = sin(2 * (i + 1) * PI / (MASSES + 1));
     const double first = strings_exact(&s, 0), second = strings_exact(&s, COPIES),
                  scale = candidates_scale(&p, &work.solutions);
@@ -287,9 +288,9 @@ static void candidates_tests(void)
     test_missed_copies();
 }
 
-/* Eigenvalues that are lost: of one side only, behind a missing one, in rounding. */
+/* Lost eigenvalues: on one side only, after a missing one, in rounding. */
 
-/* x^T A x, not to be had of one sign between two sizes. */
+/* x^T A x, which fails for one sign within a range of magnitudes. */
 typedef struct broken {
     const sparse *A;
     double sign, least, most;
@@ -302,9 +303,8 @@ static double broken_energy(void *context, const double x[])
     return size > b->least && size < b->most ? NAN : energy;
 }
 
-/* Values of both signs, of which those of one sign are lost as soon as they are found: the other
- * side is found all the same, as if it alone had been asked for, and the side that is not says
- * so. */
+/* Values of both signs, where those of one sign are lost as soon as they are found: the other side
+ * is still found, as if it alone had been requested, and the lost side is reported. */
 static void test_sides_apart(void)
 {
     enum { N = 800, WANTED = 4 };
@@ -341,8 +341,8 @@ static void test_sides_apart(void)
     strings_free(&s);
 }
 
-/* One value of a side is lost: those before it are given, and none behind it, for it is missing
- * among them. */
+/* One value of a side is lost: the values before it are returned, and none after it, because one is
+ * missing among them. */
 static void test_side_in_part(int lost)
 {
     enum { N = 800, WANTED = 4 };
@@ -377,7 +377,8 @@ static double much(void *context, const double x[])
     return *(const double *)context;
 }
 
-/* What the caller says of rounding decides what is a value, and how many digits it has. */
+/* The caller's estimate of rounding determines whether a value is significant, and to how many
+ * digits. */
 static void test_rounding(int masses)
 {
     enum { WANTED = 3 };
@@ -444,7 +445,7 @@ static void test_strings(int copies, int masses, double spread, int wanted, int 
     strings_free(&s);
 }
 
-/* The first values of both signs, where all of them were found. */
+/* Compares the first values of both signs, if all of them were found. */
 static void compare_sides(const eigen_result *sparse_way, const eigen_result *dense_way, int wanted,
                           double tolerance, const char *what)
 {
@@ -460,7 +461,7 @@ static void compare_sides(const eigen_result *sparse_way, const eigen_result *de
     }
 }
 
-/* Indefinite A: the sparse way against the dense one. */
+/* Indefinite A: the sparse method against the dense one. */
 static void test_both_signs(void)
 {
     enum { NODES = 60, SIZE = 3, WANTED = 7 };
@@ -497,7 +498,7 @@ static void test_both_signs(void)
     matrices_free(&A);
 }
 
-/* Two strings that only A couples, one with the slope of the other: every value is double and comes
+/* Two strings coupled only by A, one with the slope of the other: every value is double and occurs
  * with both signs. */
 static void test_coupled_strings(int masses)
 {
@@ -524,7 +525,7 @@ static void test_coupled_strings(int masses)
     strings_free(&s);
 }
 
-/* A of rank 3 (two positive, one negative value): what does not exist is not found. */
+/* A of rank 3 (two positive values, one negative): no further values are found. */
 static void test_rank(int iterate)
 {
     enum { MASSES = 150 };

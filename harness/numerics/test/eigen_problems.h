@@ -6,8 +6,8 @@
 #include "harness/numerics/numerics.h"
 #include "harness/numerics/test/matrices.h"
 
-/* Several strings side by side that do not touch: unit masses on springs of stiffness
- * `spring[copy]`, fixed at both ends. */
+/* Several uncoupled strings: unit masses on springs of stiffness `spring[copy]`, fixed at both
+ * ends. */
 typedef struct strings {
     int copies, masses;
     double spring[8];
@@ -37,7 +37,7 @@ static inline void strings_free(strings *s)
     matrices_free(&s->M);
 }
 
-/* The elongations' squares: no cancellation. */
+/* Energy as a sum of squared elongations, without cancellation. */
 static inline double strings_energy(void *context, const double x[])
 {
     const strings *s = context;

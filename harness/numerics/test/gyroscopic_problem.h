@@ -26,8 +26,8 @@ static inline void gyroscopic_problem_alloc(int n, problem *p)
     p->G = p->M + n * n;
 }
 
-/* Positive definite K with eigenvalues of many sizes; M definite on all but the last `massless`
- * coordinates. */
+/* Positive definite K with eigenvalues of many magnitudes; M definite on all except the last
+ * `massless` coordinates. */
 static inline void gyroscopic_problem_fill(problem *p, double gyroscopic, int massless,
                                            double softening)
 {
@@ -73,8 +73,8 @@ static inline int gyroscopic_problem_ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* All frequencies (lambda nearly imaginary), ascending, and the largest real part. Returns how
- * many. */
+/* All frequencies (lambda nearly imaginary), ascending, and the largest real part. Returns their
+ * number. */
 static inline int gyroscopic_problem_by_lapack(const problem *p, double frequency[], double *growth)
 {
     const int n = p->n, m = 2 * n;
@@ -112,7 +112,7 @@ static inline int gyroscopic_problem_by_lapack(const problem *p, double frequenc
     return count;
 }
 
-/* y = K x of the problem that is the context. */
+/* y = K x for the problem passed as the context. */
 static inline void gyroscopic_problem_product(void *context, const double x[], double y[])
 {
     const problem *p = context;
@@ -123,7 +123,7 @@ static inline void gyroscopic_problem_product(void *context, const double x[], d
     }
 }
 
-/* With K_of in the matrix and, where there is one, the product and its rounding. */
+/* Solves with K_of as the matrix and, if given, the product and its rounding. */
 static inline status gyroscopic_problem_solve_by(problem *p, const double K_of[],
                                                  eigen_product *product, eigen_form *rounding,
                                                  gyroscopic_result *r, fault *f)

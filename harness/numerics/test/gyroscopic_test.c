@@ -1,5 +1,5 @@
-/* Frequencies in a rotating frame against LAPACK on the whole problem: weak and strong gyroscopic
- * terms, singular masses, equal frequencies, and stiffness that is not definite. */
+/* Frequencies in a rotating frame against LAPACK on the full problem: weak and strong gyroscopic
+ * terms, singular masses, equal frequencies, and indefinite stiffness. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -56,7 +56,7 @@ static void definite(void)
         }
 }
 
-/* Two copies that do not touch: every frequency twice. */
+/* Two uncoupled copies: every frequency twice. */
 static void equal_frequencies(void)
 {
     static const int size[] = {5, 50};
@@ -116,8 +116,8 @@ static void indefinite(void)
     free(p.K);
 }
 
-/* K = -diag(1, 4): gyroscopic forces hold it from g = sqrt(1) + sqrt(4) on. Real parts of rounding
- * are no growth there. */
+/* K = -diag(1, 4): gyroscopic forces stabilise it for g >= sqrt(1) + sqrt(4). Real parts due to
+ * rounding do not count as growth there. */
 static void held_from(void)
 {
     static const double g[] = {2.999, 3.001};
@@ -139,8 +139,8 @@ static void held_from(void)
     }
 }
 
-/* Heavy coordinates beside light ones and massless ones, K indefinite: what is wanted and has a
- * mass is found, and nothing else. */
+/* Heavy, light and massless coordinates with indefinite K: the requested modes with mass are found,
+ * and no others. */
 static void light_and_massless(void)
 {
     for (int decade = 0; decade <= 16; decade += 2)
@@ -175,7 +175,7 @@ static void light_and_massless(void)
         }
 }
 
-/* The matrix has lost digits that the product has: frequencies are those of the product. */
+/* The matrix has lost digits that the product retains: the frequencies are those of the product. */
 static void spoilt_matrix(void)
 {
     static const double noise[] = {1e-8, 1e-5, 1e-3};
@@ -233,8 +233,8 @@ static double large_rounding(void *context, const double x[])
     return part_of_rounding * sum;
 }
 
-/* What rounding may change in K is in the error of every frequency: without gyroscopic terms half
- * of it, in parts, and no more than ten times that. */
+/* The error of every frequency includes the effect of rounding in K: without gyroscopic terms half
+ * the relative change, and at most ten times that. */
 static void rounding_is_told(void)
 {
     static const double strength[] = {0, 2};
@@ -282,11 +282,11 @@ static void gyroscopic_tests(void)
     indefinite();
 }
 
-/* Frequencies in a rotating frame are counted: what the count says beside LAPACK, and what is
- * missing is found or noticed. */
+/* Count of frequencies in a rotating frame: the count agrees with LAPACK, and missing frequencies
+ * are found or reported. */
 
-/* The number of frequencies below one, beside LAPACK's: between all neighbours, below the first and
- * above the last. */
+/* The number of frequencies below a given one, against LAPACK: between all neighbours, below the
+ * first and above the last. */
 static void compare_counts(const problem *p, const char *name)
 {
     double *frequency = calloc(2 * (size_t)p->n, sizeof *frequency), growth;
@@ -328,8 +328,8 @@ static void counts(void)
             }
 }
 
-/* `masses` oscillators at 1, 2, 3 ... rad/s that do not touch, others of stiffness 1e6 behind them;
- * the first two of these are a top whose slow precession is `slow` [rad/s]. */
+/* `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, followed by others of stiffness 1e6; the
+ * first two of these form a top whose slow precession is `slow` [rad/s]. */
 static void oscillators_and_top(int masses, int behind, double slow, problem *p)
 {
     const double k = 1e6, g = (k / slow) - slow; /* root of w^2 + g w - k */
@@ -342,9 +342,9 @@ static void oscillators_and_top(int masses, int behind, double slow, problem *p)
     p->G[(masses + 1) * p->n + masses] = g;
 }
 
-/* A string of `masses` oscillators at 1, 2, 3 ... rad/s that do not touch, and a top beside them.
- * Without gyroscopic terms the top is the stiffest part by far; with them its precession lies half
- * a rad/s above oscillator number `behind`: no start without them shows it, and no residual. */
+/* `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, and a top. Without gyroscopic terms the top
+ * is by far the stiffest part; with them its precession lies 0.5 rad/s above oscillator number
+ * `behind`. Neither a start without these terms nor any residual reveals it. */
 static void hidden_precession(int masses, int behind, int wanted_outcome)
 {
     const double slow = behind + 0.5;
@@ -370,8 +370,8 @@ static void hidden_precession(int masses, int behind, int wanted_outcome)
     free(p.K);
 }
 
-/* `masses` oscillators at 1, 2, 3 ... rad/s, one that falls with 1.5/s, one that falls with `fast`,
- * and the top of hidden_precession: its slow precession is missed without a count. */
+/* `masses` oscillators at 1, 2, 3 ... rad/s, one that diverges at 1.5/s, one that diverges at
+ * `fast`, and the top of hidden_precession, whose slow precession is missed without a count. */
 static void unstable_oscillators(int masses, double fast, int wanted_outcome, int unproven)
 {
     const double slow = 2.5;

@@ -1,5 +1,4 @@
-/* Sparse factors against LAPACK on random matrices, inertia, condition and the work that is
- * counted. */
+/* Sparse factors against LAPACK on random matrices: inertia, condition and counted work. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
@@ -19,8 +18,8 @@ enum { MOST = 60 };
 
 typedef enum kind { DEFINITE, INDEFINITE, UNSYMMETRIC } kind;
 
-/* About four entries in every row beside the diagonal; rows and columns in units that differ by up
- * to 1e3. */
+/* About four entries in every row in addition to the diagonal; the units of rows and columns differ
+ * by up to 1e3. */
 static void fill_random(int n, kind what, uint64_t *seed, double A[])
 {
     memset(A, 0, (size_t)(n * n) * sizeof *A);
@@ -30,7 +29,8 @@ static void fill_random(int n, kind what, uint64_t *seed, double A[])
             const double value = random_number(seed);
             if (what == UNSYMMETRIC) {
                 A[i * n + j] += value;
-            } else if (i != j) { /* Laplacian: positive definite once the diagonal has more */
+            } else if (i !=
+                       j) { /* Laplacian: positive definite after an addition to the diagonal */
                 A[i * n + j] -= fabs(value);
                 A[j * n + i] -= fabs(value);
                 A[i * n + i] += fabs(value);
@@ -46,7 +46,7 @@ static void fill_random(int n, kind what, uint64_t *seed, double A[])
             A[i * n + j] *= (i % 3 == 0 ? 1e3 : 1) * (j % 3 == 0 ? 1e3 : 1);
 }
 
-/* Relative to the rounding error that elimination with pivoting makes. */
+/* Difference relative to the rounding error of elimination with pivoting. */
 static double distance_from_dense(int n, const double A[], const double x[], const double b[])
 {
     double copy[MOST * MOST] = {0}, dense[MOST], worst = 0, scale = 0, norm, condition;
@@ -77,7 +77,7 @@ static int negative_eigenvalues(int n, const double A[])
     return count;
 }
 
-/* 1-norm condition of S A S with the roots of A's diagonal as 1/S, by the inverse. */
+/* 1-norm condition number of S A S, with the roots of A's diagonal as 1/S, from the inverse. */
 static double scaled_condition(int n, const double A[])
 {
     double scaled[MOST * MOST] = {0}, norm[2];
@@ -107,8 +107,8 @@ static int determinant_sign(int n, const double A[])
     return sign;
 }
 
-/* Of right-hand sides that are solved together how many are not what each is alone, to the bit;
- * what stands between them stays. */
+/* Number of right-hand sides whose joint solution is not bitwise equal to the separate one; numbers
+ * between them must not change. */
 static int apart_together(matrix_factor *fa, uint64_t *seed)
 {
     enum { SIDES = 7, STRIDE = MOST + 2 };
@@ -137,7 +137,7 @@ static void random_matrices(kind what, const char *name, double allowed)
         matrix_factor *fa;
         failures += factor_alloc(&s, &fa, NULL) != STATUS_OK;
         for (int turn = 0; turn < 2;
-             turn++) { /* the second time with other numbers on the same pattern */
+             turn++) { /* the second time with different values on the same pattern */
             for (int k = 0; k < s.column[n]; k++)
                 s.value[k] *= turn == 0 ? 1 : -0.3;
             for (int i = 0; i < n * n; i++)
@@ -177,9 +177,8 @@ static void random_matrices(kind what, const char *name, double allowed)
     gsl_test(!(worst < allowed), "%s: as LAPACK within %.1f eps times the condition", name, worst);
 }
 
-/* The upper triangle and the whole of a symmetric matrix have one condition: of a chain of n
- * springs held at one end, with rows and columns scaled to a diagonal of ones, that is the exact
- * 1-norm. */
+/* The upper triangle and the full symmetric matrix have the same condition number: the exact 1-norm
+ * for a chain of n springs held at one end, with rows and columns scaled to a unit diagonal. */
 static void condition_of_a_triangle(void)
 {
     enum { N = 6 };
@@ -256,7 +255,7 @@ static void linear_tests(void)
     nothing_to_solve();
 }
 
-/* Singular matrices of every kind, and beams that are not held. */
+/* Singular matrices of every kind, and unsupported beams. */
 
 static status outcome_of(const sparse *s, fault *f)
 {
@@ -303,7 +302,7 @@ static void small_singular_matrices(void)
     matrices_free(&s);
 }
 
-/* A beam of n elements with so many unknowns of its first node held. */
+/* A beam of n elements with `held` unknowns of its first node held. */
 static status beam_outcome(int n, int held, int unsymmetric)
 {
     double k[16], g[16], m[16];
@@ -342,8 +341,8 @@ static void singular_matrix_tests(void)
     beams_that_are_not_held();
 }
 
-/* Threads that share a loop: every index once, whatever their number; thousands of rounds; threads
- * that sleep are woken. */
+/* Threads that share a loop process every index once, whatever their number; there are thousands of
+ * rounds, and sleeping threads are woken. */
 
 enum { TEST_TEAM_MOST = 1000 };
 
@@ -380,10 +379,10 @@ static void every_index_once(int threads)
 static void count_parts(void *context, int first, int end)
 {
     (void)end;
-    ((int *)context)[first] = 1; /* each part begins at an index of its own */
+    ((int *)context)[first] = 1; /* each part begins at a different index */
 }
 
-/* However many are asked for, there are TEAM_MOST at most; as many parts as threads. */
+/* However many threads are requested, there are at most TEAM_MOST, with one part per thread. */
 static void no_more_than_there_is_room_for(int threads)
 {
     int begins[TEST_TEAM_MOST] = {0}, parts = 0;
@@ -400,7 +399,7 @@ static void no_more_than_there_is_room_for(int threads)
 enum { PIECES = 500 };
 
 typedef struct relay_log {
-    int held[TEAM_SLOTS], fills[PIECES], wrong, taken, last; /* last: piece that is the last one */
+    int held[TEAM_SLOTS], fills[PIECES], wrong, taken, last; /* last: number of the last piece */
 } relay_log;
 
 static void write_piece(void *context, int piece, int slot)
@@ -417,7 +416,8 @@ static int read_piece(void *context, int piece, int slot)
     return piece != log->last;
 }
 
-/* In order, each once, and what was filled is still there; nothing behind the last that is wanted.
+/* Pieces are taken in order, each once, with their contents intact; none after the last requested
+ * piece.
  */
 static void relays(int threads)
 {
@@ -458,8 +458,8 @@ static void team_tests(void)
     team_free(NULL);
 }
 
-/* Rows made side by side and solutions of several right-hand sides have the bits of SuiteSparse's
- * LDL, with and without AVX2. */
+/* Rows computed in groups and solutions for several right-hand sides agree bitwise with
+ * SuiteSparse's LDL, with and without AVX2. */
 
 enum {
     TRIANGULAR_MOST = 90,
@@ -477,7 +477,7 @@ typedef struct triangular_problem {
     double L_value[FILL], D[TRIANGULAR_MOST], y[TRIANGULAR_MOST];
 } triangular_problem;
 
-/* Blocks of `size`, coupled with one at random, and a few entries anywhere. */
+/* Blocks of `size`, each coupled with a random other block, and a few random entries. */
 static void fill(int n, int size, uint64_t *state, triangular_problem *p)
 {
     int linked[TRIANGULAR_MOST], entries = 0;
@@ -527,7 +527,7 @@ static void hold(const triangular_problem *p, const triangular_groups *g, const 
     const triangular_factors t = {p->n,  p->path, p->begin,   L_row,
                                   value, D,       g->columns, g->of_columns};
     const size_t entries = (size_t)p->begin[p->n];
-    for (int again = 0; again < 2; again++) /* its work space is left as it was */
+    for (int again = 0; again < 2; again++) /* its work space is unchanged */
         gsl_test(!factor(&rows, p->value), "%s: no pivot is zero", name);
     gsl_test(memcmp(value, p->L_value, entries * sizeof *value) != 0, "%s: L of %d", name, p->n);
     gsl_test(memcmp(D, p->D, (size_t)p->n * sizeof *D) != 0, "%s: D of %d", name, p->n);
@@ -547,7 +547,7 @@ static void hold(const triangular_problem *p, const triangular_groups *g, const 
     }
 }
 
-/* All rows are in groups, all columns in runs; rows of blocks are together. */
+/* All rows are in groups and all columns in runs; the rows of a block form a group. */
 static void whole(const triangular_problem *p, const triangular_groups *g, int size)
 {
     int columns = 0, largest = 0;
@@ -573,7 +573,7 @@ static void blocks(triangular_problem *p, int n, int size, uint64_t *state)
     gsl_test(memcmp(L_row, p->L_row, (size_t)p->begin[n] * sizeof *L_row) != 0, "rows of L");
     whole(p, &g, size);
     triangular_groups_place(&g, p->column, p->row);
-    for (int k = 0; k < n; k++) /* an order of unknowns */
+    for (int k = 0; k < n; k++) /* `order` is a permutation of the unknowns */
         p->path[k] = n - 1 - k;
     hold(p, &g, L_row, triangular_rows_factor_plain, triangular_solve_plain, "plain");
     hold(p, &g, L_row, REAL_CHOSEN(triangular_rows_factor), REAL_CHOSEN(triangular_solve),

@@ -1,4 +1,4 @@
-/* Matrices with known properties, for the tests of linear algebra. Dense ones are row-major. */
+/* Matrices with known properties for tests of linear algebra. Dense matrices are row-major. */
 #ifndef BEAMWORK_TEST_MATRICES_H
 #define BEAMWORK_TEST_MATRICES_H
 
@@ -62,7 +62,7 @@ static inline void matrices_free(sparse *s)
     memset(s, 0, sizeof *s);
 }
 
-/* The same matrix, every entry kept. */
+/* The same matrix with all entries stored. */
 static inline sparse matrices_both_triangles(const sparse *a)
 {
     const int n = a->n;

@@ -1,5 +1,5 @@
-/* The matrix on a screen: no line wider than it, whatever the names; every name and every mark is
- * there; cases that pass share lines where there are many. */
+/* The matrix on a screen: no line exceeds its width, whatever the names; every name and every mark
+ * is shown; if there are many cases, those that pass share lines. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -41,7 +41,7 @@ static void make(table_bench *b, int rows, int columns, const char *name)
         b->cell[i].mark = OVERVIEW_PASS;
 }
 
-/* What is shown; the caller frees it. */
+/* Returns the output, which the caller frees. */
 static char *shown(const table_bench *b, screen look)
 {
     char *text = NULL;
@@ -70,7 +70,7 @@ static int count(const char *text, const char *word)
     return n;
 }
 
-/* Any number of columns, names long and short: they fit, in several blocks where they must. */
+/* Any number of columns with long and short names fits, in several blocks if necessary. */
 static void widths(void)
 {
     static const char *const names[] = {"a", "geometrically_exact",
@@ -94,7 +94,7 @@ static void widths(void)
         }
 }
 
-/* One block: the head says each name whole, cut only where words are long. */
+/* One block: the header shows each name in full, divided only within long words. */
 static void heads(void)
 {
     static table_bench b;
@@ -105,7 +105,7 @@ static void heads(void)
     free(text);
 }
 
-/* New formulations are marked above their names, and what that means is said once. */
+/* New formulations are marked above their names, and the mark is explained once. */
 static void new_ones(void)
 {
     static table_bench b;
@@ -120,14 +120,14 @@ static void new_ones(void)
     free(text);
 }
 
-/* Where there are many cases, those that pass share lines; the others never do. */
+/* If there are many cases, those that pass share lines; the others never do. */
 static void passing(void)
 {
     static table_bench b;
     make(&b, MOST, 4, "beam");
     b.cell[4 * 7 + 2] = (overview_cell){OVERVIEW_UNDECIDED, 0, 3};
     b.cell[4 * 9 + 1] = (overview_cell){OVERVIEW_BIASED, 1, 2};
-    for (int c = 0; c < 4; c++) /* no pass of it is in a sentence that says so */
+    for (int c = 0; c < 4; c++) /* its passes are not in a sentence about passing cases */
         b.cell[4 * 11 + c] =
             (overview_cell){c == 2 ? OVERVIEW_OTHER_MODEL : OVERVIEW_NOTHING, 0, 1};
     char *text = shown(&b, plain);
@@ -179,8 +179,8 @@ static void overview_table_tests(void)
     legend();
 }
 
-/* What is unexpected is told in full, whatever it is: verdicts, stored values, contradictions,
- * findings and truths that nothing answers to. */
+/* Unexpected results are reported in full: verdicts, stored values, contradictions, and findings
+ * and reference values that match no run. */
 
 static const case_type made_up = {.name = "made_up"};
 static char words[][300] = {"load",       "N",       "exact", "book, page 3",
@@ -188,7 +188,7 @@ static char words[][300] = {"load",       "N",       "exact", "book, page 3",
                             "wrong limit"};
 enum { LOAD, NEWTON, EXACT, BOOK, NOTHING, ELEMENT, RULE, CASES, WRONG };
 
-/* One of each. */
+/* One unexpected result of each kind. */
 typedef struct unexpected_bench {
     sweep s;
     sweep_point p;
@@ -244,7 +244,7 @@ static void unexpected_make(unexpected_bench *b)
     b->j = (judgement){.verdicts = 1, .verdict = &b->v};
 }
 
-/* What is shown; the caller frees it. */
+/* Returns the output, which the caller frees. */
 static char *unexpected_shown(const unexpected_bench *b)
 {
     char *text = NULL;
@@ -305,7 +305,7 @@ static void unexpected_tests(void)
     holds(&b, "\n 6. reference values of 2 unknown cases, the first: gone\n");
 }
 
-/* Where a path is stable, in words: runs of steps, of several analyses. */
+/* Stable ranges of a path, in words: runs of steps, for several analyses. */
 
 enum { STABILITY_MOST = 16 };
 
