@@ -274,8 +274,10 @@ static void the_rest(void)
           "with no feature the element fails");
     PLANT(prepare, no_wagner, "features", "declares wagner moments, but no result depends",
           "do not declare it");
-    PLANT(prepare, no_shear, "features", "declares shear, but no result depends", "do not declare it");
-    PLANT(strain, no_amplitudes, "features", "declares warping", "no result depends on the warping");
+    PLANT(prepare, no_shear, "features", "declares shear, but no result depends",
+          "do not declare it");
+    PLANT(strain, no_amplitudes, "features", "declares warping",
+          "no result depends on the warping");
     PLANT(strain_many, one_strain, "many", "many at once: the strains differ", "of 5");
     PLANT(stress_many, one_energy, "many", "many at once: the energies differ", "of 5");
     PLANT(strain, deaf_to_places, "unsound", "a position of node 1 that is", "gives finite");
