@@ -11,8 +11,8 @@
 #include "harness/time/time.h"
 
 /* Critical load factor of the wanted sign and order. */
-static void extract_spectrum_buckling(const scene_quantity *, const analysis_outcome *,
-                                      quantity_result *);
+static void extract_spectrum_buckling(const analysis_context *, const scene_quantity *,
+                                      const analysis_outcome *, quantity_result *);
 /* Frequency [Hz] of the wanted kind and order of mode. */
 static void extract_spectrum_modal(const analysis_context *, const scene_quantity *,
                                    const analysis_outcome *, quantity_result *);
@@ -152,7 +152,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         from_linear(c, q, o, r);
         break;
     case SCENE_BUCKLING:
-        extract_spectrum_buckling(q, o, r);
+        extract_spectrum_buckling(c, q, o, r);
         break;
     case SCENE_MODAL:
         extract_spectrum_modal(c, q, o, r);
@@ -201,8 +201,35 @@ static void take_meaning(const outcome_spectrum *from, quantity_result *r)
         memcpy(r->meaning, from->meaning, sizeof r->meaning);
 }
 
-static void extract_spectrum_buckling(const scene_quantity *q, const analysis_outcome *o,
-                                      quantity_result *r)
+/* Names the kind of mode i of buckling about the undeformed state, in space. */
+static void name_kind(const analysis_context *c, const scene_quantity *q, const outcome_side *side,
+                      int i, quantity_result *r)
+{
+    const model_size size = model_sizes(c->model);
+    const double equal = 1e-8, *value = side->value;
+    const char *kind = NULL;
+    fault f;
+    if (side->mode == NULL || r->status != STATUS_OK || c->scene->plane != SCENE_SPACE ||
+        c->scene->analysis[q->analysis].follows != SCENE_NONE)
+        return;
+    double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
+    if (x == NULL)
+        return;
+    memcpy(x, side->mode + (size_t)i * (size_t)size.free, (size_t)size.free * sizeof *x);
+    const status known = modes_kind(c->model, c->scene, x, &kind, &f);
+    free(x);
+    if (known != STATUS_OK)
+        return;
+    const int twice =
+        (i > 0 && fabs(value[i] - value[i - 1]) <= equal * fabs(value[i])) ||
+        (i + 1 < side->count && fabs(value[i + 1] - value[i]) <= equal * fabs(value[i]));
+    const size_t used = strlen(r->meaning);
+    snprintf(r->meaning + used, sizeof r->meaning - used, "%s%s%s", used > 0 ? ", " : "", kind,
+             twice ? ", double" : "");
+}
+
+static void extract_spectrum_buckling(const analysis_context *c, const scene_quantity *q,
+                                      const analysis_outcome *o, quantity_result *r)
 {
     const scene_critical_load *load = scene_critical_load_of(q);
     const outcome_spectrum *found = outcome_spectrum_of(o);
@@ -212,6 +239,7 @@ static void extract_spectrum_buckling(const scene_quantity *q, const analysis_ou
     if (load->order < side->count) {
         take_eigenvalue(q, side, load->order, r);
         take_meaning(found, r);
+        name_kind(c, q, side, load->order, r);
         return;
     }
     if (side->status != STATUS_OK)

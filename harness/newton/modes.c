@@ -214,6 +214,46 @@ status modes_identify(const model *m, const scene *s, const double mode[], mode_
     return STATUS_OK;
 }
 
+/* Sums of squares of the translation of shear centres across members, and of the twist times r. */
+static void bends_and_twists(const model *m, const scene *s, const motion *shape, int stays,
+                             double *bends, double *twists)
+{
+    *bends = *twists = 0;
+    for (int member = 0, point = 0; member < s->members; member++) {
+        const section *p = model_section(m, s->member[member].section),
+                      *q = model_section(m, s->member[member].section_q);
+        const double radius = (sqrt(p->Ip / p->A) + sqrt(q->Ip / q->A)) / 2,
+                     back = radius > 0 && !stays ? 1 / radius : 0;
+        for (int i = model_member_vertices(m, member, NULL); i > 0; i--, point++) {
+            const double *x = (stays ? shape->turn : shape->part) + MEASURES * point,
+                         turn = x[TWIST] * back, y = x[ALONG_Y] - turn * (p->zs + q->zs) / 2,
+                         z = x[ALONG_Z] + turn * (p->ys + q->ys) / 2;
+            *bends += y * y + z * z;
+            *twists += x[TWIST] * x[TWIST];
+        }
+    }
+}
+
+status modes_kind(const model *m, const scene *s, const double mode[], const char **kind, fault *f)
+{
+    const double pure = 1e-4; /* of the sum of squares */
+    double moved[MEASURES], turned[MEASURES], all = 0, in_place = 0, bends, twists;
+    motion shape;
+    TRY(motion_alloc(m, s, mode, &shape, f));
+    squares(shape.points, shape.part, moved);
+    squares(shape.points, shape.turn, turned);
+    for (int k = 0; k < MEASURES; k++) {
+        all += moved[k];
+        in_place += turned[k];
+    }
+    bends_and_twists(m, s, &shape, !(all > in_place_part * in_place), &bends, &twists);
+    free(shape.part);
+    *kind = twists <= pure * (bends + twists)  ? "flexural"
+            : bends <= pure * (bends + twists) ? "torsional"
+                                               : "flexural-torsional";
+    return STATUS_OK;
+}
+
 int modes_in_family(const scene_mode *wanted, const mode_shape *shape)
 {
     const int family = wanted->family == SCENE_ANY ||

@@ -183,6 +183,9 @@ int modes_in_family(const scene_mode *,
                     const mode_shape *); /* Returns 1 when the mode belongs to the family that the
                                             quantity requests. */
 const char *modes_family_name(scene_family);
+/* flexural, torsional or flexural-torsional: do shear centres move across their members, do
+ * sections twist? */
+status modes_kind(const model *, const scene *, const double mode[], const char **kind, fault *);
 /* Separates modes with equal value[count], which may be arbitrary mixtures, into modes that move
  * along the z axes of members and modes that do not. They are stored one after the other, each [n =
  * free + driven]. */

@@ -97,6 +97,19 @@ class PhysicsTest(SceneCase):
         self.near(self.column(section)["up"], 43467, 2e-4)
         self.near(self.column(section, more="omit: [shear]\n")["up"], 43535, 1e-3)
 
+    def test_kinds(self):
+        """What buckling modes do: by symmetry, sections without an axis of symmetry along y and z bend and twist."""
+        for section, kind in (("rectangle: {width: 0.02, thickness: 0.03}", "flexural"),
+                              ("tube: {diameter: 0.04, thickness: 2e-3}", "flexural, double"),
+                              ("constants: {A: 1.6e-3, Iy: 3e-6, Iz: 4e-6, It: 8e-9, Iw: 1e-12}", "torsional"),
+                              ("channel: {depth: 98e-3, flange: 49e-3, flange_thickness: 2e-3, web_thickness: 2e-3}",
+                               "flexural-torsional")):
+            text = COLUMN.format(section=section, length=2, loads=PUSH, material=MATERIAL)
+            text += '  next: {critical_factor: {analysis: b, which: 1}, unit: "1"}\n'
+            for formulation in ("beamw_consistent", "collocation", "geometrically_exact"):
+                found = self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", 8)["quantities"]
+                self.assertEqual(found[0]["meaning"], kind, f"{section}, {formulation}")
+
     def test_angle_and_tee_twist(self):
         """Equal legs, and a tee, pushed at the centroid: they bend and twist together."""
         for leg, thickness, length in ((0.1, 8e-3, 2.0), (0.06, 3e-3, 1.0), (0.05, 5e-3, 3.0)):
