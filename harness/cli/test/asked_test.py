@@ -1,4 +1,5 @@
-"""What is computed and printed: what was asked for, what can be had, what is chosen, and what ranks nothing."""
+"""Computation and output on request: selections, partial results, default choices, and formulations that are
+not ranked."""
 import json
 import re
 import subprocess
@@ -9,7 +10,7 @@ import h5py
 from harness.tools.kit.program import ProgramTest, ROOT, environment, run
 
 
-# What is not asked for is not computed.
+# Quantities that are not requested are not computed.
 HEAD = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.005}, young: 210e9, shear_modulus: 81e9,
                density: 7850}}
@@ -51,13 +52,13 @@ class Asked(ProgramTest):
         return self.record("solve", "--scene", path, "-f", "collocation", "-n", "4", *options)
 
     def only(self, names):
-        """A scene that has these analyses and no others."""
+        """Returns a scene with only these analyses."""
         lines = ANALYSES.splitlines(keepends=True)
         return HEAD + "".join(lines[:1] + [x for x in lines[1:]
                                            if x.split(":")[0].strip() in names])
 
     def test_analyses_that_nobody_reads(self):
-        """The work and the bits of a scene that has no more than what is read."""
+        """Work and bits are those of a scene with only the analyses that are read."""
         for asked, line in QUANTITIES.items():
             wanted = f"quantities:\n  {line}\n"
             needed = {asked, "path"} if asked in "cv" else {asked}
@@ -84,7 +85,7 @@ class Asked(ProgramTest):
             self.assertLess(one["cell"]["factorisations"], whole["cell"]["factorisations"])
 
     def test_no_quantities(self):
-        """All that its analyses give."""
+        """A scene without quantities reports all results of its analyses."""
         asked = self.solved(HEAD + ANALYSES + "quantities:\n  " + QUANTITIES["path"] + "\n")
         nothing = self.solved(HEAD + ANALYSES)
         self.assertGreater(nothing["cell"]["factorisations"], asked["cell"]["factorisations"])
@@ -138,7 +139,7 @@ class Asked(ProgramTest):
             self.assertEqual(list(finest["factorisations"]), [3])
 
 
-# What can be had is printed; what cannot is told with its reason and by the exit status.
+# Available results are printed; missing ones are reported with the reason and by the exit status.
 BAR = """beamwork: 1
 parameters: {depth: {value: 0.1, unit: m, min: 0.05, max: 0.5, about: "of the section at b"},
              damping: {value: 0, unit: s, min: 0, max: 1, about: "of the member"}}
@@ -194,7 +195,8 @@ class Selected(ProgramTest):
             self.assertGreater(others, 0 if "column" in some else -1, some)
 
     def test_alike_in_converge(self):
-        """Of the load of a mode that shear and Wagner moments leave alone, where they change frequencies."""
+        """The load of a mode that is independent of shear and Wagner moments, in a scene whose frequencies depend on
+        them."""
         where = ("converge", "c_column", "--set", "length=4", "--set", "height=0.9", "--set", "width=0.3", "-f",
                  "sheet_second", "-n", "2,4,8,16")
         for more in ((), ("-k", "=buckling_load")):
@@ -224,7 +226,7 @@ class Had(ProgramTest):
         self.assertEqual(found.returncode, 0, found)
 
     def test_values_that_are_asked_for(self):
-        """A taper of an open section is refused, a prismatic member is none."""
+        """A tapered open section is rejected; a prismatic member is not a taper."""
         words = ("solve", "--scene", self.scene(BAR), "-f", "collocation", "-n", "2")
         self.refused(2, "own.yaml", *words)
         done = run(*words, "--set", "depth=0.2")
@@ -233,7 +235,7 @@ class Had(ProgramTest):
         self.refused(2, "did you mean 'depth'", *words, "--set", "deptj=0.2")
 
     def test_matrices_of_damping(self):
-        """C is that of members, in proportion to K at rest, and of dashpots; none where nothing is damped."""
+        """C contains member damping, proportional to K at rest, and dashpots; it is absent if nothing is damped."""
         def entries(folder, letter):
             lines = (self.folder/folder/"undeformed"/f"{letter}.mtx").read_text(encoding="utf-8").splitlines()
             rows = [line.split() for line in lines if not line.startswith("%")][1:]
@@ -254,13 +256,13 @@ class Had(ProgramTest):
             self.assertAlmostEqual(apart[-1], 7 if text is dashpot else 0, delta=1e-12*largest)
 
 
-# What solve and converge choose where nobody chose.
+# Default choices of solve and converge.
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
 class Solve(ProgramTest):
     def test_both(self):
-        """Said in the output, and right."""
+        """The choice is reported in the output and accurate."""
         for case, quantity in (("elastica", "w_over_L"), ("lateral_buckling", "load_factor")):
             text = self.answered("solve", case).stdout
             told = re.match(r"-f (\S+): .*no known deviation here.*\n-n (\d+): ", text)
@@ -274,7 +276,7 @@ class Solve(ProgramTest):
             self.assertLess(min(abs(t["error"]) for t in truths), 1e-3)
 
     def test_cost(self):
-        """The formulation costs at most twice what the cheapest for 0.1 % does, as converge says,
+        """The chosen formulation costs at most twice as much as the cheapest one for 0.1 % according to converge,
         which runs all of them."""
         for case in ("elastica", "bend_45", "angle_column", "cross_flexure", "deep_beam", "lateral_buckling",
                      "carried_rod", "geradin_cardona", "loaded_cantilever", "weighted_column"):
@@ -285,7 +287,7 @@ class Solve(ProgramTest):
             self.assertLessEqual(cost[chosen], 2 * min(cost.values()), f"{case}: {chosen}, {cost}")
 
     def test_finer_than_the_meshes_of_a_scene(self):
-        """Elements are doubled until values have settled."""
+        """Elements are doubled until the values have converged."""
         text = LEAF.read_text(encoding="utf-8")
         path = self.folder / "coarse.yaml"
         path.write_text(re.sub(r"(?m)^meshes: .*$", "meshes: [1]", text), encoding="utf-8")
@@ -293,8 +295,8 @@ class Solve(ProgramTest):
         self.assertGreater(int(told.group(1)), 1)
 
     def test_steps(self):
-        """How many were chosen and how many tries of longer ones failed stands in the first
-        lines, as the steps themselves say."""
+        """The first lines state the number of chosen steps and of failed longer ones, in agreement with the listed
+        steps."""
         for case, rejects in (("elastica", True), ("bend_45", False)):
             more = ("--set", "load=10") if rejects else ()
             what = ("solve", case, "-f", "beamw", "-n", "8", *more)
@@ -315,7 +317,7 @@ class Solve(ProgramTest):
         self.refused(2, "one -f and one -n", "solve", "elastica", "-f", "beamw", "-n", "1,2")
 
     def test_the_theory_that_the_case_asks_for(self):
-        """Engesser's by default; the value is that of the reference value of this theory."""
+        """The default is Engesser's theory; the value agrees with the reference value of this theory."""
         record = self.record("solve", "shear_column")
         self.assertIn("engesser", record["cell"]["features"])
         load = next(q for q in record["quantities"] if q["quantity"] == "buckling_load")
@@ -328,14 +330,14 @@ class Solve(ProgramTest):
         self.assertRegex(text, r"\A-f \S+: .*\n-n \d+: ")
 
     def test_without_truths(self):
-        """The ledger is not known: a solution all the same, and no word of defects."""
+        """Without the list of known deviations there is still a solution, and defects are not mentioned."""
         done = self.answered("solve", "elastica", env=environment(BEAMWORK_TRUTHS="/nowhere.h5"))
         self.assertIn("without reference values", done.stderr)
         self.assertRegex(done.stdout, r"\A-f \S+: ")
         self.assertNotIn("defect", done.stdout)
 
 
-# Formulations whose times rank nothing, in bench and converge: shown, marked, never the cheapest.
+# Formulations whose times are not ranked, in bench and converge: they are shown and marked, and never the cheapest.
 MARK = "timoshenko: by differences, its times are not ranked"
 
 
@@ -360,12 +362,12 @@ class Unranked(ProgramTest):
                          r"timoshenko, n = 4, timed [0-9.e-]+ ms \(by differences: no rank\)")
 
     def test_alone(self):
-        """Nobody is the cheapest where nobody ranks."""
+        """If no formulation is ranked, none is the cheapest."""
         out = " ".join(self.bench("-n", "4,8,16,32").split())
         self.assertRegex(out, r"stretch within 10, 1 %: none that ranks; also within it: timoshenko")
 
     def test_against(self):
-        """At equal error and at equal elements, as text and as JSON."""
+        """At equal error and at equal numbers of elements, as text and as JSON."""
         out = " ".join(self.bench("--against", "collocation", "-k", "stretch", "--error",
                                   "1%").split())
         self.assertIn("no rank: compared with", out)

@@ -1,4 +1,4 @@
-/* Series as bytes: what comes back, what is cut short, and what their digest leaves out. */
+/* Series as bytes: reading them back, truncated input, and the parts that their digest excludes. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Two meshes of a path with a curve, run; noise and times as if they were measured. */
+/* Two solved meshes of a path with a curve, with noise and times as if measured. */
 static void make(sweep *s)
 {
     static const int mesh[] = {1, 2};
@@ -75,7 +75,7 @@ static void round_trip(sweep *s)
     free(after.at);
 }
 
-/* Is the digest another one now? */
+/* Has the digest changed? */
 static int differs(const sweep *s, const char *before)
 {
     const bytes now = written(s);
@@ -117,7 +117,7 @@ static void digests(sweep *s)
     free(before.at);
 }
 
-/* What is not there is taken out, and counted. */
+/* Missing cells are removed and counted. */
 static void kept(sweep *s)
 {
     static const char none[] = {0};
@@ -135,7 +135,7 @@ static void cells_tests(void)
     sweep_free(&s);
 }
 
-/* Texts in pages of the manual are read as they were written, whatever they begin with. */
+/* Texts in manual pages appear as they were written, whatever they begin with. */
 
 static void written_as(const char *text, const char *wanted, const char *what)
 {
@@ -186,7 +186,7 @@ static void words_tests(void)
              "the glossary is read %s", f.text);
     for (int i = 0; i < VERDICT_KINDS; i++)
         explained("verdict", verdict_name((verdict_kind)i));
-    for (int i = 1; i < LIMIT_KINDS; i++) /* but "none" */
+    for (int i = 1; i < LIMIT_KINDS; i++) /* except "none" */
         explained("kind of limit", limit_kind_name((limit_kind)i));
     for (int i = 0; i <= STATUS_NO_VALUE; i++)
         explained("status", status_name((status)i));

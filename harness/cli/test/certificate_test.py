@@ -1,4 +1,4 @@
-"""`element-test`: what it prints and writes of formulations that satisfy the interface requirements or do not."""
+"""`element-test`: output for formulations that satisfy or violate the interface requirements."""
 import csv
 import hashlib
 import io
@@ -26,7 +26,7 @@ class Certificates(Tested):
         self.assertGreaterEqual(len(record["formulations"]), 10)
 
     def test_examples_keep_it(self):
-        """All but the one that needs a compiler of Fortran, which has tests of its own."""
+        """All examples except those that need a Fortran compiler, which have their own tests."""
         for source in sorted(set(EXAMPLES.glob("*.c")) - {EXAMPLES / "uel.c"}):
             out = self.answered("element-test", "--element", self.compiled(source.name)).stdout
             self.assertIn("interface requirements: SATISFIED", out)

@@ -1,5 +1,5 @@
-"""What solve chooses: right to the error that was asked for, at about the cost of the cheapest, over
-all cases, all examples and thirty scenes; digits end where values change."""
+"""The choice of solve meets the requested error at about the cost of the cheapest formulation, over all
+cases, all examples and thirty scenes; digits are shown as far as the values are certain."""
 import json
 import random
 import re
@@ -9,15 +9,14 @@ from harness.tools.kit.program import ROOT, ProgramTest
 
 ASKED = 1e-3
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# Its meshes are not settled to 0.1 % with any formulation as converge sees it.
+# According to converge its meshes have not converged to 0.1 % with any formulation.
 UNANSWERED = set()
-# Fifteen seconds of meshes that verify solves too: only what is chosen is looked at.
+# The meshes take fifteen seconds and are solved by verify too: only the choice is checked.
 LONG = {"hexapod_motion"}
 
 
 def bar(chance, kind):
-    """A frame of one to three members in the plane or out of it, with supports, loads and what is
-    asked of it drawn by chance."""
+    """A random frame of one to three members, plane or spatial, with random supports, loads and quantities."""
     members = chance.randint(1, 3)
     at = [[0.0, 0.0, 0.0]]
     for _ in range(members):
@@ -58,15 +57,15 @@ class Choice(ProgramTest):
         return self.record("converge", *scene, "--error", "0.1%")
 
     def is_cheap(self, name, chosen, answers):
-        """Costs at most twice what the cheapest one does, as converge says; beyond its meshes, by that of the mesh
-        before the one that was chosen. Returns whether converge has any answer."""
+        """Checks that the choice costs at most twice as much as the cheapest according to converge; beyond its
+        meshes, the cost of the mesh before the chosen one counts. Returns whether converge has any answer."""
         cost = {a["formulation"]: a["cost"] for a in answers["answers"] if a["rank"]}
         own = cost.get(chosen["formulation"], chosen["cell"]["cost"]/2)
         self.assertLessEqual(own, 2*min(cost.values(), default=own), f"{name}: {chosen['formulation']}, {cost}")
         return bool(cost)
 
     def is_right(self, name, chosen):
-        """Within the error of exact and independent truths of the same model."""
+        """Checks that values are within the error of exact and independent reference values of the same model."""
         for q in chosen["quantities"]:
             self.assertEqual(q["status"], "ok", (name, q["quantity"]))
             for t in q["truths"]:
@@ -86,7 +85,7 @@ class Choice(ProgramTest):
         self.assertEqual(unanswered, UNANSWERED)
 
     def test_thirty_scenes(self):
-        """Four times as many elements change no value by more than was asked for."""
+        """Four times as many elements change no value by more than the requested error."""
         chance = random.Random(17)
         path = self.folder / "scene.yaml"
         for i in range(30):
@@ -110,7 +109,7 @@ class Choice(ProgramTest):
             self.assertTrue(apart/100 < last <= apart, (q["quantity"], shown, q["change"]))
 
     def test_status_where_values_change(self):
-        """A bound on the mesh ends it: not_converged, its values all the same, and the remedy."""
+        """The mesh limit ends the refinement: status not_converged, with the values and a remedy."""
         done = self.answered("solve", "deep_beam", "-f", "beamw:mass=lumped", "-k", "frequency_9", "--error", "1e-9", code=1)
         self.assertIn("was requested; use -n 2048, or raise --error", done.stderr)
         self.assertRegex(done.stdout, r"\nnot_converged: values still change with the mesh: .*frequency_9 still\s+changed by")
@@ -119,7 +118,7 @@ class Choice(ProgramTest):
         self.refused(2, "--error", "solve", "deep_beam", "-n", "4", "--error", "1%")
 
     def test_slow_convergence(self):
-        """Lateral-torsional buckling with shear: below first order more than the last change is expected."""
+        """Lateral-torsional buckling with shear: below first order the expected error exceeds the last change."""
         path = self.folder / "beam.yaml"
         path.write_text("""beamwork: 1
 units: mm, N, MPa
@@ -135,7 +134,7 @@ quantities: {Mcr: {critical_factor: {analysis: buck}, unit: 1}}
         self.assertLess(abs(found["quantities"][0]["value"]/exact - 1), 1.15e-4, found["elements"])
 
     def test_zero_beside_others(self):
-        """What is zero by symmetry settles."""
+        """A value that is zero by symmetry counts as converged."""
         scene = bar(random.Random(1), "linear")
         scene["nodes"] = {"n0": {"at": [0, 0, 0], "hold": "all"}, "n1": {"at": [1, 0.3, 0]},
                           "n2": {"at": [2, 0, 0], "hold": "all"}}

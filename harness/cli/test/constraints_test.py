@@ -1,11 +1,11 @@
-"""Constraints between components: one node in two, bodies, gears, cells that repeat; what is refused."""
+"""Constraints between components: split nodes, bodies, gears, periodic cells; rejected constraints."""
 import math
 
 from harness.cli.test.constraints import ALL, GEAR, HEAD, MASS, ConstraintsCase
 from harness.tools.kit.program import ROOT, run
 
 EXAMPLE = ROOT / "cases" / "examples" / "geared_shafts.yaml"
-# At @: where m ends; at #: where n begins.
+# @: placeholder at the end of m; #: at the start of n.
 FRAME = HEAD + """motions: {push: {unit: m, path: [0, 1], value: [0, 0.02]}}
 nodes:
   a: {at: [0, 0, 0], hold: [ux, uy, uz, rx, ry]}
@@ -107,7 +107,7 @@ quantities:
 
 class Constraints(ConstraintsCase):
     def test_one_node_in_two(self):
-        """Two nodes at one place that are equal in all components are one, in every analysis and formulation."""
+        """Two coincident nodes that are equal in all components act as one node, in every analysis and formulation."""
         one = FRAME.replace("@", "b").replace("#", "b").replace("MOVES", MASS)
         two = FRAME.replace("@", "b").replace("#", "e").replace("MOVES", "")
         one = one.replace("NODES", "").replace("CONSTRAINTS", "")
@@ -117,7 +117,7 @@ class Constraints(ConstraintsCase):
             self.same(one, two, 1e-7, formulation=name)
 
     def test_matrices(self):
-        """What --matrices writes is that of the one node: stiffness and mass."""
+        """The stiffness and mass matrices written by --matrices are those of the single node."""
         one = FRAME.replace("@", "b").replace("#", "b").replace("MOVES", MASS)
         two = FRAME.replace("@", "b").replace("#", "e").replace("MOVES", "")
         one = one.replace("NODES", "").replace("CONSTRAINTS", "")
@@ -135,7 +135,8 @@ class Constraints(ConstraintsCase):
                              [line for line in b if not line.startswith("%")])
 
     def test_harmonic_reaction(self):
-        """Of a motion that others follow by constraints it is refused: it would be that of all of them."""
+        """The reaction of a motion that other components follow by constraints is rejected, because it would be the
+        sum for all of them."""
         path = self.folder / "followed.yaml"
         path.write_text(HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0]}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], drive: {uy: go}}, c: {at: [2, 0, 0]}}
@@ -151,7 +152,7 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
             self.assertIn("drives more than the component", done.stdout + done.stderr)
 
     def test_units(self):
-        """One scene in mm and N gives the same: a ratio has no unit."""
+        """The scene in mm and N gives the same results: a ratio has no unit."""
         text = GEAR.replace("AXES ", "").replace("WHO", "d").replace("OTHER", "b").replace("RATIO", "-2")
         one = self.values(text.replace("TORQUE", "40"))
         mm = (text.replace("beamwork: 1", "beamwork: 1\nunits: mm, N, MPa").replace("diameter: 0.02, thickness: 0.01", "diameter: 20, thickness: 10")
@@ -169,13 +170,14 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
         self.same(one, two.replace("CONSTRAINTS", "constraints: {one: {equal: [e, b], components: [ux, uy, rz]}}"), 1e-7)
 
     def test_sliders(self):
-        """On slopes, joined by a member: equal along them is a rigid link between them."""
+        """Sliders on slopes, joined by a member: equal displacements along the slopes act as a rigid link."""
         one = SLIDERS.replace("SLIDES", "part_of: p").replace("CONSTRAINTS", "")
         two = SLIDERS.replace("SLIDES", "axes: {x: [0.8, 0.6, 0], z: [0, 0, 1]}, hold: [uy, uz, rx, ry, rz]")
         self.same(one, two.replace("CONSTRAINTS", "constraints: {s: {equal: [p, q], components: ux}}"))
 
     def test_gear(self):
-        """Stiffness k1 + i^2 k2 and inertia I1 + i^2 I2, at large turns too, whoever names whom; in turned axes."""
+        """Stiffness k1 + i^2 k2 and inertia I1 + i^2 I2, also at large rotations, in either order of the constraint,
+        and in rotated axes."""
         k1 = 80e9 * math.pi * 0.01**4 / 2
         k2 = k1 / 2
         stiff, inertia = k1 + 4 * k2, 0.3 + 4 * 0.05
@@ -192,7 +194,7 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
                     self.assertLess(abs(found[name] / value - 1), 1e-8, f"{name} {axes}")
 
     def test_turned_gear(self):
-        """About an axis that is none of the scene's."""
+        """A gear about an oblique axis."""
         text = GEAR.replace("WHO", "d").replace("OTHER", "b").replace("RATIO", "-2").replace("TORQUE", "4000")
         plain = self.values(text.replace("AXES ", ""))
         text = text.replace("AXES ", "axes: {z: [0.48, 0.64, 0.6], x: [0.8, -0.6, 0]}, ").replace("y: [0, 1, 0]", "y: [0.8, -0.6, 0]")
@@ -208,7 +210,8 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
             self.assertLess(abs(turned[name] / plain[name] - 1), 1e-8, name)
 
     def test_lever(self):
-        """Displacements in a ratio: the spring at the other end counts with its square; driven, it follows."""
+        """Displacements in a ratio: the spring at the other end enters with the square of the ratio; if one end is
+        driven, the other follows."""
         text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0.02]}}
 nodes:
   a: {at: [0, 0, 0], hold: all}
@@ -243,7 +246,8 @@ plane: PLANE
         self.assertAlmostEqual(found["rc"], -0.06 * 700 - 20, delta=1e-9)
 
     def test_plane(self):
-        """Turns in a ratio at the ends of two beams of a plane scene: (3 E I/2 + 9 x 4 E I) of the first turn."""
+        """Rotations in a ratio at the ends of two beams of a plane scene: (3 E I/2 + 9 x 4 E I) times the first
+        rotation."""
         found = self.values(HEAD + """
 nodes:
   a: {at: [0, 0, 0], hold: [ux, uy]}
@@ -275,7 +279,7 @@ omit: [shear]
         self.assertGreater(found["f"], 1)
 
     def test_cell(self):
-        """A cell whose ends are equal is one of three in a row whose ends are equal."""
+        """A cell with equal ends behaves like one of three cells in a row with equal ends."""
         found = []
         for cells in (1, 3):
             nodes = "".join(f"  l{i}: {{at: [{i}, 0, 0]}}\n  h{i}: {{at: [{i + 0.4}, 0.1, 0]}}\n" for i in range(cells))
@@ -300,7 +304,7 @@ quantities:
             self.assertLess(abs(found[1][name] / value - 1), 1e-7, name)
 
     def test_loop(self):
-        """A member between nodes that are equal: heated it pushes with E A alpha T; loaded it is clamped."""
+        """A member between equal nodes: if heated, it exerts E A alpha T; if loaded, it acts as clamped."""
         text = HEAD.replace("density: 2000", "density: 2000, expansion: 1e-5") + """
 nodes: {a: {at: [0, 0, 0], hold: [uz, rx, ry]}, b: {at: [1, 0, 0], hold: [uz, rx, ry]}, m: {at: [0.5, 0, 0], hold: [ux, uz]}}
 members:
@@ -323,7 +327,7 @@ quantities:
             self.assertAlmostEqual(found["u"], 16e-3 + 16 / (192 * 2e9 * 0.02 * 0.03**3 / 12), delta=1e-9)
 
     def test_example(self):
-        """In closed form, in all formulations; what is written again gives the same."""
+        """The example agrees with its closed form in all formulations, and the written scene gives the same results."""
         for name in self.names():
             for q in self.record("solve", "--scene", EXAMPLE, "-f", name, "-n", "2")["quantities"]:
                 self.assertLess(abs(q["error"]), 1e-6, f"{name}: {q['quantity']}")
@@ -336,7 +340,7 @@ quantities:
             self.assertAlmostEqual(a["value"], b["value"], delta=1e-12 * abs(a["value"]))
 
     def test_refused(self):
-        """What contradicts supports, motions, bodies or another constraint."""
+        """Constraints that contradict supports, motions, bodies or other constraints are rejected."""
         text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0.01]}}
 nodes:
   a: {at: [0, 0, 0], hold: all}

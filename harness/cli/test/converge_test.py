@@ -1,4 +1,4 @@
-"""converge: its forms, and formulations side by side."""
+"""converge: output formats, and formulations in adjacent columns."""
 import csv
 import io
 import json
@@ -28,7 +28,7 @@ def answer(text):
 class Forms(unittest.TestCase):
 
     def test_nothing_runs(self):
-        """A formulation that does not support what a scene needs is told with the cause."""
+        """A formulation that does not support the scene is reported with the reason."""
         done = run("converge", "coupled_beam", "-f", "beamw_vlasov")
         self.assertEqual(done.returncode, 3)
         self.assertEqual(" ".join(done.stdout.split()),
@@ -59,7 +59,7 @@ class Forms(unittest.TestCase):
         self.assertIn("exact", converge("text"))
 
     def test_the_last_line_answers(self):
-        """The least mesh from which on each quantity of each formulation is within 1 %."""
+        """The last line names the smallest mesh from which each quantity of each formulation is within 1 %."""
         series = json.loads(converge("json"))["series"]
         text = answer(converge("text"))
         self.assertTrue(text.startswith("for 1 % in every quantity: "), text)
@@ -77,7 +77,7 @@ class Forms(unittest.TestCase):
             self.assertEqual(told[one["formulation"]], counts[max(bad, default=-1) + 1])
 
     def test_at_an_error_of_ones_own(self):
-        """The answers of JSON and of the last line, at the level that is asked for."""
+        """The answers in JSON and in the last line refer to the requested level."""
         at = {}
         for said, level in (("10%", 0.1), ("0.3%", 0.003), ("0.003", 0.003)):
             command = ("converge", "elastica", "-f", "all", "-n", "1,2,4,8,16", "--error", said)
@@ -107,7 +107,7 @@ class Forms(unittest.TestCase):
         self.assertLess(min(one["cost"] for one in wrong), cheapest["cost"])
 
     def test_of_another_model(self):
-        """The largest difference from a solid of those that pass; nothing where none is stored."""
+        """The largest difference of passing formulations from a solid is printed; nothing if none is stored."""
         whole = json.loads(run("converge", "sheet_cantilever", "-f", "collocation", "-f", "beamw",
                                "-n", "2,4,8", "--format", "json").stdout)
         right = {one["formulation"] for one in whole["answers"] if not one["defect"]}
@@ -124,7 +124,7 @@ class Forms(unittest.TestCase):
         self.assertFalse(converge("text").endswith("\n\n"))
 
     def test_without_a_truth_families_agree(self):
-        """Its truths are those of another stroke."""
+        """The stored reference values belong to a different stroke, so agreement decides."""
         new = ("converge", "--scene", str(LEAF), "--set", "stroke=0.009")
         done = run(*new, "-f", "all", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -153,7 +153,7 @@ class Forms(unittest.TestCase):
         self.assertEqual(int(said[1] or 0) + len(missing), int(said[2] or len(names)))
 
 
-# converge: formulations side by side, a selection of quantities, what is chosen by itself.
+# converge: formulations in adjacent columns, a selection of quantities, default choices.
 HEAD, COLUMN, WIDEST = 8, 15, 100
 BESIDE_LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
@@ -188,7 +188,7 @@ class Beside(ProgramTest):
         return text, json.loads(self.answered("converge", *words, "--format", "json").stdout)
 
     def agree(self, *words):
-        """Every error and value of the tables is that of JSON; every one of JSON is there."""
+        """Checks that the errors and values in the tables are exactly those in JSON."""
         text, record = self.both(*words)
         found, seen = tables(text), 0
         for one in record["series"]:
@@ -221,7 +221,7 @@ class Beside(ProgramTest):
         self.agree("--scene", BESIDE_LEAF, "-n", "1,2,4", "--set", "stroke=0.009")
 
     def test_selection(self):
-        """Quantities, formulations, both; what names nothing is refused."""
+        """Selections of quantities, formulations or both; a name without a match is rejected."""
         found = tables(self.answered("converge", "c_column", "-k", "frequency_4").stdout)
         self.assertEqual({quantity for quantity, _ in found}, {"frequency_4"})
         self.assertGreater(len(found), 2)
@@ -245,7 +245,7 @@ class Beside(ProgramTest):
                                    delta=1e-9)
 
     def test_by_itself(self):
-        """All formulations, the case's own meshes; those that cannot are named."""
+        """By default all formulations run on the case's own meshes; those that cannot run are named."""
         chosen = self.answered("converge", "c_column", "-k", "frequency_1", "-n", "2,4").stdout
         every = self.answered("converge", "c_column", "-k", "frequency_1", "-n", "2,4", "-f",
                               "all").stdout

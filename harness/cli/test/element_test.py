@@ -1,4 +1,4 @@
-"""Formulations from outside: the first example beside the others, and files that mean harm."""
+"""External formulations: the first example next to the built-in ones, and hostile files."""
 import json
 from pathlib import Path
 
@@ -7,7 +7,7 @@ from harness.tools.kit.program import environment, run
 
 EXAMPLE = EXAMPLES / "timoshenko.c"
 CASE = ("elastica", "-f", "timoshenko")
-CRASHES = environment(ASAN_OPTIONS="handle_segv=0")  # a crash is one, also under sanitizers
+CRASHES = environment(ASAN_OPTIONS="handle_segv=0")  # a crash is reported as such, also under sanitizers
 
 
 class Loaded(PluginTest):
@@ -38,7 +38,7 @@ class Example(Loaded):
         self.answered("solve", "-f", "timoshenko", "elastica", "-n", "8", "--element", self.object)
 
     def test_gates(self):
-        """A stiffness that is wrong by 1 % is told, and written as a finding; the run fails."""
+        """A stiffness with an error of 1 % is reported and written as a finding, and the run fails."""
         wrong = self.example(("c->young * c->Iy / l3", "1.01 * c->young * c->Iy / l3"))
         needed = self.folder / "needed.csv"
         out = self.answered("verify", "--element", wrong, "-f", "timoshenko", "-k",
@@ -55,7 +55,7 @@ class Kept(Loaded):
         cls.object = compile_shared(EXAMPLE, cls.class_folder() / "timoshenko.so")
 
     def test_outputs_do_not_replace_what_is_loaded(self):
-        """Neither the object nor a file that a command names, whatever the output is called."""
+        """An output replaces neither the shared object nor a file named by a command, whatever its name."""
         mine = self.folder / "mine.so"
         mine.write_bytes(Path(self.object).read_bytes())
         script = self.folder / "my beam.py"

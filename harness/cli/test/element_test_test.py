@@ -1,4 +1,4 @@
-"""`element-test`: every formulation keeps the contract, and planted faults are told."""
+"""`element-test`: every formulation satisfies the interface requirements, and planted faults are reported."""
 import json
 import os
 import subprocess
@@ -9,7 +9,7 @@ EXAMPLES = ROOT / "elements" / "examples"
 CRASHES = environment(ASAN_OPTIONS="handle_segv=0:handle_abort=0")  # a crash is one
 ENTRY = "    if (out->e == NULL)"  # the beginning of the example's strain
 
-# Fault: (text of the example and what stands in its place) ..., words of the sentence.
+# Fault: (text of the example and its replacement) ..., words of the sentence.
 FAULTS = {
     "energy": (
         ("e[i] * e[i] / 2;", "e[i] * e[i];"),
@@ -120,7 +120,7 @@ FAULTS = {
         "stress: strains of a few hundredths of the length give status 'singular'"),
 }
 
-# The same of the example that gives forces and stiffness.
+# The same for the example that returns forces and stiffness.
 FORCE_FAULTS = {
     "sign": (
         ("F[i] = n * r[i];", "F[i] = -n * r[i];"),
@@ -146,7 +146,7 @@ FORCE_FAULTS = {
         "of the undeformed element is", "not zero"),
 }
 
-# What authors of elements get wrong: all of it is consistent, and shows in structures.
+# Typical errors of element authors: each is consistent in itself and shows only in structures.
 CLASSIC = {
     "swapped bending": (
         ("c->young * c->Iy, c->young * c->Iz}", "c->young * c->Iz, c->young * c->Iy}"),
@@ -171,7 +171,7 @@ CLASSIC = {
         "stretch: exact with one element and not with four", "a power of the length is wrong"),
 }
 
-# Declares more than it has, where it is asked for.
+# Declares a higher order than it has, for the analyses in question.
 FOURTH = """static element_order fourth(element_analysis a, const double options[])
 {
     (void)a, (void)options;
@@ -183,7 +183,7 @@ const element_type beamwork_element"""
 class Tested(ProgramTest):
 
     def compiled(self, name, *changes):
-        """The path of a shared object of an example with parts of its text replaced."""
+        """Returns the path of a shared object of an example with parts of its text replaced."""
         text = (EXAMPLES / name).read_text(encoding="utf-8")
         text = text.replace("const element_type beamwork_element", FOURTH)
         for before, after in changes:
@@ -205,7 +205,7 @@ class Tested(ProgramTest):
         return one
 
     def broken(self, made, limit):
-        """The sentences of what is broken; the status says so."""
+        """Returns the sentences about violations; checks the exit status."""
         return broken(self.certificate(made, 1, limit))
 
     def told(self, name, faults):
@@ -219,7 +219,7 @@ class Planted(Tested):
 
     def test_each_is_told(self):
         self.assertGreaterEqual(len(FAULTS), 20)
-        with_sanitizers = "fsanitize" in run("--version").stdout  # they end the process themselves
+        with_sanitizers = "fsanitize" in run("--version").stdout  # sanitizers end the process themselves
         self.told("timoshenko.c", {name: fault for name, fault in FAULTS.items()
                                    if not (with_sanitizers and name == "beyond data")})
 
@@ -235,7 +235,7 @@ class Planted(Tested):
 
 
     def test_linear(self):
-        """A formulation is asked for what it offers: strains of first order are right where no large rotations are."""
+        """A formulation is tested only for what it supports: first-order strains are right without large rotations."""
         first = ("        out->e[i] = (p[i] + q[i]) / (2 * c) + k * along * psi[i];\n",
                  "        out->e[i] = p[i] + (i == 1 ? -d->length * psi[2] / 2 : i == 2 ? d->length * psi[1] / 2 : 0);\n")
         small = ("FEATURE_GEOMETRIC | FEATURE_LARGE | ", "")
@@ -247,7 +247,7 @@ class Planted(Tested):
         self.assertTrue(any("with its nodes exchanged" in s for s in said), said)
 
     def test_endless(self):
-        """The first part that does not come back is waited for, those after it are not."""
+        """The first part that hangs is waited for up to the time limit; later ones are not."""
         made = self.compiled("timoshenko.c", (ENTRY, "    for (volatile int i = 1; i;)\n"
                                               "        ;\n" + ENTRY))
         out = self.answered("element-test", "--element", made, "--time-limit", "1", "-j", "1", code=1).stdout
@@ -256,7 +256,7 @@ class Planted(Tested):
 
 
 class Measured(Tested):
-    """What comes out of whole structures is printed as it is; a wrong limit is a violation."""
+    """Results of whole structures are printed as they are; a wrong limit is a violation."""
 
     def measured(self, *changes, code=0):
         one = self.certificate(self.compiled("timoshenko.c", *changes), code)
@@ -293,7 +293,7 @@ class Measured(Tested):
                       run("element-test", "--element", made).stdout)
 
     def test_shear_locking(self):
-        """Shear integrated in full: its energy has a part of the rotations."""
+        """Full integration of shear: its energy includes a part of the rotations."""
         found = self.measured(("c->young * c->Iz / l3}",
                                "c->young * c->Iz / l3 + c->shear_modulus * c->A / (12 * l)}"),
                               code=1)
@@ -309,7 +309,7 @@ class Measured(Tested):
         self.assertLess(abs(found["constant shear along z, short"]["error"][0]), 1e-9)
 
     def test_one_element(self):
-        """Without what a uniform curvature lacks one element bends too little."""
+        """Without the correction for uniform curvature, one element bends too little."""
         found = self.measured((" + l * l * l / (12 * c->young * c->Iz)",
                                " + 1e-3 * l * l * l / (12 * c->young * c->Iz)"))
         self.assertAlmostEqual(found["tip force along y"]["error"][0], -0.25, delta=1e-3)

@@ -1,4 +1,4 @@
-"""Every example of a formulation: compiled as a stranger would, short, and judged on ten cases."""
+"""Every example of a formulation: compiled as an outsider would, short, and evaluated on ten cases."""
 import re
 import shutil
 import subprocess
@@ -32,7 +32,7 @@ quantities:
 
 
 class Judged:
-    """What holds for each: limits that are right, and no more lines than the table says."""
+    """Checks for each example: correct limits, and no more lines than the table allows."""
 
     cases, ending, most = (), "c", 200
 
@@ -69,12 +69,12 @@ class Judged:
         return getattr(self, "loaded", self.example)
 
     def values(self, made, name, *arguments):
-        """What `solve` finds with this element."""
+        """Returns the values that `solve` finds with this element."""
         record = self.record("solve", *arguments, "--element", made, "-f", name)
         return [q["value"] for q in record["quantities"] if q["value"] is not None]
 
     def same_values(self, other, name, case):
-        """As another element, which shares no code with it."""
+        """Checks that the values agree with those of another element, which shares no code with it."""
         own, theirs = (self.values(*of, case, "-n", "4")
                        for of in ((self.object, self.name()), (other, name)))
         self.assertGreater(len(own), 2)
@@ -98,7 +98,8 @@ class Corotational(Judged, PluginTest):
     cases = (*STATICS_AND_FREQUENCIES, "weighted_column", "lateral_buckling")
 
     def test_converges_as_the_others(self):
-        """A tangent that is not symmetric, and a chord that hardly stretches: as few iterations."""
+        """With an unsymmetric tangent, or a chord with little axial strain, it takes as few iterations as the
+        others."""
         for axial in ("1e4", "1e12"):
             iterations = {
                 name: self.record("solve", "elastica", "--element", self.object, "-f", name, "-n",
@@ -198,7 +199,7 @@ class Fortran(Judged, PluginTest):
 
 
 class Planted(PluginTest):
-    """What an author gets wrong is told by what he runs first, `element-test`, or by `verify`."""
+    """Errors of an author are reported by the first check, `element-test`, or by `verify`."""
 
     def broken(self, example, change, *words):
         made = self.altered(example, change)
@@ -231,7 +232,7 @@ class Planted(PluginTest):
                     "with its nodes exchanged")
 
     def test_axes_exchanged(self):
-        """No contradiction in itself: another beam, which verify sees."""
+        """Exchanged axes are consistent in themselves: a different beam, which verify detects."""
         made = self.altered("ancf.c", ("ky = dot(section_y", "ky = dot(section_z"),
                             ("kz = dot(section_z", "kz = dot(section_y"))
         record = self.folder / "v.json"

@@ -1,4 +1,5 @@
-"""What is asked for gates: wrong elements through every door by which a run says how it ended."""
+"""Requested formulations affect the exit status: wrong elements are reported in every form in which a run
+states its outcome."""
 import json
 import pathlib
 import subprocess
@@ -17,7 +18,7 @@ EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
 NAME = "timoshenko"
 RUN = ("-k", "elastica/default or tapered_cantilever/default")
 NOWHERE = ("-k", "hexapod/default")
-# A mass matrix of its own that is a tenth too large, in place of the mass of the field that it has else.
+# Its own mass matrix, 10 % too large, instead of the mass of the displacement field.
 MASS = (("static int strains(const double options[])", """
 static status inertia(const element_data *d, const node_state x[], const element_rotating_frame *frame,
                       inertia_output *out)
@@ -43,8 +44,8 @@ FAULTS = {
     "stub": ("energy += d->stiffness[i] * e[i] * e[i] / 2;", "energy += 0;", "fail"),
     "coarse": ("cos(sqrt(square) / 2)", "cos(sqrt(square) / 2.1)", "pass"),  # the same limits, larger errors
 }
-# Forces along the element, taken by itself: halves at its nodes, and the moments of clamped ends, in the axes that it
-# has at rest (where it is asked for more than a linear answer: those of the scene).
+# Forces along the element, applied by the element itself: halves at its nodes, and clamping
+# moments, in its axes at rest (for more than a linear answer, in those of the scene).
 OWN_LOADS = (("static int strains(const double options[])", """
 static void along(int count, const element_data *const data[], const node_state x[], along_output out[],
                   status outcome[])
@@ -78,8 +79,8 @@ static void along(int count, const element_data *const data[], const node_state 
 }
 
 static int strains(const double options[])"""), (".stress = stress,", ".stress = stress, .along = along,"))
-# Planted into the element that takes its loads itself: what every door then says, and how many verdicts are wrong; the
-# moments alone are nothing that a limit shows.
+# Faults planted into the element that applies its own loads, with the outcome in every form of
+# output and the number of wrong verdicts; limits do not reveal wrong moments alone.
 PLANTS = {
     "right": ((), "pass", 0),
     "stiffness": ((("c->young * c->Iz / l3", "1.1 * c->young * c->Iz / l3"),), "fail", 2),
@@ -118,7 +119,7 @@ print(found.passed, found.outcome)
 
 
 def changed(text, *changes):
-    """Each place once; an empty one is none."""
+    """Replaces each text once; an empty text is skipped."""
     for before, after in changes:
         assert not before or text.count(before) == 1, before
         text = text.replace(before, after) if before else text
@@ -142,7 +143,7 @@ class Gate(ProgramTest):
                       for name, (changes, *_) in PLANTS.items()}
 
     def verified(self, element, *options, what=RUN, named=("-f", NAME)):
-        """The process, and what its files say."""
+        """Returns the process, and the contents of its files."""
         files = {kind: self.folder / f"out.{kind}" for kind in ("json", "xml", "md", "h5")}
         loaded = ("--element", self.element.get(element, element))
         done = run("verify", *loaded, *named, *what, "--json", files["json"],
@@ -183,8 +184,9 @@ class Gate(ProgramTest):
                 self.assertEqual("element-test" in done.stdout, broken)
 
     def test_seven_doors(self):
-        """A wrong stiffness, mass and sign of a load, and stubs: status, JUnit, Markdown, JSON, last line, report, Python.
-        The load along the element is the one that an element brings itself (element_type.along)."""
+        """A wrong stiffness, a wrong mass, a load with the wrong sign, and stubs: exit status, JUnit, Markdown, JSON,
+        last line, report, Python. The load along the element is applied by the element itself
+        (element_type.along)."""
         scene = self.folder / "loaded.yaml"
         scene.write_text(LOADED, encoding="utf-8")
         for name, (_, outcome, wrong) in PLANTS.items():
@@ -198,7 +200,8 @@ class Gate(ProgramTest):
                 self.check_python(self.loaded[name], None, f"{outcome == 'pass'} {outcome}", scene=str(scene))
 
     def test_not_worse_than(self):
-        """Within every tolerance, and worse than before: on one mesh of results, in the short table, not on others."""
+        """Results within every tolerance that are worse than before: on one mesh of results, in the short table, not
+        on others."""
         _, files = self.verified("right")
         old, table = self.folder / "old.h5", self.folder / "old.csv"
         files["h5"].rename(old)
@@ -220,7 +223,7 @@ class Gate(ProgramTest):
                      "--not-worse-than", table)
 
     def test_tolerance(self):
-        """Of one's own, in the place of those of the cases."""
+        """A given tolerance replaces those of the cases."""
         for name, tolerance, outcome in (("stiffness", "50%", "pass"), ("stiffness", "0.1%", "fail"), ("right", "1e-12", "fail")):
             done, files = self.verified(name, "--tolerance", tolerance)
             self.check_doors(done, files, outcome, OUTCOMES[outcome])
@@ -235,14 +238,14 @@ class Gate(ProgramTest):
         self.check_doors(done, files, "fail", 1)
 
     def test_nothing_judged(self):
-        """It cannot run there, or is another model, or no truth is known."""
+        """Nothing is evaluated if the element cannot run there, is a different model, or has no reference value."""
         done, files = self.verified("right", what=NOWHERE)
         document, failures = self.check_doors(done, files, "nothing was judged", 3)
         self.assertEqual(document["judged"], 0)
         self.assertIn("judged nothing", failures[0].get("message"))
 
     def test_exit_zero(self):
-        """Explores: everything is said as ever, but for the status."""
+        """--exit-zero changes only the exit status, not the output."""
         for name, what in (("stiffness", RUN), ("stub", RUN), ("right", NOWHERE)):
             done, files = self.verified(name, "--exit-zero", what=what)
             first = done.stdout.splitlines()[0]
@@ -252,7 +255,7 @@ class Gate(ProgramTest):
         self.refused(2, "--no_such_option", "verify", "--exit-zero", "--no_such_option", silent=False)
 
     def test_proposals(self):
-        """What gates is proposed as findings all the same."""
+        """Verdicts that affect the exit status are still proposed as findings."""
         needed = self.folder / "needed.csv"
         self.verified("stiffness", "--propose-deviations", needed)
         self.assertGreater(len(needed.read_text(encoding="utf-8").splitlines()), 1)

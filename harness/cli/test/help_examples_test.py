@@ -1,4 +1,4 @@
-"""Every command among the examples of the help texts and of the manual is run as it stands."""
+"""Every command among the examples of the help texts and the manual is run unchanged."""
 import re
 import shlex
 import shutil
@@ -22,7 +22,7 @@ quantity, unit, elements, unknowns, seconds, x, value, uncertainty
 w_over_L, 1, 8, 48, 0.1, , 0.3017, 1e-4
 """
 SMALL = " -k '=elastica and =default and =beamw'"
-# What is run in the place of an example, and why: (part of the command, what stands there).
+# Replacements in expensive examples, with the reason: (part of the command, replacement).
 REDUCED = {
     "verify --shard 1/4 --into parts": ("parts", "parts" + SMALL),  # a quarter of all verdicts: 20 s
     "verify -o build/results.h5": ("results.h5", "results.h5" + SMALL),  # all verdicts: a minute
@@ -33,12 +33,12 @@ REDUCED = {
 
 
 def commands(text):
-    """Indented lines that begin with the program's name; what is said of one stands behind two spaces."""
+    """Indented lines that begin with the program's name; two spaces precede an explanation."""
     return [line.split("   ")[0].strip() for line in text.splitlines() if re.match(r"  beamwork [a-z]", line)]
 
 
 def manual_commands(page):
-    """Of a page of the manual, without the marks of its language."""
+    """Commands of a manual page, without markup."""
     text = run("help", "--man", page).stdout.partition(".Sh EXAMPLES")[2].partition(".Sh SEE")[0]
     plain = text.replace("\\-", "-").replace("\\(dq", '"').replace("\\&", "").replace("\\e", "\\")
     lines = (re.sub(r'^\.Dl "(.*)"$', r"\1", line) for line in plain.splitlines())
@@ -53,7 +53,7 @@ def reduced(command):
 
 
 class Examples(ProgramTest):
-    """The files that the examples speak of are there, and small."""
+    """The files that the examples mention exist and are small."""
 
     @classmethod
     def setUpClass(cls):
@@ -77,7 +77,7 @@ class Examples(ProgramTest):
             subprocess.run([PROGRAM, *shlex.split(made)], cwd=cls.place, check=True, stdout=subprocess.DEVNULL)
 
     def run_all(self, found):
-        """In a copy of the files, one after the other."""
+        """Runs the commands one after the other in a copy of the files."""
         here = self.place.with_name(f"here {len(list(self.place.parent.iterdir()))}")
         shutil.copytree(self.place, here, symlinks=True)
         if any("--into parts" in command for command in found):

@@ -1,4 +1,4 @@
-"""What the program says of itself: help, pages of the manual, and commands that it prints."""
+"""Self-description of the program: help, manual pages, and printed commands."""
 import re
 import shlex
 import shutil
@@ -9,9 +9,9 @@ from harness.cli.test.work import EVERY_VERB
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, environment, run
 
 
-# What the program says of itself: help, words that are explained, names that are misspelt.
+# Help, explained words, and misspelt names.
 WIDEST = 100
-# the C library's argp leaves a byte when it exits
+# the C library's argp does not free a byte at exit
 ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 
 
@@ -20,7 +20,7 @@ class Help(ProgramTest):
         return self.answered(verb, "-h", env=ENV).stdout
 
     def test_every_verb(self):
-        """Three ways to the same text, within the columns, with an example that names the verb."""
+        """Three forms of the command give the same text, within the columns, with an example that names the verb."""
         for verb in EVERY_VERB:
             text = self.help_of(verb)
             self.assertEqual(text, self.answered(verb, "--help", env=ENV).stdout)
@@ -39,7 +39,7 @@ class Help(ProgramTest):
         self.assertIn("HDF5", run("--version").stdout)
 
     def test_examples_are_accepted(self):
-        """Every option of an example is one of its verb."""
+        """Every option in an example belongs to its verb."""
         seen = 0
         for verb in EVERY_VERB:
             text = self.help_of(verb)
@@ -67,8 +67,7 @@ class Misspelt(ProgramTest):
         self.refused(2, "--all-dofs takes no value", "solve", "elastica", "--all-dofs=1")
 
     def test_values_are_no_options(self):
-        """What stands behind an option that takes a value is that value, whatever it begins
-        with."""
+        """The word after an option with a value is that value, whatever it begins with."""
         self.refused(2, "'-1'", "solve", "elastica", "-f", "beamw", "-n", "-1")
         self.refused(2, "--elemnts", "solve", "elastica", "-f", "--elemnts", "-n", "1")
         self.refused(2, "--elemnts", "solve", "-f", "beamw", "-n1", "--", "--elemnts")
@@ -79,7 +78,7 @@ class Misspelt(ProgramTest):
 
 class Explain(ProgramTest):
     def test_words(self):
-        """However they are written; several arguments are one word."""
+        """Words are found in any spelling; several arguments form one term."""
         text = self.answered("explain", "wrong limit").stdout
         self.assertEqual(self.answered("explain", "Wrong", "limit").stdout, text)
         self.assertEqual(self.answered("explain", "wrong_limit").stdout, text)
@@ -111,12 +110,12 @@ class Explain(ProgramTest):
         self.refused(4, "missing.h5", "explain", "pass", "--truths", "missing.h5")
 
 
-# Pages of the manual: all there is in the program stands in them, and formatters take them.
+# Manual pages: they contain everything that the program has, and formatters accept them.
 
-# the C library's argp leaves a byte when it exits
+# the C library's argp does not free a byte at exit
 MANUAL_ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 FILES = ("beamwork.1", "beamwork-scene.5", "beamwork-results.5")
-# of -h and of a page: letter, name, argument, what it does
+# in -h and in a page: letter, name, argument, description
 SHOWN = re.compile(r"^  (?:-(\w), |    )--([\w-]+)(\S*)(\s.*\n(?: {30}.*\n)*)", re.MULTILINE)
 TOLD = re.compile(r"^\.It (?:Fl (\w) , )?Fl -([\w-]+)(?: Ns (?:Oo )?= Ns Ar \"(.+?)\")?(?: Oc)?\n"
                   r"((?:(?!\.It|\.El).*\n)+)", re.MULTILINE)
@@ -128,7 +127,7 @@ def bare(argument):
 
 
 def plain(page):
-    """Without the escapes that keep characters as they are."""
+    """Removes the escapes that protect characters."""
     for escaped, shown in (("\\&", ""), ("\\-", "-"), ("\\(aq", "'"), ("\\(dq", '"'),
                            ("\\(ha", "^"), ("\\(ti", "~"), ("\\(ga", "`"), ("\\e", "\\")):
         page = page.replace(escaped, shown)
@@ -136,7 +135,7 @@ def plain(page):
 
 
 def hand_page(name):
-    """One that is written by hand, of a day and a version."""
+    """Returns a manual page written by hand, with a date and a version."""
     return run(name, "0.1.0", "2026-11-21",
                program=ROOT / "harness" / "library" / "packaging" / "page.sh").stdout
 
@@ -155,7 +154,7 @@ class Manual(ProgramTest):
         self.refused(2, "did you mean 'solve'", "help", "--man", "slove")
 
     def test_options_of_help(self):
-        """The same options with the same words, in the same order."""
+        """Help and manual have the same options with the same text, in the same order."""
         for verb in EVERY_VERB:
             shown = [(letter, name, bare(argument), words.split()) for letter, name, argument, words
                      in SHOWN.findall(self.answered(verb, "-h", env=MANUAL_ENV).stdout)]
@@ -172,7 +171,7 @@ class Manual(ProgramTest):
                 self.assertIn("\n" + line.strip() + "\n", text)
 
     def test_keys_of_scenes(self):
-        """All of them, as often as `scene --keys` lists them."""
+        """The page has all keys, as often as `scene --keys` lists them."""
         keys = re.findall(r"^( *)(\w+) +\S", self.answered("scene", "--keys").stdout.partition(
             "is replaced:\n")[2], re.MULTILINE)
         shown = [name for blanks, name in keys if len(blanks) < 12]
@@ -189,7 +188,7 @@ class Manual(ProgramTest):
             self.assertIn(record["table"] + '"\n' + record["summary"].split()[0], page)
 
     def test_element(self):
-        """Every member of the interface and all physics; nothing is left to be filled in."""
+        """The page has every member of the interface and all physics, and no placeholders."""
         page = plain(hand_page("beamwork-element.7"))
         self.assertNotRegex(page, "@[A-Z]+@")
         self.assertIn(".Dd November 21, 2026\n", page)
@@ -222,14 +221,14 @@ class Manual(ProgramTest):
             self.assertEqual((done.returncode, done.stdout), (0, ""), name)
 
 
-# Commands that the program prints are run as they stand: with elements, scenes, and names that need quotes.
+# Commands that the program prints are run unchanged: with elements, scenes, and names that need quotes.
 EXAMPLE = (ROOT / "elements" / "examples" / "timoshenko.c").read_text(encoding="utf-8")
 SCENE = (ROOT / "cases" / "examples" / "euler_column.yaml").read_text(encoding="utf-8")
 BENDING = "c->young * c->I"
 
 
 def commands(text):
-    """Lines that begin with the program's name, continued ones joined."""
+    """Lines that begin with the program's name, with continuation lines joined."""
     return re.findall(r"(?:^ *|: )(beamwork (?!\w+: )[^;\n]+)", re.sub(r" \\\n *", " ", text), re.MULTILINE)
 
 
@@ -268,7 +267,7 @@ class Printed(ProgramTest):
             self.run_all(done.stdout, 1, self.element)
 
     def test_what_is_shown_by(self):
-        """Hints with the name of a file, to be copied from between their quotes."""
+        """Hints with the name of a file can be copied from between their quotes."""
         for words in (("solve", "--scene", self.scene, "--set", "foo=1"), ("sweep", "--scene", self.scene),
                       ("sweep", "--scene", self.scene, "--vary", "foo")):
             hint = re.search(r"'(beamwork list .*)' shows", self.refused_line(*words))

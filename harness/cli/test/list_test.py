@@ -1,4 +1,4 @@
-"""list: what there is, of a case and of a formulation, and names that are misspelt."""
+"""list: the contents of a case and of a formulation, and misspelt names."""
 import csv
 import re
 import unittest
@@ -9,7 +9,7 @@ WIDEST = 100
 
 
 def names_of(text, heading):
-    """Names of the lines below a heading."""
+    """Returns the names in the lines below a heading."""
     below = text.partition(heading)[2].partition("\n")[2]
     return [line.split()[0] for line in re.split(r"\n(?! )", below)[0].splitlines()
             if re.match("  [^ ]", line)]
@@ -29,7 +29,7 @@ class Lists(ProgramTest):
         return " ".join(text.split()), text
 
     def test_orders(self):
-        """Least and highest of each analysis, as the formulation declares them."""
+        """Lowest and highest order of each analysis, as the formulation declares them."""
         for name, statics in (("collocation", "2 to 10"), ("sheet_third", "2 to 4")):
             told = " ".join(self.shown(name)[0].split()).partition("order of convergence: ")[2]
             self.assertTrue(told.startswith(f"{statics} in statics, 4 to 8 in vibration, "
@@ -43,7 +43,7 @@ class Lists(ProgramTest):
             self.assertEqual(names_of(text, "\nformulations"), self.formulations)
 
     def test_every_formulation(self):
-        """Every case is listed once, by whether it runs; that agrees with the list of the case."""
+        """Every case is listed once, by whether it runs, in agreement with the list of the case."""
         runs = {case: self.shown(case)[0] for case in self.cases}
         for name in self.formulations:
             words = self.shown(name)[0]
@@ -72,7 +72,7 @@ class Lists(ProgramTest):
         self.assertNotIn("finding", done.stdout)
 
     def test_json(self):
-        """The same, for programs."""
+        """The same as JSON."""
         every = self.record("list")
         self.assertEqual([one["case"] for one in every["cases"]], self.cases)
         self.assertEqual([one["formulation"] for one in every["formulations"]], self.formulations)

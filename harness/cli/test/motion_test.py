@@ -1,4 +1,4 @@
-"""Motions in time: formulations from outside, the error of time, masses, and runs that continue others."""
+"""Motions in time: external formulations, the time integration error, masses, and continued runs."""
 import csv
 import io
 import math
@@ -12,8 +12,7 @@ from harness.cli.test.plugin import EXAMPLES, PluginTest, compile_shared
 from harness.tools.kit.program import ProgramTest, TRUTHS
 
 
-# Formulations from outside in motions in time: by strains, by forces, by an energy alone, and in
-# another process.
+# External formulations in motions: by strains, by forces, by an energy alone, and in a separate process.
 PROCESS = f"exec:'{sys.executable}' '{EXAMPLES / 'timoshenko.py'}'"
 
 ARM = """beamwork: 1
@@ -38,12 +37,13 @@ omit: [shear, trapeze, wagner_moments, wagner_torque]
 class OwnMotion(PluginTest):
 
     def flight(self, integrator, name, *element):
-        """A soft rod thrown in space, for a second."""
+        """A flexible rod thrown in space, for one second."""
         return self.record("solve", "free_flight_space", "--set", f"integrator={integrator}", "-f",
                            name, "-n", 4, *element)
 
     def compare(self, name, element, integrators=("alpha", "conserving", "radau")):
-        """As the exact beam with as many elements; conserving steps miss no energy."""
+        """Checks that motions agree with the exact beam with as many elements, and that conserving steps conserve
+        energy."""
         for integrator in integrators:
             ours = self.flight(integrator, "collocation")
             own = self.flight(integrator, name, "--element", element)
@@ -63,7 +63,7 @@ class OwnMotion(PluginTest):
                                                     self.folder / "c.so"))
 
     def test_by_an_energy_alone(self):
-        """A thin arm that is turned by its hub."""
+        """A thin arm rotated by its hub."""
         made = compile_shared(EXAMPLES / "ancf.c", self.folder / "a.so")
         path = self.folder / "arm.yaml"
         path.write_text(ARM, encoding="utf-8")
@@ -77,10 +77,9 @@ class OwnMotion(PluginTest):
         self.compare("timoshenko_py", PROCESS, ("conserving",))
 
 
-# The error of time of motions whose integration is left to the program: 0.1 % of the motion, be it
-# nanometres or metres.
+# The time integration error with the default settings: 0.1 % of the motion, from nanometres to metres.
 
-# A mass on a leaf; a force comes at once: u/u_static = 1 - cos(omega t).
+# A mass on a leaf spring under a suddenly applied force: u/u_static = 1 - cos(omega t).
 SUDDEN = """beamwork: 1
 parameters: {{force: {{value: 1, unit: N}}}}
 let: {{T: 2*pi*sqrt(0.5*0.1^3/60), us: force*0.1^3/60}}
@@ -101,7 +100,7 @@ quantities:
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
 
-# A corner of two leaves that something sets in motion.
+# A corner of two leaf springs, set in motion in various ways.
 CORNER = """beamwork: 1
 sections:
   s: {{rectangle: {{width: {width}, thickness: {t}}}, young: 70e9, shear_modulus: 27e9, density: 2700}}
@@ -120,7 +119,7 @@ quantities:
   w: {{displacement: {{analysis: mo, node: c, component: uy, take: curve}}}}
 """
 
-# A leaf that hangs at rest under a load.
+# A leaf spring at rest under a load.
 REST = """beamwork: 1
 sections:
   s: {{rectangle: {{width: 0.02, thickness: 0.002}}, young: 70e9, shear_modulus: 27e9, density: 2700}}
@@ -138,7 +137,7 @@ quantities:
   u: {{displacement: {{analysis: mo, node: b, component: uy, take: curve}}}}
 """
 
-# A hub that is driven about three axes, one inside the other.
+# A hub driven about three nested axes.
 ANGLES = """beamwork: 1
 sections:
   tube: {tube: {diameter: 20e-3, thickness: 1e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
@@ -162,7 +161,7 @@ quantities:
 
 
 def corner(seed, how):
-    """A scene by chance: size, mass, what acts, how far (1e-7 to 1e-2 of it) and how long."""
+    """A random scene: size, mass, excitation, amplitude (1e-7 to 1e-2 of the size) and duration."""
     chance = random.Random(seed)
     L = 10**chance.uniform(-1.3, 0.5)
     t = L/chance.choice([20, 50, 100])
@@ -190,7 +189,7 @@ def corner(seed, how):
 class MotionError(ProgramTest):
 
     def curves(self, text, *options):
-        """The curves of a scene, by their names, and the others' values."""
+        """Returns the curves of a scene by name, and the values of the other quantities."""
         path = self.folder / "scene.yaml"
         path.write_text(text, encoding="utf-8")
         record = self.record("solve", "--scene", path, "-f", "geometrically_exact", *options)
@@ -199,7 +198,7 @@ class MotionError(ProgramTest):
                 {one["quantity"]: one["value"] for one in record["quantities"]})
 
     def test_sudden_loads(self):
-        """From 2 pm to 20 mm, and with another number of elements; of the largest motion, 2."""
+        """From 2 pm to 20 mm, and with a different number of elements; relative to the largest motion, 2."""
         for how, limit in (("", 1e-3), ("integrator: alpha, ", 1.2e-3)):
             for force, n in ((1e-7, 1), (1e-3, 1), (1e-3, 4), (1, 1)):
                 with self.subTest(how=how, force=force, n=n):
@@ -220,8 +219,8 @@ class MotionError(ProgramTest):
                         self.assertLess(abs(one - other), 1e-3*largest)
 
     def test_at_rest(self):
-        """What is bent by a load that stays is at rest, whatever the integrator, in few steps: what
-        its equilibrium is off by is no motion to be resolved."""
+        """A structure bent by a constant load stays at rest in few steps with any integrator: the residual of its
+        equilibrium is not resolved as a motion."""
         for how in ("", "integrator: alpha, ", "integrator: conserving, "):
             for force in (0, 1, 1e-9):
                 text = REST.format(how=how, force=force)
@@ -231,7 +230,7 @@ class MotionError(ProgramTest):
                     self.assertLess(self.steps, 40)
 
     def test_conserving_by_driven_angles(self):
-        """Of order 2, and the work done is the energy that there is."""
+        """Conserving steps are of order 2, and the work done equals the energy."""
         right, _ = self.curves(ANGLES.replace("HOW", "integrator: radau, tolerance: 1e-7"), "-n", 2)
         errors = []
         for step in (4e-3, 2e-3):
@@ -243,7 +242,8 @@ class MotionError(ProgramTest):
         self.assertAlmostEqual(errors[0]/errors[1], 4, delta=0.6)
 
 
-# The parameter `mass` of built-in cases: where the mass of members lies. The usual is what a case has without it.
+# The parameter `mass` of built-in cases: distribution of the mass of members. The default is that
+# of the case without the parameter.
 ASKED = {"coupled_beam": ("asked=frequencies",), "sheet_cantilever": ("modes=3",),
          "tapered_cantilever": ("section=wedge", "asked=waves")}
 MASSLESS = {"angle_column", "bend_45", "c_cantilever", "carried_rod", "cross_flexure", "elastica", "geradin_cardona",
@@ -261,14 +261,14 @@ def with_key(scene):
 class MassTest(SceneCase):
 
     def massive(self):
-        """(case, what is set) of those that have mass."""
+        """(case, settings) of the cases with mass."""
         names = [c["case"] for c in self.record("list")["cases"]]
         having = [n for n in names if "mass" in {p["name"] for p in self.record("list", n)["parameters"]}]
         self.assertEqual(set(names) - set(having), MASSLESS)
         return [(n, tuple(w for one in ASKED.get(n, ()) for w in ("--set", one))) for n in having]
 
     def lumped_differs(self, case, point):
-        """As the scene of the case with `mass: lumped`, bit for bit, and marked."""
+        """The results are bitwise those of the case's scene with `mass: lumped`, and marked."""
         usual, lumped = (self.record("solve", case, *WHERE, *point, *mass) for mass in ((), LUMPED))
         self.assertEqual(usual["parameters"]["mass"], "usual")
         self.assertEqual(lumped["parameters"]["mass"], "lumped")
@@ -291,7 +291,7 @@ class MassTest(SceneCase):
                 self.assertIn("\nmass: lumped\n", self.answered("scene", case, *point, *LUMPED).stdout)
 
     def test_reference_values_hold(self):
-        """Meshes go to the same limit: halves at the nodes to order 2."""
+        """Meshes converge to the same limit, with order 2 for halves at the nodes."""
         found = self.record("solve", "deep_beam", "-f", "collocation", "-n", 64, *LUMPED)
         errors = [q["error"] for q in found["quantities"] if q["quantity"].startswith("frequency")]
         self.assertTrue(errors and all(e is not None and 1e-6 < abs(e) < 1e-3 for e in errors), errors)
@@ -301,7 +301,7 @@ class MassTest(SceneCase):
         self.assertIn("mass=lumped", said[1][0])
 
     def test_consistent_is_required(self):
-        """What has it is as usual; what lumps is refused."""
+        """Formulations with a consistent mass give the usual results; lumping ones are rejected."""
         spin = ("spin_up", *WHERE, "--set", "time=0.5")
         usual = values(self.record("solve", *spin))
         self.assertEqual(values(self.record("solve", *spin, "--set", "mass=consistent")), usual)
@@ -322,9 +322,9 @@ class MassTest(SceneCase):
         self.assertLess(10 * found["usual"], found["lumped"])
 
 
-# Motions that another run goes on with: as one run, bit for bit where steps stay and end there.
+# Motions continued in another run agree with a single run, bitwise if steps are constant and end there.
 
-# Turned quickly out of its place under its weight, with a load that comes at once.
+# Rotated quickly from its position under its own weight, with a suddenly applied load.
 SWING = """\
 beamwork: 1
 parameters:
@@ -370,7 +370,7 @@ class RestartTest(SceneCase):
         return {row["quantity"]: row["value"] for row in rows}
 
     def in_two(self, stop=1, **changes):
-        """Quantities of one run and of another that goes on from where a third stopped."""
+        """Returns quantities of a single run, and of a run that continues another."""
         path, sets = self.scene(SWING), [f"--set={k}={v}" for k, v in changes.items()]
         ends = self.folder / "ends.h5"
         one = self.values(path, *MESH, *sets)
@@ -387,7 +387,7 @@ class RestartTest(SceneCase):
                 self.assertGreater(abs(float(one["z"])), 1e-3)
 
     def test_to_round_off(self):
-        """Factors of a run that begins pivot anew; a step that an end cuts short is another one."""
+        """To round-off only: a new run chooses its pivots again, and a step shortened by an end is different."""
         for changes, most in (({"how": "radau"}, 1e-9), ({"how": "radau", "damp": 1e-3}, 1e-9),
                               ({"how": "radau", "tol": 1e-8}, 1e-4), ({"how": "alpha", "step": 0.01}, 1e-9)):
             with self.subTest(**changes):
@@ -396,7 +396,7 @@ class RestartTest(SceneCase):
                     self.assertAlmostEqual(float(two[name]), float(value), delta=most * max(1, abs(float(value))))
 
     def test_one_after_the_other(self):
-        """From a restart to the next one."""
+        """One restart continues another."""
         path, ends = self.scene(SWING), [self.folder / f"{i}.h5" for i in range(3)]
         self.values(path, *MESH, "--set", "end=0.5", "--save-state", ends[0])
         self.values(path, "--set", "end=1", "--restart", ends[0], "--save-state", ends[1])

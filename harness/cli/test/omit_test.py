@@ -1,5 +1,5 @@
-"""The parameter `omit` of built-in cases: their sources omit physics, omit=none has all of it, and what is stored
-of a case does not speak of that."""
+"""The parameter `omit` of built-in cases: their sources omit physics, omit=none includes all physics, and
+stored values of a case do not apply to that."""
 import csv
 import io
 import json
@@ -18,7 +18,7 @@ class OmitTest(SceneCase):
         return [c["case"] for c in self.record("list")["cases"]]
 
     def test_every_case_has_all_physics(self):
-        """It runs, leaves nothing out, and is held against nothing."""
+        """With omit=none every case runs, omits nothing, and is compared with no reference value."""
         changed = 0
         for case in self.cases():
             solved = self.record("solve", case, *WHOLE)
@@ -38,7 +38,7 @@ class OmitTest(SceneCase):
         self.assertEqual(changed, 3)
 
     def test_as_the_scene(self):
-        """The same as its scene with its `omit` deleted, to 1e-12."""
+        """The results agree with those of its scene without `omit`, to 1e-12."""
         for case, point in (("c_column", ()), ("moment_buckling", ("--set", "length=4")), ("c_cantilever", ()),
                             ("elastica", ("--set", "load=3"))):
             where = ("-f", "geometrically_exact", "-n", 4)
@@ -54,7 +54,7 @@ class OmitTest(SceneCase):
             self.assertNotRegex(self.answered("scene", case, *WHOLE).stdout, "(?m)^omit:")
 
     def test_omitted_whatever_is_asked(self):
-        """A resultant that physics is needed for does not bring back what the scene omits."""
+        """Requesting a resultant does not restore physics that the scene omits."""
         text = """beamwork: 1
 sections:
   i: {i: {depth: 0.1, flange: 0.06, flange_thickness: 3e-3, web_thickness: 2e-3}, young: 210e9, shear_modulus: 81e9}
@@ -86,7 +86,7 @@ quantities:
         self.assertGreater(len(turns), 1)
 
     def test_more_than_single_switches(self):
-        """With it a case has shear, whatever its own switch says."""
+        """With omit=none a case has shear, whatever its own switch."""
         solved = [values(self.record("solve", "moment_buckling", "-n", 4, "-f", "geometrically_exact", *more))
                   for more in ((), ("--set", "shear=1"), WHOLE, (*WHOLE, "--set", "shear=1"))]
         self.assertEqual(solved[2], solved[3])
@@ -117,8 +117,8 @@ quantities:
             more="omit: [trapeze]\n")
 
     def test_numbers_that_are_not_given(self):
-        """A section by its numbers has nothing of what they do not say, which is told unless it cannot count, is left
-        out, or is known from the shape."""
+        """Constants that a section does not give are zero. This is reported unless they have no effect, are omitted,
+        or follow from the shape."""
         constants = "constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8%s}, young: 2e11, shear_modulus: 8e10"
         full = ", F: [1200, 0, 0, 0, 1200, 0, 0, 0, 0], Iw: 1e-10"
         diagonal = "stiffness: [2e8, 1e8, 1e8, 1e3, 4e5, 2e5], mass: [8, 8, 8, 1e-3, 1e-3, 1e-3]"
@@ -143,8 +143,8 @@ quantities:
                 self.assertEqual(found, [told] if told else [], (section, analysis, more, verb))
 
     def test_what_is_not_modelled(self):
-        """A Z whose warping is restrained turns further to one side; a channel, a Z that is not stressed and one whose
-        cubic torsion is left out do not."""
+        """A Z section with restrained warping twists further to one side; a channel, an unstressed Z and a Z without
+        cubic torsion do not."""
         for flange, analysis, more, told in (
             (0.07, "static: {stations: [1]}", "", True), (-0.07, "static: {stations: [1]}", "", False),
             (0.07, "buckling: {}", "", True), (0.07, "linear: {}", "", False),
@@ -177,7 +177,7 @@ quantities:
                              (flange, analysis, more))
 
     def test_assumptions_stand_everywhere(self):
-        """One list: text, CSV, JSON, HDF5, JUnit and Markdown."""
+        """Text, CSV, JSON, HDF5, JUnit and Markdown have the same list."""
         scene = ("--scene", self.scene(self.loaded_bar(", Iw: 0")))
         physics = "shear, wagner_torque"
         said = physics + " of section bar is not given by its numbers: assumed to be zero"
@@ -212,7 +212,7 @@ quantities:
         self.assertIn(line, files[3].read_text())
 
     def test_zero_that_is_given(self):
-        """What the scene says to be zero is known; it stays so in the scene that is written out."""
+        """A constant given as zero counts as known, also in the written scene."""
         every = ", ".join("0" for _ in range(9))
         for more, told in (("", "shear, warping, wagner_torque"), (", Iw: 0", "shear, wagner_torque"),
                            (", wagner_torque: 0", "shear, warping"), (f", F: [{every}]", "warping, wagner_torque"),
@@ -227,7 +227,7 @@ quantities:
                 self.assertEqual([set(f.split(", ")) for f in found], [set(told.split(", "))] if told else [], more)
 
     def test_torque_of_its_own(self):
-        """Built-in sheets have the torque of a thin strip; what is given as zero is known, and nothing."""
+        """Built-in sheets have the torque of a thin strip; a constant given as zero is known and zero."""
         self.assertRegex(self.answered("scene", "sheet_wagner").stdout, "given: {Iw: [^}]*, wagner_torque: ")
         text = self.loaded_bar("").replace("omit: [trapeze]\n", "")
         for more, told in ((", given: {wagner_torque: 0}", "shear, warping"), (", given: {Iw: 0}", "shear, wagner_torque"),
@@ -236,7 +236,7 @@ quantities:
             self.assertEqual(set(found["physics"].split(", ")), set(told.split(", ")), more)
 
     def test_no_truth(self):
-        """None is stored, none is derived, no verdict is passed; the way to one is told."""
+        """There is no stored or derived reference value and no verdict; the output explains how to obtain one."""
         self.refused(1, "beamwork scene c_column --set omit=none", "truth", "c_column", *WHOLE, silent=False)
         self.assertIn("buckling_load", self.answered("truth", "c_column", "--set", "omit=source").stdout)
         judged = self.record("converge", "elastica", "-f", "geometrically_exact", *WHOLE)

@@ -1,4 +1,4 @@
-"""The command line: options, refusals and answers."""
+"""The command line: options, rejections and answers."""
 import os
 import pathlib
 import re
@@ -15,16 +15,15 @@ from harness.tools.kit.program import ProgramTest, ROOT, TRUTHS, environment, ru
 from reference.pack import seal
 
 
-# Words of the command line that say two things or nothing, and a machine that gives too little:
-# one line and the documented code.
+# Contradictory or empty arguments, and a machine with too few resources: one line and the documented exit status.
 LISTS = ("formulation", "element", "elements", "set")  # may be given again
-# the C library's argp leaves a byte when it exits
+# the C library's argp does not free a byte at exit
 HELP = environment(ASAN_OPTIONS="detect_leaks=0")
 
 
 class Words(ProgramTest):
     def test_options_twice(self):
-        """Every option with one value of every verb, as its help lists them."""
+        """Every single-valued option of every verb, as its help lists them, is rejected if given twice."""
         seen = 0
         for verb in VERBS:
             shown = run(verb, "--help", env=HELP).stdout
@@ -63,7 +62,7 @@ class Words(ProgramTest):
         self.refused(2, "option", "converge", "elastica", "-n", "2", "-f", "beamw:")
 
     def test_numbers(self):
-        """What a double cannot hold is no value: neither zero nor infinity."""
+        """A number beyond the range of a double is rejected, not read as zero or infinity."""
         for text in ("1e-400", "-1e-400", "1e400", "1e-320", "1e999999999999", "0x1p-2000", "nan",
                      "inf", "1,5", "1e", "", " "):
             self.refused(2, "parameter load", "solve", "elastica", "-f", "beamw", "-n", "1",
@@ -77,8 +76,8 @@ class Tables(ProgramTest):
     """The arrays of options that verbs name."""
 
     CLI = ROOT / "harness" / "cli"
-    ANSWERS = {"bench": ("bench", "contest", "contestant")}  # else the file of the verb
-    ELSEWHERE = {("scene", "format")}  # of the mistakes that case_input reports
+    ANSWERS = {"bench": ("bench", "contest", "contestant")}  # otherwise the file of the verb
+    ELSEWHERE = {("scene", "format")}  # used in the errors reported by case_input
 
     def shown(self, verb):
         """(letter, name) of each option."""
@@ -89,7 +88,7 @@ class Tables(ProgramTest):
         return (self.CLI / f"{name}.c").read_text(encoding="utf-8")
 
     def test_letters(self):
-        """Few, each with one meaning; names of a verb are its own."""
+        """There are few letters, each with one meaning; names within a verb are unique."""
         meaning = {}
         for verb in EVERY_VERB:
             names = [name for _, name in self.shown(verb)]
@@ -99,7 +98,7 @@ class Tables(ProgramTest):
         self.assertEqual("".join(sorted(meaning)), "fhjknoqsv")
 
     def test_former_letters(self):
-        """Each is still read, and told with its name."""
+        """Each former letter is still accepted, with a note on its name."""
         names = {name: verb for verb in EVERY_VERB for _, name in self.shown(verb)}
         former = re.findall(r"\{'(.)', \"([a-z-]+)\"\}", self.source("options"))
         self.assertGreater(len(former), 40)
@@ -109,7 +108,7 @@ class Tables(ProgramTest):
         self.answered("solve", "warping_torsion", "-fbeamw", "-Kn2")
 
     def test_former_names(self):
-        """Each is read, with one line that gives the new one; no help lists it."""
+        """Each former name is accepted, with one line that gives the new name; no help lists it."""
         verbs = {name: verb for verb in EVERY_VERB for _, name in self.shown(verb)}
         renamed = re.findall(r"\{\"([a-z-]+)\", \"([a-z-]+)\"\}", self.source("options"))
         self.assertEqual(len(renamed), 10)
@@ -127,7 +126,7 @@ class Tables(ProgramTest):
         self.refused(2, "solve takes no --beside", "solve", "elastica", "--beside", "x.h5")
 
     def test_each_is_used(self):
-        """By the verb that takes it; 'merge' passes all on."""
+        """Each option is used by its verb; 'merge' passes all on."""
         everything = "".join(path.read_text(encoding="utf-8") for path in self.CLI.glob("*.c"))
         for verb in EVERY_VERB:
             name = verb.replace("-", "_")
@@ -138,7 +137,7 @@ class Tables(ProgramTest):
             self.assertTrue(members or verb == "merge", verb)
             for member in {own or shared for own, shared in members if verb != "merge"}:
                 head, _, tail = member.partition(".")
-                if tail and f"&r->{head}" in answers:  # a whole group, which others read
+                if tail and f"&r->{head}" in answers:  # a whole group, read by other functions
                     self.assertRegex(everything, rf"->{tail}\b", (verb, member))
                 elif (verb, member) not in self.ELSEWHERE:
                     self.assertRegex(answers, rf"->{re.escape(member)}\b", (verb, member))
@@ -152,11 +151,11 @@ class Tables(ProgramTest):
 
 
 class Machine(ProgramTest):
-    """A disk, files or a stack that are too small."""
+    """A disk, file size limit or stack that is too small."""
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
     def test_full_disk(self):
-        """Whatever is shown: not shown is not well."""
+        """A full disk is an error for every output: output that is not written is not success."""
         shown = [("--help",), ("help",), ("--version",), (), ("list",), ("list", "cases"),
                  ("list", "formulations"), ("list", "elastica"),
                  ("truth", "elastica"), *((verb, *work) for verb, work in WORK.items()),
@@ -170,7 +169,7 @@ class Machine(ProgramTest):
                              arguments)
 
     def test_small_files(self):
-        """ulimit -f, without anybody who ignores its signal."""
+        """ulimit -f, without a parent that ignores its signal."""
         def limit():
             signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
             resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
@@ -185,8 +184,7 @@ class Machine(ProgramTest):
         self.assertEqual(os.listdir(self.folder), ["list"])
 
     def with_stack(self, size, hard, path, **more):
-        """verify with a stack of so many kB, to begin with or at most; nothing else on the stack
-        than these variables."""
+        """Runs verify with this stack size [kB], as soft or hard limit, and with only these environment variables."""
         def limit():
             resource.setrlimit(resource.RLIMIT_STACK,
                                (size * 1024, size * 1024 if hard else 2 ** 23))
@@ -200,23 +198,22 @@ class Machine(ProgramTest):
             self.skipTest("needs a build without sanitizers")
 
     def test_small_stack(self):
-        """ulimit -s: raised where that is allowed, refused in one line where it is not."""
+        """ulimit -s: the limit is raised if allowed; otherwise the run is rejected in one line."""
         self.needs_no_sanitizers()
         for size in (24, 32, 64, 128, 512):
             for hard in (False, True):
                 self.with_stack(size, hard, os.environ["PATH"], BEAMWORK_TRUTHS=TRUTHS)
 
     def test_least_stack(self):
-        """With the least stack that the loader can work with, wherever addresses are moved to: a
-        refusal by way of stdio, which has its buffer there, dies three times in four."""
+        """With the smallest stack that the loader supports, for any address layout: a message through stdio, whose
+        buffer is on the stack, crashes three times in four."""
         self.needs_no_sanitizers()
         for size in 8 * (16, 17, 18):
             self.with_stack(size, True, "/usr/bin:/bin")
 
 
 class OtherPythons(ProgramTest):
-    """Who works in a virtual environment, or with a Python of his own, has the reference values derived all
-    the same."""
+    """Reference values are also derived in a virtual environment, or with a different Python."""
 
     def derived(self, **changes):
         done = self.answered("truth", "elastica", "--set", "load=2.5", env=environment(**changes))
@@ -251,19 +248,19 @@ class OtherPythons(ProgramTest):
         self.derived(PYTHONSTARTUP="/nowhere", PYTHONSAFEPATH="1")
 
 
-# The program as a user meets it: answers, refusals with one line and the documented exit code,
-# no partial file.
+# The program from a user's point of view: answers, rejections with one line and the documented exit
+# status, no partial file.
 EXAMPLES = ROOT / "cases" / "examples"
 
 
 def solve(case, *assignments):
-    """Words that solve a case on a small mesh."""
+    """Arguments that solve a case on a small mesh."""
     sets = [word for assignment in assignments for word in ("--set", assignment)]
     return ("solve", case, "-f", "beamw", "-n", "2", *sets)
 
 
 def untimed(text):
-    """What verify shows, but for the time it took."""
+    """Output of verify without its run time."""
     return re.sub(r"noise, in [\d.]+ s", "noise", text)
 
 
@@ -289,7 +286,7 @@ class Refusals(ProgramTest):
         self.assertIn("give newton=mixed", done.stdout + done.stderr)
 
     def test_byte_order_marks(self):
-        """At the beginning of any text that is read, as some editors put them."""
+        """Byte order marks, which some editors write, are accepted at the start of any text file."""
         results, table = self.folder / "r.h5", self.folder / "r.csv"
         self.answered("verify", "-k", "=elastica", "-f", "beamw", "-o", results)
         self.answered("compare", results, "-o", table)
@@ -339,7 +336,7 @@ class Refusals(ProgramTest):
                      silent=False)
 
     def test_misspelt_selection(self):
-        """A word that names nothing would skip cells in silence; in brackets or not."""
+        """A word without a match would skip cells silently, so it is rejected, in brackets or not."""
         for verb in ("verify", "stress"):
             self.refused(2, "did you mean 'elastica'?", verb, "-k", "elastca")
             self.refused(2, "'sheet_thrid'", verb, "-k", "(elastica or sheet_thrid)")
@@ -360,7 +357,7 @@ class Answers(ProgramTest):
         self.assertTrue(any(t["truth_kind"] == "exact" for t in load["truths"]))
 
     def test_gate(self):
-        """A rule that is taken out of the ledger turns the gate red."""
+        """Removing a rule from the list of known deviations makes the run fail."""
         path = self.folder / "t.h5"
         shutil.copy(TRUTHS, path)
         selection = ("-k", "c_column and section_data=printed and beamw", "--truths", path)
@@ -377,7 +374,8 @@ class Answers(ProgramTest):
         self.assertEqual(untimed(one.stdout), untimed(two.stdout))
 
     def test_truth(self):
-        """Stored at known points, derived at new ones, refused where no program can."""
+        """Reference values are stored at known points, derived at new ones, and rejected where no program can derive
+        them."""
         source = r" +1 +exact +same\n +reference/derive/cantilevers.py"
         for load in ("load=2", "load=2.5"):
             done = self.answered("truth", "elastica", "--set", load)
@@ -388,7 +386,8 @@ class Answers(ProgramTest):
                      silent=False, env=environment(BEAMWORK_REFERENCE="/nowhere"))
 
     def test_truth_has_the_digits_of_its_uncertainty(self):
-        """None of rounding; the theory of shear; a thickness that no row has; a remedy where no program can."""
+        """Digits without rounding noise; the shear theory; a thickness without stored values; a remedy if no program
+        can derive the value."""
         text = self.answered("truth", "spherical_joint").stdout
         self.assertNotRegex(text, r"\d\.\d*(9{6}|0{6}\d)")
         self.assertRegex(text, r"support_stiffness_max +\S+ \+- .* exact +same, haringx\n")
@@ -400,14 +399,14 @@ class Answers(ProgramTest):
         self.assertIn("give `truths` of the scene", done.stderr)
 
     def derived(self, scene, *words):
-        """{quantity: (value, uncertainty)} of the lines for the file, and the lines."""
+        """Returns {quantity: (value, uncertainty)} from the lines for the file, and the lines."""
         done = self.answered("truth", "--scene", scene, *words)
         lines = done.stdout.partition("truths:\n")[2]
         found = re.findall(r"quantity: (\w+), value: (\S+), uncertainty: (\S+), kind: exact", lines)
         return {name: (float(value), float(plus)) for name, value, plus in found}, lines
 
     def test_truth_of_a_scene(self):
-        """A scene of one's own is solved as a network: what its file and the built-in case know."""
+        """A user's scene is solved as a network; its values agree with those of the file and the built-in case."""
         for case in ("bend_45", "shear_elastica", "roll_up"):
             scene = self.folder / f"{case}.yaml"
             self.answered("scene", case, "-o", scene)
@@ -426,7 +425,7 @@ class Answers(ProgramTest):
         self.assertIn("cells", done.stderr)
 
     def test_derived_lines_belong_into_the_file(self):
-        """Of the parameters they were derived for, and no others."""
+        """Derived lines apply only to the parameters for which they were derived."""
         scene = self.folder / "portal.yaml"
         text = (EXAMPLES / "plane_portal.yaml").read_text(encoding="utf-8")
         head, _, tail = text.partition("truths:\n")

@@ -1,4 +1,4 @@
-"""Where outputs go, and what a screen shows."""
+"""Destinations of output, and output on a screen."""
 import csv
 import json
 import os
@@ -20,10 +20,10 @@ from harness.tools.kit.program import (PROGRAM, ProgramTest, ROOT, TRUTHS, envir
 from reference.pack import seal
 
 
-# Where outputs go: through links, into pipes and devices, never onto an input or onto each
-# other, and no work before that is sure.
+# Destinations of output: through links, into pipes and devices, never onto an input or another
+# output, checked before any work.
 def shape(text):
-    """A text without its numbers: times are never the same."""
+    """Returns a text without its numbers, because times differ between runs."""
     return re.sub(r"[0-9][0-9.e+-]*", "#", text)
 
 
@@ -36,7 +36,7 @@ class Folder(ProgramTest):
 
 class Places(Folder):
     def test_no_places(self):
-        """Every output of every verb, before anything is computed."""
+        """Invalid destinations are reported for every output of every verb before anything is computed."""
         for verb, work in WORK.items():
             for option in [(o,) for o in TEXT[verb]] + ([WHOLE[verb]] if WHOLE[verb] else []):
                 self.refused(2, "without a name", verb, *work, *option, "")
@@ -48,7 +48,7 @@ class Places(Folder):
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_whole_files(self):
-        """HDF5 into what is no regular file is refused, and that stays what it is."""
+        """HDF5 output to anything except a regular file is rejected, and the target does not change."""
         fifo = self.folder / "fifo"
         os.mkfifo(fifo)
         for verb, option in WHOLE.items():
@@ -57,7 +57,7 @@ class Places(Folder):
         self.assertTrue(fifo.is_fifo())
 
     def test_text_is_no_hdf5(self):
-        """A file called .h5 is HDF5, or nothing is written."""
+        """A file named .h5 is written as HDF5, or not at all."""
         for verb, options in TEXT.items():
             for option in options:
                 for name in ("a.h5", "a.HDF5") if (verb, option) not in BOTH else ():
@@ -72,7 +72,7 @@ class Places(Folder):
                 self.assertEqual(list(file["experiments"]), [verb])
 
     def test_closed_standard_output(self):
-        """Files are written all the same, and none becomes standard output."""
+        """Files are still written, and none becomes standard output."""
         for work in (("verify", *WORK["verify"]), ("solve", "elastica", "-f", "beamw", "-n", "1", "--shapes"),
                      ("sweep", "elastica", "-f", "beamw", "-n", "1", "--vary", "load=1,2")):
             path = self.folder / f"{work[0]}.h5"
@@ -88,7 +88,7 @@ class Places(Folder):
         self.assertTrue(read_json(path)["outcomes"])
 
     def test_signals(self):
-        """Who is asked to end leaves no unfinished file."""
+        """A process ended by a signal leaves no unfinished file."""
         for number in (signal.SIGTERM, signal.SIGHUP):
             for delay in (0.01, 0.03, 0.05, 0.08, 0.12):
                 for work in (("converge", "loaded_cantilever", "-f", "beamw", "-o", "c.txt"),
@@ -100,7 +100,7 @@ class Places(Folder):
                     self.assertEqual([name for name in os.listdir(self.folder) if ".part-" in name], [])
 
     def test_pipes(self):
-        """Text goes into a pipe with a name as it would go into a file."""
+        """Text is written to a named pipe as to a file."""
         for verb, options in TEXT.items():
             for option in options:
                 fifo, file, got = self.folder / "fifo", self.folder / "file", []
@@ -118,7 +118,7 @@ class Places(Folder):
                 fifo.unlink()
 
     def test_standard_output(self):
-        """/dev/stdout is a pipe, or a file that keeps what is in it already."""
+        """/dev/stdout is a pipe, or a file whose present contents are kept."""
         work = ("converge", *WORK["converge"], "--format", "csv")
         piped = run(*work, "-o", "/dev/stdout").stdout
         plain = run(*work).stdout
@@ -143,7 +143,7 @@ class Places(Folder):
 
 class Twice(Folder):
     def names(self, name):
-        """One file under other words."""
+        """Other names of the same file."""
         path = self.folder / name
         link = self.folder / f"link_of_{name}"
         link.unlink(missing_ok=True)
@@ -178,7 +178,7 @@ class Twice(Folder):
 
     @staticmethod
     def why_not(name):
-        """Of text onto an input that is HDF5: by its name, or by where that leads."""
+        """Reason for rejecting text output onto an HDF5 input: by its name, or by the target of that name."""
         return "not HDF5" if str(name).endswith(".h5") else "which is an input"
 
     def test_compared_file(self):
@@ -201,7 +201,7 @@ class Twice(Folder):
         self.assertEqual(truths.read_bytes(), before)
 
     def test_program(self):
-        """A copy of it: a test that fails must not cost the build."""
+        """Uses a copy of the program, so that a failing test cannot damage the build."""
         program = self.folder / "beamwork"
         shutil.copy(PROGRAM, program)
         before = program.read_bytes()
@@ -212,8 +212,7 @@ class Twice(Folder):
 
 class LongPaths(Folder):
     def test_clone(self):
-        """A clone in a folder whose name is longer than any buffer of old: truths, derivations
-        and outputs are found."""
+        """A clone in a folder with a very long name: reference values, derivations and outputs are found."""
         deep = self.folder
         while len(str(deep)) < 3000:
             deep = deep / ("d" * 200)
@@ -230,7 +229,7 @@ class LongPaths(Folder):
             self.assertEqual(done.returncode, 0, done.stderr)
 
 
-# What verify shows: a screen, all that is unexpected in full, colour on terminals only.
+# Output of verify: one screen, unexpected results in full, colour on terminals only.
 SELECT = ("verify", "-k", "c_column and section_data=printed and (beamw or collocation)")
 SMALL = ("verify", "-k", "shear_elastica/default or elastica/default")
 UTF8 = environment(LC_ALL="C.UTF-8")
@@ -238,7 +237,7 @@ ASCII = environment(LC_ALL="C")
 
 
 def on_terminal(*arguments, **changes):
-    """What the program writes to a terminal."""
+    """Returns the output of the program on a terminal."""
     parent, child = pty.openpty()
     with subprocess.Popen([PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=child,
                           stderr=child, env=environment(**changes)) as process:
@@ -297,7 +296,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
         return columns
 
     def test_forms(self):
-        """The default name, and each form by its first bytes."""
+        """The default name, and each format, identified by its first bytes."""
         self.assertEqual(self.plot("-f", "beamw").stdout, "arm.png\n")
         for form, begin in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
             path = self.folder / f"arm.{form}"
@@ -309,7 +308,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
             self.assertIn(word, words)
 
     def test_columns(self):
-        """What is one value becomes a curve; times and frequencies of modes do not."""
+        """Single values become curves, except times and frequencies of modes."""
         of = self.table("-f", "beamw")
         self.assertEqual(list(of), ["path", "bent [m]", "time [s]", "last [m]", "most [m]",
                                     "frequency [Hz]", "gives [m/N]", "gives, phase [rad]"])
@@ -341,7 +340,7 @@ class Screen(ProgramTest):
             self.assertLessEqual(len(line), 100, line)
 
     def test_widths(self):
-        """Long names, sources and descriptions are continued on lines of their own."""
+        """Long names, sources and descriptions continue on separate lines."""
         long_name = "collocation:stages=3,newton=displacement"
         for words in (("truth", "c_column"), ("truth", "warping_torsion"), ("scene", "--keys"),
                       ("bench", "c_column", "-f", "collocation", "--against", "beamw_consistent",
@@ -351,12 +350,12 @@ class Screen(ProgramTest):
             self.columns(self.answered(*words).stdout)
 
     def test_source_of_a_prediction(self):
-        """It stands apart from the error."""
+        """The source is separated from the error."""
         text = self.answered("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1").stdout
         self.assertRegex(text, r"(?m)^prediction C_xx .* %  N Eq\. 54, analytic$")
 
     def without_a_rule(self):
-        """Truths whose ledger does not know what these cases show."""
+        """Reference values whose list of known deviations does not contain those of these cases."""
         path = self.folder / "t.h5"
         shutil.copy(TRUTHS, path)
         with h5py.File(path, "r+") as file:
@@ -365,7 +364,7 @@ class Screen(ProgramTest):
         return path
 
     def test_matrix(self):
-        """A mark for each case and formulation, and its words."""
+        """A mark for each case and formulation, and its explanation."""
         for env, marks in ((UTF8, "≠1 ✓ · ○ ✓ ✓ ≠1 ≈2 ○ ○"), (ASCII, "#1 ok . m ok ok #1 ~2 m m")):
             text = self.answered(*SMALL, env=env).stdout
             row, = re.findall(r"^shear_elastica +(\S.*)$", text, re.M)
@@ -389,7 +388,7 @@ class Screen(ProgramTest):
         self.assertLess(len(text.splitlines()), 5)
 
     def test_unexpected(self):
-        """All of it, in full, with commands that show it again; also with --quiet."""
+        """Unexpected results are shown in full, with commands that reproduce them, also with --quiet."""
         truths = self.without_a_rule()
         for quiet in ((), ("-q",), ("-v",)):
             text = self.answered(*SELECT, "--truths", truths, *quiet, code=1, env=ASCII).stdout
@@ -415,7 +414,7 @@ class Screen(ProgramTest):
         self.assertIn("! not as expected, see below   # limit off", text)
 
     def test_long_table(self):
-        """Where it is asked for, or something is chosen; never with --quiet."""
+        """The long table is printed on request or with a selection, but never with --quiet."""
         long = r"(?m)^  w_over_L \[.*\], truth 0\.\d+ \+- \S+ \(exact\)$"
         chosen = ("verify", "-k", "elastica/default and (beamw or collocation)")
         self.assertRegex(self.answered(*chosen).stdout, long)
@@ -424,7 +423,7 @@ class Screen(ProgramTest):
         self.refused(2, "give one of them", *chosen, "-q", "-v")
 
     def test_widths(self):
-        """Tables of every verb, with the longest names there are."""
+        """Tables of every verb with the longest existing names stay within the width."""
         longest = ("-f", "beamw_consistent:torsion=hyperbolic", "-f", "collocation")
         for words in (("solve", "c_column", *longest[:2], "-n", "2"),
                       ("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1"),
@@ -437,7 +436,7 @@ class Screen(ProgramTest):
             self.columns(text)
 
     def test_errors_in_percent(self):
-        """The same error as the JSON has it, in every verb."""
+        """Errors agree with those in the JSON, in every verb."""
         case = ("shear_elastica", "-f", "beamw", "-n", "4")
         error = 100 * self.record("solve", *case)["quantities"][0]["error"]
         shown = f"{error:+.4f} %"
@@ -445,7 +444,7 @@ class Screen(ProgramTest):
             self.assertIn(shown, self.answered(verb, *case).stdout)
 
     def test_colour(self):
-        """On a terminal that has it, unless it is not wanted."""
+        """Colour is used on a terminal that supports it, unless it is switched off."""
         coloured, code = on_terminal(*SMALL, TERM="xterm", NO_COLOR="")
         self.assertEqual(code, 0)
         self.assertIn("\x1b[32mPASS\x1b[0m", coloured)

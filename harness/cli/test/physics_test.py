@@ -1,5 +1,6 @@
-"""Scenes as a new user writes them, without a word on physics, against closed forms: what buckles in twist, fibres of
-unequal length, what a tension and a rotation do to torsion, rotary inertia; what is left out, and the theory of shear."""
+"""Scenes as a new user writes them, without options for physics, against closed forms: torsional buckling,
+unsymmetric sections, the effect of tension and rotation on torsion, rotary inertia; also messages on omitted
+physics and the shear theory."""
 import math
 import unittest
 
@@ -41,7 +42,7 @@ members:
 
 
 def walls(points, lines, thickness):
-    """As a scene has them: names are letters."""
+    """Points and walls in the form of a scene; names are letters."""
     names = dict(zip("abcdefgh", points))
     return (f"points: {{{', '.join(f'{n}: [{y}, {z}]' for n, (y, z) in names.items())}}}, walls: ["
             + ", ".join(f"{{from: {one}, to: {two}, thickness: {thickness}}}"
@@ -49,8 +50,9 @@ def walls(points, lines, thickness):
 
 
 def flexural_torsional(A, I_across, I_along, It, away, length):
-    """Least load [N] of a fork-ended column that is symmetric about one axis and does not warp; I_across: of bending
-    along the other one, with which the twist about a shear centre that far from the centroid couples."""
+    """Lowest load [N] of a fork-ended column with a section that is symmetric about one axis and does not warp;
+    I_across: of the bending that couples with the twist, because the shear centre is at a distance from the
+    centroid."""
     euler, weak = (math.pi ** 2 * E * I / length ** 2 for I in (I_across, I_along))
     r2 = (I_across + I_along) / A + away ** 2
     twist, beta = G * It / r2, 1 - away ** 2 / r2
@@ -72,7 +74,7 @@ class PhysicsTest(SceneCase):
         self.assertLess(abs(value / exact - 1), part, (value, exact))
 
     def test_cruciform_twists(self):
-        """Four legs of 100 x 4 mm: G It A/Ip, a 27th of what bends it."""
+        """Four legs of 100 x 4 mm: G It A/Ip, 1/27 of the flexural buckling load."""
         section = "constants: {A: 1.6e-3, Iy: 8e-6/3, Iz: 8e-6/3, It: 2.56e-8/3}"
         found = self.column(section, 1.0, material="young: 208e9, shear_modulus: 80e9")
         self.near(found["up"], 204800, 1e-9)
@@ -82,7 +84,8 @@ class PhysicsTest(SceneCase):
                   204800, 1e-6)
 
     def test_channel_as_the_case(self):
-        """The same number as the built-in column of that section; by Timoshenko and Gere without what they leave out."""
+        """The result agrees with the built-in column of that section, and with Timoshenko and Gere if the physics
+        that they neglect is omitted."""
         section = "channel: {depth: 98e-3, flange: 49e-3, flange_thickness: 2e-3, web_thickness: 2e-3}"
         sizes = ("length=2", "height=0.098", "width=0.049", "flange_thickness=2e-3",
                  "web_thickness=2e-3", "young=210e9", "shear_modulus=81e9", "density=7850")
@@ -111,7 +114,7 @@ class PhysicsTest(SceneCase):
                 self.assertEqual(found[0]["meaning"], kind, f"{section}, {formulation}")
 
     def test_angle_and_tee_twist(self):
-        """Equal legs, and a tee, pushed at the centroid: they bend and twist together."""
+        """Equal-leg angles and a tee compressed at the centroid: flexural-torsional buckling."""
         for leg, thickness, length in ((0.1, 8e-3, 2.0), (0.06, 3e-3, 1.0), (0.05, 5e-3, 3.0)):
             A, I = 2 * leg * thickness, thickness * leg ** 3
             exact = flexural_torsional(A, I / 3, I / 12, A * thickness ** 2 / 3,
@@ -120,7 +123,7 @@ class PhysicsTest(SceneCase):
             self.near(self.column(angle, length, more="omit: [shear]\n")["up"], exact, 5e-5)
             self.near(self.column(angle, length)["up"], exact, 1e-2)
             A, centre = 2 * leg * thickness, leg / 4
-            along = thickness * leg ** 3 / 12  # of the flange alone: bending across the stem
+            along = thickness * leg ** 3 / 12  # of the flange alone: bending perpendicular to the stem
             across = along + thickness * leg * (centre ** 2 + (leg / 2 - centre) ** 2)
             tee = walls([(-leg / 2, 0), (0, 0), (leg / 2, 0), (0, leg)], ("ab", "bc", "bd"),
                         thickness)
@@ -130,7 +133,7 @@ class PhysicsTest(SceneCase):
             self.near(self.column(tee, length)["up"], exact, 1e-2)
 
     def test_unequal_flanges_under_a_moment(self):
-        """Moments of both signs, which the fibres' int z (y^2 + z^2) dA shifts apart."""
+        """Critical moments of both signs, which differ due to int z (y^2 + z^2) dA."""
         text = walls([(-0.1, -0.15), (0, -0.15), (0.1, -0.15), (-0.05, 0.15), (0, 0.15),
                       (0.05, 0.15)], ("ab", "bc", "be", "de", "ef"), 0.012).replace(
                           "{from: b, to: e, thickness: 0.012}", "{from: b, to: e, thickness: 0.008}")
@@ -158,8 +161,9 @@ class PhysicsTest(SceneCase):
         self.assertLess(abs(plain["ux"]), 1e-15)
 
     def test_twisted_walls(self):
-        """Free to shorten, bend and warp: M = G It w' + 4 E c w'^3, 8 c = int q^2 dA with q what r^2 has beyond
-        1, y and z; eccentric shear centres, branches, unequal flanges. The torque in parts, by another formulation."""
+        """Free to shorten, bend and warp: M = G It w' + 4 E c w'^3, 8 c = int q^2 dA with q what r^2 has beyond 1, y
+        and z; eccentric shear centres, branched sections, unequal flanges. The parts of the torque are
+        checked with another formulation."""
         import numpy as np
         t, rate = 1e-3, 0.1
         for points, lines in (
@@ -192,7 +196,7 @@ class PhysicsTest(SceneCase):
             self.assertGreater(plain / rate, 1.02, points)
 
     def test_torsion_under_tension(self):
-        """N Ip/A beside G It, in a small twist and in the frequency of torsion."""
+        """N Ip/A in addition to G It, in a small twist and in the torsional frequency."""
         b, t, length, torque = 60e-3, 2e-3, 0.5, 1e-4
         A, Ip = b * t, b * t * (b * b + t * t) / 12
         It = b * t ** 3 / 3 * (1 - 192 / math.pi ** 5 * t / b * math.tanh(math.pi * b / 2 / t) *
@@ -233,7 +237,7 @@ class PhysicsTest(SceneCase):
         self.near(self.solved(text, "-n", 32)["f"], exact, 3e-3)
 
     def test_rotary_inertia(self):
-        """Timoshenko's pinned bar, third mode: with it and without."""
+        """Timoshenko's pinned bar, third mode, with and without rotary inertia."""
         text = BAR.format(width=50e-3, thickness=30e-3, length=1, material=MATERIAL,
                           rest="analyses:\n  v: {modal: {wanted: 8}}\nquantities:\n"
                           "  f: {frequency: {analysis: v, which: 2, family: bending_y}, unit: Hz}")
@@ -244,7 +248,7 @@ class PhysicsTest(SceneCase):
         self.near(self.solved(text + "omit: rotary_inertia\n", "-n", 64)["f"], 628.78, 5e-5)
 
     def test_words(self):
-        """What is left out and the theory of shear are told, and only where there is something to tell."""
+        """Omitted physics and the shear theory are reported, but only if they matter."""
         square = "rectangle: {width: 0.1, thickness: 0.1}"
         text = COLUMN.format(section=square, length=1, loads=PUSH, material=MATERIAL)
         self.assertNotIn("omitted", self.answered("solve", "--scene", self.scene(text)).stdout)
@@ -288,7 +292,7 @@ MODAL = "analyses: {v: {modal: {}}}\nquantities: {f: {frequency: {analysis: v, w
 
 
 class MassesTest(SceneCase):
-    """`solve` says what masses an analysis has, in kg, and what a drive holds."""
+    """`solve` reports the masses of an analysis in kg, and the components held by drives."""
 
     def said(self, **changes):
         text = GUIDE.format(**{"inertia": "", "more": "", "rest": MODAL} | changes)

@@ -1,4 +1,5 @@
-"""Other models: scenes held in a plane, physics that a formulation lacks, and formulations not accepted yet."""
+"""Different models: scenes held in a plane, physics that a formulation does not support, and formulations not
+accepted yet."""
 import csv
 import io
 import json
@@ -16,7 +17,7 @@ from harness.tools.kit.program import ProgramTest, ROOT
 EXAMPLES = ROOT / "cases" / "examples"
 E, G, RHO = 210e9, 81e9, 7850
 LENGTH, HEIGHT, THICK = 1, 0.1, 0.002
-# the strip is high in its plane and thin across it
+# the strip is high in its plane and thin perpendicular to it
 STRIP = """beamwork: 1
 name: strip
 sections: {s: {rectangle: {width: 0.002, thickness: 0.1}, young: 210e9, shear_modulus: 81e9,
@@ -60,7 +61,7 @@ quantities:
 
 
 def turned(text, plane):
-    """The strip in another plane: its x and y become those two axes."""
+    """The strip in another plane, whose two axes replace x and y."""
     to = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}[plane]
     for old in ("[1, 0, 0]", "[0, 1, 0]", "[-1, 0, 0]"):
         x, y, _ = (int(v) for v in old[1:-1].split(","))
@@ -79,7 +80,7 @@ class Plane(ProgramTest):
         return record, {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_closed_forms(self):
-        """What bends in the plane only: Euler's load, the frequencies of a clamped beam."""
+        """Bending in the plane only: Euler's load, the frequencies of a clamped beam."""
         area, stiff = HEIGHT * THICK, E * THICK * HEIGHT**3 / 12
         soft = E * HEIGHT * THICK**3 / 12
         _, space = self.solved(STRIP)
@@ -94,7 +95,7 @@ class Plane(ProgramTest):
                 self.assertLess(abs(found[name] / exact - 1), 0.02, (plane, name))
 
     def test_the_same_as_in_space(self):
-        """Values of the plane, where what is stable in the plane is stable in space."""
+        """In-plane results agree with those in space, if states that are stable in the plane are stable in space."""
         text = self.answered("scene", "elastica").stdout
         whole, space = self.solved(text)
         half, plane = self.solved(text + "plane: xy\n")
@@ -126,7 +127,7 @@ class Plane(ProgramTest):
             self.assertGreater(compared, 0)
 
     def test_released_ends(self):
-        """What would leave the plane of a released end is held as the rest."""
+        """Released ends are also held against motion out of the plane."""
         values = []
         for release, plane in (("rz", ""), ("rz", "plane: xy\n"),
                                ("[rx, ry, rz]", "plane: xy\n"),
@@ -218,8 +219,9 @@ class Plane(ProgramTest):
         self.refused(2, "held in a plane", "export", "--scene", path, "--to", "calculix")
 
 
-# A formulation that does not support all physics of a scene: as any other where that changes nothing
-# asked for, else as another model, which is shown and neither gates, wins nor votes.
+# A formulation that does not support all physics of a scene: it counts as usual if that does not
+# affect the requested quantities; otherwise it is a different model, which is shown but does not
+# affect the exit status, rankings or agreements.
 LEAF = """beamwork: 1
 sections: {s: {rectangle: {width: 0.1, thickness: %s}, young: 210e9, shear_modulus: 81e9}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0.2, 0, 0]}}
@@ -249,7 +251,7 @@ class OtherModel(ProgramTest):
         return {s["formulation"]: s for s in record["series"]}, record
 
     def test_a_thin_leaf(self):
-        """Shear changes nothing: rigid in shear or not, all are one model."""
+        """Shear has no effect, so formulations with and without shear are one model."""
         for load in ("0.1", "0"):
             leaf = self.scene("0.0005", load, "1e-4")
             one = self.series(*leaf)[0]["beamw_vlasov"]
@@ -262,12 +264,12 @@ class OtherModel(ProgramTest):
             self.assertEqual(text.count("without shear: changes no value"), 1)
 
     def test_no_load_at_all(self):
-        """Every value is zero: nothing can be changed."""
+        """Every value is zero, so missing physics has no effect."""
         one = self.series(*self.scene("0.05", "0", "0"))[0]["beamw_vlasov"]
         self.assertEqual((one["other_model"], one["model_change"]), (False, 0))
 
     def test_a_deep_beam(self):
-        """Shear is 1e-1 of its deflection: shown, in no ranking, in no agreement."""
+        """Shear is 1e-1 of the deflection: the formulation is shown, but excluded from rankings and agreements."""
         deep = self.scene("0.1", "1", "0")
         series, record = self.series(*deep)
         one = series["beamw_vlasov"]
@@ -300,7 +302,7 @@ class OtherModel(ProgramTest):
         self.assertFalse(found["collocation"]["other_model"])
 
     def test_as_in_the_papers(self):
-        """Second order, third order and Vlasov side by side."""
+        """Second order, third order and Vlasov can be compared as in the papers."""
         for case, names in PAPERS.items():
             done = self.answered("converge", case, *[w for name in names for w in ("-f", name)],
                                  "-n", "1,2", "--format", "json")
@@ -312,13 +314,14 @@ class OtherModel(ProgramTest):
             self.assertTrue(of["beamw_vlasov"]["other_model"], case)
 
     def test_sweep(self):
-        """Points of a sweep rest on the whole model."""
+        """Reference values of a sweep come from formulations of the full model."""
         text = self.answered("sweep", "shear_column", "--vary", "length=0.5,1", "-f",
                              "beamw_vlasov").stdout
         self.assertNotIn("does not support", text)
 
     def test_sweep_of_another_model(self):
-        """It is marked at the points where it is one, and is in no share and no ranking there."""
+        """A formulation is marked at the points where it is a different model, and excluded from shares and rankings
+        there."""
         path = self.folder / "leaf.yaml"
         path.write_text(LEAF.replace("sections:", "parameters: {t: {value: 0.1, unit: m}}\nsections:") %
                         ("t", "0.001", "0"))
@@ -338,7 +341,7 @@ class OtherModel(ProgramTest):
         self.assertEqual(bits.split("\n")[int(lacks[1, 0]).bit_length() - 1], "shear")
 
     def test_omitted(self):
-        """What the scene leaves out stands in every table."""
+        """Physics that the scene omits is stated in every table."""
         deep = self.scene("0.1", "1", "0")
         for words, code in ((("solve", "-n", "2"), 0), (("converge",), 0), (("verify", "-v"), 3)):
             text = self.answered(words[0], *deep, *words[1:], code=code).stdout
@@ -360,7 +363,7 @@ class OtherModel(ProgramTest):
         self.assertIn("\n- leaf: trapeze, wagner_torque\n", files[2].read_text())
 
     def test_bench(self):
-        """Times rank: another model is not timed beside the others, by name; alone it is marked."""
+        """Times are ranked: a different model is not timed with the others, and is named; on its own it is marked."""
         deep = self.scene("0.1", "1", "0")
         text = self.answered("bench", *deep, "-f", "beamw_vlasov", "-f", "collocation", "-n",
                              "1").stdout
@@ -372,13 +375,13 @@ class OtherModel(ProgramTest):
         self.assertNotIn("B: shear", text)
 
 
-# Formulations of the tree that the project has not accepted yet: told, and the gate stays green
-# where nobody named them.
+# Formulations in the source tree that are not accepted yet: they are reported, and do not affect
+# the exit status unless they are named.
 NAME = "sheet_second"
 
 
 def without(path, beginning):
-    """Takes the lines that begin so out of a file."""
+    """Removes the lines with this beginning from a file."""
     lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
     kept = [line for line in lines if not line.startswith(beginning)]
     assert len(kept) < len(lines), path
@@ -386,7 +389,7 @@ def without(path, beginning):
 
 
 class NotAccepted(ProgramTest):
-    """Truths without the findings of a formulation that has some, accepted or not."""
+    """Reference values without the findings of a formulation that has some, accepted or not."""
 
     @classmethod
     def setUpClass(cls):
@@ -443,7 +446,7 @@ class NotAccepted(ProgramTest):
             self.assertEqual((row["type"].decode(), int(row["is_new"])), (NAME, new))
 
     def test_extremes(self):
-        """What fails at an extreme needs a finding, of an accepted formulation."""
+        """A failure at an extreme needs a finding if the formulation is accepted."""
         for truths, code in (("accepted", 1), ("new", 0)):
             what = ("stress", "-k", f"slender_square and {NAME}", "--truths", self.truths[truths])
             out = self.answered(*what, code=code).stdout

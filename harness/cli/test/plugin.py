@@ -1,4 +1,4 @@
-"""Formulations from outside, as a stranger compiles them: for the tests of `--element`."""
+"""External formulations, compiled as an outsider would, for the tests of `--element`."""
 import os
 import subprocess
 
@@ -9,7 +9,7 @@ WARNINGS = ("-Wall", "-Wextra", "-Werror")
 
 
 def compile_shared(source, made, *options):
-    """The shared object made of this file, with no header but those that are public."""
+    """Compiles this file into a shared object, with the public headers only."""
     subprocess.run([os.environ.get("CC", "cc"), "-O1", *options, "-shared", "-fPIC", "-I", ROOT,
                     source, "-lm", "-o", made],
                    check=True)
@@ -19,13 +19,13 @@ def compile_shared(source, made, *options):
 class PluginTest(ProgramTest):
 
     def compiled(self, text, name="mine.so"):
-        """The path of a shared object made of this text."""
+        """Returns the path of a shared object compiled from this text."""
         source = self.folder / f"{name}.c"
         source.write_text(text, encoding="utf-8")
         return compile_shared(source, self.folder / name)
 
     def altered(self, example, *changes):
-        """An example with parts of its text replaced, each of which must be there."""
+        """Returns an example with parts of its text replaced; each part must occur."""
         text = (EXAMPLES / example).read_text(encoding="utf-8")
         for before, after in changes:
             self.assertIn(before, text)

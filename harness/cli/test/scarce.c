@@ -1,6 +1,6 @@
-/* Loaded before a program (LD_PRELOAD): refuses the k-th allocation after the start of main, k =
- * $SCARCE_AT, of the process that was started (its children have what they want). $SCARCE_ONLY:
- * only calls of this function count. $SCARCE_COUNT: a file for the number of them. */
+/* Loaded into a program by LD_PRELOAD: fails the k-th allocation after the start of main, k =
+ * $SCARCE_AT, in the process that was started, but not in its children. $SCARCE_ONLY: only calls of
+ * this function are counted. $SCARCE_COUNT: file that receives their number. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>

@@ -1,5 +1,5 @@
-"""Memory that runs out anywhere, libraries and libc included: every run ends within a limit, with one
-line, and leaves a whole file or none."""
+"""Memory that runs out anywhere, including libraries and libc: every run ends within a time limit, with one
+line, and leaves a complete file or none."""
 import re
 import shutil
 import subprocess
@@ -29,7 +29,7 @@ WORK = {
 }
 LIMIT = 60  # [s]
 TRIES = 12
-# HDF5 1.10 crashes, calls exit() or prints its own errors where its start has no memory.
+# HDF5 1.10 crashes, calls exit() or prints its own errors if memory runs out while it starts.
 CRASHED = "beamwork: crashed; "
 TIMES = re.compile(r"[0-9.e+-]+ m?s\b|\"(seconds\w*|time|load\w*)\": [^,\n]*")
 
@@ -44,7 +44,7 @@ class Scarce(ProgramTest):
                        check=True)
 
     def attempt(self, words, **scarce):
-        """Status, output, errors, files of a run in an empty folder."""
+        """Returns status, output, errors and files of a run in an empty folder."""
         for path in self.folder.iterdir():
             if path.is_dir():
                 shutil.rmtree(path)
@@ -74,7 +74,7 @@ class Scarce(ProgramTest):
                 with self.subTest(verb=verb, call=k):
                     code, out, errors, files = self.attempt(words, SCARCE_AT=str(k))
                     self.assertFalse([name for name in files if ".part-" in name], files)
-                    if code == right[0]:  # lines that have no memory to be folded are long ones
+                    if code == right[0]:  # without memory for wrapping, lines are long
                         self.assertEqual(("".join(out.split()), files), ("".join(right[1].split()), right[3]))
                         continue
                     last = errors.strip().splitlines()[-1]
@@ -82,7 +82,7 @@ class Scarce(ProgramTest):
                     self.assertTrue(code in (2, 4, 5) or last.startswith(CRASHED), (code, errors))
 
     def test_results_of_workers(self):
-        """The parent has no memory for what a worker sends: that worker lives, and is not waited for."""
+        """The parent has no memory for the results of a worker: it does not wait for that worker, which still runs."""
         code, _, errors, files = self.attempt(WORK["verify"], SCARCE_AT="1", SCARCE_ONLY="fmemopen")
         self.assertEqual((code, errors, files), (4, "beamwork: out of memory for results\n", ["tiny.yaml"]))
 

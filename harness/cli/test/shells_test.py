@@ -1,4 +1,4 @@
-"""Shells: completion, and what the program does in terminals and pipes."""
+"""Shells: completion, and behaviour in terminals and pipes."""
 import os
 import pathlib
 import pty
@@ -12,11 +12,11 @@ from harness.cli.test.work import EVERY_VERB
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, TRUTHS, environment
 
 
-# Completion as it is typed: bash and zsh at a terminal of their own, with the tab key.
+# Interactive completion: bash and zsh in their own terminals, with the tab key.
 HERE = ROOT / "harness" / "cli"
 PACKAGE = pathlib.Path("/usr/share/bash-completion/bash_completion")
-PATIENCE = 60  # seconds until a shell that says nothing is given up
-# What is typed before the tab, and the arguments that come of it.
+PATIENCE = 60  # seconds to wait for a shell that does not answer
+# Text typed before the tab, and the resulting arguments.
 LINES = {
     "so": ["solve"],
     "solve elas": ["solve", "elastica"],
@@ -36,13 +36,13 @@ LINES = {
     "explain bimom": ["explain", "bimoment"],
     "explain Poiss": ["explain", "Poisson's"],
 }
-# The command shows its arguments; the shell's own words never look like this.
+# The command prints its arguments in a form that the shell's own output never has.
 SHOW = ("beamwork() { if [ \"$1\" = help ]; then command beamwork \"$@\"; else "
         "printf '<<'; printf '%s|' \"$@\"; printf '>>\\n'; fi; }")
 
 
 class Terminal:
-    """A shell that believes it is used by somebody."""
+    """A shell that runs interactively."""
 
     def __init__(self, folder, *command):
         self.child, self.master = pty.fork()
@@ -57,7 +57,7 @@ class Terminal:
         os.write(self.master, text.encode())
 
     def answer(self, end):
-        """All that is printed until `end` comes."""
+        """Returns all output up to `end`."""
         text = ""
         while end not in text:
             if not select.select([self.master], [], [], PATIENCE)[0]:
@@ -80,7 +80,7 @@ class Shell(unittest.TestCase):
                     self.folder / "a_folder" / "leaf.yaml")
 
     def check(self, prepare, *command):
-        """Each line with a tab, then sent. Control-U: what another line left."""
+        """Types each line with a tab, then sends it. Control-U clears the rest of a previous line."""
         shell = Terminal(self.folder, *command)
         self.addCleanup(shell.close)
         shell.say("\n".join((*prepare, SHOW, "printf '%s%s\\n' rea dy")) + "\n")
@@ -101,7 +101,7 @@ class Shell(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("bash") and PACKAGE.exists(), "needs bash-completion")
     def test_bash_with_its_package(self):
-        """Found where packages put it, when it is first needed."""
+        """The completion file is found where packages install it, when first needed."""
         found = self.folder / "share" / "bash-completion" / "completions"
         found.mkdir(parents=True)
         shutil.copy(HERE / "beamwork.bash", found / "beamwork")
@@ -114,16 +114,16 @@ class Shell(unittest.TestCase):
                     "unsetopt prompt_cr prompt_sp"), "zsh", "-f", "-i")
 
 
-# What the program offers at the cursor: all that is in its tables, and nothing else.
+# Completions offered at the cursor: exactly the entries of the tables.
 
-# the C library's argp leaves a byte when it exits
+# the C library's argp does not free a byte at exit
 ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
 class Completion(ProgramTest):
     def lines(self, *words):
-        """Of the line 'beamwork WORD...', the last word begun."""
+        """Completions for the line 'beamwork WORD...' with the cursor at the end of the last word."""
         return self.answered("help", "--complete", *words, env=ENV).stdout.splitlines()
 
     def offered(self, *words):

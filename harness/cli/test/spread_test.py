@@ -1,4 +1,4 @@
-"""Shards of verbs, computed, killed, spoilt and merged: what comes out is what one run writes."""
+"""Shards of verbs, computed, killed, damaged and merged: the result is that of a single run."""
 import os
 import pathlib
 import random
@@ -32,7 +32,7 @@ analyses:
 
 
 def without_times(text):
-    """Lines that do not speak of clocks."""
+    """Returns the lines without times."""
     return [line for line in text.splitlines() if " in " not in line or " cells" not in line]
 
 
@@ -40,16 +40,16 @@ class SpreadTest(ProgramTest):
     """Helpers."""
 
     def hash_of(self, file):
-        """The hash and the number of values of a stored run."""
+        """Returns the hash and the number of values of a stored run."""
         return self.answered("compare", "--hash", file).stdout.split()[:2]
 
     def shard(self, which, *arguments, into="parts", code=0, **options):
-        """One shard of a verb."""
+        """Computes one shard of a verb."""
         return self.answered(*arguments, "--shard", which, "--into", self.folder / into, code=code,
                              **options)
 
     def names(self, into="parts"):
-        """What is in the folder."""
+        """Returns the contents of the folder."""
         return sorted(path.name for path in (self.folder / into).iterdir())
 
 
@@ -71,19 +71,19 @@ class Verify(SpreadTest):
         shutil.copytree(self.home / "parts", self.folder / "parts")
 
     def merged(self, *options, folders=("parts",), code=0):
-        """The finished merge of the folders into merged.h5."""
+        """Merges the folders into merged.h5 and returns the finished process."""
         return self.answered("merge", *(self.folder / name for name in folders), "-o",
                              self.folder / "merged.h5", *options, code=code)
 
     def is_as_alone(self, *options, folders=("parts",)):
-        """Merged, it says what the one run said."""
+        """Checks that the merged output is that of a single run."""
         done = self.merged(*options, folders=folders)
         self.assertEqual(self.hash_of(self.folder / "merged.h5"),
                          self.hash_of(self.home / "alone.h5"))
         return done
 
     def test_merged(self):
-        """Text, values, verdicts and tests of JUnit are those of the one run, with its status."""
+        """Text, values, verdicts, JUnit tests and exit status are those of a single run."""
         done = self.is_as_alone("--json", self.folder / "merged.json", "--junit",
                                 self.folder / "merged.xml")
         self.assertEqual(without_times(done.stdout), without_times(self.alone.stdout))
@@ -98,7 +98,7 @@ class Verify(SpreadTest):
         self.assertEqual(tests[0], tests[1])
 
     def test_anywhere(self):
-        """Another folder to work in, the batches in two folders, some in both."""
+        """A different working folder, and batches in two folders, some of them in both."""
         (self.folder / "more").mkdir()
         names = self.names()
         self.assertGreater(len(names), 3)
@@ -110,7 +110,7 @@ class Verify(SpreadTest):
                          self.hash_of(self.home / "alone.h5"))
 
     def test_again(self):
-        """A shard started again does what is missing; all shards together do nothing twice."""
+        """A restarted shard computes only missing batches; all shards together compute nothing twice."""
         gone = self.folder / "parts" / self.names()[1]
         gone.unlink()
         done = self.shard("1/1", "verify", "-k", CASES)
@@ -120,7 +120,8 @@ class Verify(SpreadTest):
         self.is_as_alone()
 
     def test_missing(self):
-        """Status 5, the list, nothing written; --partial writes what there is, and says so."""
+        """Missing batches: exit status 5, a list, and no output; --partial writes the existing results and reports
+        it."""
         names = self.names()
         for name in names[1:]:
             (self.folder / "parts" / name).unlink()
@@ -135,7 +136,7 @@ class Verify(SpreadTest):
         self.assertGreater(int(self.hash_of(self.folder / "merged.partial.h5")[1]), 1000)
 
     def test_spoilt(self):
-        """Cut short or altered: named, missing, and done again."""
+        """A truncated or altered batch is named, counts as missing, and is computed again."""
         first, second, *_ = (self.folder / "parts" / name for name in self.names())
         os.truncate(first, first.stat().st_size // 2)
         content = bytearray(second.read_bytes())
@@ -149,7 +150,7 @@ class Verify(SpreadTest):
         self.is_as_alone()
 
     def test_foreign(self):
-        """Other requests, builds and files are refused by name."""
+        """Batches of other requests, builds and files are rejected by name."""
         parts = self.folder / "parts"
         self.refused(2, ["another request", "(verify --select"], "verify", "-k", "elastica",
                      "--into", parts)
@@ -163,7 +164,7 @@ class Verify(SpreadTest):
         self.refused(2, ["odd.batch", "not a batch of this program"], "merge", parts)
 
     def test_other_answers(self):
-        """One batch with two answers: both are named, neither is taken."""
+        """If a batch exists with two different results, both are named and neither is used."""
         name = self.names()[0]
         other = self.folder / "other"
         other.mkdir()
@@ -177,7 +178,7 @@ class Verify(SpreadTest):
                      self.folder / "parts", other)
 
     def test_no_room(self):
-        """A disk that is full: one line, status 4, nothing half-written; what was there stays."""
+        """A full disk: one line, exit status 4, no incomplete files; existing files remain."""
         names = self.names()
         gone = max(names, key=lambda name: (self.folder / "parts" / name).stat().st_size)
         (self.folder / "parts" / gone).unlink()
@@ -193,7 +194,7 @@ class Killed(SpreadTest):
     """kill -9 at random moments."""
 
     def test_killed(self):
-        """Twenty times, the process or all of its group; then the rest, and the same hash."""
+        """Kills the process or its group twenty times; after the rest is computed, the hash is the same."""
         alone = self.folder / "alone.h5"
         self.answered("verify", "-k", CASES, "-o", alone)
         parts = self.folder / "parts"
@@ -216,7 +217,7 @@ class Killed(SpreadTest):
         self.assertEqual(self.hash_of(self.folder / "merged.h5"), self.hash_of(alone))
 
     def test_interrupted(self):
-        """Ctrl-C: status 5, one line, nothing half-written."""
+        """Ctrl-C: exit status 5, one line, no incomplete files."""
         parts = self.folder / "parts"
         with subprocess.Popen([PROGRAM, "verify", "--into", parts], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True) as child:
@@ -231,10 +232,10 @@ class Killed(SpreadTest):
 
 
 class Others(SpreadTest):
-    """A scene of one's own; what does not go together."""
+    """A user's scene; invalid combinations of options."""
 
     def test_own_scene(self):
-        """Two shards, merged in another folder, as in one run; nothing is judged."""
+        """Two shards merged in another folder agree with a single run; nothing is evaluated."""
         scene = self.folder / "leaf.yaml"
         scene.write_text(SCENE)
         ask = ("verify", "--scene", scene)
@@ -249,7 +250,7 @@ class Others(SpreadTest):
         self.refused(2, ["other reference values, scenes or formulations"], "merge", self.folder / "parts")
 
     def test_refused(self):
-        """What does not go together is told before anything is computed."""
+        """Invalid combinations of options are reported before anything is computed."""
         parts = self.folder / "parts"
         for words, arguments in (
                 (["K/N"], ["--shard", "3/2", "--into", parts]),

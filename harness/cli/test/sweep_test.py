@@ -1,4 +1,4 @@
-"""Sweeps: what they vary and compute, and how they run."""
+"""Sweeps: varied parameters, computed values, and execution."""
 import csv
 import fcntl
 import io
@@ -23,14 +23,14 @@ COLUMN = ("shear_column", "--vary", "length=0.5..2/3", "--vary", "side=0.01..0.0
 
 
 def sealed(path):
-    """Its last line says how long it is without it."""
+    """Adds the last line, which states the length of the file without it."""
     data = path.read_bytes()
     word, size, _ = data[-40:].split()
     return word == b"beamwork-seal" and int(size, 16) == len(data) - 40
 
 
 def solved(*words, quantity):
-    """The value of a solution by itself."""
+    """Returns the value of a separate solution."""
     done = run("solve", *words, "--format", "json")
     rows = json.loads(done.stdout)["quantities"]
     return next(r["value"] for r in rows if r["quantity"] == quantity)
@@ -66,7 +66,7 @@ class Grid(ProgramTest):
             self.assertEqual(self.of["value"][point, formulation, mesh, 0], alone)
 
     def test_errors_and_least_mesh(self):
-        """Against the reference that stands there, and least as the errors say."""
+        """Errors refer to the stored reference, and the smallest mesh follows from the errors."""
         error = self.of["error"][:, 0, :, 0]
         expected = self.of["value"][:, 0, :, 0] / self.of["reference"] - 1
         known = np.isfinite(error)
@@ -92,7 +92,7 @@ class Grid(ProgramTest):
         self.assertTrue((self.of["cost"] > 0).all() and (self.of["seconds"] > 0).all())
 
     def test_worst_points_are_scenes_that_solve(self):
-        """The same digits as the sweep's."""
+        """A separate solution of the worst point has the same digits as in the sweep."""
         for row in self.of["worst"]:
             which = ("beamw", "collocation").index(row["formulation"].decode())
             path = self.path.with_suffix(".worst") / row["scene"].decode()
@@ -110,7 +110,7 @@ class Grid(ProgramTest):
                          ["column.h5", "column.worst"])
 
     def test_any_number_of_processes(self):
-        """The same values, whoever computes them."""
+        """The values do not depend on the number of processes."""
         for jobs in (1, 3):
             path = self.folder / f"{jobs}.h5"
             self.answered("sweep", *COLUMN, "-j", jobs, "-o", path)
@@ -162,7 +162,7 @@ class References(ProgramTest):
         self.assertIn("the limit from the same meshes", screen)
 
     def test_limits_that_disagree_are_no_reference(self):
-        """A formulation without shear along one axis beside one that has it."""
+        """A formulation without shear along one axis, and one with it: their limits disagree."""
         kind, _, error, screen = self.kinds(
             "--scene", LEAF, "--vary", "thickness=0.8e-3,1e-3", "-f", "sheet_second", "-f",
             "sheet_third", "-n", "8,16,32,64,128", "-k", "k_pushed", "--error", "0.1%")
@@ -212,7 +212,7 @@ class Designs(ProgramTest):
         self.assertTrue((first == again).all() and (first != other).all())
 
 
-# sweep: runs that are interrupted, shared among several or given again, and refusals.
+# sweep: interrupted runs, shards, repeated runs, and rejected requests.
 SWEEP_RUN_LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
@@ -227,8 +227,7 @@ class Going(ProgramTest):
             self.assertEqual(file.attrs["scene"].decode(), str(SWEEP_RUN_LEAF))
 
     def test_interrupted_goes_on(self):
-        """What was done is kept, and the rest gives the same file as a run that was not
-        interrupted."""
+        """Finished work is kept, and after the rest the file is the same as that of an uninterrupted run."""
         words = ["sweep", "snap_through", "--vary", "angle=0.1..0.6/1199", "-f", "beamw", "-n",
                  "1,2", "-k", "limit_load", "-j", "1", "-o"]
         path, whole = self.folder / "s.h5", self.folder / "whole.h5"
@@ -252,7 +251,7 @@ class Going(ProgramTest):
         self.assertFalse((self.folder / "s.batches").exists())
 
     def test_shards(self):
-        """Computed by several that never meet, and put together: the same; some missing: told."""
+        """Separately computed shards give the same result when merged; missing ones are reported."""
         words = ("sweep", "snap_through", "--vary", "angle=0.1..0.6/1199", "-f", "beamw", "-n",
                  "1,2", "-k", "limit_load")
         into = [self.folder / name for name in ("a", "b")]
@@ -301,7 +300,7 @@ class Going(ProgramTest):
         self.assertEqual([p.name for p in self.folder.iterdir()], ["e.worst"])
 
     def test_one_run_for_each_output(self):
-        """Another run works there: this one ends with a line, and takes nothing away."""
+        """If another run uses the output, this one ends with one line and removes nothing."""
         batches = self.folder / "e.batches"
         batches.mkdir()
         words = ("sweep", "elastica", "--vary", "load=1,2", "-f", "beamw", "-n", "1", "-o", self.folder / "e.h5")
@@ -313,7 +312,7 @@ class Going(ProgramTest):
         self.assertFalse(batches.exists())
 
     def test_refusals(self):
-        """Culprit and remedy, before anything runs."""
+        """Cause and remedy are reported before anything runs."""
         for words, says in (
                 (("elastica",), "no parameter varies"),
                 (("elastica", "--vary", "lod=1..2/3"), "did you mean 'load'"),
