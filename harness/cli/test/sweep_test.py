@@ -23,7 +23,7 @@ COLUMN = ("shear_column", "--vary", "length=0.5..2/3", "--vary", "side=0.01..0.0
 
 
 def sealed(path):
-    """Adds the last line, which states the length of the file without it."""
+    """Does the last line state the length of the rest of the file?"""
     data = path.read_bytes()
     word, size, _ = data[-40:].split()
     return word == b"beamwork-seal" and int(size, 16) == len(data) - 40

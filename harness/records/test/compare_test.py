@@ -1,4 +1,4 @@
-"""beamwork compare: exit status like diff, worse and better named, nothing believed of a file."""
+"""beamwork compare: exit status as for diff, changes are called better or worse, and nothing in a file is trusted."""
 import unittest
 
 from harness.records.test.stored import altered, replace, table_of, verify
@@ -8,13 +8,13 @@ TABLES = "cases/warping_torsion"
 
 
 def of_cell(table):
-    """Rows of a table that belong to one cell."""
+    """Selects the rows of a table that belong to one cell."""
     return (table["point"] == b"default") & (table["formulation"] == b"beamw") & (table["elements"]
                                                                                   == 4)
 
 
 def change_rows(file, name, change):
-    """A table of which change(rows of the cell) was made; fewer rows where it returns False."""
+    """Applies change(rows of the cell) to a table; removes the rows if it returns False."""
     group, rows = file[TABLES], file[TABLES][name][()]
     own = of_cell(rows)
     part = rows[own]
@@ -36,7 +36,7 @@ class Compare(ProgramTest):
         return run("compare", *options, old or self.old, altered(self.old, self.new, change))
 
     def check(self, code, words, change, *options):
-        """Against the whole former run and against its short table, whose lines of sums have no mesh."""
+        """Compares with the complete previous run and with its short table, whose lines of sums have no mesh."""
         for old, mesh in ((self.old, " n=4"), (self.table, "")):
             done = self.compared(change, *options, old=old)
             self.assertEqual(done.returncode, code, done)
@@ -65,8 +65,7 @@ class Compare(ProgramTest):
             self.assertIn("0 worse, 0 better, 0 changed, 0 gone, 0 new", done.stdout)
 
     def test_lost_value(self):
-        """What no longer has a value is worse, what has one now is better; the same of a quantity
-        that is there or not."""
+        """Losing a value is worse, gaining one is better; the same applies to quantities."""
 
         def lose(file):
 
@@ -152,7 +151,7 @@ class Compare(ProgramTest):
         self.assertIn("new      warping_torsion/default/beamw n=4", done.stdout)
 
     def test_quantities(self):
-        """One that has another name is gone, and a new one."""
+        """A renamed quantity counts as one lost and one new."""
 
         def rename(file):
 
@@ -168,7 +167,8 @@ class Compare(ProgramTest):
         self.assertRegex(done.stdout, r"(?m)^new      warping_torsion/default/beamw n=4: other$")
 
     def test_near_zero(self):
-        """A value without a reference value has changed beyond the floor of its size, or of near_zero where it may vanish."""
+        """A value without a reference value counts as changed beyond the floor relative to its size, or to near_zero
+        if it may vanish."""
 
         def without_truth(near_zero):
 
@@ -226,7 +226,7 @@ class Compare(ProgramTest):
         self.assertIn("warping_torsion/quantities is missing or damaged", done.stderr)
 
     def test_strange_tables(self):
-        """Columns that are missing or of another type, rows that belong nowhere."""
+        """Missing columns, columns of a different type, and rows that belong to nothing are rejected."""
 
         def drop(name, column):
 
@@ -260,7 +260,7 @@ class Compare(ProgramTest):
             self.assertIn("damaged", done.stderr)
 
     def test_versions(self):
-        """A file of another version is refused with one line."""
+        """A file of a different version is rejected with one line."""
         for version in (1, 4):
             done = self.compared(lambda file: file.attrs.modify("schema_version", version))
             self.assertEqual(done.returncode, 2, done.stdout)

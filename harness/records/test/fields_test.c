@@ -1,4 +1,4 @@
-/* What stands in a column is what its name says: a sweep that is made up, all numbers different,
+/* Every column contains the data that its name states: a constructed sweep with distinct numbers is
  * read field by field. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -46,7 +46,7 @@ static void fill_path(fields_bench *b)
         b->iteration[i].correction = i + 1;
 }
 
-/* Errors of 0.4, 0.04, ...: each mesh is the first within one level more. */
+/* Errors of 0.4, 0.04, ...: each mesh is the first within the next level. */
 static void make(fields_bench *b)
 {
     memset(b, 0, sizeof *b);
@@ -96,7 +96,7 @@ static void make(fields_bench *b)
     b->j = (judgement){.verdicts = 1, .verdict = &b->v};
 }
 
-/* Number k of a field of a record; NAN: there is no such field. */
+/* Number k of a field of a record; NAN: the field does not exist. */
 static double number_of(const record_type *type, const subject *s, const char *name, int k)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -175,7 +175,7 @@ static void paths(const gathering *g)
     gather_free(&list);
 }
 
-/* Curves of several meshes stand behind each other. */
+/* Curves of several meshes follow one another. */
 static void curves(const gathering *g)
 {
     subjects list = {0};
@@ -201,7 +201,8 @@ static void errors(const gathering *g)
     gather_free(&list);
 }
 
-/* Every round, of the cell as it is and with nothing left out; none where there was none. */
+/* Times of every round are stored, for the cell as it is and with all coordinates kept; none if
+ * nothing was timed. */
 static void timings(void)
 {
     cell_timing t = {.as_is = {.setup = 1, .solve = 2, .rounds = ROUNDS_COUNT},
@@ -244,7 +245,7 @@ static element_order order_of(element_analysis a, const double options[])
     return (element_order){10 * (int)a + 1, 10 * (int)a + 2};
 }
 
-/* Orders of every analysis. */
+/* Checks the declared orders for every analysis. */
 static void declarations(void)
 {
     static const element_type ordered = {.name = "ordered", .order = order_of};
@@ -281,7 +282,8 @@ static void fields_tests(void)
     scene_free(&b.p.scene);
 }
 
-/* The line that a table of convergence comes to: order, ties, who is not there, who has no prices.
+/* The concluding line of a convergence table: order, ties, excluded formulations, and formulations
+ * without their own cost coefficients.
  */
 
 enum { LINE_MESHES = 5, SERIES = 4 };
@@ -302,8 +304,8 @@ typedef struct reach_line_bench {
     truths t;
 } reach_line_bench;
 
-/* Values limit (1 + 0.1 n^-2), work evaluations on the coarsest mesh and twice as many on each next
- * one. */
+/* Adds a series with values limit (1 + 0.1 n^-2), and `work` evaluations on the coarsest mesh,
+ * doubled on each finer one. */
 static void add(reach_line_bench *b, double limit, long work)
 {
     const int i = b->s.seriess++;
@@ -320,7 +322,8 @@ static void add(reach_line_bench *b, double limit, long work)
     }
 }
 
-/* Three agree, the work of the second is `times` times that of the first; the fourth does not. */
+/* Three series agree, with the work of the second `times` that of the first; the fourth does not
+ * agree. */
 static void line_make(reach_line_bench *b, double times)
 {
     fault f;
@@ -339,7 +342,7 @@ static void line_make(reach_line_bench *b, double times)
     gsl_test(families_add_truths(&b->s, 0, &b->t, &f) != STATUS_OK || b->t.rows != 1, "agreed");
 }
 
-/* One more row: what another model has for the load. */
+/* Adds a row with the load according to a different model. */
 static void add_model(reach_line_bench *b, const char *kind, double value)
 {
     truth *row = realloc(b->t.row, (size_t)(b->t.rows + 1) * sizeof *row);
@@ -357,7 +360,7 @@ static void add_model(reach_line_bench *b, const char *kind, double value)
                                .value = value};
 }
 
-/* One more quantity, which no cell has a value of. */
+/* Adds a quantity for which no cell has a value. */
 static void add_quantity(reach_line_bench *b, const char *name, scene_reduction reduction)
 {
     scene_quantity *q =
@@ -398,7 +401,7 @@ static void line_expect(const reach_line_bench *b, double level, const char *rig
     gsl_test(strcmp(line, right) != 0, "'%s', not '%s'", line, right);
 }
 
-/* Without a reference they are named at once; curves do not count. */
+/* Quantities without a reference are named together; curves are excluded. */
 static void not_every_quantity(void)
 {
     reach_line_bench b;
@@ -424,7 +427,8 @@ static void not_every_quantity(void)
     finish(&b);
 }
 
-/* The model error of those that are right, on a line of its own; an agreement is no other model. */
+/* The model error of passing formulations is on a separate line; an agreement is not a different
+ * model. */
 static void other_models(void)
 {
     reach_line_bench b;

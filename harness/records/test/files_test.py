@@ -20,15 +20,15 @@ from harness.tools.kit.program import PROGRAM, ProgramTest, TRUTHS, read_json, r
 from reference.pack import seal
 
 
-# Files the program writes: complete or not there at all, and readable by others.
+# Files written by the program: complete or absent, and readable by other programs.
 SELECTION = ("verify", "-k", "warping_torsion/default")
-# Many cells, of which the first ones, the most expensive, end soon.
+# Many cells; the first ones are the most expensive and end early.
 QUICK = " and ".join(f"not {word}" for word in ("_motion", "leaf_guide", "flight", "rigid_body", "release",
                                                 "pendulum", "spin_up", "lee_frame"))
 
 
 def small_files():
-    """In the child: a file cannot grow beyond 2000 bytes, as on a disk that is full."""
+    """In the child: limits files to 2000 bytes, as on a full disk."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
 
@@ -43,8 +43,7 @@ class Folder(ProgramTest):
 
 class Complete(Folder):
     def test_full_disk(self):
-        """Each kind of file on a full disk: one line, exit 4, and what was there before is
-        untouched."""
+        """Each kind of file on a full disk: one line, exit status 4, and the previous file is unchanged."""
         wanted = {"-o": "r.h5", "--json": "v.json", "--junit": "j.xml"}
         for option, name in wanted.items():
             pathlib.Path(self.path(name)).write_bytes(b"before")
@@ -55,15 +54,14 @@ class Complete(Folder):
         self.assertEqual(sorted(os.listdir(self.folder)), sorted(wanted.values()))
 
     def test_killed(self):
-        """Whenever a run is killed, its file is the whole one, or not there: before the work,
-        while it is written, behind it."""
+        """Whenever a run is killed, its file is complete or absent: before the work, during writing, and after it."""
         run(*SELECTION, "-o", self.path("whole.h5"))
         whole = os.path.getsize(self.path("whole.h5"))
         for look in range(24):
             process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")],
                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
             if look % 2 == 1:
-                process.stdout.read(1)   # the work is done, the file comes next
+                process.stdout.read(1)   # the work is done; the file is written next
             for _ in range(40 * (look // 2)):
                 if os.path.exists(self.path("r.h5")) or process.poll() is not None:
                     break
@@ -87,10 +85,10 @@ class Complete(Folder):
 
 
 class Interrupted(Folder):
-    """Who asks to end (Ctrl-C, SIGTERM) has what was judged until then, under names that say so."""
+    """After a request to end (Ctrl-C, SIGTERM) the results so far are stored under names that mark them as partial."""
 
     def started(self, cells, *arguments):
-        """A run that has done so many cells: it says so to a terminal."""
+        """Returns a run that has solved this number of cells, according to its terminal output."""
         terminal, end = pty.openpty()
         self.addCleanup(os.close, terminal)
         process = subprocess.Popen([PROGRAM, "verify", *arguments], stdout=subprocess.PIPE,
@@ -126,8 +124,7 @@ class Interrupted(Folder):
             os.remove(self.path(name))
 
     def check_content(self, summary):
-        """Values are those of a run that was left alone; limits do without the noise, which is
-        measured last."""
+        """Values agree with those of an uninterrupted run; limits lack the noise, which is measured last."""
         self.assertGreater(summary["unfinished_cells"], 0)
         self.assertGreater(len(summary["verdicts"]), 0)
         with h5py.File(self.path("r.partial.h5")) as file:
@@ -147,11 +144,11 @@ class Interrupted(Folder):
                 self.assertEqual(here[name], there[name])
 
     def test_asked(self):
-        self.check_partial(signal.SIGINT, group=True)    # a terminal asks everybody, workers too
+        self.check_partial(signal.SIGINT, group=True)    # a terminal signals the whole group, including workers
         self.check_partial(signal.SIGTERM, group=False)
 
     def test_ignored(self):
-        """nohup: what is ignored ends nothing."""
+        """nohup: an ignored signal does not end the run."""
         process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
@@ -189,8 +186,7 @@ class Readable(Folder):
             self.assertEqual(finest["unit"], b"1")
 
     def test_reached(self):
-        """Elements from which on every error is within a level, against the errors in the same
-        file."""
+        """The number of elements from which every error is within a level agrees with the errors in the same file."""
         run("verify", "-k", "elastica/default or warping_torsion/default", "-o", self.path("r.h5"))
         seen = set()
         with h5py.File(self.path("r.h5")) as file:
@@ -229,7 +225,7 @@ class Readable(Folder):
             self.assertAlmostEqual((value - truth) / truth, error, delta=1e-12)
 
     def test_quantity(self):
-        """A selection reaches single quantities."""
+        """A selection can name single quantities."""
         done = run("verify", "-k", "c_column/default and buckling_load", "--json",
                    self.path("v.json"))
         self.assertEqual(done.returncode, 0, done.stdout)
@@ -245,7 +241,7 @@ class Readable(Folder):
 
 class Gate(Folder):
     def altered(self, change):
-        """Exit code and output of a run of one case with a copy of the reference values that was changed."""
+        """Returns exit status and output of a run of one case with a changed copy of the reference values."""
         pathlib.Path(self.path("t.h5")).write_bytes(pathlib.Path(TRUTHS).read_bytes())
         with h5py.File(self.path("t.h5"), "r+") as file:
             change(file)
@@ -274,14 +270,14 @@ class Gate(Folder):
         self.assertIn("warping_torsion", done.stderr)
 
     def test_other_parameters(self):
-        """Truths that speak of other points judge nothing here."""
+        """Reference values for other points are not used here."""
         def change(file):
             del file["truths/warping_torsion"]
         self.assertEqual(self.altered(change).returncode, 3)
 
 
-# Frames of a motion: evenly over its time, in the arrays that pictures are drawn from and as
-# temporal unstructured grid (VTKHDF file format 2.0, section on temporal data).
+# Frames of a motion: evenly spaced in time, in the arrays for pictures and as a temporal
+# unstructured grid (VTKHDF file format 2.0, section on temporal data).
 MOTION = ("solve", "elbow", "-f", "collocation", "-n", "2", "--set", "step=0.07",
           "--set", "tolerance=0", "--set", "integrator=alpha")
 
@@ -297,7 +293,7 @@ class Frames(ProgramTest):
         return only
 
     def test_times(self):
-        """As many as asked for, sixty otherwise, from the begin to the end."""
+        """There are as many frames as requested, by default sixty, from start to end."""
         for option, count in (("--shapes", 60), ("--shapes=3", 60), ("--shapes=8", 8)):
             with self.solved("times.h5", option, "--set", "time=2") as file:
                 g = self.shapes(file)
@@ -308,7 +304,7 @@ class Frames(ProgramTest):
                                            atol=1e-15)
 
     def test_places(self):
-        """A frame between the ends of steps is where a motion is at that time."""
+        """A frame between the ends of steps shows the motion at that time."""
         with self.solved("places.h5", "--shapes=9", "--set", "time=2") as file:
             nodes, first = self.shapes(file)["nodes"][()], self.shapes(file)["nodes"][0]
             np.testing.assert_array_equal(nodes[1], first)
@@ -322,14 +318,14 @@ class Frames(ProgramTest):
                 self.assertGreater(abs(place[2]), 0.03)
 
     def test_resultants(self):
-        """Stresses run between the ends of steps: the root's moment does not jump."""
+        """Stresses are interpolated between the ends of steps: the moment at the root does not jump."""
         with self.solved("forces.h5", "--shapes=40", "--set", "time=2") as file:
             moment = self.shapes(file)["moment"][1:, 0, 1]
             self.assertGreater(np.ptp(moment), 50)
             self.assertLess(np.abs(np.diff(moment)).max(), 0.15 * np.ptp(moment))
 
     def test_temporal_grid(self):
-        """Every data set that the format asks of a grid over time, with its length and type."""
+        """Every data set that the format requires for a temporal grid exists, with its length and type."""
         frames = 7
         with self.solved("grid.h5", f"--shapes={frames}", "--set", "time=1") as file:
             grid, steps = file["VTKHDF"], file["VTKHDF/Steps"]

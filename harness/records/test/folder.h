@@ -1,4 +1,4 @@
-/* A folder of a test's own, and what is in it. */
+/* A separate folder for a test, and its contents. */
 #ifndef BEAMWORK_TEST_FOLDER_H
 #define BEAMWORK_TEST_FOLDER_H
 
@@ -23,7 +23,7 @@ static inline int folder_entries(const char *folder)
     return count;
 }
 
-/* A folder of its own for every test. */
+/* A separate folder for every test. */
 typedef struct test_folder {
     char path[64];
 } test_folder;

@@ -1,5 +1,5 @@
-/* JUnit: well-formed XML whose header counts the elements below it, for every kind of verdict,
- * expected or not, and any mixture of what else a run can miss. */
+/* JUnit: well-formed XML whose header counts its elements, for every kind of verdict, expected or
+ * not, and any mixture of other failures of a run. */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -15,14 +15,14 @@
 
 enum { DEEPEST = 8, NAME = 32, HEADER = 3 };
 
-/* What a reader of XML sees. */
+/* Contents according to an XML reader. */
 typedef struct tree {
     int bad;                                     /* not well-formed */
     int tests, failures, skipped, both, outside; /* both: a test that has failed and was skipped */
     int header[HEADER];                          /* tests, failures, skipped of the suite */
     int depth;
     char open[DEEPEST][NAME];
-    int marks; /* of the test that is open */
+    int marks; /* of the open test */
 } tree;
 
 static const char *const header_name[HEADER] = {"tests", "failures", "skipped"};
@@ -39,7 +39,8 @@ static void see_start(tree *t, const char *name)
     t->both += (failure || skip) && t->marks > 1;
 }
 
-/* Attributes of a start tag: name="value", no raw < or &, no name twice. Returns behind them. */
+/* Reads the attributes of a start tag: name="value", without raw < or &, no name twice. Returns the
+ * position after them. */
 static const char *read_attributes(tree *t, const char *at, int is_suite)
 {
     char names[400] = " ";
@@ -140,7 +141,7 @@ static void bench_make(junit_bench *b)
     b->j.agreement = b->a;
 }
 
-/* As the judge counts (harness/study): the sums that the other reports show. */
+/* Counts as in the evaluation (harness/study): the sums that the other reports show. */
 static void add_verdict(junit_bench *b, verdict_kind kind, int matches)
 {
     verdict *v = &b->v[b->j.verdicts++];
@@ -233,7 +234,7 @@ static void mixtures(void)
     }
 }
 
-/* The reader itself: it must see what is wrong. */
+/* Tests the reader itself: it must detect errors. */
 static void reader(void)
 {
     static const char head[] = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
@@ -259,12 +260,12 @@ static void junit_tests(void)
     mixtures();
 }
 
-/* Lines of CSV, read back as RFC 4180 says: whatever a text holds, every field is where its name
- * is. */
+/* Lines of CSV, read back according to RFC 4180: whatever a text contains, every field is in the
+ * column of its name. */
 
 enum { MOST_FIELDS = 8, ROOM = 256, LINES = 2 };
 
-/* A record of every kind of value. */
+/* A record with every kind of value. */
 typedef struct thing {
     char first[ROOM], last[ROOM];
     int count;
@@ -278,7 +279,7 @@ static const schema_field fields[] = {{"first", "", FIELD_TEXT, "a text", AT(thi
                                       {NULL}};
 static const record_type type = {.name = "thing", .table = "things", .part = {fields}};
 
-/* The fields of one record from *at on, which moves behind its line. */
+/* Reads the fields of one record from *at on, and moves *at past its line. */
 static int read_line(const char **at, char field[MOST_FIELDS][ROOM])
 {
     int count = 0;
@@ -328,7 +329,7 @@ static void compare(const char *first, const char *last)
     free(text);
 }
 
-/* What is no number leaves its field empty. */
+/* A value that is not a number leaves its field empty. */
 static void no_number(void)
 {
     static const double none[] = {NAN, INFINITY, -INFINITY};
@@ -358,7 +359,7 @@ static void csv_tests(void)
     no_number();
 }
 
-/* Outlines at both ends of a member whose section changes: walls and corners belong together. */
+/* Outlines at both ends of a tapered member: walls and corners correspond. */
 
 /* High at one end, wide at the other: corners stay in their quadrants. */
 static void rectangles(void)
@@ -381,7 +382,7 @@ static void rectangles(void)
     }
 }
 
-/* A rectangle of the same radii of inertia stands for matrices. */
+/* A rectangle with the same radii of inertia represents a section given by matrices. */
 static void matrices(void)
 {
     section_spec spec;
@@ -409,11 +410,11 @@ static void outline_tests(void)
     matrices();
 }
 
-/* What a path leads to: links, the same place under many names, and what is no place for an output.
+/* Targets of paths: links, the same target under many names, and invalid targets for an output.
  */
 
-/* The target of a link is replaced, not the link: near, far, over several links, and where nothing
- * is yet. */
+/* The target of a link is replaced, not the link: in the same folder, in another one, through
+ * several links, and if the target does not exist. */
 static void links(void)
 {
     const test_folder of = folder_make();
@@ -445,7 +446,7 @@ static void links(void)
     folder_remove(&of);
 }
 
-/* What is no place for an output is said before anything is computed, in one line. */
+/* An invalid target of an output is reported in one line before anything is computed. */
 static void no_places(void)
 {
     const test_folder of = folder_make();
@@ -469,7 +470,7 @@ static void no_places(void)
     folder_remove(&of);
 }
 
-/* One place under many names: other words, links, hard links; files that are not there yet. */
+/* One target under many names: other spellings, links, hard links; files that do not exist yet. */
 static void same_places(void)
 {
     const test_folder of = folder_make();

@@ -1,5 +1,5 @@
-/* One file of many experiments: groups that are replaced whole while others stay, several runs at a
- * time, runs that are killed. */
+/* One file for many experiments: groups that are replaced completely while others remain,
+ * simultaneous runs, and killed runs. */
 #include <gsl/gsl_test.h>
 #include <signal.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 
 enum { WRITERS = 6, TIMES = 10, KILLS = 60, COUNT = 20000 };
 
-/* Leaves `mark` in the group of that name: as an attribute, and COUNT times in a data set. */
+/* Writes `mark` into the group of that name: as an attribute, and COUNT times in a data set. */
 static status leave(const char *path, const char *name, double mark)
 {
     static double all[COUNT];
@@ -36,7 +36,7 @@ static status leave(const char *path, const char *name, double mark)
     return kept_close(&r, name, path, &f);
 }
 
-/* The mark of a group that has it everywhere; -1: there is no such group, or not the whole. */
+/* The mark of a group if it is complete; -1: the group is missing or incomplete. */
 static long mark_of(const char *path, const char *name)
 {
     static double all[COUNT];
@@ -72,7 +72,7 @@ static void replaces_its_own(const char *path)
              "the root is replaced, groups stay");
 }
 
-/* Many times, each in a process of its own. */
+/* Writes many times, each time in a separate process. */
 static void write_often(const char *path, const char *name)
 {
     for (int i = 1; i <= TIMES; i++)

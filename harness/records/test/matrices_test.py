@@ -1,4 +1,4 @@
-"""Matrices that `solve --matrices` writes: what scipy finds with them is what the program finds."""
+"""Matrices written by `solve --matrices`: results of scipy with them agree with those of the program."""
 import csv
 import os
 import resource
@@ -18,7 +18,7 @@ FORMULATIONS = ("beamw_first", "beamw", "beamw_vlasov", "beamw_consistent", "she
                 "sheet_second_consistent", "sheet_third", "sheet_third_printed",
                 "geometrically_exact", "geometrically_exact:nodes=3", "collocation")
 
-# Stocky, so that matrices keep twelve digits; rigid in shear, so that every formulation carries it.
+# Stocky, so that matrices have twelve digits; rigid in shear, so that every formulation supports it.
 BAR = """beamwork: 1
 sections:
   bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8,
@@ -71,14 +71,14 @@ members:
 
 
 def scaled(K, *others):
-    """All by the roots of K's diagonal: rows of metres and of radians alike."""
+    """Scales all matrices by the roots of K's diagonal, for rows in metres and in radians."""
     d = 1 / numpy.sqrt(numpy.diag(K))
     return [A * d[:, None] * d for A in (K, *others)]
 
 
 def frequencies(K, M, inside=None):
-    """[Hz] of K x = omega^2 M x, ascending; M may be singular; then of each mode x.K x = omega^2 x.M x +
-    omega^4 x.inside x."""
+    """Frequencies [Hz] of K x = omega^2 M x, ascending; M may be singular. With `inside`, each mode satisfies x.K
+    x = omega^2 x.M x + omega^4 x.inside x."""
     K, M, inside = scaled(K, M, 0*K if inside is None else inside)
     mu, x = scipy.linalg.eigh(M, K)
     mu, x = mu[mu > 1e-14 * mu[-1]], x[:, mu > 1e-14 * mu[-1]]
@@ -87,7 +87,8 @@ def frequencies(K, M, inside=None):
 
 
 def turning_frequencies(K, M, G):
-    """[Hz] of (K + i omega G - omega^2 M) x = 0: with K = L L^T and M = R^T R Hermitian in 1/omega."""
+    """Frequencies [Hz] of (K + i omega G - omega^2 M) x = 0, which is Hermitian in 1/omega with K = L L^T and M =
+    R^T R."""
     K, M, G = scaled(K, M, G)
     L = scipy.linalg.cholesky(K, lower=True)
     size, vectors = scipy.linalg.eigh(M)
@@ -104,7 +105,7 @@ def turning_frequencies(K, M, G):
 class Matrices(ProgramTest):
 
     def solve(self, scene, formulation, *more, n=2):
-        """Values by name and the folder, or None where it is refused."""
+        """Returns values by name and the folder, or None if the request is rejected."""
         file, folder = self.folder / "scene.yaml", self.folder / formulation.replace(":", "_")
         file.write_text(scene, encoding="utf-8")
         work = ("solve", "--scene", file, "-f", formulation, "-n", n, "--matrices", folder, *more)
@@ -141,8 +142,8 @@ class Matrices(ProgramTest):
 class Frequencies(Matrices):
 
     def test_loaded(self):
-        """At rest, prestressed, and bent by a quarter of its length, with a rigid body; frequencies have what is
-        inside of elements besides at rest."""
+        """At rest, prestressed, and bent by a quarter of its length, with a rigid body; at rest the frequencies also
+        include the internal motions of elements."""
         checked = with_inside = 0
         for formulation in FORMULATIONS:
             folder, values = self.solved(LOADED, formulation)
@@ -170,7 +171,7 @@ class Frequencies(Matrices):
             self.agree(values, state, found, "lumped")
 
     def inputs(self, folder, value):
-        """K x = B 1 is the linear solution, and the table says which row is which."""
+        """K x = B 1 is the linear solution, and the table identifies the rows."""
         K, B = self.read(folder, "undeformed", "K"), self.read(folder, "undeformed", "B")
         x = numpy.linalg.solve(K, B.sum(axis=1))
         rows = self.rows(folder)
@@ -183,8 +184,8 @@ class Frequencies(Matrices):
                          [("1", "tip", 40), ("2", "tip", 5)])
 
     def test_loads_on_members(self):
-        """The table says on which part of which member; the columns of B are their shares, by which
-        K x = B 1 is the linear solution."""
+        """The table states the part of the member on which each load acts; the columns of B are the loads, and K x =
+        B 1 is the linear solution."""
         loads = """  part: {distributed: [0, 6, 0], on: bar, from: 0.25, to: 0.75, to_value: [0, 0, 3]}
   point: {force: [1, 2, 3], on: bar, where: 0.5}
   halves: {distributed: [0, 0, 4], on: bar, lumped: yes}
@@ -204,7 +205,7 @@ class Frequencies(Matrices):
         self.assertLess(abs(tip[0] / values["uz"] - 1), 1e-11)
 
     def test_turning(self):
-        """In a frame that turns: two stations, the last with the frequencies."""
+        """In a rotating frame: two stations, the last with the frequencies."""
         checked = 0
         for formulation in FORMULATIONS:
             folder, values = self.solved(TURNING, formulation)
@@ -268,10 +269,10 @@ ALL = responses(*(f"node: tip, component: uy, of: {of}, {by}" for of in ("displa
 
 
 class StateSpace(Matrices):
-    """x' = A x + B u, y = C x + D u beside the harmonic analysis."""
+    """x' = A x + B u, y = C x + D u against the harmonic analysis."""
 
     def transfer(self, folder, state, hertz, of_motions=True):
-        """[outputs x inputs], of motions in place of their accelerations."""
+        """Transfer matrix [outputs x inputs], for motions instead of their accelerations."""
         A, B, C, D = (self.read(folder, f"{state}/state_space", letter)
                       if (folder/state/"state_space"/f"{letter}.mtx").exists() else 0 for letter in "ABCD")
         s = 2j*numpy.pi*hertz
@@ -287,7 +288,7 @@ class StateSpace(Matrices):
         return ((L[0] + s*L[1] + s*s*L[2]) @ numpy.linalg.solve(K + s*C + s*s*M, B) + L[3])*moved
 
     def compare(self, scene, formulation, n=2, within=1e-8):
-        """Every response of the scene; the folder and the values."""
+        """Compares every response of the scene; returns the folder and the values."""
         shutil.rmtree(self.folder/formulation.replace(":", "_"), ignore_errors=True)
         folder = self.solve(scene, formulation, "--state-space", n=n)
         if folder is None:
@@ -315,7 +316,7 @@ class StateSpace(Matrices):
         return folder, {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_responses(self):
-        """At rest with a mass and dashpots, about a bent state, with a load that follows, with all dampings;
+        """At rest with a mass and dashpots, about a bent state, with a follower load, with all kinds of damping; the
         poles are the damped modes."""
         bent = "  path: {static: {stations: [1]}}\n"
         checked = 0
@@ -338,7 +339,7 @@ class StateSpace(Matrices):
         self.assertGreater(checked, len(FORMULATIONS))
 
     def test_free(self):
-        """Nothing holds it: six motions of a rigid body, with poles at zero and no others to the right."""
+        """A free structure: six rigid-body modes with poles at zero, and no poles in the right half-plane."""
         scene = BENT.replace("stiffness: [100, 200, 50, 1, 2, 3], ", "").replace("  modes: {modal: {damped: yes%s}}\n", "%.0s") % (
             2700, "mass: 0.3, inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]", "", "", "", "",
             "", responses("node: tip, component: uy, force: mid, along: uz"))
@@ -349,8 +350,8 @@ class StateSpace(Matrices):
         self.assertLess(max(poles.real), 1e-3)
 
     def test_without_mass(self):
-        """Coordinates without mass: damped ones are of first order, others eliminated; a rate that
-        would follow its force at once is refused."""
+        """Massless coordinates: damped ones are of first order, others are eliminated; an output rate that follows
+        its force instantaneously is rejected."""
         scene = BENT.replace("  modes: {modal: {damped: yes%s}}\n", "%.0s")
         scene = scene[:scene.index("  f_$n")] + scene[scene.index("mass: lumped"):]
         holds = (0, SHAKEN, "", "", "", "", "")
@@ -367,7 +368,7 @@ class StateSpace(Matrices):
                      "-f", "beamw", "-n", 2, "--matrices", self.folder/"none", "--state-space", silent=False)
 
     def test_turning(self):
-        """In a frame that turns: the frequencies of the rotation."""
+        """In a rotating frame: the frequencies of the rotation."""
         folder, values = self.solved(TURNING, "collocation", n=2)
         folder = self.folder/"with"
         self.answered("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 2, "--matrices", folder,
@@ -377,7 +378,7 @@ class StateSpace(Matrices):
         self.agree(values, "turning", found, "poles", 1e-10)
 
     def test_reduced(self):
-        """Craig-Bampton and modes, beside the same basis by scipy; errors.csv has their errors."""
+        """Craig-Bampton and modal reduction against the same basis from scipy; errors.csv contains their errors."""
         choices = ("node: tip, component: uy, force: tip, along: uy", "node: tip, component: rx, of: velocity, drive: shake",
                    "node: root, component: uy, of: reaction, force: tip, along: uz",
                    "node: root, component: uy, of: reaction, drive: shake")
@@ -412,7 +413,7 @@ class StateSpace(Matrices):
             exact = frequencies(K[:n, :n], M[:n, :n])[:6]
             for error, one, other in zip(errors, exact, found):
                 self.assertLess(abs(float(error["whole"]) - one) + abs(float(error["reduced"]) - other), 1e-8*one)
-                self.assertGreater(other/one, 1 - 1e-10) # Rayleigh and Ritz
+                self.assertGreater(other/one, 1 - 1e-10) # Rayleigh-Ritz: upper bounds
             self.assertLess(max(found/exact), 1.01 if nodes else 1 + 1e-10)
             H, h = (numpy.array([self.transfer(folder, state, hertz, False) for hertz in (3, 11, 60)])
                     for state in ("steady", "steady/reduced"))
@@ -437,7 +438,7 @@ class StateSpace(Matrices):
             self.assertFalse((self.folder/"new").exists())
 
     def test_modes_without_mass(self):
-        """A point mass beside its node has three modes with mass, whatever the quantity."""
+        """An eccentric point mass has three modes with mass, whatever the quantity."""
         (self.folder/"scene.yaml").write_text("""beamwork: 1
 sections: {bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8}}
 nodes: {root: {at: [0, 0, 0], hold: all}, mid: {at: [1, 0, 0]}, tip: {at: [2, 0, 0], mass: 2, centre: [0.1, 0.2, 0.3]}}
@@ -456,7 +457,7 @@ quantities: {r: {response: {analysis: ha, node: mid, component: uy, force: tip, 
                     self.refused(1, [f"--reduce {modes}{nodes}: {words}"], *work, silent=False)
 
     def test_feedback(self):
-        """Its loop is open, and a line and the files say so."""
+        """The feedback loop is open, which is stated in a line and in the files."""
         scene = BAR + """  motor: {force: [1, 0, 0], on: tip, feedback: {node: tip, component: uz, proportional: 3}}
 analyses: {run: {motion: {stations: 0..1e-3, step: 1e-3}}}
 quantities: {uz: {displacement: {analysis: run, node: tip, component: uz}, unit: m}}
@@ -473,7 +474,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torque]
                 self.assertEqual("loops of feedback open" in held, loop == 1, name)
 
     def test_inside(self):
-        """The mass inside elements has no state space: how far off that is, is said."""
+        """The state space excludes the mass inside elements, and the resulting error is reported."""
         scene = (BENT % (2700, SHAKEN, "", "", "", "", "", ALL)).replace("mass: lumped\n", "")
         (self.folder/"scene.yaml").write_text(scene, encoding="utf-8")
         said = run("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 4, "--matrices",
@@ -501,7 +502,7 @@ class Contents(Matrices):
             sorted([s["folder"] for s in states] + ["dofs.csv", "loads.csv", "states.csv"]))
 
     def test_follower(self):
-        """A load that turns with its node: a tangent without symmetry, and said so."""
+        """A load that rotates with its node has an unsymmetric tangent, which is reported."""
         folder = self.solve(FOLLOWER, "collocation")
         head = (folder / "path_station_0/K.mtx").read_text().splitlines()[0]
         self.assertEqual(head, "%%MatrixMarket matrix coordinate real general")
@@ -534,7 +535,7 @@ class Places(Matrices):
     WORK = ("solve", "warping_torsion", "-f", "beamw", "-n", "20", "--matrices")
 
     def test_refused(self):
-        """What cannot be written is noticed before anything is computed."""
+        """An output that cannot be written is reported before anything is computed."""
         there = self.folder / "there"
         there.mkdir()
         (there / "mine").write_text("mine", encoding="utf-8")
@@ -548,7 +549,7 @@ class Places(Matrices):
         self.assertEqual(os.listdir(there), ["mine"])
 
     def test_empty_folder(self):
-        """An empty folder is taken, also through a link and with a slash behind it."""
+        """An empty folder is accepted, also through a link and with a trailing slash."""
         there, link = self.folder / "there", self.folder / "link"
         there.mkdir()
         link.symlink_to("there")
@@ -558,7 +559,7 @@ class Places(Matrices):
         self.assertEqual(sorted(os.listdir(self.folder)), ["link", "there"])
 
     def test_signals(self):
-        """Who is asked to end while files are written leaves nothing."""
+        """A run that is ended while it writes leaves no files."""
         for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT):
             ended = 0
             for _ in range(20):
@@ -576,7 +577,7 @@ class Places(Matrices):
             self.assertEqual(ended, 1)
 
     def test_full_disk(self):
-        """Complete or not at all."""
+        """On a full disk the folder is complete or absent."""
 
         def small():
             resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))

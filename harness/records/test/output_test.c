@@ -1,4 +1,4 @@
-/* Files that appear complete or not at all: what is replaced and what is written to, permissions,
+/* Files that appear complete or not at all: replaced files, files written directly, permissions,
  * full disks. */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
@@ -13,7 +13,7 @@
 #include "harness/records/records_impl.h"
 #include "harness/records/test/folder.h"
 
-/* Is it there, complete, for whoever reads it? */
+/* Can the complete file be read? */
 static int readable(const char *path, int count)
 {
     hsize_t size = 0;
@@ -59,7 +59,7 @@ static void write_failures(void)
     struct rlimit kept, small;
     getrlimit(RLIMIT_FSIZE, &kept);
     small = kept;
-    small.rlim_cur = 1000; /* [bytes], fewer than a compressed file has: a disk that is full */
+    small.rlim_cur = 1000; /* [bytes], less than a compressed file needs: simulates a full disk */
     signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
     write_record(path, folder, 0, "no room");
@@ -85,7 +85,7 @@ static void write_word(FILE *to, const void *word)
     fputs(word, to);
 }
 
-/* Of this process all that is not complete goes; what is complete stays. */
+/* Incomplete files of this process are deleted; complete ones remain. */
 static void abandoned(void)
 {
     const test_folder of = folder_make();
@@ -116,7 +116,7 @@ static void abandoned(void)
     folder_remove(&of);
 }
 
-/* What could not be written leaves the file of before, and its own status. */
+/* If writing fails, the previous file remains, and the status is that of the failure. */
 static void finished(void)
 {
     const test_folder of = folder_make();
@@ -142,7 +142,7 @@ static void finished(void)
              "standard output is flushed %s", f.text);
 }
 
-/* As the umask says, or as the file that is replaced. */
+/* Permissions follow the umask, or the replaced file. */
 static void permissions(void)
 {
     static const mode_t mode[] = {0600, 0640, 0664, 0755};
@@ -164,8 +164,7 @@ static void permissions(void)
     folder_remove(&of);
 }
 
-/* A temporary name that is a link somebody put there would be written through; names cannot be told
- * before. */
+/* A link planted under a temporary name would be followed, so temporary names are unpredictable. */
 static void temporary_names(void)
 {
     enum { NAMES = 50 };
@@ -191,7 +190,7 @@ static void temporary_names(void)
     folder_remove(&of);
 }
 
-/* Text goes to pipes and devices and leaves them what they are; a whole file does not. */
+/* Text can be written to pipes and devices, which are not replaced; a whole file cannot. */
 static void streams(void)
 {
     const test_folder of = folder_make();

@@ -1,4 +1,5 @@
-/* The tables of fields: well formed, and every stored field survives the pipe between processes. */
+/* The tables of fields are well formed, and every stored field survives the pipe between processes.
+ */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -54,7 +55,7 @@ static void parameters_differ(const case_type *type)
                      "%s: parameter %s beside a field", type->name, list[k]->name);
 }
 
-/* A value that no other field has, into what stands at the offset. */
+/* Stores a value that no other field has at the offset of the field. */
 static void plant(void *record, const schema_field *f, int value)
 {
     char *at = (char *)record + f->offset;
@@ -99,7 +100,7 @@ static void all_same(const record_type *type, const void *a, const void *b)
                      list[i]->name);
 }
 
-/* One record of each kind that a cell holds, all of it different, matrices and curves too. */
+/* One record of each kind in a cell, with distinct values, including matrices and curves. */
 static void pipe_carries_all(void)
 {
     double x[2] = {1, 2}, y[2] = {3, 4}, path = 5, compliance[36], stiffness[36];
@@ -167,11 +168,11 @@ static void schema_tests(void)
     pipe_carries_all();
 }
 
-/* The summary for a pull request: what differs stands in a table, and texts cannot break it. */
+/* The summary for a pull request: differences are in a table, which no text can break. */
 
 static const case_type type = {.name = "case_of_test"};
 
-/* The caller frees it. */
+/* Returns the summary, which the caller frees. */
 static char *written(const sweep *s, const judgement *j)
 {
     const environment e = {.commit = "c0ffee", .compiler = "cc"};
@@ -200,8 +201,8 @@ static int lines_with(const char *text, const char *part)
     return count;
 }
 
-/* Fifty rows of a list are written, and how many are left; of more cases than rows those that pass
- * are named, and those without a verdict apart from them. */
+/* At most fifty rows of a list are written, with the number of the remaining ones; if there are
+ * more cases than rows, those that pass are named, and separately those without a verdict. */
 static void long_lists(void)
 {
     enum { MANY = 60, JUDGED = 40, WORSE = 53 };

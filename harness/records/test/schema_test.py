@@ -1,4 +1,4 @@
-"""Every format carries the fields that `beamwork schema` tells, under the same names."""
+"""Every format contains the fields listed by `beamwork schema`, under the same names."""
 import csv
 import io
 import json
@@ -12,7 +12,7 @@ from harness.tools.kit.program import ProgramTest
 KEYS = ("point", "formulation", "elements")
 JSON_ONLY = ("truths", )
 OF_THE_RUN = ("declarations",)  # below the root, not below a case
-OF_SOME = ("motion", "assumptions")  # not there where a case has none
+OF_SOME = ("motion", "assumptions")  # absent if a case has none
 KINDS = {"int": "i4", "long": "i8", "double": "f8", "flag": "b", "text": "S", "enum": "S"}
 
 
@@ -45,7 +45,7 @@ class Schema(ProgramTest):
                 if (keys or not f["key"]) and (around or not f["said_around"])]
 
     def check_table(self, table, fields):
-        """Names, types and units of the columns, in their order; texts begin where they should."""
+        """Checks names, types and units of the columns, in order, and the offsets of texts."""
         columns = table.dtype.names
         self.assertEqual(list(columns[:len(fields)]), [f["name"] for f in fields])
         for name, attribute in (("unit", "units"), ("summary", "summaries")):
@@ -75,7 +75,7 @@ class Schema(ProgramTest):
                     self.check_table(file[table], self.records[table])
 
     def test_declarations(self):
-        """Each formulation once, with what its type says of itself."""
+        """Each formulation is listed once, with the declarations of its type."""
         with h5py.File(self.results) as file:
             rows = file["declarations"][()]
             run_here = {text(s["formulation"]) for case in file["cases"].values()
@@ -89,7 +89,7 @@ class Schema(ProgramTest):
         self.assertEqual(stages[:3], ["stages", "3|4|5|6|7|8", "5"])
 
     def test_every_table_is_seen(self):
-        """What the other tests walk over is not empty."""
+        """The tables used by the other tests are not empty."""
         with h5py.File(self.results) as file:
             for table in self.records:
                 if table not in (*JSON_ONLY, *OF_THE_RUN, "timings", "agreements", "matrices", "imports", "assumptions"):
@@ -100,7 +100,7 @@ class Schema(ProgramTest):
             self.assertEqual(len(file["experiments/bench/cases/elastica/timings"]), 2)
 
     def test_references(self):
-        """Rows belong to cells that are there; points of curves lie in the arrays."""
+        """Rows belong to existing cells; points of curves lie within the arrays."""
         with h5py.File(self.results) as file:
             for case in file["cases"].values():
                 cells = {tuple(c[k] for k in KEYS) for c in case["cells"][()]}
@@ -146,7 +146,7 @@ class Schema(ProgramTest):
         self.assertEqual(set(jumps[0]), set(self.names("events", keys=False)))
 
     def test_parameters(self):
-        """Columns of points are the parameters of the case, with their units and values."""
+        """The columns of points are the parameters of the case, with units and values."""
         path = self.folder / "s.h5"
         sets = ("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1",
                 "--set", "width=0.07", "--set", "tip_warping=1")
@@ -163,7 +163,7 @@ class Schema(ProgramTest):
         self.assertEqual((units["length"], row["width"]), (b"m", 0.07))
 
     def test_scenes(self):
-        """Every point is there as the scene file that `beamwork scene` writes."""
+        """Every point is stored as the scene file that `beamwork scene` writes."""
         with h5py.File(self.results) as file:
             for name, case in file["cases"].items():
                 scenes = {text(row["point"]): text(row["scene"]) for row in case["scenes"][()]}
@@ -186,7 +186,7 @@ class Schema(ProgramTest):
                     self.assertTrue(p["summary"])
 
     def test_meanings(self):
-        """Every quantity that has values is explained, as `list` says it."""
+        """Every quantity with values is described as in `list`."""
         with h5py.File(self.results) as file:
             for name, case in file["cases"].items():
                 told = {(m["point"], m["quantity"]): text(m["meaning"])
@@ -221,7 +221,7 @@ class Schema(ProgramTest):
             self.assertEqual(head, names + ["omitted", "assumed"] * (verb == "solve"))
 
     def test_experiments(self):
-        """Their groups and their JSON have the tables that are described, and no others."""
+        """Groups and JSON of the experiments have exactly the described tables."""
         path = self.folder / "results.h5"
         csv_of = {"stress": "outcomes", "motion": "runs"}
         for verb, *asked in (("stress", "-k", "thin", "-f", "sheet_third"),

@@ -1,4 +1,4 @@
-"""The short table of a run: it notices a change in any position; nothing is believed of it."""
+"""The short table of a run: a change in any position is detected, and nothing in it is trusted."""
 import csv
 import unittest
 
@@ -17,7 +17,7 @@ def names_of(case, rows):
 
 
 def change_rows(file, table, change):
-    """change(case, rows of it) for every case."""
+    """Applies change(case, its rows) to every case."""
     for case, group in file["cases"].items():
         rows = group[table][()]
         change(case, rows)
@@ -37,20 +37,20 @@ class ShortTable(ProgramTest):
         cls.row = list(csv.DictReader(cls.text.splitlines()))
 
     def noticed(self, table, change, former=None):
-        """Lines of the comparison with a run of which change(case, rows) was made."""
+        """Returns the lines of the comparison with a run to which change(case, rows) was applied."""
         altered(self.old, self.new, lambda file: change_rows(file, table, change))
         done = run("compare", former or self.table, self.new)
         self.assertIn(done.returncode, (0, 1), done)
         return done.stdout.splitlines()[:-2]  # the last two: the sums
 
     def expect(self, planted, lines, words):
-        """One line or more with the words for each planted name, and for no other."""
+        """Expects one line or more with the words for each planted name, and for no other."""
         self.assertEqual({line.split()[1].rstrip(":") for line in lines}, set(planted), lines)
         for word in words:
             self.assertTrue(all(word in line for line in lines), lines)
 
     def plant(self, table, allowed, alter, words):
-        """alter(rows, i) in the k-th row of every series, for every k; how many were planted."""
+        """Applies alter(rows, i) to the k-th row of every series, for every k; returns the number of changes."""
         total = 0
         for k in range(1000):
             planted = []
@@ -78,7 +78,7 @@ class ShortTable(ProgramTest):
         return alter
 
     def test_errors(self):
-        """An error beyond the thresholds, in every value of every mesh, greater and less."""
+        """An error changed beyond the thresholds, upwards or downwards, is detected in every value of every mesh."""
         has = lambda row: np.isfinite(row["error"])
         least = lambda row: has(row) and abs(row["error"]) > 10 * FLOOR
         self.assertGreater(self.plant("quantities", has, self.errors(1), ["worse", "error"]), 60)
@@ -98,8 +98,8 @@ class ShortTable(ProgramTest):
         )
 
     def test_work(self):
-        """One iteration or factorisation more in any mesh; half as many evaluations more in any
-        but the coarse ones, whose part of the sum is small."""
+        """Detects one more iteration or factorisation in any mesh, and 50 % more evaluations in any mesh except the
+        coarse ones, whose share of the sum is small."""
 
         def one(column):
             def more(rows, i):
@@ -118,7 +118,7 @@ class ShortTable(ProgramTest):
         self.assertGreater(self.plant("cells", fine, half, ["worse", "evaluations"]), 30)
 
     def test_limits(self):
-        """Every limit of the default points: moved by more than round-off, lost, new."""
+        """Detects every limit of the default points that has moved by more than round-off, is lost or is new."""
         has = lambda row: np.isfinite(row["limit"])
 
         def move(rows, i):
@@ -146,7 +146,7 @@ class ShortTable(ProgramTest):
         self.assertGreater(self.plant("cells", lambda row: True, fail, ["worse", ": ok -> x"]), 60)
 
     def test_columns(self):
-        """Sums, extremes and limits are those of the whole run."""
+        """Sums, extremes and limits agree with those of the complete run."""
         with h5py.File(self.old, "r") as file:
             for row in self.row:
                 case, _, formulation = row["series"].split("/")
@@ -190,7 +190,7 @@ class ShortTable(ProgramTest):
         self.assertAlmostEqual(abs(of["error"][0]), size, delta=1e-5 * size)
 
     def test_other_points(self):
-        """Limits stand in rows of default points only."""
+        """Only rows of default points have limits."""
         path = verify("warping_torsion and beamw_vlasov", self.folder / "points.h5")
         text = table_of(path, self.bad).read_text(encoding="utf-8")
         rows = list(csv.DictReader(text.splitlines()))
@@ -200,7 +200,7 @@ class ShortTable(ProgramTest):
             self.assertEqual(row["limits"] != "", "/default/" in row["series"], row)
 
     def test_missing(self):
-        """Rows that are gone from either side."""
+        """Detects rows missing on either side."""
         lines = self.text.splitlines(keepends=True)
         self.bad.write_text("".join(lines[:2] + lines[3:]), encoding="utf-8")
         for pair, word in (((self.table, self.bad), "gone"), ((self.bad, self.old), "new")):
@@ -216,7 +216,7 @@ class ShortTable(ProgramTest):
         self.assertIn(word, done.stderr)
 
     def test_damaged(self):
-        """Every field spoilt in several ways, fields too few and too many."""
+        """Every field is damaged in several ways, and there are too few or too many fields."""
         lines = self.text.splitlines()
         fields = next(csv.reader([lines[3]]))
         spoilt = {
@@ -243,7 +243,7 @@ class ShortTable(ProgramTest):
         )
 
     def test_cut(self):
-        """Cut short within a row; heads of other tables."""
+        """Tables truncated within a row, and headers of other tables, are rejected."""
         rows = self.text.count("\n")
         for end in (1, 5, 40):
             self.damaged(self.text[:-end], f"{self.bad}:{rows}: the row is damaged or cut short")

@@ -1,4 +1,4 @@
-"""Stored runs for tests: made by verify, altered in one place, compared."""
+"""Stored runs for tests: produced by verify, changed in one place, compared."""
 import contextlib
 import math
 import shutil
@@ -29,7 +29,7 @@ def table_of(stored, path):
 
 
 def altered(old, new, change):
-    """A sealed copy of which change(file) was made."""
+    """Writes a sealed copy to which change(file) was applied."""
     shutil.copy(old, new)
     with h5py.File(new, "r+") as file:
         change(file)
@@ -39,7 +39,7 @@ def altered(old, new, change):
 
 @contextlib.contextmanager
 def group_of(path, name="sweep"):
-    """What an experiment has left."""
+    """Returns the contents of an experiment's group."""
     with h5py.File(path) as file:
         yield file["experiments"][name]
 
@@ -50,14 +50,14 @@ def replace(group, name, rows):
 
 
 def of_dtype(values):
-    """A column of texts, flags or numbers, which may not be there."""
+    """Returns a column of texts, flags or numbers; absent numbers are None."""
     if isinstance(values[0], str):
         return numpy.array([value.encode() for value in values] or [b""])
     return numpy.array([math.nan if value is None else value for value in values])
 
 
 def put_experiment(path, name, record):
-    """Leaves a made-up record, {attribute or table: value or rows}, as an experiment would."""
+    """Writes a constructed record, {attribute or table: value or rows}, as an experiment would."""
     with h5py.File(path, "a") as file:
         if "schema" not in file.attrs:
             file.attrs.update(schema=numpy.bytes_("beamwork-results"), schema_version=3)

@@ -1,4 +1,4 @@
-"""Results of sweeps and of parts of a run, and the hash of a scene."""
+"""Results of sweeps and of partial runs, and the hash of a run."""
 import h5py
 import numpy
 
@@ -7,7 +7,8 @@ from harness.records.test.stored import altered, group_of, replace, table_of, ve
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, run
 
 
-# beamwork compare of two sweeps: points matched by their parameters, the thresholds and statuses of runs.
+# beamwork compare of two sweeps: points are matched by their parameters; thresholds and exit
+# statuses are those of runs.
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 SAME = "0 worse, 0 better, 0 changed, 0 gone, 0 new"
 OPTIONS = ("-f", "beamw", "-f", "sheet_third", "-n", "1,2,4")
@@ -38,7 +39,7 @@ class Sweeps(ProgramTest):
         return lines, pairs
 
     def check(self, change, lines, *options):
-        """Of a copy in which something was changed; and what the same says the other way round."""
+        """Compares with a changed copy, in both directions."""
         new = altered_sweep(self.old, self.new, change)
         self.assertEqual(self.compared(int(bool(lines)), new, *options)[0], lines)
         back, _ = self.compared(int(bool(lines)), self.old, *options, old=new)
@@ -50,7 +51,7 @@ class Sweeps(ProgramTest):
         self.assertEqual((lines, pairs), ([], f"24 cells in both: {SAME}"))
 
     def test_errors(self):
-        """A row for a quantity and a formulation, beyond the threshold."""
+        """There is a row for each quantity and formulation beyond the threshold."""
         def grow(by):
             def change(file):
                 file["error"][1, 0, 2, 1] = 0.01 * by
@@ -91,7 +92,8 @@ class Sweeps(ProgramTest):
         self.assertRegex("\n".join(lines), r"^changed  elastica/load=0.5/reference: theta .* -> .*$")
 
     def test_points(self):
-        """Of another range, in another order, with a parameter fixed or varied, of numbers that round differently."""
+        """Points of a different range, in a different order, with a parameter fixed or varied, or with numbers that
+        round differently are matched."""
         one = sweep(self.folder / "one.h5", "elastica", "--vary", "load=0.1..0.4/3", "-s", "axial=1e6", *OPTIONS)
         two = sweep(self.folder / "two.h5", "elastica", "--vary", "axial=1e7,1e6", "--vary", "load=0.3,0.2,0.7", *OPTIONS)
         with group_of(one) as file:
@@ -105,7 +107,7 @@ class Sweeps(ProgramTest):
         self.refused(2, "nothing was compared", "compare", self.old, one, silent=False)
 
     def test_formulations_and_meshes(self):
-        """One line for each, however many points there are; the references are those of other formulations."""
+        """There is one line for each, whatever the number of points; the references come from other formulations."""
         new = sweep(self.new, "elastica", "--vary", "load=0.5..2/3", "-f", "sheet_third", "-f", "collocation", "-n", "1,4,8")
         lines, _ = self.compared(1, new)
         self.assertEqual(sorted(line for line in lines if "gone" in line or "new" in line),
@@ -114,7 +116,7 @@ class Sweeps(ProgramTest):
         self.refused(2, "nothing was compared", "compare", self.old, new, "-k", "beamw", silent=False)
 
     def test_quantities(self):
-        """What the other was not asked for is not gone."""
+        """A quantity that the other run did not request is not missing."""
         new = sweep(self.new, "elastica", "--vary", "load=0.5..2/3", "-k", "theta", *OPTIONS)
         with group_of(self.old) as old, group_of(new) as file:
             self.assertEqual((len(old["quantities"]), len(file["quantities"])), (3, 1))
@@ -151,14 +153,13 @@ class Sweeps(ProgramTest):
                      altered_sweep(self.old, self.new, lambda file: file.attrs.modify("beamwork_sweep", 7)))
 
 
-# compare of a part: what a run was not asked for is counted, what it was asked for and lost is
-# gone.
+# compare of a partial run: unrequested series are counted, requested series without results are missing.
 CASE = "warping_torsion"
 SCENE = ROOT / "cases" / "examples" / "euler_column.yaml"
 
 
 def without(file, formulation):
-    """Takes a formulation out of the case."""
+    """Removes a formulation from the case."""
     for name in ("cells", "quantities", "verdicts"):
         rows = file[f"cases/{CASE}/{name}"][()]
         kept = rows[rows["formulation"] != formulation.encode()]
@@ -179,14 +180,14 @@ class Part(ProgramTest):
         folder = cls.class_folder()
         cls.whole, cls.table = folder / "whole.h5", folder / "whole.csv"
         verify(f"{CASE}/default or elastica/default or c_column/default", cls.whole)
-        with h5py.File(cls.whole) as file:  # as a run of all that there is
+        with h5py.File(cls.whole) as file:  # as a complete run
             cls.series = sum(len({(r["point"], r["formulation"]) for r in group["cells"][()]})
                              for group in file["cases"].values())
         cls.whole = altered(cls.whole, folder / "all.h5", lambda f: f.attrs.pop("selection"))
         table_of(cls.whole, cls.table)
 
     def compared(self, new, code, *words, old=None):
-        """Against the whole run and its short table, in both directions."""
+        """Compares with the complete run and its short table, in both directions."""
         for before in [old] if old else [self.whole, self.table]:
             for pair in ((before, new), (new, before)):
                 done = run("compare", *pair)
@@ -218,7 +219,7 @@ class Part(ProgramTest):
         self.compared(new, 0, f"2 series of {new} are outside the selection of ")
 
     def test_a_scene(self):
-        """A run of one scene against one of all cases and the scene."""
+        """A run of one scene against a run of all cases and that scene."""
         old, new = self.folder / "o.h5", self.folder / "n.h5"
         self.answered("verify", "--built-in", "--scene", SCENE, "-o", old, "-k",
                       "euler_column or elastica/default")
@@ -227,7 +228,7 @@ class Part(ProgramTest):
             old, self.folder / "all.h5", lambda f: f.attrs.pop("selection")))
 
     def test_quantities(self):
-        """Limits of what is selected are compared, those of the rest are not missed."""
+        """Limits of selected quantities are compared; those of the others do not count as missing."""
         new = verify("c_column/default and buckling_load", self.folder / "n.h5")
         self.compared(new, 0, " 0 gone, 0 new")
         done = self.answered("compare", self.table, new)
@@ -254,7 +255,7 @@ class Part(ProgramTest):
                 self.assertIn(f"gone     {CASE}/default/beamw", done.stdout)
 
     def test_new_formulations_are_told(self):
-        """One that is in one run only is a change, unless it is new."""
+        """A formulation in one run only is a change, unless it is new."""
         old = altered(self.whole, self.folder / "o.h5", lambda file: without(file, "beamw"))
         for new in (False, True):
             run_of = altered(self.whole, self.folder / "n.h5",
@@ -270,7 +271,7 @@ class Part(ProgramTest):
         self.assertIn("selection is missing or damaged", done.stderr)
 
 
-# compare --hash: times and machines leave it alone, anything else that a run says does not.
+# compare --hash: the hash is independent of times and machines, and changes with all other data.
 TABLES = "cases/snap_through"
 
 
@@ -282,7 +283,7 @@ class Hash(ProgramTest):
         verify("snap_through/default and beamw", cls.old)
 
     def hashes(self, change, code):
-        """Of the run and of a copy of which change(file) was made."""
+        """Compares the hashes of the run and of a copy to which change(file) was applied."""
         new = altered(self.old, self.folder / "new.h5", change)
         out = self.answered("compare", "--hash", self.old, new, code=code).stdout
         return [line.split()[0] for line in out.splitlines()]
@@ -300,7 +301,7 @@ class Hash(ProgramTest):
         self.assertEqual(ours, theirs)
 
     def test_the_last_bit(self):
-        """Of one number of every table that has rows."""
+        """Changes the last bit of one number in every table with rows."""
         for table, column in (("quantities", "value"), ("cells", "iterations"),
                               ("verdicts", "limit"), ("steps", "path")):
             def change(file, table=table, column=column):
