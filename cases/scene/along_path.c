@@ -131,13 +131,15 @@ const char *const scene_column_name[SCENE_COLUMNS] = {"linear",
                                                       "modal",
                                                       "modal about a linear analysis",
                                                       "modal about a path",
+                                                      "modal about an instant",
                                                       "compliance",
                                                       "compliance about a path",
                                                       "rotation",
                                                       "motion",
                                                       "harmonic",
                                                       "harmonic about a linear analysis",
-                                                      "harmonic about a path"};
+                                                      "harmonic about a path",
+                                                      "harmonic about an instant"};
 
 static int called(const scene *s, scene_list list, int i, char *who, int size)
 {
@@ -395,7 +397,8 @@ static const char *const
                         "one at rest; request it about a static path that presses on one side",
     *const no_feedback =
         "acts in motions, harmonic analyses and damped modes (damped: yes) only; add path: [0, 1], "
-        "factor: [0, 0] to its load, which removes it from the others",
+        "factor: [0, 0] to its load, which removes it from the others; or loops: open about an "
+        "instant of a motion",
     *const no_strains = "has stresses that the undeformed state lacks; request it about a static "
                         "or a linear analysis",
     *const no_diaphragm = "is a diaphragm, which motions in time do not support; connect the nodes "
@@ -406,64 +409,66 @@ static const char *const
                      "'rotation' analysis with that omega for frequencies";
 
 /* Columns: linear; static; continuation; buckling of the undeformed structure and about a path;
- * modal, also about a linear analysis and about a path; compliance, also about a path; rotation;
- * motion; harmonic, also about a linear analysis and about a path. */
+ * modal, also about a linear analysis, about a path and about an instant; compliance, also about a
+ * path; rotation; motion; harmonic, also about a linear analysis, about a path and about an
+ * instant. */
 const scene_input scene_inputs[] = {
-    {"force", "uuuuu-uu-uuu-uu", NULL, has_force},
-    {"follower force", "uusxu-xu-usu-xu", no_potential, has_following_force},
-    {"force at an offset from its node", "uuusu-su-uuu-su", NULL, has_force_beside},
-    {"moment", "uussu-su-usu-su", NULL, has_moment},
-    {"follower moment", "uusxu-xu-usu-xu", no_potential, has_following_moment},
-    {"load along a member", "uuuuu-uu-uuu-uu", NULL, has_line},
-    {"follower load along a member", "uusxu-xu-usu-xu", no_potential, has_following_line},
-    {"load along a part of a member", "uuuuu-uu-uuu-uu", NULL, has_part_of_line},
-    {"load that varies along a member", "uuuuu-uu-uuu-uu", NULL, has_varying_line},
-    {"lumped load along a member", "uuuuu-uu-uuu-uu", NULL, has_lumped_line},
-    {"moments along a member", "uusxu-xu-usu-xu", no_potential, has_line_of_moments},
-    {"force within a member", "uuuuu-uu-uuu-uu", NULL, has_force_within},
-    {"follower force within a member", "uusxu-xu-usu-xu", no_potential, has_following_force_within},
-    {"moment within a member", "uusxu-xu-usu-xu", no_potential, has_moment_within},
-    {"gravity on members", "uuuuu-uu-uuu-uu", NULL, has_gravity},
-    {"weight of a body", "uuuuu-uu-uuu-uu", NULL, has_weight},
-    {"temperature", "uuuuu-uu-uuu-uu", NULL, has_temperature},
-    {"constant load", "uuuuu-uu-uuu-uu", NULL, has_staying},
-    {"strain of a member", "uuuuuuuuuuuuxuu", no_strains, has_strain},
-    {"pretension", "uuuuuuuuuuuuxuu", no_strains, has_pretension},
-    {"unstressed length", "uuuuuuuuuuuuxuu", no_strains, has_unstressed_length},
-    {"free curvature", "uuuuuuuuuuuuxuu", no_strains, has_free_curvature},
-    {"load of a case", "uuuuu-uu-uuu-uu", NULL, has_of_case},
-    {"initial curvature", "uuuuuuuuuuuuuuu", NULL, has_curvature},
-    {"imperfection", "uuuuuuuuuuuuuuu", NULL, has_imperfection},
-    {"imperfection by a mode", "uuuuuuuuuuuuuuu", NULL, has_mode},
-    {"imperfection by shifts", "uuuuuuuuuuuuuuu", NULL, has_shifts},
-    {"taper", "uuuuuuuuuuuuuuu", NULL, has_taper},
-    {"section by its matrices", "uuuuuuuuuuuuuuu", NULL, has_matrices},
-    {"spring", "uuuuuuuuuuuuuuu", NULL, has_spring},
-    {"unsymmetric spring", "uusxuxxuuuxuuuu", not_symmetric, has_unsymmetric_spring},
-    {"offset of an end", "uuuuuuuuuuuuuuu", NULL, has_offset},
-    {"foundation", "uuuuuuuuuuuuuuu", NULL, has_foundation},
-    {"spring by a table", "uuuuuuuuuuuuuuu", NULL, has_table},
-    {"spring with a kink at rest", "xuuxuxxuxuuuxxu", no_tangent, has_kink},
-    {"release", "uuuuuuuuuuuuuuu", NULL, has_release},
-    {"warping held", "uuuuuuuuuuuuuuu", NULL, has_held_warping},
-    {"warping shared", "uuuuuuuuuuuuuuu", NULL, has_shared_warping},
-    {"node attached to another", "uuuuuuuuuuuuuuu", NULL, has_tied},
-    {"supports in rotated axes", "uuuuuuuuuuuuuuu", NULL, has_axes},
-    {"constraint", "uuuuuuuuuuuuuuu", NULL, has_constraint},
-    {"diaphragm", "uuuuuuuuuuuxuuu", no_diaphragm, has_diaphragm},
-    {"fork", "uuuuuuuuuuuuuuu", NULL, has_fork},
-    {"mass of a node", "-ii-iuuu-iuuuuu", NULL, has_mass},
-    {"inertia of a node", "-ii-iuuu-iuuuuu", NULL, has_inertia},
-    {"motion of a case", "uuxuu-uu-uuu-uu", no_drive, has_drive_of_case},
-    {"motion of a node", "uuxuu-uu-uuu-uu", no_drive, has_drive},
-    {"velocity at the start", "-----------u---", NULL, has_start},
-    {"rotating axes", "-uu-u--x-uuu--x", no_spin, has_spin},
-    {"damping", "----i--i---uuuu", NULL, has_damping},
-    {"dashpot", "----i--i---uuuu", NULL, has_dashpot},
-    {"unsymmetric dashpot", "----i--i---uuuu", NULL, has_unsymmetric_dashpot},
-    {"elongation", "uuuuu-uu-uuu-uu", NULL, has_elongation},
-    {"tension between nodes", "uuusu-su-uuu-su", NULL, has_tension},
-    {"feedback", "xxxxxxxxxxxuuuu", no_feedback, has_feedback},
+    {"force", "uuuuu-uuu-uuu-uuu", NULL, has_force},
+    {"follower force", "uusxu-xuu-usu-xuu", no_potential, has_following_force},
+    {"force at an offset from its node", "uuusu-suu-uuu-suu", NULL, has_force_beside},
+    {"moment", "uussu-suu-usu-suu", NULL, has_moment},
+    {"follower moment", "uusxu-xuu-usu-xuu", no_potential, has_following_moment},
+    {"load along a member", "uuuuu-uuu-uuu-uuu", NULL, has_line},
+    {"follower load along a member", "uusxu-xuu-usu-xuu", no_potential, has_following_line},
+    {"load along a part of a member", "uuuuu-uuu-uuu-uuu", NULL, has_part_of_line},
+    {"load that varies along a member", "uuuuu-uuu-uuu-uuu", NULL, has_varying_line},
+    {"lumped load along a member", "uuuuu-uuu-uuu-uuu", NULL, has_lumped_line},
+    {"moments along a member", "uusxu-xuu-usu-xuu", no_potential, has_line_of_moments},
+    {"force within a member", "uuuuu-uuu-uuu-uuu", NULL, has_force_within},
+    {"follower force within a member", "uusxu-xuu-usu-xuu", no_potential,
+     has_following_force_within},
+    {"moment within a member", "uusxu-xuu-usu-xuu", no_potential, has_moment_within},
+    {"gravity on members", "uuuuu-uuu-uuu-uuu", NULL, has_gravity},
+    {"weight of a body", "uuuuu-uuu-uuu-uuu", NULL, has_weight},
+    {"temperature", "uuuuu-uuu-uuu-uuu", NULL, has_temperature},
+    {"constant load", "uuuuu-uuu-uuu-uuu", NULL, has_staying},
+    {"strain of a member", "uuuuuuuuuuuuuxuuu", no_strains, has_strain},
+    {"pretension", "uuuuuuuuuuuuuxuuu", no_strains, has_pretension},
+    {"unstressed length", "uuuuuuuuuuuuuxuuu", no_strains, has_unstressed_length},
+    {"free curvature", "uuuuuuuuuuuuuxuuu", no_strains, has_free_curvature},
+    {"load of a case", "uuuuu-uuu-uuu-uuu", NULL, has_of_case},
+    {"initial curvature", "uuuuuuuuuuuuuuuuu", NULL, has_curvature},
+    {"imperfection", "uuuuuuuuuuuuuuuuu", NULL, has_imperfection},
+    {"imperfection by a mode", "uuuuuuuuuuuuuuuuu", NULL, has_mode},
+    {"imperfection by shifts", "uuuuuuuuuuuuuuuuu", NULL, has_shifts},
+    {"taper", "uuuuuuuuuuuuuuuuu", NULL, has_taper},
+    {"section by its matrices", "uuuuuuuuuuuuuuuuu", NULL, has_matrices},
+    {"spring", "uuuuuuuuuuuuuuuuu", NULL, has_spring},
+    {"unsymmetric spring", "uusxuxxuuuuxuuuuu", not_symmetric, has_unsymmetric_spring},
+    {"offset of an end", "uuuuuuuuuuuuuuuuu", NULL, has_offset},
+    {"foundation", "uuuuuuuuuuuuuuuuu", NULL, has_foundation},
+    {"spring by a table", "uuuuuuuuuuuuuuuuu", NULL, has_table},
+    {"spring with a kink at rest", "xuuxuxxuuxuuuxxuu", no_tangent, has_kink},
+    {"release", "uuuuuuuuuuuuuuuuu", NULL, has_release},
+    {"warping held", "uuuuuuuuuuuuuuuuu", NULL, has_held_warping},
+    {"warping shared", "uuuuuuuuuuuuuuuuu", NULL, has_shared_warping},
+    {"node attached to another", "uuuuuuuuuuuuuuuuu", NULL, has_tied},
+    {"supports in rotated axes", "uuuuuuuuuuuuuuuuu", NULL, has_axes},
+    {"constraint", "uuuuuuuuuuuuuuuuu", NULL, has_constraint},
+    {"diaphragm", "uuuuuuuuxuuuxuuux", no_diaphragm, has_diaphragm},
+    {"fork", "uuuuuuuuuuuuuuuuu", NULL, has_fork},
+    {"mass of a node", "-ii-iuuuu-iuuuuuu", NULL, has_mass},
+    {"inertia of a node", "-ii-iuuuu-iuuuuuu", NULL, has_inertia},
+    {"motion of a case", "uuxuu-uuu-uuu-uuu", no_drive, has_drive_of_case},
+    {"motion of a node", "uuxuu-uuu-uuu-uuu", no_drive, has_drive},
+    {"velocity at the start", "--------u---u---u", NULL, has_start},
+    {"rotating axes", "-uu-u--xu-uuu--xu", no_spin, has_spin},
+    {"damping", "----i--iu---uuuuu", NULL, has_damping},
+    {"dashpot", "----i--iu---uuuuu", NULL, has_dashpot},
+    {"unsymmetric dashpot", "----i--iu---uuuuu", NULL, has_unsymmetric_dashpot},
+    {"elongation", "uuuuu-uuu-uuu-uuu", NULL, has_elongation},
+    {"tension between nodes", "uuusu-suu-uuu-suu", NULL, has_tension},
+    {"feedback", "xxxxxxxxxxxxuuuux", no_feedback, has_feedback},
     {NULL, "", NULL, NULL}};
 
 scene_column scene_column_of(const scene *s, int analysis)
@@ -481,10 +486,12 @@ scene_column scene_column_of(const scene *s, int analysis)
     case SCENE_HARMONIC:
         return a->follows == SCENE_NONE                       ? SCENE_OF_HARMONIC
                : s->analysis[a->follows].kind == SCENE_LINEAR ? SCENE_OF_HARMONIC_LINEAR
+               : s->analysis[a->follows].kind == SCENE_MOTION ? SCENE_OF_HARMONIC_INSTANT
                                                               : SCENE_OF_HARMONIC_ABOUT;
     case SCENE_MODAL:
         return a->follows == SCENE_NONE                       ? SCENE_OF_MODAL
                : s->analysis[a->follows].kind == SCENE_LINEAR ? SCENE_OF_MODAL_LINEAR
+               : s->analysis[a->follows].kind == SCENE_MOTION ? SCENE_OF_MODAL_INSTANT
                                                               : SCENE_OF_MODAL_ABOUT;
     case SCENE_COMPLIANCE:
         return a->follows == SCENE_NONE ? SCENE_OF_COMPLIANCE : SCENE_OF_COMPLIANCE_ABOUT;

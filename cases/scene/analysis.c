@@ -60,7 +60,8 @@ int scene_add_buckling(scene *s, int follows)
 
 int scene_add_modal(scene *s, int follows)
 {
-    return add(s, (scene_analysis){.kind = SCENE_MODAL, .follows = follows});
+    return add(s, (scene_analysis){
+                      .kind = SCENE_MODAL, .follows = follows, .time = NAN, .axes_of = SCENE_NONE});
 }
 
 int scene_add_compliance(scene *s, int follows, scene_compliance what)
@@ -72,8 +73,11 @@ int scene_add_compliance(scene *s, int follows, scene_compliance what)
 int scene_add_harmonic(scene *s, int follows, int frequencies, const double hertz[])
 {
     const scene_path path = path_of(s, frequencies, hertz);
-    const int i = add(
-        s, (scene_analysis){.kind = SCENE_HARMONIC, .follows = follows, .of = {.harmonic = path}});
+    const int i = add(s, (scene_analysis){.kind = SCENE_HARMONIC,
+                                          .follows = follows,
+                                          .time = NAN,
+                                          .axes_of = SCENE_NONE,
+                                          .of = {.harmonic = path}});
     if (i < 0)
         free(path.value);
     return i;
@@ -98,6 +102,16 @@ int scene_add_motion(scene *s, int follows, int stations, const double path[], s
     if (i < 0)
         free(how.path.value);
     return i;
+}
+
+double scene_instant_of(const scene *s, int analysis)
+{
+    const scene_analysis *a = &s->analysis[analysis];
+    if ((a->kind != SCENE_MODAL && a->kind != SCENE_HARMONIC) || a->follows == SCENE_NONE ||
+        s->analysis[a->follows].kind != SCENE_MOTION)
+        return NAN;
+    const scene_path *path = scene_path_of(&s->analysis[a->follows]);
+    return isnan(a->time) ? path->value[path->stations - 1] : a->time;
 }
 
 scene_alpha scene_alpha_of_radius(double rho)

@@ -51,6 +51,32 @@ static const entry_field spin[] = {OMEGA(of.walk.frame), {.name = NULL}},
      ENTRY_IN(scene_analysis, follows),                                                            \
      .of = SCENE_ANALYSES}
 
+/* Of small motions about an instant. */
+#define INSTANT                                                                                    \
+    {"time",                                                                                       \
+     ENTRY_NUMBER,                                                                                 \
+     .unit = "s",                                                                                  \
+     .summary = "instant of the motion that 'about' names",                                        \
+     .left_out = "the end of the motion",                                                          \
+     ENTRY_IN(scene_analysis, time),                                                               \
+     .otherwise = NAN,                                                                             \
+     .most = INFINITY},                                                                            \
+        {"axes",                                                                                   \
+         ENTRY_WORD,                                                                               \
+         .group = 2,                                                                               \
+         .words = "own|fixed",                                                                     \
+         .summary =                                                                                \
+             "about an instant: small motions are along the own axes of each node, which turn "    \
+             "with it, or along fixed axes",                                                       \
+         .usual = "own",                                                                           \
+         ENTRY_IN(scene_analysis, axes)},                                                          \
+    {                                                                                              \
+        "axes_of", ENTRY_NAME, .group = 2,                                                         \
+            .summary = "about an instant: node; all small motions are along axes that turn with "  \
+                       "it",                                                                       \
+            .left_out = "see axes", ENTRY_IN(scene_analysis, axes_of), .of = SCENE_NODES           \
+    }
+
 #define STEPS                                                                                      \
     {"steps",                                                                                      \
      ENTRY_WHOLE,                                                                                  \
@@ -114,7 +140,8 @@ static const entry_field modes[] = {
      ENTRY_IN(scene_analysis, damped)},
     LOOPS,
     PROPORTIONAL,
-    ABOUT("static analysis; its last state is the base state"),
+    ABOUT("static or linear analysis: its last state is the base state; or motion: an instant"),
+    INSTANT,
     {.name = NULL}};
 
 static const entry_field buckling[] = {{"wanted", ENTRY_NUMBER, .summary = "number of modes",
@@ -255,7 +282,8 @@ static const entry_field harmonic[] = {
          "Rayleigh damping and modal damping ratios, in addition to damping of members and springs",
      .left_out = "none"},
     LOOPS,
-    ABOUT("static or linear analysis; its last state is the base state"),
+    ABOUT("static or linear analysis: its last state is the base state; or motion: an instant"),
+    INSTANT,
     {.name = NULL}};
 
 const entry_field entry_analysis[] = {

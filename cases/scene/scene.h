@@ -151,10 +151,19 @@ typedef struct scene_acting {
     int load_case, combination;
 } scene_acting;
 
+/* Axes of small motions about an instant of a motion. */
+typedef enum scene_turning {
+    SCENE_TURNING_OWN, /* of each node, which turn with it */
+    SCENE_TURNING_NONE /* in space */
+} scene_turning;
+
 typedef struct scene_analysis {
     scene_analysis_kind kind;
     int follows; /* analysis whose states this analysis is about, or SCENE_NONE: the undeformed
                     state */
+    double time; /* [s] instant of the motion that it is about; NAN: its end */
+    scene_turning axes; /* along which small motions about it are */
+    int axes_of;        /* ... or those that turn with this node; SCENE_NONE: none */
     scene_acting acting;
     union {
         scene_walk walk;
@@ -186,6 +195,9 @@ int scene_add_motion(scene *s, int follows, int stations, const double path[], s
 scene_alpha scene_alpha_of_radius(double rho);
 /* Sets the rotation of the axes of a static path or a continuation. */
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
+
+/* Instant of the motion that an analysis is about [s]; NAN: it is not about a motion. */
+double scene_instant_of(const scene *, int analysis);
 
 /* Returns "linear", "static", ...: the key in a scene file. */
 const char *scene_analysis_name(scene_analysis_kind);
@@ -1334,6 +1346,7 @@ typedef enum scene_column {
     SCENE_OF_MODAL,
     SCENE_OF_MODAL_LINEAR,
     SCENE_OF_MODAL_ABOUT,
+    SCENE_OF_MODAL_INSTANT,
     SCENE_OF_COMPLIANCE,
     SCENE_OF_COMPLIANCE_ABOUT,
     SCENE_OF_ROTATION,
@@ -1341,6 +1354,7 @@ typedef enum scene_column {
     SCENE_OF_HARMONIC,
     SCENE_OF_HARMONIC_LINEAR,
     SCENE_OF_HARMONIC_ABOUT,
+    SCENE_OF_HARMONIC_INSTANT,
     SCENE_COLUMNS
 } scene_column;
 

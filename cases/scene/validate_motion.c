@@ -377,6 +377,71 @@ static int is_asked(const scene *s, int analysis)
     return 0;
 }
 
+/* Small motions about an instant have rates, and thus forces that no undamped mode has. */
+static status check_about_motion(const scene *s, const scene_analysis *a, int i, fault *f)
+{
+    const scene_words who = scene_called(s, SCENE_ANALYSES, i);
+    const scene_words motion = scene_name(s, SCENE_ANALYSES, a->follows);
+    if (a->kind != SCENE_MODAL && a->kind != SCENE_HARMONIC)
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: its base state is that of a motion, whose forces are not in "
+            "equilibrium without inertia; follow a static path, or use modal: {damped: "
+            "yes} or a harmonic analysis, which include it",
+            who.text);
+    if (a->kind == SCENE_MODAL && !a->damped)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: about an instant of a motion (%s), rates cause forces that modes "
+                         "without damping lack; add damped: yes",
+                         who.text, motion.text);
+    if (a->by_modes || scene_has_ratios(a))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: modes without damping do not solve small motions about an instant of "
+                         "a motion (%s); remove %s",
+                         who.text, motion.text, a->by_modes ? "'solution'" : "the damping ratios");
+    if (a->damping.mass > 0 || a->damping.stiffness > 0)
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: small motions about an instant have the damping of the motion; remove "
+            "'damping' here, and give damping: {mass: a} to %s, or 'damping' to "
+            "members and springs",
+            who.text, motion.text);
+    return STATUS_OK;
+}
+
+/* The instant lies within the motion. */
+static status check_instant(const scene *s, const scene_analysis *a, int i, fault *f)
+{
+    const double time = scene_instant_of(s, i);
+    if (a->kind != SCENE_MODAL && a->kind != SCENE_HARMONIC)
+        return STATUS_OK;
+    if (isnan(time) && isnan(a->time) && a->axes_of == SCENE_NONE && a->axes == SCENE_TURNING_OWN)
+        return STATUS_OK;
+    if (isnan(time))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: it is not about a motion, and only such an analysis has '%s'; name a "
+                         "motion with 'about', or remove it",
+                         scene_called(s, SCENE_ANALYSES, i).text,
+                         !isnan(a->time)            ? "time"
+                         : a->axes_of != SCENE_NONE ? "axes_of"
+                                                    : "axes");
+    const scene_analysis *motion = &s->analysis[a->follows];
+    const scene_path *path = scene_path_of(motion),
+                     *before = motion->follows != SCENE_NONE &&
+                                       s->analysis[motion->follows].kind == SCENE_MOTION
+                                   ? scene_path_of(&s->analysis[motion->follows])
+                                   : NULL;
+    const double begin = before != NULL ? before->value[before->stations - 1] : 0,
+                 end = path->value[path->stations - 1];
+    return time >= begin && time <= end
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "%s: %g s is not an instant of %s, which lasts from %g to %g s; give "
+                           "one of these times",
+                           scene_called(s, SCENE_ANALYSES, i).text, time,
+                           scene_name(s, SCENE_ANALYSES, a->follows).text, begin, end);
+}
+
 static status check_harmonic(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_path *ratios = &a->damping.ratios;
@@ -407,12 +472,10 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (a->follows != SCENE_NONE && a->kind != SCENE_MOTION &&
         s->analysis[a->follows].kind == SCENE_MOTION)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: its base state is that of a motion, whose forces are not in "
-                         "equilibrium without inertia; follow a static path",
-                         scene_called(s, SCENE_ANALYSES, i).text);
+        TRY(check_about_motion(s, a, i, f));
     TRY(scene_validate_acting(s, i, f));
-    if (a->follows != SCENE_NONE &&
+    TRY(check_instant(s, a, i, f));
+    if (a->follows != SCENE_NONE && s->analysis[a->follows].kind != SCENE_MOTION &&
         (a->kind == SCENE_BUCKLING || a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC))
         TRY(check_about(s, a, i, f));
     if (scene_path_of(a) != NULL)

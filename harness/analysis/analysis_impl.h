@@ -357,7 +357,8 @@ typedef struct vibration {
     analysis_context *c;
     int analysis, free, all;
     const model_state *state;
-    sparse K, M, C, B; /* on all coordinates */
+    const outcome_about *about; /* an instant of a motion; NULL: a state at rest */
+    sparse K, M, C, B;          /* on all coordinates */
     int damped, inside;
     int plain;           /* 1: without the mass inside elements, and extremes between frequencies */
     sparse D;            /* [2 (free + border + loops)] real form */
@@ -492,6 +493,8 @@ void harmonic_release(vibration *);
 status harmonic_inside(analysis_context *, int analysis, double *error, int *quantity, fault *);
 /* REFUSED: the motion is a component of a rotation vector. */
 status harmonic_check_motion(const vibration *, int driver, fault *);
+/* REFUSED: about an instant, the rate of what the quantity reads has more parts. */
+status harmonic_check_rates(const vibration *, const scene_response *, fault *);
 /* The driven coordinate whose reaction a quantity reads; it must act on one node only. */
 status harmonic_reacting(const vibration *, const scene_response *, int *out, fault *);
 

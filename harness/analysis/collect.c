@@ -1,5 +1,6 @@
 #include "harness/analysis/analysis_impl.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -61,7 +62,11 @@ static status keep_displaced(const analysis_context *c, shape_state *what, const
     const outcome_path *path = follows != SCENE_NONE && outcome_has_path(&c->outcomes[follows])
                                    ? outcome_path_of(&c->outcomes[follows])
                                    : NULL;
-    const model_state *about = path != NULL && path->reached > 0 && path->state != NULL
+    const double time = scene_instant_of(c->scene, what->analysis);
+    const outcome_about *of_motion =
+        isnan(time) ? NULL : outcome_about_at(&c->outcomes[follows], time);
+    const model_state *about = of_motion != NULL ? of_motion->state
+                               : path != NULL && path->reached > 0 && path->state != NULL
                                    ? path->state[path->reached - 1]
                                    : kinematics_rest(c->model);
     model_state *moved = NULL;
@@ -364,13 +369,49 @@ static status keep_about(const analysis_context *c, int analysis, workspace *w, 
     return keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f);
 }
 
+/* About an instant of a motion: C is damping, G what rates do besides. */
+static status keep_instant(const analysis_context *c, int analysis, workspace *w,
+                           system_matrices *s, fault *f)
+{
+    const scene_analysis *motion = &c->scene->analysis[c->scene->analysis[analysis].follows];
+    analysis_context own = *c;
+    vibration v = {0};
+    state_matrices *out = NULL;
+    const outcome_about *about = outcome_about_at(
+        &c->outcomes[c->scene->analysis[analysis].follows], scene_instant_of(c->scene, analysis));
+    TRY(next(s, &out, f));
+    out->analysis = analysis;
+    out->path = about->time;
+    out->turns = 1;
+    status outcome = harmonic_system(&own, analysis, &v, f);
+    if (outcome == STATUS_OK)
+        outcome = keep_block(w, &v.K, 0, &out->K, f);
+    if (outcome == STATUS_OK)
+        outcome = keep_block(w, &about->M, 0, &out->M, f);
+    if (outcome == STATUS_OK && (damping_acts(c->scene) || motion->damping.mass > 0))
+        outcome = keep_block(w, &about->C, 0, &out->C, f);
+    if (outcome == STATUS_OK) {
+        for (int i = 0; i < v.B.column[v.B.n]; i++)
+            v.B.value[i] = v.C.value[i] - about->C.value[i];
+        outcome = keep_block(w, &v.B, 0, &out->G, f);
+        sparse_zero(&v.B);
+    }
+    if (outcome == STATUS_OK)
+        outcome = inputs(c, about->state, w, &out->B, f);
+    if (outcome == STATUS_OK && w->models)
+        outcome = second_order_keep(&v, NULL, s, out, f);
+    harmonic_release(&v);
+    return outcome;
+}
+
 /* Stores the matrices of a modal analysis and its modes; nothing if it failed. */
 static status keep_modal(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {
     if (c->outcomes[analysis].status != STATUS_OK)
         return STATUS_OK;
-    TRY(keep_about(c, analysis, w, s, f));
+    TRY(isnan(scene_instant_of(c->scene, analysis)) ? keep_about(c, analysis, w, s, f)
+                                                    : keep_instant(c, analysis, w, s, f));
     const outcome_side *found = &outcome_spectrum_of(&c->outcomes[analysis])->positive;
     state_matrices *out = &s->state[s->states - 1];
     const size_t count = (size_t)found->count, rows = (size_t)s->rows;

@@ -116,6 +116,12 @@ static status damped_frequencies(vibration *v, double below, int *count, double 
     return outcome;
 }
 
+/* Above round-off? */
+static int grows(const vibration *v, const unsymmetric_result *r, int i)
+{
+    return r->growth[i] > (v->about != NULL ? 1e-7 : 1e-9) * r->frequency[i];
+}
+
 status harmonic_judge_growth(vibration *v, double below, fault *f)
 {
     const scene *s = v->c->scene;
@@ -125,12 +131,13 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
     double growth = 0;
     for (int i = 0; i < s->springs; i++)
         circulates |= scene_spring_circulates(&s->spring[i]);
-    if (v->loops == 0 && (!circulates || s->analysis[v->analysis].by_modes))
+    if (v->loops == 0 && ((!circulates && v->about == NULL) || s->analysis[v->analysis].by_modes))
         return STATUS_OK;
     m = calloc(1, sizeof *m);
     const status outcome = m != NULL ? find_damped(v, m, below, &r, f) : no_memory(f);
     for (int i = 0; i < r.count; i++)
-        if (r.growth[i] > 1e-9 * r.frequency[i])
+        if (grows(v, &r, i) &&
+            (v->about == NULL || hypot(r.growth[i], r.frequency[i]) <= 2 * PI * below))
             growth = fmax(growth, r.growth[i]);
     unsymmetric_free(&r);
     harmonic_modes_free(m);
@@ -139,6 +146,14 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
                  "stability of the loop of feedback is known up to %.4g Hz only", below);
     if (outcome != STATUS_OK || growth == 0)
         return outcome;
+    if (v->about != NULL) { /* which is no loss of stability */
+        if (v->c->result->reason[0] == '\0')
+            snprintf(v->c->result->reason, sizeof v->c->result->reason,
+                     "a mode of the coefficients at %g s grows at %.4g 1/s: responses are transfer "
+                     "functions, no steady vibration",
+                     v->about->time, growth);
+        return STATUS_OK;
+    }
     return fault_set(f, STATUS_REFUSED,
                      "there are no steady vibrations, because a mode grows at %.4g 1/s: see modal: "
                      "{damped: yes}; add damping, or make %s smaller",
@@ -148,7 +163,7 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
 static int is_unsymmetric(const vibration *v)
 {
     const scene *s = v->c->scene;
-    if (v->loops > 0)
+    if (v->loops > 0 || v->about != NULL)
         return 1;
     for (int i = 0; i < s->springs; i++)
         if (scene_spring_circulates(&s->spring[i]) || scene_spring_gyrates(&s->spring[i]))
@@ -182,13 +197,31 @@ status harmonic_natural(vibration *v, double below, int *count, double **hertz, 
     return outcome;
 }
 
-static void note_growth(analysis_context *c, const unsymmetric_result *r, outcome_spectrum *out)
+static void note_growth(const vibration *v, const unsymmetric_result *r, outcome_spectrum *out)
 {
+    solve_result *to = v->c->result;
     for (int i = 0; i < r->count; i++)
-        out->growth = fmax(out->growth, r->growth[i]);
-    if (out->growth > 0 && c->result->reason[0] == '\0')
-        snprintf(c->result->reason, sizeof c->result->reason,
-                 "unstable: a damped mode grows at %.4g 1/s", out->growth);
+        if (v->about == NULL || grows(v, r, i))
+            out->growth = fmax(out->growth, r->growth[i]);
+    if (!(out->growth > 0) || to->reason[0] != '\0')
+        return;
+    if (v->about != NULL)
+        snprintf(to->reason, sizeof to->reason,
+                 "a mode of the coefficients at %g s grows at %.4g 1/s", v->about->time,
+                 out->growth);
+    else
+        snprintf(to->reason, sizeof to->reason, "unstable: a damped mode grows at %.4g 1/s",
+                 out->growth);
+}
+
+static void say_instant(const vibration *v, size_t size, char out[])
+{
+    const scene_analysis *a = &v->c->scene->analysis[v->analysis];
+    snprintf(out, size, "coefficients at %g s, %s%.40s", v->about->time,
+             a->axes_of != SCENE_NONE        ? "axes of "
+             : a->axes == SCENE_TURNING_NONE ? "fixed axes"
+                                             : "own axes of the nodes",
+             a->axes_of != SCENE_NONE ? scene_name(v->c->scene, SCENE_NODES, a->axes_of).text : "");
 }
 
 /* Finds modes, with the factors of K. closed: with loops, whose integrals follow the coordinates.
@@ -272,11 +305,13 @@ status damped_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
     outcome_spectrum *out = &o->left.spectrum;
     const status outcome = find_modes(&v, &r, f);
     if (outcome == STATUS_OK) {
-        note_growth(c, &r, out);
+        note_growth(&v, &r, out);
         out->positive.growth = r.growth;
         flutter_take(&r, &out->positive);
         snprintf(out->meaning, sizeof out->meaning, "%s%s%s", v.damped ? "damped" : "",
                  v.damped && v.loops > 0 ? ", " : "", v.loops > 0 ? "loop closed" : "");
+        if (v.about != NULL)
+            say_instant(&v, sizeof out->meaning, out->meaning);
     }
     unsymmetric_free(&r);
     harmonic_release(&v);

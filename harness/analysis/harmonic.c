@@ -200,15 +200,43 @@ static status respond(vibration *v, outcome_harmonic *o, fault *f)
     return v->plain ? STATUS_OK : harmonic_extremes_refine(v, respond_at, o, f);
 }
 
-/* Checks that every requested reaction belongs to one coordinate. */
-static status check_reactions(const vibration *v, fault *f)
+status harmonic_check_rates(const vibration *v, const scene_response *r, fault *f)
+{
+    const model *m = v->c->model;
+    const int node[] = {r->node, r->from};
+    for (int i = 0; i < 2 && v->about != NULL; i++) {
+        if ((r->of != SCENE_VELOCITY && r->of != SCENE_ACCELERATION) || node[i] == SCENE_NONE)
+            continue;
+        const mesh_vertex *body = model_vertex(m, model_body(m, node[i]));
+        int turns = 0;
+        for (int k = 0; k < 3; k++) {
+            const int c = body->coordinate[SCENE_RX + k];
+            turns |= c != NONE && v->about->rate[c] != 0;
+        }
+        if (turns && (model_body(m, node[i]) != node[i] || body->angles > 1))
+            return fault_set(f, STATUS_REFUSED,
+                             "the velocity of %s is not only the rate of its displacement, because "
+                             "its body turns at %g s; read its displacement, or the velocity of "
+                             "the body's own node",
+                             scene_called(model_scene(m), SCENE_NODES, node[i]).text,
+                             v->about->time);
+    }
+    return STATUS_OK;
+}
+
+/* Reactions and velocities that are asked for are such. */
+static status check_outputs(const vibration *v, fault *f)
 {
     const scene *s = v->c->scene;
     int c;
-    for (int i = 0; i < s->quantities; i++)
-        if (scene_asks(&s->quantity[i], v->analysis, SCENE_RESPONSE) &&
-            s->quantity[i].what.of.response.of == SCENE_REACTING)
-            TRY(harmonic_reacting(v, &s->quantity[i].what.of.response, &c, f));
+    for (int i = 0; i < s->quantities; i++) {
+        if (!scene_asks(&s->quantity[i], v->analysis, SCENE_RESPONSE))
+            continue;
+        const scene_response *r = &s->quantity[i].what.of.response;
+        TRY(harmonic_check_rates(v, r, f));
+        if (r->of == SCENE_REACTING)
+            TRY(harmonic_reacting(v, r, &c, f));
+    }
     return STATUS_OK;
 }
 
@@ -262,7 +290,7 @@ static status solve(vibration *v, outcome_harmonic *o, fault *f)
     TRY(harmonic_begin(v, f));
     TRY(allocate(v, o, f));
     TRY(harmonic_pattern(v, f));
-    TRY(check_reactions(v, f));
+    TRY(check_outputs(v, f));
     TRY(find_modes_of(v, f));
     TRY(harmonic_judge_growth(v, path->value[path->stations - 1], f));
     if (!v->c->scene->analysis[v->analysis].by_modes)

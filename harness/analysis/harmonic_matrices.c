@@ -64,11 +64,59 @@ static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
     return linearise_state(&c->eq, &c->run->memory, v->state, &lin, f);
 }
 
+/* K and C of all rates about an instant, of all coordinates; G: work space. */
+static status small_motions(const vibration *v, sparse *K, sparse *C, sparse *G, fault *f)
+{
+    const outcome_about *about = v->about;
+    const scene_analysis *a = &v->c->scene->analysis[v->analysis];
+    sparse_copy_leading(&about->K, K);
+    sparse_copy_leading(&about->G, G);
+    if (a->axes == SCENE_TURNING_OWN || a->axes_of != SCENE_NONE)
+        TRY(about_turning(v->c->model, about, a->axes_of, K, G, C, f));
+    for (int i = 0; i < C->column[C->n]; i++)
+        C->value[i] = about->C.value[i] + G->value[i];
+    return STATUS_OK;
+}
+
+static status instant_of(vibration *v, int whole, const analysis_outcome *o, fault *f)
+{
+    analysis_context *c = v->c;
+    const sparse *pattern;
+    sparse all[3] = {{0}};
+    const double time = scene_instant_of(c->scene, v->analysis);
+    v->about = outcome_about_at(o, time);
+    if (v->about == NULL)
+        return fault_set(f, o->status != STATUS_OK ? o->status : STATUS_REFUSED,
+                         "the motion did not reach %g s: %.150s", time, o->reason);
+    TRY(assemble_pattern_whole(c->model, c->run->patterns, whole, &pattern, f));
+    TRY(sparse_alloc_like(pattern, &v->K, f));
+    TRY(sparse_alloc_like(pattern, &v->M, f));
+    TRY(sparse_alloc_like(pattern, &v->C, f));
+    TRY(sparse_alloc_like(pattern, &v->B, f));
+    status outcome = STATUS_OK;
+    for (int i = 0; i < 3 && outcome == STATUS_OK; i++)
+        outcome = sparse_alloc_like(&v->about->K, &all[i], f);
+    if (outcome == STATUS_OK)
+        outcome = small_motions(v, &all[0], &all[1], &all[2], f);
+    if (outcome == STATUS_OK) {
+        sparse_copy_leading(&all[0], &v->K);
+        sparse_copy_leading(&all[1], &v->C);
+        sparse_copy_leading(&v->about->M, &v->M);
+    }
+    for (int i = 0; i < 3; i++)
+        sparse_free_values(&all[i]);
+    v->damped = 1;
+    v->state = v->about->state;
+    return outcome;
+}
+
 status harmonic_matrices(vibration *v, int whole, fault *f)
 {
     analysis_context *c = v->c;
     const int follows = c->scene->analysis[v->analysis].follows;
     const sparse *pattern;
+    if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_MOTION)
+        return instant_of(v, whole, &c->outcomes[follows], f);
     TRY(follows != SCENE_NONE
             ? assemble_pattern_of_states(c->model, c->run->patterns, whole, &pattern, f)
             : assemble_pattern_at_rest(c->model, c->run->patterns, 1, whole, &pattern, f));

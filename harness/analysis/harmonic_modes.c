@@ -66,7 +66,8 @@ static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
 status harmonic_modes_blocks(vibration *v, harmonic_modes *m, fault *f)
 {
     const sparse *pattern;
-    TRY(v->c->scene->analysis[v->analysis].follows != SCENE_NONE
+    TRY(v->about != NULL ? assemble_pattern_whole(v->c->model, v->c->run->patterns, 0, &pattern, f)
+        : v->c->scene->analysis[v->analysis].follows != SCENE_NONE
             ? assemble_pattern_of_states(v->c->model, v->c->run->patterns, 0, &pattern, f)
             : assemble_pattern_at_rest(v->c->model, v->c->run->patterns, 1, 0, &pattern, f));
     const sparse *const from[] = {&v->K, &v->M, &v->C, &v->B};

@@ -256,6 +256,7 @@ static status fill_output(const vibration *v, const sparse *G, const system_matr
     const scene_response *as = &s->output[y].as;
     const size_t N = (size_t)m->n + (size_t)m->motions;
     int c;
+    TRY(harmonic_check_rates(v, as, f));
     if (as->of != SCENE_REACTING) {
         double *L = m->L[as->of] + (size_t)y * N; /* displacement, velocity, acceleration */
         add_motion(v, as->node, as->component, 1, at, L);

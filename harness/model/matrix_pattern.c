@@ -318,6 +318,12 @@ status assemble_pattern_of_states(const model *m, assemble_patterns *all, int wi
     return make(m, all, with_driven ? WHOLE_WITH_DRIVEN : WHOLE, out, f);
 }
 
+status assemble_pattern_whole(const model *m, assemble_patterns *all, int with_driven,
+                              const sparse **out, fault *f)
+{
+    return make(m, all, with_driven ? WHOLE_WITH_DRIVEN : WHOLE, out, f);
+}
+
 status assemble_pattern_at_rest(const model *m, assemble_patterns *all, int damped, int with_driven,
                                 const sparse **out, fault *f)
 {

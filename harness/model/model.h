@@ -125,6 +125,9 @@ status assemble_pattern(const model *, assemble_patterns *, int with_driven, con
  * whether such a matrix is symmetric is then decided by its numbers. */
 status assemble_pattern_of_states(const model *, assemble_patterns *, int with_driven,
                                   const sparse **out, fault *f);
+/* The same, always stored whole: of states of a motion. */
+status assemble_pattern_whole(const model *, assemble_patterns *, int with_driven,
+                              const sparse **out, fault *f);
 /* Of the undeformed state, whole where springs are not symmetric, or with `damped` dashpots. */
 status assemble_pattern_at_rest(const model *, assemble_patterns *, int damped, int with_driven,
                                 const sparse **out, fault *f);

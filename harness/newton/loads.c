@@ -1,6 +1,7 @@
 /* Loads and drivers along the path. */
 #include "harness/newton/newton_impl.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "cases/scene/scene.h"
@@ -36,10 +37,11 @@ loading loading_of(const model *m, int analysis)
                                   ? own
                                   : &s->analysis[own->follows];
     const scene_rotating_frame *frame = scene_rotating_frame_of(a);
-    loading l = {.in_time = own->kind == SCENE_MOTION,
+    const int instant = !isnan(scene_instant_of(s, analysis));
+    loading l = {.in_time = own->kind == SCENE_MOTION || instant,
                  .held_path = 1,
                  .acting = scene_acting_of(s, analysis)};
-    l.lumps = lumps_of(m, analysis);
+    l.lumps = lumps_of(m, instant ? own->follows : analysis);
     l.rotation_follows_path = a->kind == SCENE_ROTATION;
     if (frame == NULL)
         return l;

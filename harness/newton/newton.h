@@ -303,6 +303,17 @@ typedef struct outcome_end {
 size_t outcome_end_values(const outcome_end *);
 void outcome_end_free(outcome_end *);
 
+/* Small motions about an instant that other analyses name, with the coefficients of that instant:
+ * M x'' + (C + G) x' + K x, x as increments of the coordinates, rotations in fixed axes. [free +
+ * driven] in both directions, stored whole. */
+typedef struct outcome_about {
+    double time; /* [s] */
+    model_state *state;
+    double *rate, *acceleration; /* [free + driven]; one memory block */
+    sparse K, M, C, G; /* K includes the forces of inertia and damping, C is damping, G the rest of
+                          what rates do */
+} outcome_about;
+
 typedef struct outcome_motion {
     outcome_path path;
     outcome_instant *instant; /* [stations] */
@@ -313,6 +324,8 @@ typedef struct outcome_motion {
     double *slope;            /* [quantities of the scene x stations] of quantities that are
                                  slopes inside steps; NULL: none */
     outcome_path frames;      /* for pictures, at equal intervals */
+    int abouts;               /* instants that other analyses are about, ascending */
+    outcome_about *about;     /* [abouts] those reached have a state */
     double origin;            /* [J] energy at t = 0 of the first motion in a chain */
     outcome_end end;
 } outcome_motion;
@@ -378,6 +391,8 @@ const outcome_path *outcome_path_of(const analysis_outcome *);
 const outcome_compliance *outcome_compliance_of(const analysis_outcome *);
 const outcome_rotation *outcome_rotation_of(const analysis_outcome *);
 const outcome_motion *outcome_motion_of(const analysis_outcome *);
+/* The instant of a motion; NULL: it was not reached. */
+const outcome_about *outcome_about_at(const analysis_outcome *, double time);
 /* Returns the outcome of a motion, to be filled in. */
 outcome_motion *outcome_motion_in(analysis_outcome *);
 const outcome_continuation *outcome_continuation_of(const analysis_outcome *);

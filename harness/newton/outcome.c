@@ -43,6 +43,30 @@ static void free_continuation(outcome_continuation *c)
     free_path(&c->path);
 }
 
+static void free_motion(outcome_motion *m)
+{
+    for (int i = 0; m->instant != NULL && i < m->path.stations; i++)
+        free(m->instant[i].rate);
+    for (int i = 0; i < m->abouts; i++) {
+        outcome_about *one = &m->about[i];
+        kinematics_state_free(one->state);
+        free(one->rate);
+        sparse_free_values(&one->K);
+        sparse_free_values(&one->M);
+        sparse_free_values(&one->C);
+        sparse_free_values(&one->G);
+    }
+    free(m->about);
+    free(m->instant);
+    free(m->passing);
+    free(m->undefined);
+    free(m->slope);
+    free(m->step);
+    free_path(&m->path);
+    free_path(&m->frames);
+    outcome_end_free(&m->end);
+}
+
 static void free_side(outcome_side *side)
 {
     free(side->value);
@@ -120,6 +144,15 @@ const outcome_motion *outcome_motion_of(const analysis_outcome *o)
     return &o->left.motion;
 }
 
+const outcome_about *outcome_about_at(const analysis_outcome *o, double time)
+{
+    const outcome_motion *m = outcome_motion_of(o);
+    for (int i = 0; i < m->abouts; i++)
+        if (m->about[i].time == time && m->about[i].state != NULL)
+            return &m->about[i];
+    return NULL;
+}
+
 outcome_motion *outcome_motion_in(analysis_outcome *o)
 {
     assert(o->kind == SCENE_MOTION);
@@ -157,16 +190,7 @@ void outcome_free(analysis_outcome *o)
         free(o->left.linear.x);
         break;
     case SCENE_MOTION:
-        for (int i = 0; o->left.motion.instant != NULL && i < o->left.motion.path.stations; i++)
-            free(o->left.motion.instant[i].rate);
-        free(o->left.motion.instant);
-        free(o->left.motion.passing);
-        free(o->left.motion.undefined);
-        free(o->left.motion.slope);
-        free(o->left.motion.step);
-        free_path(&o->left.motion.path);
-        free_path(&o->left.motion.frames);
-        outcome_end_free(&o->left.motion.end);
+        free_motion(&o->left.motion);
         break;
     case SCENE_STATIC:
         free_path(&o->left.path);

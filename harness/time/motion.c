@@ -29,6 +29,7 @@ typedef struct motion_course {
     watches watches;
     peaks peaks;
     frames frames;
+    abouts abouts;
     outcome_motion *out;
     double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* energy balance at `now`, at `next` */
     int looked_ahead;                                      /* 1: `ahead` is valid */
@@ -77,6 +78,7 @@ static status keep_step(motion_course *w, const step_record *record, double erro
     TRY(stations_inside(&w->stations, &w->now, &w->next, f));
     TRY(watches_step(&w->watches, &w->now, &w->next, f));
     TRY(frames_step(&w->frames, w->scheme->degree, &w->now, &w->next, f));
+    TRY(abouts_inside(&w->abouts, &w->now, &w->next, f));
     instant_copy(w->c->model, &w->next, &w->now);
     w->extent = w->reaches;
     TRY(record_step(w, record, error, f));
@@ -216,6 +218,7 @@ static status integrate(motion_course *w, fault *f)
     w->least = w->how->step / (w->c->options->whole_steps ? 1 : 1 << MAX_HALVINGS);
     TRY(stations_here(&w->stations, &w->now, w->balance, f));
     TRY(frames_begin(&w->frames, &w->now, f));
+    TRY(abouts_here(&w->abouts, &w->now, f));
     while (w->now.time < end) {
         const double kink = kinks_next(w->c->model, w->now.time);
         TRY(take_step(w, fmin(end, kink), f));
@@ -224,6 +227,7 @@ static status integrate(motion_course *w, fault *f)
         if (w->now.time == kink)
             TRY(jump(w, f));
         TRY(stations_here(&w->stations, &w->now, w->balance, f));
+        TRY(abouts_here(&w->abouts, &w->now, f));
     }
     return resume_keep(w->c, w->analysis, &w->now,
                        &(resume_control){w->h, w->account, w->out->origin, w->quiet, w->extent},
@@ -320,6 +324,13 @@ static status solve(motion_course *w, fault *f)
                        .masses = &w->masses,
                        .out = w->out};
     TRY(peaks_alloc(&w->peaks, f));
+    w->abouts = (abouts){.c = w->c,
+                         .analysis = w->analysis,
+                         .masses = &w->masses,
+                         .how = w->how,
+                         .scheme = w->scheme,
+                         .out = w->out};
+    TRY(abouts_alloc(&w->abouts, f));
     TRY(begin(w, &frame, f));
     w->frames = (frames){.eq = &w->c->eq,
                          .m = m,
@@ -349,6 +360,7 @@ static void release(motion_course *w)
     stations_free(&w->stations);
     watches_free(&w->watches);
     peaks_free(&w->peaks);
+    abouts_free(&w->abouts);
     frames_free(&w->frames);
     integrator_free(w->scheme);
     carried_free(&w->masses);

@@ -1,6 +1,7 @@
 #include "harness/time/time_impl.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
@@ -354,6 +355,91 @@ void spread_add_tangent(const equations *eq, const model_state *s, const double 
         spread_place(m, &p, place);
         motions_of(m, el, with, &p, rates);
         spread_times(m, &p, p.acceleration, rates, K);
+        spread_times(m, &p, p.place, place, K);
+        spread_rows(&p, K);
+        assemble_matrix(pattern, i, K, S);
+    }
+}
+
+/* The coordinate of a node moved by h. */
+static void move_node(node_state *x, int coordinate, double h)
+{
+    double turn[3] = {0, 0, 0}, q[4], R[9], turned[9];
+    if (coordinate < 3) {
+        x->r[coordinate] += h;
+        x->u[coordinate] += h;
+    } else if (coordinate < 6) {
+        turn[coordinate - 3] = h;
+        rotation_exp(turn, q);
+        rotation_matrix(q, R);
+        mat3_mul(R, x->R, turned);
+        memcpy(x->R, turned, sizeof turned);
+    } else
+        x->a += h;
+}
+
+/* D[n x n]: change of the forces at fixed rates in fixed axes, by differences of sixth order, in
+ * the exponential chart; minus that of the element. */
+static void omitted(const model *m, int element, moving_element *e, double D[])
+{
+    static const double weight[] = {0.75, -0.15, 1 / 60.0};
+    const int n = model_own_coordinates(m);
+    const double length = model_kind_of(m, element)->length;
+    double F[MOST], own[MOST * MOST];
+    evaluate(
+        m, element, e->x,
+        &(inertia_output){.rate = e->rate, .acceleration = e->acceleration, .taken = F, .K = own});
+    for (int i = 0; i < n * n; i++)
+        D[i] = -own[i];
+    for (int at = 3; at < n; at += NODE_COORDINATES) {
+        const double M[3] = {F[at] / 2, F[at + 1] / 2, F[at + 2] / 2},
+                     half[9] = {0, -M[2], M[1], M[2], 0, -M[0], -M[1], M[0], 0};
+        for (int i = 0; i < 9; i++)
+            D[n * (at + i / 3) + at + i % 3] += half[i];
+    }
+    for (int c = 0; c < n; c++) {
+        node_state *moved = &e->x[c / NODE_COORDINATES];
+        const node_state before = *moved;
+        const int k = c % NODE_COORDINATES;
+        const double h = 0.02 * (k < 3 ? length : k < 6 ? 1 : 1 / length);
+        for (int step = -3; step <= 3; step++) {
+            if (step == 0)
+                continue;
+            move_node(moved, k, step * h);
+            evaluate(
+                m, element, e->x,
+                &(inertia_output){.rate = e->rate, .acceleration = e->acceleration, .taken = F});
+            *moved = before;
+            const double by = weight[abs(step) - 1] / (step > 0 ? h : -h);
+            for (int i = 0; i < n; i++)
+                D[n * i + c] += by * F[i];
+        }
+    }
+}
+
+void spread_add_omitted(const equations *eq, const model_state *s, const double v[],
+                        const double a[], double damping, sparse *S)
+{
+    const model *m = eq->m;
+    const mesh_pattern *pattern = assemble_of(eq->run->patterns, S);
+    for (int i = 0; i < model_elements(m); i++) {
+        const mesh_element *el = model_element(m, i);
+        moving_element e;
+        spread_parts p;
+        spread_motion place[ELEMENT_MAX_NODES];
+        double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+        gather(m, el, s, v, a, damping, &e);
+        begin_parts(m, el, s, &p);
+        omitted(m, i, &e, p.place);
+        for (int k = 0; k < el->nodes; k++)
+            if (model_vertex(m, el->vertex[k])->body != el->vertex[k] &&
+                el->vertex[k] < model_first_release(m)) {
+                double rho[3];
+                kinematics_offset(m, s, el->vertex[k], rho);
+                offset_matrix(model_own_coordinates(m), NODE_COORDINATES * k, rho, NULL, p.place);
+            }
+        set_turns(m, el, s, &p);
+        spread_place(m, &p, place);
         spread_times(m, &p, p.place, place, K);
         spread_rows(&p, K);
         assemble_matrix(pattern, i, K, S);

@@ -174,6 +174,13 @@ status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fau
 /* REFUSED, with the reason why the quantity has no value (outcome_motion.undefined). */
 status motion_undefined(const scene *, const scene_quantity *, fault *);
 
+/* K and G of small motions along axes that turn and are parallel to the fixed ones at the instant.
+ * K, G: those along fixed axes; room: likewise; all with the pattern of `about`. node SCENE_NONE:
+ * those of each node turn with it, unless it is held, driven or constrained in a part of its
+ * components. Else REFUSED: a node is so across the rotation. */
+status about_turning(const model *, const outcome_about *, int node, sparse *K, sparse *G,
+                     sparse *room, fault *);
+
 /* Quantities of a state, as read by their files in cases/quantities. */
 
 /* Known data of a state. */

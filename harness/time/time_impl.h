@@ -965,6 +965,9 @@ void spread_subtract(const model *, const model_state *, const double v[], const
                      double damping, double out[]);
 void spread_add_tangent(const equations *, const model_state *, const double v[], const double a[],
                         double damping, const inertia_relation *, sparse *S);
+/* S += what K of the elements omits (inertia_output). */
+void spread_add_omitted(const equations *, const model_state *, const double v[], const double a[],
+                        double damping, sparse *S);
 void spread_add_balance(const model *, const model_state *, const double v[], double *kinetic,
                         double momentum[3], double angular[3]);
 
@@ -997,6 +1000,34 @@ void spread_place(const model *, const spread_parts *, spread_motion place[]);
 void spread_times(const model *, const spread_parts *, const double A[],
                   const spread_motion motion[], double out[]);
 void spread_rows(const spread_parts *, double K[]);
+
+/* Matrices of small motions about an instant of a motion, on all coordinates. `now` is consistent:
+ * its accelerations are those of its forces. out: initially zero but for its time; freed with the
+ * outcome, also after a failure. */
+status small_motions_of(const equations *, const carried_masses *, instant *now, outcome_about *out,
+                        fault *);
+
+/* Instants that modes and harmonic analyses are about. Inside a step, a side step leads there; the
+ * motion does not continue from it. */
+
+typedef struct abouts {
+    analysis_context *c;
+    int analysis, next; /* next: of those of the outcome */
+    const carried_masses *masses;
+    const scene_motion *how;
+    motion_scheme *scheme;
+    outcome_motion *out;
+    double near; /* [s] an instant this close to the end of a step is that end */
+    instant at, room;
+} abouts;
+
+/* The caller sets c, analysis, masses, how, scheme and out. Does nothing where there are none. */
+status abouts_alloc(abouts *, fault *);
+void abouts_free(abouts *);
+/* Takes the instants inside a step, without its end. */
+status abouts_inside(abouts *, const instant *from, const instant *to, fault *);
+/* Takes the present instant, if an analysis is about it. */
+status abouts_here(abouts *, const instant *now, fault *);
 
 /* Output of a motion at the requested instants, independent of the ends of its steps. Positions and
  * rates come from the polynomial inside the step. If forces or energies are read, a side step gives

@@ -372,6 +372,30 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
              scene_column_name[column], in->name, off, by_modes.reason);
 }
 
+/* About the start of a motion from a state in balance it is as about that state. */
+static void law_of_harmonic_instant(const scene_input *in, const element_type *e)
+{
+    static answer state, instant;
+    static const char *const all[] = {"cx", "cy", "cz", "rx", "ry", "rz", "ix", "iy", "iz", NULL};
+    posed p = pose(in->name, SCENE_OF_HARMONIC_ABOUT, 1);
+    for (int about = 0; about < 2; about++) {
+        scene s;
+        structure(&p, &s);
+        s.lumped = 1; /* as the motions of some formulations have it */
+        int of = scene_add_static(&s, 1, &p.end, 2);
+        of = about ? move(&s, of, p.column) : of;
+        const int harmonic = scene_add_harmonic(&s, of, 2, (const double[]){0, shaking});
+        s.analysis[harmonic].time = about ? 0 : NAN;
+        want(&s, p.column, harmonic);
+        answer_to(&s, &p, e, about ? &instant : &state);
+        if (state.status == STATUS_REFUSED)
+            return;
+    }
+    const double off = largest_apart(&state, &instant, all);
+    gsl_test(!(off <= 1e-7), "%s: harmonic about an instant, %s: as the state there (%g; %s)",
+             e->name, in->name, off, instant.reason);
+}
+
 /* A path in rotating axes ends in the same state as the rotation. */
 static void law_of_rotation(const scene_input *in, const element_type *e, const answer *with)
 {
@@ -454,6 +478,9 @@ static void obey(const scene_input *in, scene_column column, const element_type 
     case SCENE_OF_HARMONIC_ABOUT:
         law_of_harmonic(in, column, e, with);
         break;
+    case SCENE_OF_HARMONIC_INSTANT:
+        law_of_harmonic_instant(in, e);
+        break;
     case SCENE_OF_ROTATION:
         law_of_rotation(in, e, with);
         break;
@@ -487,7 +514,7 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     const char part = in->part[column];
     const char *where = scene_column_name[column];
     /* a motion needs loads over time, and the structure rotates with its support */
-    if (column == SCENE_OF_MOTION &&
+    if ((column == SCENE_OF_MOTION || is_instant(column)) &&
         (is_called(in, "constant load") || is_motion(in) || is_called(in, "rotating axes")))
         return;
     posed p = pose(in->name, column, is_motion(in) /* or held there */ || divides(in->name));
@@ -506,6 +533,8 @@ static void cell(const scene_input *in, scene_column column, const element_type 
          column == SCENE_OF_COMPLIANCE_ABOUT || column == SCENE_OF_HARMONIC_ABOUT) &&
         in->part[SCENE_OF_STATIC] == SCENE_PART_REFUSED)
         where = scene_column_name[SCENE_OF_STATIC]; /* likewise */
+    if (is_instant(column) && in->part[SCENE_OF_MOTION] == SCENE_PART_REFUSED)
+        where = scene_column_name[SCENE_OF_MOTION]; /* likewise */
     if (part == SCENE_PART_REFUSED) {
         gsl_test(!refused || strstr(with.reason, in->name) == NULL ||
                      strstr(with.reason, where) == NULL,
@@ -547,7 +576,8 @@ static void alike(const char *name, const char *other, scene_column column, cons
     solve(&p, e, &one);
     solve(&q, e, &two);
     const double off = apart(&one, &two);
-    gsl_test(one.outcome != two.outcome || !(off <= 1e-7), "%s: %s, %s: as %s (%g; %s; %s)",
+    const double most = is_instant(column) ? 1e-4 : 1e-7; /* of the smallest response */
+    gsl_test(one.outcome != two.outcome || !(off <= most), "%s: %s, %s: as %s (%g; %s; %s)",
              e->name, scene_column_name[column], name, other, off, one.reason, two.reason);
 }
 

@@ -385,6 +385,19 @@ static void respond(scene *s, const char *name, int analysis, int node, int comp
     scene_set_at(scene_add_quantity(s, name, unit, analysis, scene_response_to(what)), at);
 }
 
+static int is_instant(scene_column column)
+{
+    return column == SCENE_OF_MODAL_INSTANT || column == SCENE_OF_HARMONIC_INSTANT;
+}
+
+static int move(scene *s, int from, scene_column column)
+{
+    return scene_add_motion(s, from, 1, (const double[]){0.02},
+                            (scene_motion){.scheme = is_instant(column) ? SCENE_RADAU : SCENE_ALPHA,
+                                           .alpha = scene_alpha_of_radius(0.9),
+                                           .step = 1e-3});
+}
+
 /* Adds the analysis of a column, after the analysis that it follows, if any. */
 static int analyse(scene *s, const posed *p)
 {
@@ -392,9 +405,10 @@ static int analyse(scene *s, const posed *p)
     const int about_path = column == SCENE_OF_BUCKLING_ABOUT || column == SCENE_OF_MODAL_ABOUT ||
                            column == SCENE_OF_COMPLIANCE_ABOUT || column == SCENE_OF_HARMONIC_ABOUT,
               about_linear = column == SCENE_OF_MODAL_LINEAR || column == SCENE_OF_HARMONIC_LINEAR,
-              path = about_path     ? scene_add_static(s, 1, &p->end, 2)
-                     : about_linear ? scene_add_linear(s)
-                                    : SCENE_NONE;
+              path = about_path           ? scene_add_static(s, 1, &p->end, 2)
+                     : about_linear       ? scene_add_linear(s)
+                     : is_instant(column) ? move(s, SCENE_NONE, column)
+                                          : SCENE_NONE;
     const int still = strcmp(p->name, "rotating axes") == 0 && !p->turns;
     switch (column) {
     case SCENE_OF_LINEAR:
@@ -411,7 +425,11 @@ static int analyse(scene *s, const posed *p)
     case SCENE_OF_MODAL:
     case SCENE_OF_MODAL_LINEAR:
     case SCENE_OF_MODAL_ABOUT:
-        return scene_add_modal(s, path);
+    case SCENE_OF_MODAL_INSTANT: {
+        const int modal = scene_add_modal(s, path);
+        s->analysis[modal].damped = column == SCENE_OF_MODAL_INSTANT;
+        return modal;
+    }
     case SCENE_OF_COMPLIANCE:
     case SCENE_OF_COMPLIANCE_ABOUT:
         return scene_add_compliance(s, path, (scene_compliance){.node = TIP});
@@ -422,21 +440,19 @@ static int analyse(scene *s, const posed *p)
     case SCENE_OF_HARMONIC:
     case SCENE_OF_HARMONIC_LINEAR:
     case SCENE_OF_HARMONIC_ABOUT:
+    case SCENE_OF_HARMONIC_INSTANT:
         return scene_add_harmonic(s, path, 2, (const double[]){0, shaking});
     default:
-        return scene_add_motion(s, SCENE_NONE, 1, (const double[]){0.02},
-                                (scene_motion){.scheme = SCENE_ALPHA,
-                                               .alpha = scene_alpha_of_radius(0.9),
-                                               .step = 1e-3});
+        return move(s, SCENE_NONE, column);
     }
 }
 
 /* Adds inputs that belong to the analyses. */
 static void begin(scene *s, const posed *p)
 {
-    scene_analysis *last = &s->analysis[s->analyses - 1];
-    if (strcmp(p->name, "velocity at the start") == 0 && last->kind == SCENE_MOTION)
-        last->of.motion.start.spin[2] = 0.01 * p->times;
+    for (int i = 0; i < s->analyses && strcmp(p->name, "velocity at the start") == 0; i++)
+        if (s->analysis[i].kind == SCENE_MOTION)
+            s->analysis[i].of.motion.start.spin[2] = (is_instant(p->column) ? 5 : 0.01) * p->times;
     for (int i = 0; i < s->analyses && p->turns; i++)
         if (s->analysis[i].kind == SCENE_STATIC || s->analysis[i].kind == SCENE_CONTINUATION)
             scene_set_rotating_frame(
@@ -453,6 +469,7 @@ static void want(scene *s, scene_column column, int analysis)
     case SCENE_OF_MODAL:
     case SCENE_OF_MODAL_LINEAR:
     case SCENE_OF_MODAL_ABOUT:
+    case SCENE_OF_MODAL_INSTANT:
         for (int i = 0; i < 3; i++)
             scene_add_quantity(s, (const char *[]){"f0", "f1", "f2"}[i], "Hz", analysis,
                                scene_frequency(i, SCENE_ANY));
@@ -468,6 +485,7 @@ static void want(scene *s, scene_column column, int analysis)
     case SCENE_OF_HARMONIC:
     case SCENE_OF_HARMONIC_LINEAR:
     case SCENE_OF_HARMONIC_ABOUT:
+    case SCENE_OF_HARMONIC_INSTANT:
         for (int i = 0; i < 3; i++) {
             const char *const name[] = {"cx", "cy", "cz", "rx", "ry", "rz", "ix", "iy", "iz"};
             respond(s, name[i], analysis, TIP, i, SCENE_UY, SCENE_REAL, 0);

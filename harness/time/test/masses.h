@@ -106,13 +106,17 @@ static inline void some(int n, double size, uint64_t *seed, double out[])
         out[i] = size * random_number(seed);
 }
 
-static inline void begin(moving_one *o, const element_type *type, int released)
+/* add: to the scene; NULL: nothing. */
+static inline void begin_with(moving_one *o, const element_type *type, int released,
+                              void (*add)(scene *))
 {
     double option[ELEMENT_MAX_OPTIONS] = {0};
     fault f = {""};
     uint64_t seed = 7;
     memset(o, 0, sizeof *o);
     build(&o->scene, type == &element_beamw_consistent, released);
+    if (add != NULL)
+        add(&o->scene);
     formulation chosen;
     formulation_default(type, &chosen);
     memcpy(option, chosen.option, sizeof option);
@@ -132,6 +136,11 @@ static inline void begin(moving_one *o, const element_type *type, int released)
     some(o->all, 1, &seed, o->v);
     some(o->all, 3, &seed, o->a);
     increment_apply(o->m, o->rest, o->inc, 0, o->now);
+}
+
+static inline void begin(moving_one *o, const element_type *type, int released)
+{
+    begin_with(o, type, released, NULL);
 }
 
 static inline void end(moving_one *o)

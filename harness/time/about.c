@@ -1,0 +1,109 @@
+/* Instants of a motion that other analyses are about: the state there, and its small motions. */
+#include "harness/time/time_impl.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/scene/scene.h"
+
+/* An instant closer than this to the end of a step, relative to the step, is that end. */
+static const double same_instant = 1e-9;
+
+static int by_time(const void *a, const void *b)
+{
+    const outcome_about *x = a, *y = b;
+    return (x->time > y->time) - (x->time < y->time);
+}
+
+/* The instant of an analysis; NAN: it is not about this motion. */
+static double instant_of(const abouts *a, int analysis)
+{
+    const scene *s = a->c->scene;
+    return s->analysis[analysis].follows == a->analysis && context_runs(a->c, analysis)
+               ? scene_instant_of(s, analysis)
+               : NAN;
+}
+
+static int is_listed(const outcome_motion *o, double time)
+{
+    for (int i = 0; i < o->abouts; i++)
+        if (o->about[i].time == time)
+            return 1;
+    return 0;
+}
+
+status abouts_alloc(abouts *a, fault *f)
+{
+    outcome_motion *o = a->out;
+    o->about = calloc((size_t)a->c->scene->analyses + 1, sizeof *o->about);
+    if (o->about == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the instants of a motion");
+    for (int i = a->analysis + 1; i < a->c->scene->analyses; i++) {
+        const double time = instant_of(a, i);
+        if (!isnan(time) && !is_listed(o, time))
+            o->about[o->abouts++].time = time;
+    }
+    if (o->abouts == 0)
+        return STATUS_OK;
+    qsort(o->about, (size_t)o->abouts, sizeof *o->about, by_time);
+    TRY(instant_alloc(a->c->model, &a->at, f));
+    return instant_alloc(a->c->model, &a->room, f);
+}
+
+void abouts_free(abouts *a)
+{
+    instant_free(&a->at);
+    instant_free(&a->room);
+}
+
+/* Time of the next one; INFINITY: none. */
+static double next_of(const abouts *a)
+{
+    return a->next < a->out->abouts ? a->out->about[a->next].time : INFINITY;
+}
+
+/* Takes a->at, which it changes. Conserving steps have mean accelerations. */
+static status take(abouts *a, fault *f)
+{
+    const model *m = a->c->model;
+    outcome_about *to = &a->out->about[a->next++];
+    if (a->how->scheme == SCENE_CONSERVING)
+        TRY(launch_again(a->c, a->masses, a->how, &a->at, &a->room, f));
+    TRY(small_motions_of(&a->c->eq, a->masses, &a->at, to, f));
+    const size_t count = (size_t)model_all_coordinates(m);
+    to->rate = malloc((2 * count + 1) * sizeof *to->rate);
+    if (to->rate == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for an instant of a motion");
+    to->acceleration = to->rate + count;
+    memcpy(to->rate, a->at.v, count * sizeof *to->rate);
+    memcpy(to->acceleration, a->at.a, count * sizeof *to->rate);
+    TRY(kinematics_state_alloc(m, &to->state, f));
+    kinematics_state_copy(m, a->at.state, to->state);
+    return STATUS_OK;
+}
+
+status abouts_inside(abouts *a, const instant *from, const instant *to, fault *f)
+{
+    a->near = same_instant * (to->time - from->time);
+    while (next_of(a) < to->time - a->near) {
+        TRY(aside_step(a->c, a->scheme, from, next_of(a), &a->at, f));
+        TRY(take(a, f));
+    }
+    return STATUS_OK;
+}
+
+status abouts_here(abouts *a, const instant *now, fault *f)
+{
+    while (next_of(a) <= now->time + a->near) {
+        if (next_of(a) < now->time - a->near)
+            return fault_set(
+                f, STATUS_REFUSED,
+                "an analysis is about %g s, but the motion continues from %g s; give a "
+                "later time, or run it from its start",
+                next_of(a), now->time);
+        instant_copy(a->c->model, now, &a->at);
+        TRY(take(a, f));
+    }
+    return STATUS_OK;
+}

@@ -1,0 +1,133 @@
+/* Small motions along axes that turn with angular velocity w: dx = R y, so that dx' = y' + w~ y and
+ * dx'' = y'' + 2 w~ y' + (w'~ + w~ w~) y where R is 1. */
+#include "harness/time/time_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cases/scene/scene.h"
+#include "elements/math/vec3.h"
+
+/* Three coordinates of a vertex that are a vector, and what R' and R'' do to it, in their axes. */
+typedef struct turning_vector {
+    int at[3];
+    double once[9], twice[9];
+} turning_vector;
+
+typedef struct turning_axes {
+    const model *m;
+    const outcome_about *about;
+    int node; /* SCENE_NONE: own axes */
+} turning_axes;
+
+static void skew(const double v[3], double A[9])
+{
+    const double all[9] = {0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0};
+    memcpy(A, all, sizeof all);
+}
+
+/* A in the axes of translations of a vertex. */
+static void in_own(const mesh_vertex *v, double A[9])
+{
+    double half[9], along[9];
+    if (!v->turned)
+        return;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            along[3 * i + k] = v->along[3 * k + i];
+    mat3_mul(along, A, half);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            A[3 * i + k] = vec3_dot(&half[3 * i], &along[3 * k]);
+}
+
+/* 0: the vertex has no such vector. */
+static int vector_of(const turning_axes *t, int vertex, int turns, turning_vector *out)
+{
+    const model *m = t->m;
+    const mesh_vertex *v = model_vertex(m, vertex);
+    const int released = vertex >= model_first_release(m);
+    double change[9];
+    frame_rates r;
+    if ((!released && v->body != vertex) || (turns && v->angles > 0) ||
+        (released && (!turns || forms_of(m, vertex) != FORM_BODY)))
+        return 0;
+    for (int k = 0; k < 3; k++)
+        out->at[k] = v->coordinate[(turns ? SCENE_RX : SCENE_UX) + k];
+    vertex_rates(m, t->about->state, t->node != SCENE_NONE ? t->node : vertex, t->about->rate,
+                 t->about->acceleration, &r);
+    skew(r.w, out->once);
+    skew(r.wd, change);
+    mat3_mul(out->once, out->once, out->twice);
+    for (int i = 0; i < 9; i++)
+        out->twice[i] += change[i];
+    if (!turns) {
+        in_own(v, out->once);
+        in_own(v, out->twice);
+    }
+    return 1;
+}
+
+/* Does a component that turns go with one that does not move freely? */
+static int is_tied(const turning_axes *t, int vertex, int turns, const turning_vector *v)
+{
+    double size = 0;
+    for (int k = 0; k < 9; k++)
+        size = fmax(size, fabs(v->once[k]));
+    for (int k = 0; k < 9; k++) {
+        const int pair[2] = {k / 3, k % 3};
+        int free_ones = 0, there = 0;
+        for (int i = 0; i < 2; i++) {
+            const int c = v->at[pair[i]];
+            there += c != NONE;
+            free_ones += c != NONE && c < model_unknowns(t->m) &&
+                         model_owns(t->m, vertex, (turns ? SCENE_RX : SCENE_UX) + pair[i]) &&
+                         (vertex >= model_scene(t->m)->nodes ||
+                          model_tie(t->m, vertex, (turns ? SCENE_RX : SCENE_UX) + pair[i]) == NULL);
+        }
+        if (fabs(v->once[k]) > 1e-9 * size && there > 0 && free_ones < 2)
+            return 1;
+    }
+    return 0;
+}
+
+/* out += times A W */
+static void add_product(const sparse *A, const int at[3], const double W[9], double times,
+                        sparse *out)
+{
+    for (int k = 0; k < 9; k++) {
+        const int from = at[k / 3], to = at[k % 3];
+        if (from == NONE || to == NONE || W[k] == 0)
+            continue;
+        for (int e = A->column[from]; e < A->column[from + 1]; e++)
+            assemble_subtract(out, A->row[e], to, -times * A->value[e] * W[k]);
+    }
+}
+
+status about_turning(const model *m, const outcome_about *about, int node, sparse *K, sparse *G,
+                     sparse *room, fault *f)
+{
+    const turning_axes t = {m, about, node};
+    for (int i = 0; i < K->column[K->n]; i++)
+        room->value[i] = G->value[i] + about->C.value[i];
+    for (int i = 0; i < 2 * model_vertices(m); i++) {
+        turning_vector v;
+        if (!vector_of(&t, i / 2, i % 2, &v))
+            continue;
+        if (is_tied(&t, i / 2, i % 2, &v)) {
+            if (node == SCENE_NONE)
+                continue;
+            return fault_set(f, STATUS_REFUSED,
+                             "%s is held, driven or constrained across the rotation of %s; hold it "
+                             "in all components, or replace 'axes_of' by axes: own or fixed",
+                             i / 2 < model_scene(m)->nodes
+                                 ? scene_called(model_scene(m), SCENE_NODES, i / 2).text
+                                 : "a node",
+                             scene_called(model_scene(m), SCENE_NODES, node).text);
+        }
+        add_product(room, v.at, v.once, 1, K);
+        add_product(&about->M, v.at, v.twice, 1, K);
+        add_product(&about->M, v.at, v.once, 2, G);
+    }
+    return STATUS_OK;
+}
