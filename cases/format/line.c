@@ -329,14 +329,18 @@ static void acting(FILE *to, const scene *s, const scene_quantity *q)
 
 static void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
 {
-    const scene_analysis *a = &s->analysis[q->analysis], *path = path_of(s, a);
+    const scene_analysis *a = &s->analysis[q->analysis];
+    const double instant = scene_instant_of(s, q->analysis);
+    const scene_analysis *path = a->kind == SCENE_MODAL && !isnan(instant) ? NULL : path_of(s, a);
+    if (!isnan(instant))
+        fprintf(to, ", about %.10g s of the motion", instant);
     if (path != NULL)
         along_path(to, s, q, path);
     else if (a->kind == SCENE_LINEAR)
         fputs(", small displacements", to);
-    else if (a->follows != SCENE_NONE)
+    else if (a->follows != SCENE_NONE && isnan(instant))
         fputs(", of the structure under its loads, small displacements", to);
-    else
+    else if (isnan(instant))
         fputs(", of the undeformed structure", to);
     if (path != NULL && path->kind == SCENE_STATIC && scene_rotates(path))
         fprintf(to, ", while the axes rotate at %.10g rad/s", speed(path));
