@@ -158,7 +158,7 @@ static void damp(const scene_spring *p, const double rate[], double sigma[])
         sigma[k] += more[k];
 }
 
-/* r NULL: no rates. */
+/* r NULL: rates are zero. */
 static void spring_at(const model *m, const model_state *s, const mesh_discrete *d,
                       const spring_rates *r, spring_state *out)
 {
@@ -369,7 +369,7 @@ double dashpots_power(const model *m, const double rate[])
     return sum;
 }
 
-/* At its nodes. */
+/* Forces at the spring's nodes. */
 static void force_of(const model *m, const model_state *s, int spring, const double rate[],
                      double force[])
 {

@@ -7,7 +7,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-enum { LEAST_PIECES = 12 }; /* of a member, so that one element appears curved */
+enum { LEAST_PIECES = 12 }; /* per member, so that a single element appears curved */
 static const double drawn_part = 0.1, drawn_rotation = 0.5; /* of the size; [rad] */
 
 /* Gaps between the vertices of a member, and pieces of each gap. */
@@ -178,7 +178,7 @@ void centreline_increments(const model *m, const double x[], double out[])
         increment_of_node(m, m->rest, i, x, out);
 }
 
-/* Makes a mode visible: its translations, or its rotations when these are larger. */
+/* Scale that makes a mode visible: by its translations, or by its rotations if these are larger. */
 static double visible_scale(const model *m, const double increment[])
 {
     double scale = INFINITY;

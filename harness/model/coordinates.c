@@ -26,7 +26,7 @@ status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     return STATUS_OK;
 }
 
-/* Does the component leave the plane that the scene is fixed in? */
+/* Is the component a motion out of the plane to which the scene is restricted? */
 static int leaves_plane(const model *m, int vertex, int component)
 {
     const int normal = scene_normal(m->scene), turn = component - SCENE_RX;
@@ -99,7 +99,7 @@ typedef struct coordinates_tally {
     int held, across, unused, tied;
 } coordinates_tally;
 
-/* Is its turn an angle because it is a multiple of another one (mesh.c)? */
+/* Is the rotation an angle because it is a multiple of another one (mesh.c)? */
 static int is_stretched(const model *m, int index)
 {
     int tied = 0;
@@ -113,11 +113,11 @@ static void number_vertex(model *m, int index, int pass, int used, coordinates_t
 {
     mesh_vertex *v = &m->mesh.vertex[index];
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
-        const int other = c >= SCENE_RX && is_stretched(m, index); /* than the angle */
+        const int other = c >= SCENE_RX && is_stretched(m, index); /* not an angle: a vector */
         const int motion = v->body == index && !other ? motion_of(m, index, c) : SCENE_HELD;
         const scene_tie *tie = index < m->scene->nodes ? model_tie(m, index, c) : NULL;
         if (tie != NULL && !(tie->node == index && tie->coordinate == c)) {
-            v->coordinate[c] = NONE; /* for the time being */
+            v->coordinate[c] = NONE; /* set later by share_coordinates */
             of->tied += pass == 0;
             continue;
         }
@@ -146,7 +146,8 @@ static void number_vertex(model *m, int index, int pass, int used, coordinates_t
     }
 }
 
-/* Coordinates that follow others are these. An angle of a ratio is the first one of its node. */
+/* Dependent coordinates share the index of the coordinate they follow. An angle with a ratio is the
+ * first one of its node. */
 static void share_coordinates(model *m)
 {
     for (int i = 0; i < m->scene->nodes; i++)
@@ -166,7 +167,8 @@ static status number_vertices(model *m, coordinates_tally *of, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory");
     mark_used(m, used);
     for (int pass = 0; pass < 2; pass++) {
-        /* The warping amplitudes are numbered between these: they are free. */
+        /* Warping amplitudes are free, so they are numbered between the free and the driven
+         * coordinates. */
         for (int i = 0; i < m->mesh.first_release; i++)
             number_vertex(m, i, pass, used[i], of);
         if (pass > 0)

@@ -73,8 +73,8 @@ static int is_used(const scene *s, int index)
     return 0;
 }
 
-/* Physics of sections given by constants, under stress and rotation: what the section has, where
- * the analyses have stresses. */
+/* Physics under stress and rotation that a section given by constants has, if the analyses have
+ * stresses. */
 static unsigned needs_of_stresses(const section *c, unsigned needs)
 {
     const double arm = sqrt(c->Ip / c->A), zero = 1e-10;
@@ -179,7 +179,7 @@ unsigned features_not_given(const scene *s, int section_index)
     if (!(needs & FEATURE_LARGE))
         out &= ~(unsigned)FEATURE_WAGNER_TORQUE;
     if (s->plane != SCENE_SPACE)
-        out &= FEATURE_SHEAR; /* nothing twists */
+        out &= FEATURE_SHEAR; /* without torsion */
     return out & ~s->omits;
 }
 
@@ -221,7 +221,7 @@ unsigned features_theory(const scene *s, const element_type *type)
         return SHEAR_OWN;
     if (needs & FEATURE_HARINGX)
         return SHEAR_HARINGX;
-    /* of two, Engesser's if none is requested */
+    /* if it has both and none is requested: Engesser's */
     return needs & FEATURE_ENGESSER || type->shear_theories & SHEAR_ENGESSER ? SHEAR_ENGESSER
                                                                              : type->shear_theories;
 }
@@ -260,7 +260,7 @@ status features_of_section(const model *m, int index, unsigned *features, fault 
     return STATUS_OK;
 }
 
-/* An inertia of its own that supports sections given by constants only. */
+/* Does the type have its own inertia, which supports only sections given by constants? */
 static int knows_constants_only(const scene *s, const element_type *type)
 {
     int matrices = 0;

@@ -63,7 +63,7 @@ static void add_shifts(const scene *s, scene_node node[])
     }
 }
 
-/* Points of one member at the vertices of its mesh. */
+/* Fills the points of one member at the vertices of its mesh. */
 static void fill_member(const model *m, int member, const double increment[], int vertex[],
                         model_imperfect *p)
 {
@@ -98,7 +98,7 @@ static status fill(const model *m, const double x[], model_imperfect *p, fault *
         add_shifts(s, p->lines.node);
         add_shifts(s, p->own.node);
         for (int i = 0; i < s->imperfections; i++)
-            p->own.imperfection[i].nodes = 0; /* they are in its nodes */
+            p->own.imperfection[i].nodes = 0; /* the shifts are already in its nodes */
         for (int i = 0; i < s->members; i++)
             fill_member(m, i, increment, vertex, p);
         move_nodes(increment, p);
@@ -166,7 +166,8 @@ typedef struct piece {
     double line[3];          /* vector between them */
 } piece;
 
-/* Shift between them, a cubic with their turns as slopes; returns its square. */
+/* Displacement between the two vertices: a cubic with their rotations as slopes; returns its
+ * square. */
 static double shift_at(const piece *p, double x, double shift[3])
 {
     const double a = 1 - x * x * (3 - 2 * x), b = x * (1 - x) * (1 - x), c = x * x * (x - 1);
@@ -180,7 +181,7 @@ static double shift_at(const piece *p, double x, double shift[3])
     return square;
 }
 
-/* Place of its largest shift. */
+/* Position of the largest displacement. */
 static double largest_in(const piece *p)
 {
     enum { SAMPLES = 16, CUTS = 60 };
@@ -205,7 +206,7 @@ static double largest_in(const piece *p)
 
 void model_largest_shift(const model *m, const double x[], double shift[3])
 {
-    const double same = 1e-6; /* of lengths: another place shifts no more */
+    const double same = 1e-6; /* relative tolerance for equal maxima */
     double most = 0;
     memset(shift, 0, 3 * sizeof *shift);
     for (int i = 0; i < m->mesh.elements; i++) {

@@ -95,7 +95,8 @@ static size_t collect_nodes(const model *m, const mesh_pattern *p, const int nod
     return count;
 }
 
-/* Pairs of the nodes that a tension pulls together, and of what a load acts on and measures. */
+/* Pairs of nodes connected by a tension, and of the coordinates on which a load acts and which it
+ * measures. */
 static size_t collect_loads(const model *m, const mesh_pattern *p, size_t count, int row[],
                             int column[])
 {
@@ -208,8 +209,8 @@ static int entries_of(const mesh_element *el, const mesh_pattern *p, mesh_entry 
     return count;
 }
 
-/* The layout with these entries among the last ones, or NONE. Elements along a member have the same
- * layout except at its ends. */
+/* The layout with these entries, if it is among the most recent ones, or NONE. Elements along a
+ * member have the same layout except at its ends. */
 static int find_layout(const mesh_pattern *p, int entries, const mesh_entry entry[])
 {
     const int looked_at = 16;

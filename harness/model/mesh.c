@@ -23,9 +23,9 @@ static void add_axis(const double axis[3], mesh_vertex *v)
     v->angles++;
 }
 
-/* A node that can rotate about an idle axis is fixed against this rotation: with one free angle by
- * fixing it, otherwise by rotation about two axes perpendicular to it, the last of which carries
- * the axis. */
+/* Fixes a node against rotation about an idle axis: if it has one free angle, by fixing that angle;
+ * otherwise by restricting its rotation to two axes perpendicular to the idle axis, which the last
+ * of them carries along. */
 static void hold_idle(const scene *s, int node, mesh_vertex *v)
 {
     double axis[3], across[2][3];
@@ -56,8 +56,8 @@ static int is_free(const scene_node *n)
            n->translation[2] == SCENE_FREE;
 }
 
-/* A coordinate that is a multiple of another has its axis that much longer: a turn about a fixed
- * axis becomes an angle about that. */
+/* A coordinate that is a multiple of another has an axis of that length: a rotation about a fixed
+ * axis becomes an angle about that axis. */
 static void stretch_axes(const model *m, int node, mesh_vertex *v)
 {
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
@@ -78,7 +78,7 @@ static void stretch_axes(const model *m, int node, mesh_vertex *v)
     }
 }
 
-/* Is a translation of it in a constraint? */
+/* Does a constraint contain one of its translations? */
 static int is_tied(const model *m, int node)
 {
     int tied = 0;
@@ -87,7 +87,7 @@ static int is_tied(const model *m, int node)
     return tied;
 }
 
-/* Arms from the masters of diaphragms. */
+/* Sets the arms from the masters of diaphragms. */
 static void lead_vertices(model *m)
 {
     const scene *s = m->scene;
@@ -136,7 +136,7 @@ static int same_vector(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* If frequencies are requested. */
+/* Adds the internal motions of elements if frequencies are requested. */
 static status set_inner(const model *m, const element_request *request, mesh_kind *k, fault *f)
 {
     int modal = 0;
@@ -206,7 +206,7 @@ static status kind_of(model *m, const unstressed *own, int profile, double lengt
     return m->mesh.type->prepare(&request, k->data, f);
 }
 
-/* If each element has a section of its own, also its axes. */
+/* Arc of an element; if each element has its own section, also its axes. */
 static status arc_of_element(const model *m, int member, int profile, const member_arc *along,
                              member_arc *out, fault *f)
 {
@@ -270,7 +270,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
               curves = (m->mesh.type->offers & FEATURE_CURVATURE) != 0,
               curved = curves && bends && !bowed && m->imperfect == NULL, last = m->mesh.nodes - 1;
     mesh_triad triad[ELEMENT_MAX_NODES];
-    double first[3] = {0}; /* start of its line */
+    double first[3] = {0}; /* position of the element's first vertex */
     el->member = member;
     el->nodes = m->mesh.nodes;
     for (int k = 0; k <= last; k++) {
@@ -300,7 +300,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
             memcpy(first, position, sizeof first);
         if (k < last || curved)
             continue;
-        /* Not curved, or not uniform: one triad along the chord. */
+        /* Straight, or of nonuniform curvature: one triad along the chord. */
         const double y_start[3] = {triad[0][1], triad[0][4], triad[0][7]};
         double y[3];
         for (int i = 0; i < 3; i++) {
@@ -380,8 +380,8 @@ static void add_warps(model *m, int *named)
                           at_end = i + 1 == m->mesh.first_element[member + 1] && k == last;
                 if (!warps)
                     el->warp[k] = NONE;
-                else if (nothing_warps) /* kept although no warping occurs: an amplitude of its own
-                                           changes nothing */
+                else if (nothing_warps) /* kept although no warping occurs: a separate amplitude has
+                                           no effect */
                     el->warp[k] = m->mesh.warps++;
                 else if (at_start || at_end)
                     el->warp[k] = end_warp(m, at_start ? sm->warp_p : sm->warp_q, named);
@@ -406,9 +406,9 @@ static double weight_of(int n, int node)
     return from_end < 3 ? closed[(n < most ? n : most) - 1][from_end] : 1;
 }
 
-/* Sets the end of the element after node i: with the masses at the nodes beyond, its inertia equals
- * the force of all mass beyond the node for a linear acceleration, and the moment for a uniform
- * one. */
+/* Sets `couple` at an end of the element after node i. Together with the masses at the nodes
+ * beyond, its inertia equals the force of all mass beyond the node for a linear acceleration, and
+ * the moment for a uniform acceleration. */
 static void set_end(mesh_element *el, int end, int n, int i, double beyond, double first)
 {
     const double length = n - i;
@@ -500,7 +500,7 @@ static status allocate(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the sections of all elements; no kinds yet. */
+/* Computes the sections of all elements, before kinds are assigned. */
 static status profiles(model *m, fault *f)
 {
     int sections;

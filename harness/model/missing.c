@@ -9,10 +9,10 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 
-/* largest share of shear in a deflection that a section rigid in shear may neglect. A length l
+/* largest share of shear in a deflection that may be neglected. A length l
  * whose ends do not rotate deflects by F l^3/(12 EI) in bending and F l/(kGA) in shear: their ratio
  * is Phi = 12 EI/(kGA l^2) (a cantilever: a quarter of that; bending in n half-waves: about n^2
- * times it). Beyond it a rigid section is another model, not a discretisation. */
+ * times it). Beyond it a section rigid in shear is a different model, not a discretisation. */
 static const double largest_phi = 0.01;
 
 /* Box around members that are connected. */
@@ -135,7 +135,7 @@ static int mass_lacks(const scene *s, const element_type *type, char *words, int
     return 0;
 }
 
-/* Unstressed strains of members, if the positions of nodes are the only ones. */
+/* Are strains changed that a type returning forces does not have? */
 static int strains_lack(const scene *s, const element_type *type, char *words, int size)
 {
     scene_words who;

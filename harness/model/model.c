@@ -118,7 +118,7 @@ static status note_tables(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Reports matrices that are replaced by their symmetric part, and free rotations without stiffness.
+/* Notes matrices that are replaced by their symmetric part, and free rotations without stiffness.
  */
 static status note_means(model *m, fault *f)
 {
@@ -256,7 +256,7 @@ status model_alloc(const model_request *request, model **out, fault *f)
     return model_alloc_imperfect(request, NULL, out, f);
 }
 
-/* The same with another number of elements. */
+/* The same scene with a different number of elements. */
 static status again(const model *m, int elements, model **out, fault *f)
 {
     const model_request request = {m->scene, m->given, m->options, elements, m->keep_all, m->omits};

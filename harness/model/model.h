@@ -23,9 +23,9 @@
  *   [0, free)                          unknowns
  *   [free, free + driven)              prescribed along the path by drivers
  * Scalars that are fixed or depend on other coordinates (rigid offsets, rotation
- * sequences, shared angles) are eliminated: they have no coordinate.  An unknown
- * driver is a prescribed coordinate whose increment is found with the free ones; the coordinate its
- * condition names is free.
+ * sequences, shared angles) are eliminated: they have no coordinate.  An unknown driver is a
+ * prescribed coordinate whose increment is found together with the free coordinates; the coordinate
+ * that its condition names is free.
  *
  * Increments of coordinates are additive for translations, warping and angles,
  * and spatial rotation increments (exponential chart) for free rotations.
@@ -38,35 +38,35 @@ typedef struct model_request {
     const element_type *type;
     const double *options; /* of the formulation; NULL: defaults */
     int elements;          /* per member */
-    int keep_all;          /* 1: eliminate nothing (same results, more work) */
+    int keep_all;          /* 1: no elimination (same results, more work) */
     unsigned omit; /* physics of the scene to omit in addition to what the type does not support */
 } model_request;
 
 /* Omits physics of the scene that the formulation does not support; model_left_out lists it.
- * REFUSED (with the reason): nothing remains to be solved: see missing_refused. */
+ * REFUSED (with the reason): no solvable problem remains; see missing_refused. */
 status model_alloc(const model_request *, model **, fault *);
 void model_free(model *);
 
-/* The initial shape of a scene's imperfections: a copy of the scene with its nodes shifted, bodies
- * and offsets turned with them, and the shifts of members between them. */
+/* The initial shape due to a scene's imperfections: a copy of the scene with shifted nodes, bodies
+ * and offsets rotated with them, and the shifts of members between nodes. */
 typedef struct model_imperfect model_imperfect;
-/* x[free + driven] of the perfect model: its modes, summed up. Shifts of nodes are added here, as
- * if the nodes had been there. */
+/* x[free + driven]: sum of the modes of the perfect model. Shifts of nodes are added here, as if
+ * the nodes had been given there. */
 status model_imperfect_alloc(const model *perfect, const double x[], model_imperfect **, fault *);
 void model_imperfect_free(model_imperfect *);
 /* The model with that shape, which must outlive it. */
 status model_imperfect_build(const model *perfect, const model_imperfect *, model **, fault *);
-/* The largest shift of a point of a member in a mode x; of equal ones the first. */
+/* The largest shift of a point of a member in a mode x; if several are equal, the first. */
 void model_largest_shift(const model *, const double x[], double shift[3]);
 
 typedef struct model_size {
     int elements, vertices, free, driven, strains,
         inner; /* strains and internal unknowns: of each element */
-    int kinds; /* of elements, each prepared once; identical ones share it */
+    int kinds; /* of elements; identical elements share a kind, which is prepared once */
     unsigned features;
 } model_size;
 model_size model_sizes(const model *);
-/* 1: in this motion elements have a consistent mass. */
+/* 1: elements have a consistent mass in this motion. */
 int model_spreads(const model *, int analysis);
 /* The same with one element per member. */
 status model_coarse(const model *, model **, fault *);
@@ -74,18 +74,18 @@ status model_coarse(const model *, model **, fault *);
 status model_halved(const model *, model **, fault *);
 const scene *model_scene(const model *);
 int model_keeps_all(const model *); /* model_request.keep_all */
-/* The vertex that moves this one rigidly; itself: it has its own coordinates. */
+/* The vertex that moves this one rigidly; the vertex itself if it has its own coordinates. */
 int model_body(const model *, int vertex);
-/* 1: it is the vertex of a released end; these follow those of nodes. */
+/* 1: the vertex belongs to a released end; these vertices follow those of the nodes. */
 int model_is_released(const model *, int vertex);
-/* Longest member [m]: the size that displacements are compared with. */
+/* Length of the longest member [m], with which displacements are compared. */
 double model_length(const model *);
 double model_mass(const model *); /* of the members [kg] */
 
-/* Physics of the scene that it has: FEATURE_* bits. */
+/* Physics of the scene that the model includes: FEATURE_* bits. */
 unsigned model_features(const model *);
-/* Eliminated coordinates, omitted physics: one line each ("warping coordinates of 12 ends: nothing
- * warps there"). */
+/* Eliminated coordinates and omitted physics, one line each ("warping coordinates of 12 ends:
+ * nothing warps there"). */
 int model_left_out(const model *, const char *const **lines);
 
 /* Why all evaluations are invalid, as the formulation reports it (element_type.trouble), once;
@@ -117,18 +117,19 @@ typedef struct assemble_patterns assemble_patterns;
 status assemble_patterns_alloc(assemble_patterns **, fault *);
 void assemble_patterns_free(assemble_patterns *);
 
-/* Patterns. `with_driven` 0: free x free; 1: all coordinates. Made at the first call and kept
- * there; matrices on it come from sparse_alloc_like. Symmetric: of the undeformed state. */
+/* Returns a symmetric pattern for the undeformed state. `with_driven` 0: free x free; 1: all
+ * coordinates. It is made at the first call and stored; sparse_alloc_like makes matrices on it. */
 status assemble_pattern(const model *, assemble_patterns *, int with_driven, const sparse **out,
                         fault *f);
-/* Pattern of the tangent in any state: stored whole where a load may make tangents unsymmetric;
- * whether such a matrix is symmetric is then decided by its numbers. */
+/* Pattern of the tangent in any state: stored in full if a load may make tangents unsymmetric; the
+ * values then decide whether such a matrix is symmetric. */
 status assemble_pattern_of_states(const model *, assemble_patterns *, int with_driven,
                                   const sparse **out, fault *f);
-/* The same, always stored whole: of states of a motion. */
+/* The same, always stored in full, for states of a motion. */
 status assemble_pattern_whole(const model *, assemble_patterns *, int with_driven,
                               const sparse **out, fault *f);
-/* Of the undeformed state, whole where springs are not symmetric, or with `damped` dashpots. */
+/* Pattern for the undeformed state, stored in full if springs or, with `damped`, dashpots are not
+ * symmetric. */
 status assemble_pattern_at_rest(const model *, assemble_patterns *, int damped, int with_driven,
                                 const sparse **out, fault *f);
 /* 0: a load, a spring or a support may make tangents unsymmetric. */
@@ -166,9 +167,9 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
 /* How the members of a scene are divided into elements.
  *
  * The mesh has a node where a load starts, ends or acts within a member, because resultants have a
- * slope discontinuity or a jump there, which no element can represent inside. Each of these pieces
- * has the requested number of elements of equal length. A mesh of twice this number contains all
- * nodes of the coarser one. */
+ * slope discontinuity or a jump there, which an element cannot represent. Each of these pieces has
+ * the requested number of elements of equal length. A mesh of twice this number contains all nodes
+ * of the coarser one. */
 
 typedef struct division {
     int *first;    /* [members + 1] number of pieces before each member */
@@ -177,13 +178,13 @@ typedef struct division {
     int *each;     /* [members] elements per piece */
 } division;
 
-/* Least length of a piece, relative to its member; a shorter one lies inside an element. */
+/* Smallest length of a piece, relative to its member; a shorter piece lies inside an element. */
 #define DIVISION_LEAST 1e-3
 
 /* Position along the member of a point x in [0, 1] of an element, and the inverse. */
 double division_place(const division *, int member, int number, double x);
 double division_inside(const division *, int member, int number, double place);
-/* The element at a position along a member, with the point in it; between two elements the one
+/* The element at a position along a member, with the point in it; between two elements, the one
  * towards the end of the member or (before) towards its start. */
 int division_at(const division *, int member, double place, int before, double *x);
 
@@ -203,11 +204,12 @@ typedef struct mesh_vertex {
     int body;           /* vertex that moves this one rigidly; itself: it has its own coordinates */
     double offset[3];   /* from the body, undeformed [m] */
     int coordinate[6];  /* of a body: global coordinate or NONE where fixed */
-    int turned;         /* 1: its translations are along the columns of `along` */
+    int turned; /* 1: its translations are along the columns of `along`, not the fixed axes */
     double along[9];
-    int led, leader; /* 1: a diaphragm moves it with this node, on an arm about its first axis */
-    double arm[3];   /* [m] across that axis */
-    int angles;      /* > 0: the rotation is a sequence of this number of angles about the axes */
+    int led,
+        leader;    /* 1: it moves with the master of a diaphragm, on an arm about its first axis */
+    double arm[3]; /* [m] across that axis */
+    int angles;    /* > 0: the rotation is a sequence of this number of angles about the axes */
     double axis[3][3];
     int idle;             /* bits of angles that are fixed because nothing depends on them */
     int vector_driver[3]; /* drivers of the prescribed rotation vector; NONE: not prescribed */
@@ -217,7 +219,7 @@ typedef struct mesh_vertex {
 typedef struct mesh_release {
     int node; /* node of the scene from which it is released */
     int turns, slides;
-    double turn[3][3], slide[3][3]; /* undeformed axes, unit vectors */
+    double turn[3][3], slide[3][3]; /* unit vectors in the undeformed state */
     int turn_of[3], slide_of[3];    /* the components, SCENE_UX .. SCENE_RZ */
 } mesh_release;
 
@@ -250,7 +252,8 @@ typedef struct mesh_discrete {
     mesh_triad triad[ELEMENT_MAX_NODES];
 } mesh_discrete;
 
-/* Rates of the deformations of all springs, known + g (d - from); both [6 x springs]. */
+/* Rates of the deformations d of all springs: known + g (d - from), with known and from [6 x
+ * springs]. */
 typedef struct spring_rates {
     double g;
     const double *known, *from;
@@ -354,14 +357,14 @@ static inline int model_all_coordinates(const model *m)
 {
     return model_mesh_of(m)->free + model_mesh_of(m)->driven;
 }
-/* Which coordinate the one of a node follows, if any. */
+/* The coordinate that a node's coordinate follows in a constraint, if any. */
 static inline const scene_tie *model_tie(const model *m, int node, int coordinate)
 {
     const scene_tie *all = model_mesh_of(m)->tie;
     return all != NULL && all[6 * node + coordinate].node >= 0 ? &all[6 * node + coordinate] : NULL;
 }
-/* Has a body the coordinate for itself, or do others in a constraint follow it? 0: it follows.
- * Turns follow together. */
+/* 1: the body's coordinate is independent, or others in a constraint follow it; 0: it follows
+ * another. Rotations follow together. */
 static inline int model_owns(const model *m, int vertex, int coordinate)
 {
     int owns = 1;
@@ -374,8 +377,8 @@ static inline int model_owns(const model *m, int vertex, int coordinate)
     }
     return owns;
 }
-/* Bodies that constraints join, in ascending order: the first one, and the one after; NONE: it is
- * the last one. */
+/* Bodies joined by constraints, in ascending order: the first one, and the next one; NONE: there is
+ * no next one. */
 static inline int model_first_joined(const model *m, int vertex)
 {
     const model_mesh *mesh = model_mesh_of(m);
@@ -508,15 +511,15 @@ double discrete_material_rounding(const model *, const model_state *, const doub
 void dashpots_deformations(const model *, const model_state *, double d[]);
 void dashpots_rates(const model *, const model_state *, const double dx[], double rate[]);
 double dashpots_power(const model *, const double rate[]);
-/* What a spring whose forces have no potential takes up, beyond its energy, while its deformations
- * d change by `change`: change . (K - K^T)/2 d; 0 for most. */
+/* Work absorbed by a spring without a potential, in addition to its energy, while its deformations
+ * d change by `change`: change . (K - K^T)/2 d; 0 for symmetric springs. */
 double spring_circulated(const model *, int spring, const double d[6], const double change[6]);
 void dashpots_add_forces(const model *, const model_state *, const double rate[], double out[]);
 void dashpots_node_force(const model *, const model_state *, const double rate[], int node,
                          double F[6]);
-/* C += of the damping of all springs, and `more` [s] times their stiffness. */
+/* C += the damping of all springs, and `more` [s] times their stiffness. */
 void dashpots_matrix(const model *, const model_state *, double more, sparse *C);
-/* Of one spring: its deformations, their derivatives J[6 x columns] with respect to its
+/* For one spring: its deformations, their derivatives J[6 x columns] with respect to its
  * coordinates, and from dashpot stresses the force[columns] and the geometric stiffness K[columns x
  * columns]. */
 void dashpots_strains(const model *, const model_state *, int spring, double d[], double J[]);
@@ -585,19 +588,19 @@ void assemble_subtract(sparse *a, int row, int column, double value);
 unsigned features_needed(const scene *);
 /* Physics that the scene omits although it has an effect. */
 unsigned features_omitted(const scene *);
-/* Returns the physics, not omitted, that a section given by its constants lacks although the
- * analyses of the scene need it; a constant given as zero counts as given. */
+/* Returns physics, not omitted, that the analyses of the scene need but that a section given by its
+ * constants does not define; a constant given as zero is defined. */
 unsigned features_not_given(const scene *, int section);
-/* Returns 1 for a section of walls whose bimoment causes torsion, which no formulation models,
- * where the analyses have stresses and neither warping nor the Wagner torque is omitted. */
+/* Returns 1 for a section of walls whose bimoment causes torsion, which no formulation models, if
+ * the analyses have stresses and neither warping nor the Wagner torque is omitted. */
 int features_one_sided(const scene *, int section);
-/* The same, with the type's own theory of shear in stability instead of the requested one:
- * FEATURE_* bits. */
+/* The same with the type's own shear theory in stability instead of the requested one: FEATURE_*
+ * bits. */
 unsigned features_needed_of(const scene *, const element_type *);
-/* The theory of shear in stability of the type's values for this scene: a bit of shear_theory; 0:
- * no flexibility in shear, or no stress. */
+/* The shear theory in stability that the type uses for this scene: a bit of shear_theory; 0: no
+ * shear flexibility, or no stress. */
 unsigned features_theory(const scene *, const element_type *);
-/* Is there shear, and an analysis that depends on its theory? */
+/* Does the scene have shear flexibility, and an analysis that depends on the shear theory? */
 int features_sheared(const scene *);
 /* Name of the theory: "Haringx"; for SHEAR_OWN the type's text; "" for 0. */
 const char *features_theory_words(const element_type *, unsigned theory);
@@ -605,7 +608,7 @@ const char *features_theory_words(const element_type *, unsigned theory);
  * structure. */
 unsigned features_needed_by_quantity(const scene *, int quantity);
 
-int features_eccentric(const section *c); /* its shear centre is not its centroid */
+int features_eccentric(const section *c); /* 1: its shear centre is not its centroid */
 status features_of_section(const model *m, int section, unsigned *features, fault *f);
 
 /* States of a model and the motion of its nodes. */
@@ -620,8 +623,8 @@ void kinematics_state_copy(const model *, const model_state *from, model_state *
 double kinematics_state_path(const model_state *);
 const double *kinematics_strains(const model_state *); /* [elements x strains] */
 
-/* Frame of a scene node in a state: position [m] and unit quaternion. For tests of other
- * folders, which need not know what a state keeps. */
+/* Frame of a scene node in a state: position [m] and unit quaternion. For tests in other folders,
+ * which do not access the members of a state. */
 void kinematics_frame(const model *, const model_state *, int node, double r[3], double q[4]);
 /* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed state,
  * including full revolutions along the path; NaN: the vector has lost its direction at a full
@@ -652,8 +655,8 @@ int kinematics_node_jacobian(const model *, const model_state *, int node, int s
 /* Current offset of a vertex from its body [m]. */
 void kinematics_offset(const model *, const model_state *, int vertex, double rho[3]);
 
-/* Of a vertex whose translations may be turned, in place: what three of its coordinates are in
- * fixed axes, and the reverse, forces too. */
+/* For a vertex whose translations may be along rotated axes: transforms three of its coordinates to
+ * fixed axes in place, and back; also forces. */
 static inline void kinematics_to_fixed(const mesh_vertex *v, double d[3])
 {
     const double x = d[0], y = d[1], z = d[2];
@@ -666,18 +669,19 @@ static inline void kinematics_to_own(const mesh_vertex *v, double d[3])
     for (int i = 0; i < 3 && v->turned; i++)
         d[i] = v->along[i] * x + v->along[3 + i] * y + v->along[6 + i] * z;
 }
-/* A[3 x 3] of own translations becomes that of fixed ones. */
+/* Transforms A[3 x 3] from the vertex's own translations to those along fixed axes. */
 void kinematics_turn_back(const mesh_vertex *, double A[9]);
-/* K[n x n], whose six of the vertex begin at `at`: from fixed axes, rows and columns. */
+/* Transforms rows and columns of K[n x n] from fixed axes; the six coordinates of the vertex start
+ * at `at`. */
 void kinematics_turn_matrix(const mesh_vertex *, int n, int at, double K[]);
 
 /* Fills x[nodes], the nodes of an element in a state, in the form of its type. */
 void kinematics_gather(const model *m, const model_state *s, const mesh_element *el,
                        node_state x[]);
 void kinematics_position(const model *m, const model_state *s, int vertex, double r[3]);
-/* Of a body that is led: derivative of its position with respect to its first angle. */
+/* For a body moved by a diaphragm: derivative of its position with respect to its first angle. */
 void kinematics_arm(const model *, const model_state *, int vertex, double moved[3]);
-/* What it moves by where that angle grows by `more` in the state. */
+/* Its displacement if that angle increases by `more` from the state. */
 void kinematics_swing(const model *, const model_state *, int vertex, double more, double by[3]);
 /* Spatial axes of a sequence's angles in the current state: b[angles][3]. */
 void kinematics_axes(const model *m, const model_state *s, int vertex, double b[3][3]);
@@ -695,15 +699,15 @@ void metric_of(const model *, double weight[]);
 /* Share of the displacements of the nodes in an increment [free + driven], in the same measure. */
 double metric_shift_part(const model *, const double dx[]);
 /* The same distance between two states; light[9 x (2 i + block)], row-major: projections of the
- * displacement (block 0) and of the rotation in its own axes (block 1) of vertex i that do not
- * count; NULL: everything counts. */
+ * displacement (block 0) and of the rotation in its own axes (block 1) of vertex i that are
+ * excluded; NULL: nothing is excluded. */
 double metric_distance(const model *, const model_state *, const model_state *,
                        const double light[]);
 /* The largest angle [rad] between the orientations of a node in two states. */
 double metric_turn_between(const model *, const model_state *, const model_state *);
 
-/* Physics that a scene requires and a formulation does not support: what can be omitted, what
- * selects another model, and what cannot. */
+/* Physics that a scene requires and a formulation does not support: physics that can be omitted,
+ * that leads to a different model, and that prevents a solution. */
 
 /* Physics that can be omitted and have no FEATURE_* bit. */
 enum {
@@ -713,13 +717,13 @@ enum {
 enum { OMIT_WORDS = 200, OMIT_BITS = 16 }; /* length of their names; number of bits */
 
 /* Names the physics that the type does not support, or a limit that the scene exceeds; words is
- * empty if and only if there is none. 0: the type supports all that the scene requires. */
+ * empty if and only if there is none. 0: the type supports everything that the scene requires. */
 int missing_words(const scene *, const element_type *, char *words, int size);
 /* Names missing physics that prevents any solution of the scene; 0: it can be solved. */
 int missing_refused(const scene *, const element_type *, char *words, int size);
 /* Returns the physics that a solution omits: bits of FEATURE_* and OMIT_*. */
 unsigned missing_omits(const scene *, const element_type *);
-/* Such bits in words. */
+/* Describes these bits in words. */
 void missing_omit_words(unsigned omits, char words[OMIT_WORDS]);
 
 /* Names the features that the scene requires and the type supports in one direction only
@@ -741,7 +745,7 @@ struct model_state {
     double *driver; /* [drivers] current value */
     double *e, *sigma, *inner; /* [elements x strains], [elements x inner] */
     double *turn;              /* [turns x 3] tracked rotation vectors */
-    double *feedback; /* [loads] integrals of the errors of feedback; without any: no element */
+    double *feedback; /* [loads] integrals of the feedback errors; empty without feedback */
 };
 
 /* Possible motions [6: displacement, rotation] of a node: the span of the columns of its Jacobian.
@@ -779,7 +783,7 @@ int profile_at(const model *m, int member, int number);
 
 /* Released ends of members: rotations and displacements of their own (scene_release).
  *
- * Such an end has its own vertex after all others, in the list `release`. With the frame r, R of
+ * A released end has its own vertex after all others, in the list `release`. With the frame r, R of
  * its node's body, the node at the offset rho from it, and the member's undeformed axes a, d at the
  * end, R_end = R exp(a_1 t_1) exp(a_2 t_2), r_end = r + R rho + R_end (sum d_i s_i). Three
  * rotations have no order: R_end is free, with spatial increments. The end's coordinates t, s
@@ -787,17 +791,17 @@ int profile_at(const model *m, int member, int number);
  * to all of them, with the second derivatives of the frame (turns: 1/2 b_i x b_j for i before j,
  * those of the body before all; shifts: turns of the end before them). */
 
-/* The end at this vertex; NULL: it is not one. */
+/* The released end at this vertex; NULL: none. */
 static inline const mesh_release *release_of(const model *m, int vertex)
 {
     const int first = model_first_release(m);
     return vertex < first ? NULL : &model_mesh_of(m)->release[vertex - first];
 }
 
-/* What an end of a member (0 at p, 1 at q) has turned or shifted by a component against its node;
- * 0: it is not released; of three turns their rotation vector, NAN beyond 3 rad. */
+/* Rotation or displacement of a member's end (0 at p, 1 at q) relative to its node, by component;
+ * 0: it is not released. For three released rotations: the rotation vector, NAN beyond 3 rad. */
 double release_value(const model *, const model_state *, int member, int end, int component);
-/* Changes its own coordinates by dx; returns the largest change [1, rad]. */
+/* Changes the end's own coordinates by dx; returns the largest change [1, rad]. */
 double release_advance(const model *, model_state *, int vertex, const double dx[]);
 
 /* Spatial axes of the rotations [turns x 3]; for three: the fixed ones. */
@@ -819,18 +823,18 @@ enum { SPRING_STRAINS = 6 };
  * not needed). */
 void spring_law(const scene_spring *, const double e[6], double sigma[6], double S[36]);
 double spring_energy(const scene_spring *, const double e[6]);
-/* Discrete-gradient stress: its work on the way to e equals the change of energy, for each
- * component; and its derivative with respect to e. */
+/* Discrete-gradient stress: for each component its work on the increment to e equals the change of
+ * energy; and its derivative with respect to e. */
 void spring_mean(const scene_spring *, const double from[6], const double e[6], double sigma[6],
                  double S[36]);
 /* S at rest. */
 void spring_at_rest(const scene_spring *, double S[36]);
 
-/* S of a spring, with its tables, at its present deformation. */
+/* S of a spring, including its tables, at its present deformation. */
 void spring_slopes(const model *, const model_state *, int spring, double S[36]);
 
 /* Deformation d = (R_p^T (r_q - r_p) less its initial value [m], rotation vector of R_p^T R_q
- * [rad]) in the axes of p; with one node q, p is the ground. x[nodes]: R is the turn since the
+ * [rad]) in the axes of p; with one node q, p is the ground. x[nodes]: R is the rotation since the
  * undeformed state. out->e[6], out->J[6 x 7 nodes] and out->H[7 nodes x 7 nodes] of out->s[6], in
  * the exponential chart, as strains of elements are. near: the tracked rotation vector, which
  * resolves several revolutions; NULL: less than half a revolution.
@@ -848,12 +852,12 @@ void spring_strain(int nodes, const node_state x[], const double near[3], strain
  * Prescribed coordinates count as fixed. */
 int supports_loose_part(const model *, int *node, double motion[6]);
 
-/* Smallest relative eigenvalue of the supports' squares: fixed points closer to each other than its
- * root times the length count as one. */
+/* Smallest relative eigenvalue of the supports' squares: fixed points whose distance is below its
+ * root times the length count as one point. */
 extern const double supports_loose;
 
-/* part[vertices]: a representative vertex of all that elements, springs and bodies connect, by
- * supports_root; apart: released ends are not connected to their nodes. */
+/* part[vertices]: a representative vertex of each part connected by elements, springs and bodies,
+ * by supports_root; apart: released ends are not connected to their nodes. */
 void supports_join(const model *, int apart, int part[]);
 int supports_root(const int part[], int vertex);
 /* Returns the vertex that moves this one rigidly. */
@@ -877,9 +881,9 @@ extern const char turns_lost[];
 const double *turns_of_node(const model_state *, int node);
 const double *turns_of_spring(const model *, const model_state *, int spring);
 
-/* Relative rotation vectors depend on the quantities of a run. These functions save them for a
- * continuation: their number, and for each the two nodes and the vector [5]. A vector that is not
- * restored starts within half a revolution of the difference of its nodes. */
+/* Relative rotation vectors depend on the quantities of a run. These functions store them for a
+ * continued motion: their number, and for each the two nodes and the vector [5]. A vector that is
+ * not restored starts within half a revolution of the difference of its nodes. */
 int turns_between_count(const model *);
 void turns_put_between(const model *, const model_state *, double out[]);
 void turns_take_between(const model *, int count, const double in[], model_state *);
@@ -887,16 +891,16 @@ void turns_take_between(const model *, int count, const double in[], model_state
 /* Has a vector of more than half a revolution changed direction? Near a full revolution this takes
  * a very short time; at the revolution the result is round-off. */
 int turns_swung(const double from[3], const double to[3]);
-/* Is it within `near` [rad] of one or more full turns? */
+/* Is the size within `near` [rad] of one or more full turns? */
 int turns_full(double size, double near);
 /* Sets rotation vectors that have lost their direction since `from` to NaN. */
 void turns_lose(const model *, const model_state *from, model_state *);
 
 /* Warping at ends of members, in words. */
 
-/* Describes the ends of members whose section warps: "held at base_a, base_b; shared at fold; free
- * at tip", by nodes, or "leaf at base" if ends at one node differ. A long list is truncated. "":
- * nothing warps. */
+/* Describes warping at the ends of members whose section warps: "held at base_a, base_b; shared at
+ * fold; free at tip", by nodes, or "leaf at base" if ends at one node differ. A long list is
+ * truncated. "": nothing warps. */
 void warping_ends(const scene *s, char *text, size_t room);
 
 #endif

@@ -23,8 +23,8 @@ status discrete_build(model *, fault *);
 void body_inertia(const scene_body *b, const node_state *x, const element_rotating_frame *frame,
                   inertia_output *out);
 
-/* Features that the scene requires, and those of them that the type does not support, or a limit
- * that the scene exceeds, in words; 0: the type can solve it. */
+/* Features that the scene requires, and the unsupported features or the exceeded limit in words; 0:
+ * the type can solve the scene. */
 /* 1: elements of the type have distributed mass in this motion. */
 int features_spreads(const scene *, int analysis, const element_type *, const double options[]);
 
@@ -133,28 +133,28 @@ struct model {
 };
 _Static_assert(offsetof(struct model, mesh) == 0, "model_mesh_of finds it by the model's address");
 
-/* Shift and turn of members between their ends, linear between the points. */
+/* Displacement and rotation of members between their ends, linear between the points. */
 struct model_imperfect {
-    scene own; /* of which nodes, members and loads are copies */
-    scene
-        lines;  /* of which nodes are copies, with shifts of nodes alone: of the lines of members */
-    int modes;  /* 0: there are only those */
-    int *first; /* [members + 1] index of the first point of each */
+    scene own;   /* scene with its own copies of nodes, members and loads */
+    scene lines; /* copy with shifted nodes only, for the lines of members */
+    int modes;   /* 0: shifts of nodes only */
+    int *first;  /* [members + 1] index of the first point of each */
     double *place, (*shift)[3], (*turn)[3]; /* [points] place 0 .. 1; [m], [rad] */
 };
 
-/* imperfect: of the scene of the request, its own, which outlives the model; NULL: perfect. */
+/* imperfect: shape for the requested scene, which must outlive the model; NULL: perfect. */
 status model_alloc_imperfect(const model_request *, const model_imperfect *, model **, fault *);
-/* The scene whose members have the lines that modes deviate from. */
+/* The scene that defines the lines of members from which modes deviate. */
 const scene *imperfect_lines(const model *);
 /* Moves a point of a line, and its triad; nothing in a perfect model. */
 void imperfect_move(const model *, int member, double place, double position[3], double R[9]);
-/* Change of the turn between two places of a member. */
+/* Change of the rotation between two positions on a member. */
 void imperfect_turn(const model *, int member, const double place[2], double turn[3]);
-/* centreline.c: increments of all vertices, [vertices x 6]; also of nodes that carry nothing. */
+/* centreline.c: increments of all vertices, [vertices x 6]; also of nodes without members. */
 void centreline_increments(const model *, const double x[], double out[]);
 
-/* release.c: sets length and R of an arc of k between two points; y: of its start.  REFUSED. */
+/* release.c: sets length and R of an arc with curvature k between two points; y: axis at its start.
+ * REFUSED: there is no such arc. */
 status member_arc_between(const scene *s, int member, const double chord[3], const double y[3],
                           member_arc *, fault *);
 
@@ -166,7 +166,7 @@ status coordinates_number(model *m, fault *f);
 status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* coordinates.c: text with room for that many characters; what does not fit is cut off. */
+/* coordinates.c: text that is truncated to its capacity. */
 typedef struct model_words {
     char *text;
     size_t room, used;

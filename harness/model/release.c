@@ -44,7 +44,7 @@ static void turn_to_principal(double angle, member_arc *a)
     a->k[2] = c * a->k[2] - d * ky;
 }
 
-/* Finds the length of a curved arc from the distance of its ends. */
+/* Finds the length of a curved arc from the distance between its ends. */
 static status find_length(const scene *s, int member, double distance, member_arc *a, fault *f)
 {
     double c[3];
@@ -157,7 +157,7 @@ static void add_end(model *m, int member, int end, const double R[9])
         const int c = what->component[k], normal = scene_normal(m->scene);
         const int across = normal != SCENE_NONE && fabs(R[3 * normal + c % 3]) > 0.5;
         if (normal != SCENE_NONE && across != (c >= SCENE_RX))
-            continue; /* it would leave the plane */
+            continue; /* this motion would leave the plane */
         *(c < SCENE_RX ? &r->slide_of[r->slides] : &r->turn_of[r->turns]) = c;
         double *axis = c < SCENE_RX ? r->slide[r->slides++] : r->turn[r->turns++];
         for (int i = 0; i < 3; i++)

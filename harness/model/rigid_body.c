@@ -1,11 +1,9 @@
-/* A rigid body in a frame that turns with Omega: with its centre at x from a point of the axis, its
- * inertia I = R I_0 R^T about that and h = I Omega,
- *   potential = -1/2 (m |Omega x x|^2 + Omega . h).
- * About the centre, for its translations and rotations in the exponential chart: centrifugal force
- * -m Omega x (Omega x x) and moment h x Omega, softening m Omega~^2 and
- *   Omega~ I Omega~ - sym(h Omega^T) + (h . Omega) 1,
- * gyroscopic matrix 2 m Omega~ and I Omega~ + Omega~ I - h~ (also for a body that rotates in the
- * frame). The rigid offset transforms these to the node. */
+/* A rigid body in a frame that rotates with Omega: with its centre at x from a point on the axis,
+ * its inertia I = R I_0 R^T about the centre and h = I Omega, potential = -1/2 (m |Omega x x|^2 +
+ * Omega . h). About the centre, for its translations and rotations in the exponential chart:
+ * centrifugal force -m Omega x (Omega x x) and moment h x Omega, softening m Omega~^2 and Omega~ I
+ * Omega~ - sym(h Omega^T) + (h . Omega) 1, gyroscopic matrix 2 m Omega~ and I Omega~ + Omega~ I -
+ * h~ (also for a body that rotates in the frame). The rigid offset transforms these to the node. */
 #include "harness/model/model_impl.h"
 
 #include <string.h>
@@ -84,7 +82,7 @@ static void softening_matrix(double mass, const double I[9], const double omega[
     put_blocks(translation, rotation, A);
 }
 
-/* Centrifugal force and moment about the centre, and the potential. */
+/* Computes the centrifugal force and moment about the centre, and the potential. */
 static double centrifugal(double mass, const double I[9], const double x[3], const double omega[3],
                           double force[N])
 {

@@ -65,16 +65,15 @@ static int keeps_direction(const double more[3], const double before[3], double 
     return vec3_norm(more) < near && vec3_norm(aside) < round_off * length;
 }
 
-/* The rotation vector [rad] of q that continues `before`: of all vectors of q, and of all
- * quaternions of its sign, the next one. On a full turn, where they have no direction of their own,
- * it keeps that of `before`. */
+/* Returns the rotation vector [rad] of q closest to `before`, among all vectors of q and of -q. At
+ * a full turn, where the vector has no direction of its own, it keeps the direction of `before`. */
 static void turns_continue(const double q[4], const double before[3], double out[3])
 {
     const double sine = vec3_norm(q + 1), length = vec3_norm(before);
     double along[3] = {0};
     rotation_log(q, out);
     if (q[0] > 0 && length < PI / 2)
-        return; /* less than half a revolution: no other vector is as near */
+        return; /* less than half a revolution: no other vector is closer */
     if (length > PI && keeps_direction(out, before, length)) {
         const int odd = q[0] < 0;
         const double turns = 2 * round((length / (2 * PI) - odd) / 2) + odd;
@@ -169,7 +168,7 @@ void turns_put_between(const model *m, const model_state *s, double out[])
     }
 }
 
-/* As if both had rotated about one axis. */
+/* Starts the relative vector as if both nodes had rotated about one axis. */
 static void begin_between(const model *m, model_state *s, int i)
 {
     const mesh_turn *t = &m->turn[i];

@@ -168,7 +168,7 @@ void movable_prescribed(int columns, const double *T, const double m[3], double 
         deflate(3, rank, basis, out);
 }
 
-/* Finds parts of the structure that the supports leave loose: rigid motions of connected parts,
+/* Finds parts of the structure that the supports do not hold: rigid motions of connected parts,
  * from the supports alone, independent of stiffness. */
 
 enum { SUPPORTS_N = 6 };
@@ -220,7 +220,7 @@ void supports_rigid(const double position[3], double length, double G[SUPPORTS_N
     }
 }
 
-/* Motions that the supports of a node leave free. */
+/* Motions that the supports of a node allow. */
 static void free_motions(const model *m, int node, movable *out)
 {
     int index[SUPPORTS_N], columns = 0;
@@ -252,7 +252,7 @@ void supports_prevented(const model *m, int node, const double origin[3],
         out[i] = (G[i] - out[i]) * (i / SUPPORTS_N < 3 ? 1 : m->size);
 }
 
-/* Adds their squares to sum. */
+/* Adds the squares of the prevented motions to sum. */
 static void add_supports(const model *m, int node, const double origin[3],
                          double sum[SUPPORTS_N * SUPPORTS_N])
 {
