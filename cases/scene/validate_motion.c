@@ -391,8 +391,8 @@ static status check_about_motion(const scene *s, const scene_analysis *a, int i,
             who.text);
     if (a->kind == SCENE_MODAL && !a->damped)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: about an instant of a motion (%s), rates cause forces that modes "
-                         "without damping lack; add damped: yes",
+                         "%s: about an instant of a motion (%s), velocities cause forces that "
+                         "undamped modes do not include; add damped: yes",
                          who.text, motion.text);
     if (a->by_modes || scene_has_ratios(a))
         return fault_set(f, STATUS_REFUSED,

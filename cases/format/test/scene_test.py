@@ -260,7 +260,7 @@ class NamesTest(SceneCase):
     def test_loose(self):
         path = self.scene(GUIDE.replace("peak: {at", "cloud: {at: [5, 5, 0]}\n  rain: {at: [5, 6, 0]}\n  peak: {at")
                           .replace("springs:", "  mist: {from: cloud, to: rain, section: steel, y: [1, 0, 0]}\nsprings:"))
-        self.line(1, "node cloud at (5, 5, 0) is not held", "solve", "--scene", path,
+        self.line(1, "neither node cloud at (5, 5, 0) nor any part joined to it is held", "solve", "--scene", path,
                   "-f", "collocation", "-n", 2)
 
     def test_written(self):

@@ -232,6 +232,6 @@ quantities: {l: {displacement: {analysis: L, node: b, component: ux}}}
         path.write_text(text.replace("ENDS", ""))
         done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn("0, 0) while nothing deforms: parts that constraints join", done.stdout + done.stderr)
+        self.assertIn("0, 0) without deformation: parts that constraints join", done.stdout + done.stderr)
         found = self.values(text.replace("ENDS", ", hold: [ux]"))
         self.assertAlmostEqual(found["l"], 2 * 3 / (2e9 * 6e-4), delta=1e-15)
