@@ -10,10 +10,10 @@ enum { CRANK_ANGLE = TIMED_PARAMETERS, DURATION };
 
 static const parameter_type timed[] = {
     [TIMED_TIME] = {"time", "s", 0.25, 0, 100, NULL, "instant of the output"},
-    TIMED_HOW(0.01, "a fiftieth of the drive's time", 1e-3),
+    TIMED_HOW(0.01, "1/50 of the duration of the drive", 1e-3),
     [CRANK_ANGLE] = {"crank_angle", "rad", 0.2613, -1, 1, NULL,
-                     "final angle of the cranks: for a stroke of 50 mm"},
-    [DURATION] = {"duration", "s", 0.5, 1e-3, 100, NULL, "duration of the drive, which is smooth"},
+                     "final angle of the cranks, for a stroke of 50 mm"},
+    [DURATION] = {"duration", "s", 0.5, 1e-3, 100, NULL, "duration of the smooth drive"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -52,7 +52,7 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_hexapod_motion = {
     .name = "hexapod_motion",
     .summary = "flexure hexapod of twelve spherical joints driven through its stroke",
-    .source = "after N section 4.3, with sizes, masses and a duration chosen here",
+    .source = "after N section 4.3, with dimensions, masses and a duration chosen here",
     .parameters = {joint_parameters, hexapod_parameters, timed, case_mass_omit},
     .build = build,
 };

@@ -19,11 +19,12 @@ static const parameter_type parameters[] = {
     [HUB_RADIUS] = {"hub_radius", "1", 0, -100, 100, NULL,
                     "distance of the root from the axis, in L; negative: the beam points inward"},
     [AXIS] = {"axis", "rad", 0, 0, 1.57079632679489661923, NULL,
-              "0: axis normal to the beam, pi/2: along it"},
+              "0: axis normal to the beam, pi/2: along the beam"},
     [STIFFNESS_RATIO] = {"stiffness_ratio", "1", 1, 1e-6, 1e6, NULL,
-                         "bending stiffness in lag over that in flap"},
-    [STATIONS] = {"stations", "1", 1, 1, MOST_STATIONS, NULL,
-                  "angular velocities of the frequency curves, from zero upwards; 1: no curves"},
+                         "ratio of the bending stiffness in lag to that in flap"},
+    [STATIONS] =
+        {"stations", "1", 1, 1, MOST_STATIONS, NULL,
+         "number of angular velocities for the frequency curves, starting at zero; 1: no curves"},
     {0},
 };
 

@@ -13,7 +13,8 @@ enum { MOST_STATIONS = 100, MOST_MODES = 6 };
 /* In the order of the enumeration. */
 static const parameter_type parameters[] = {
     {"modes", "1", 0, 0, MOST_MODES, NULL,
-     "natural frequencies of the deflected sheet, its tip held along y and about z"},
+     "number of natural frequencies of the deflected sheet, with "
+     "its tip fixed along y and about z"},
     {"density", "kg/m^3", 7850, 1e-3, 1e6, NULL, "of the sheet"},
     {"rotary_inertia", "1", 1, 0, 1, NULL,
      "1: rotary and warping inertia, 0: translations and twist only"},

@@ -14,7 +14,7 @@ enum { MAX_STEPS = 1000 };
 /* In the order of the enumeration. */
 static const parameter_type parameters[] = {
     {"tilt", "rad", 15 * JOINT_DEGREE, 0, 1, NULL, "rotation of the end effector"},
-    {"steps", "1", 50, 1, MAX_STEPS, NULL, "azimuths of the tilt axis in one turn"},
+    {"steps", "1", 50, 1, MAX_STEPS, NULL, "number of azimuths of the tilt axis in one revolution"},
     {0},
 };
 
@@ -76,8 +76,8 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_spherical_joint = {
     .name = "spherical_joint",
-    .summary = "spherical flexure joint of six folded sheets: support stiffness around one turn of "
-               "its tilt axis",
+    .summary = "spherical flexure joint of six folded sheets: support "
+               "stiffness over one revolution of its tilt axis",
     .source = "N section 4.2, Fig. 8, Table 1; geometry reconstructed",
     .parameters = {joint_parameters, parameters, case_omit},
     .build = build,

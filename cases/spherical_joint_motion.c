@@ -10,9 +10,9 @@ enum { TILT = TIMED_PARAMETERS, DURATION };
 
 static const parameter_type timed[] = {
     [TIMED_TIME] = {"time", "s", 0.25, 0, 100, NULL, "instant of the output"},
-    TIMED_HOW(0.01, "a fiftieth of the drive's time", 1e-4),
+    TIMED_HOW(0.01, "1/50 of the duration of the drive", 1e-4),
     [TILT] = {"tilt", "rad", 15 * JOINT_DEGREE, 0, 1, NULL, "rotation of the end effector"},
-    [DURATION] = {"duration", "s", 0.5, 1e-3, 100, NULL, "duration of the drive, which is smooth"},
+    [DURATION] = {"duration", "s", 0.5, 1e-3, 100, NULL, "duration of the smooth drive"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 

@@ -104,7 +104,8 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
             "weight acts at centres of mass along global axes; remove 'at', 'axes' and 'follower'");
     if (whole >= 0 && !is_on_all(f))
         document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
-                         "'%.40s' (on: all) already contains its weight; remove one",
+                         "'%.40s' (on: all) already includes this weight; remove one of "
+                         "the two loads",
                          f->b->list[SCENE_LOADS].entry[whole].name);
 }
 
@@ -193,8 +194,8 @@ static int place_of(const fields *f, const scene_load *what)
                    "acts at one position; remove it");
     if (within && node && !member) {
         document_mistake(f->b->mistakes, document_find(f->map, "where"), 0,
-                         "where: this is a fraction of a member's length, but '%.40s' is a node; "
-                         "name a member, or remove it",
+                         "where: this is a fraction of a member's length, but '%.40s' "
+                         "is a node; name a member, or remove 'where'",
                          on);
         return SCENE_NONE;
     }
@@ -238,8 +239,8 @@ void builder_loads(builder *b)
         turn_load(&f, &what);
         if (fields_have(&f, "feedback") && f.placed != NULL && f.placed->turned)
             mistake_at(&f, "feedback",
-                       "feedback measures along fixed axes, and this part is turned; give the load "
-                       "in the scene");
+                       "feedback measures along fixed axes, but this part is rotated; "
+                       "move the load to the scene");
         read_range(&f, given, &what);
         if (what.kind == SCENE_GRAVITY)
             check_gravity(&f, &what, whole);

@@ -141,9 +141,10 @@ static void check_unit(const fields *f, int motion)
     const int own = units->given && strcmp(given->text, units->name_of_length) == 0;
     const int angle = own ? 0 : fields_word(f, "unit", "m|rad", -1);
     if (angle == 0 && units->given && !own)
-        document_mistake(f->b->mistakes, given, 0,
-                         "unit 'm': lengths of this scene are in %s; write that, or remove it",
-                         units->name_of_length);
+        document_mistake(
+            f->b->mistakes, given, 0,
+            "unit 'm': lengths of this scene are in %s; write this unit, or remove 'unit'",
+            units->name_of_length);
     const scene *s = f->b->scene;
     int angles = 0, lengths = 0;
     for (int i = 0; i < s->nodes; i++)
@@ -164,7 +165,7 @@ static void check_given(const fields *f)
               unknown = fields_have(f, "such_that");
     if (known == unknown)
         document_mistake(f->b->mistakes, f->place, 0,
-                         known ? "the motion has both values and a condition; remove one"
+                         known ? "the motion has both values and a condition; remove one of them"
                                : "the motion needs 'path' and 'value', one of 'time', 'pieces' and "
                                  "'table', or 'such_that'");
 }
@@ -244,8 +245,9 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
                      "'%s' is %s and has no %s; name an analysis that has one: %s%s", a->name,
                      scene_analysis_name(a->kind), key, who,
                      a->kind == SCENE_HARMONIC && scene_reads_forces(q)
-                         ? "; or join two nodes in place of one by a stiff spring, and multiply "
-                           "its stiffness by the response of one with from: the other"
+                         ? "; or replace the node by two nodes joined by a stiff spring, "
+                           "and multiply the spring stiffness by the response of one node "
+                           "with from: the other"
                          : "");
 }
 
@@ -289,8 +291,8 @@ static int put_name(const fields *f, const document_node *n, int *at, written_ou
         const scope *known = scope_find(f->names, name, (size_t)length);
         if (known != NULL)
             document_mistake(f->b->mistakes, n, from,
-                             "'%.*s' has a meaning in functions of time and is also a name in this "
-                             "file; rename the latter",
+                             "'%.*s' is reserved in functions of time, but is also a name "
+                             "in this file; rename it",
                              length, name);
         *at += length;
         return known == NULL && put(to, name, (size_t)length, from);
@@ -349,7 +351,7 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
     double before = -INFINITY;
     if (list->count == 0)
         document_mistake(f->b->mistakes, list, 0,
-                         "the list has no piece; give [{until: [s], is: ...}, {is: ...}]");
+                         "the list of pieces is empty; give [{until: [s], is: ...}, {is: ...}]");
     for (int i = 0; i < list->count; i++) {
         fields piece = *f;
         piece.map = list->item[i];
@@ -357,7 +359,7 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
         const double until = fields_number(&piece, "until", 0);
         if (!last && !(ends && until > before))
             document_mistake(f->b->mistakes, piece.map, 0,
-                             "a piece must end after the previous one; give until: [s]");
+                             "a piece must end after the previous piece; give until: [s]");
         if (last && ends)
             document_mistake(f->b->mistakes, document_find(piece.map, "until"), 0,
                              "the last piece has no end; remove 'until', or add the "
@@ -467,9 +469,9 @@ int builder_stations(const fields *f, const char *values, double **path, double 
     const int stations = fields_values(f, "path", path), count = fields_values(f, values, value);
     if (stations == count)
         return count;
-    document_mistake(f->b->mistakes,
-                     document_find(f->map, fields_have(f, values) ? values : "path"), 0,
-                     "'path' has %d values and '%s' has %d; give the same number of both", stations,
-                     values, count);
+    document_mistake(
+        f->b->mistakes, document_find(f->map, fields_have(f, values) ? values : "path"), 0,
+        "'path' has %d values and '%s' has %d; give the same number of values for both", stations,
+        values, count);
     return 0;
 }

@@ -84,7 +84,8 @@ static void read_directions(const fields *axes, scene_node *n)
                  lengths = vec3_norm(a) * vec3_norm(b);
     if (!(lengths > 0 && fabs(vec3_dot(a, b)) <= 1e-9 * lengths))
         document_mistake(axes->b->mistakes, axes->place, 0,
-                         "axes: they are not at right angles; give two that are");
+                         "axes: the directions are not perpendicular; give two "
+                         "perpendicular directions");
 }
 
 /* Reads the axes of a straight member that ends at the node. */
@@ -99,7 +100,7 @@ static void read_member_axes(const fields *axes, int node, scene_node *n)
     double R[9], chord[3];
     if (m->p != node && m->q != node) {
         document_mistake(axes->b->mistakes, name, 0,
-                         "axes: %.40s does not end at the node; name a member that does",
+                         "axes: %.40s does not end at the node; name a member that ends there",
                          name->text);
         return;
     }
@@ -136,10 +137,10 @@ static void turn_about_axes(const fields *f, scene_node *n)
     if (moving == 0 || (moving == 3 && driven == 0))
         return;
     if (moving > 1) {
-        document_mistake(
-            f->b->mistakes, f->place, 0,
-            "axes: with 'axes', none, one or all three rotations may move; for other combinations "
-            "write rotation: {sequence: [{axis: [...], angle: free}, ...]}");
+        document_mistake(f->b->mistakes, f->place, 0,
+                         "axes: none, one or all three rotations may be free; for other "
+                         "combinations, write rotation: {sequence: [{axis: [...], "
+                         "angle: free}, ...]}");
         return;
     }
     n->rotation = SCENE_ROTATION_SEQUENCE;
@@ -178,7 +179,7 @@ static void read_drive(const fields *f, int node, int own)
             continue;
         if ((ours < SCENE_RX ? n->translation[ours] : n->angle[ours - SCENE_RX]) == SCENE_HELD)
             document_mistake(f->b->mistakes, document_find(drive.map, component[c]), 0,
-                             "%s is fixed and prescribed; remove one", component[c]);
+                             "%s is both fixed and prescribed; remove one of them", component[c]);
         scene_drive(f->b->scene, node, ours, motion);
     }
 }
@@ -249,8 +250,9 @@ static void check_masters(const fields *f, const scene_node *n)
     const document_node *rotation = document_find(f->map, "rotation");
     if (document_find(rotation, "vector") != NULL && f->placed != NULL && f->placed->turned)
         document_mistake(f->b->mistakes, rotation, 0,
-                         "rotation: in a rotated part its components are not along the axes of the "
-                         "scene; give them to a node of the scene, and connect that node");
+                         "rotation: in a rotated part, rotation components are not "
+                         "along the axes of the scene; use a node of the scene, and "
+                         "connect it to the part");
     if (rotation != NULL && (held || fields_have(f, "fork")))
         document_mistake(f->b->mistakes, rotation, 0,
                          "'rotation' sets all rotations; remove rx, ry, rz and forks");
@@ -450,7 +452,7 @@ void builder_sections(builder *b)
         if (spec.kind != SECTION_RECTANGLE && fields_have(&f, "shear_factor"))
             document_mistake(
                 b->mistakes, document_find(f.map, "shear_factor"), 0,
-                "a shear factor applies to a rectangle only; remove it, or use 'given'");
+                "a shear factor applies only to a rectangle; remove it, or use 'given'");
         if (b->mistakes->count == 0) {
             known = section_compute(&spec, &computed, &why) == STATUS_OK;
             if (!known)
@@ -458,7 +460,7 @@ void builder_sections(builder *b)
         }
         if (spec.kind != SECTION_WALLS && fields_have(&f, "thickness_terms"))
             document_mistake(b->mistakes, document_find(f.map, "thickness_terms"), 0,
-                             "thickness terms apply to walls only; remove them");
+                             "thickness terms apply only to walls; remove them");
         builder_call(b, SCENE_SECTIONS, scene_add_section(b->scene, &spec), i);
         b->names = section_names_add(b->names, entry->name,
                                      known && !computed.matrices ? &computed : NULL, b->arena);
@@ -515,7 +517,7 @@ static void check_parameters(const fields *f, scene_scheme scheme)
     for (int i = 0; i < 4 && scheme != SCENE_ALPHA && !chosen; i++)
         if (fields_have(f, of_alpha[i]))
             document_mistake(f->b->mistakes, document_find(f->map, of_alpha[i]), 0,
-                             "%s applies to the integrator alpha only; remove it", of_alpha[i]);
+                             "%s applies only to the integrator alpha; remove it", of_alpha[i]);
 }
 
 /* Returns the scheme. Parameter sets of alpha have their own names in comparisons of integrators

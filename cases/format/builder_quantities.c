@@ -52,11 +52,12 @@ static void read_unit(const fields *f, scene_quantity *q)
         const int factor = strcmp(own, "1") == 0,
                   kept = factor && is_kept(&f->b->units, unit->text);
         if (strcmp(unit->text, own) != 0 && !kept && (f->b->units.given || !factor))
-            document_mistake(f->b->mistakes, unit, 0,
-                             "unit '%.40s': %sthe value is in %s; write that, remove it, or %s%s%s",
-                             unit->text, f->b->units.given ? "with the units of this scene " : "",
-                             own, factor ? "'unit: " : "give a factor", factor ? unit->text : "",
-                             factor ? ", factor: 1' if the load has the value 1 in this unit" : "");
+            document_mistake(
+                f->b->mistakes, unit, 0,
+                "unit '%.40s': %sthe value is in %s; write this unit, remove 'unit', or %s%s%s",
+                unit->text, f->b->units.given ? "with the units of this scene " : "", own,
+                factor ? "'unit: " : "give a factor", factor ? unit->text : "",
+                factor ? ", factor: 1' if the load has the value 1 in this unit" : "");
     }
     if (unit != NULL && strlen(unit->text) >= sizeof q->unit)
         document_mistake(f->b->mistakes, unit, 0,
@@ -117,14 +118,15 @@ static void take_envelopes(builder *b)
         const fields f = fields_of(b, &b->list[SCENE_QUANTITIES].entry[i]);
         if (fields_have(&f, "when"))
             document_mistake(b->mistakes, document_find(f.map, "when"), 0,
-                             "when: this key is for quantities of motions; write it in those of "
-                             "the envelope, or remove it");
+                             "when: this key is for quantities of motions; add it to the "
+                             "quantities of the envelope, or remove it");
         if (!fields_have(&f, "unit") && first >= 0)
             memcpy(q->unit, s->quantity[first].unit, sizeof q->unit);
         else if (first >= 0 && !fields_have(&f, "factor") &&
                  strcmp(q->unit, s->quantity[first].unit) != 0)
             document_mistake(b->mistakes, document_find(f.map, "unit"), 0,
-                             "unit '%.40s': its quantities are in %s; write that, or remove it",
+                             "unit '%.40s': the quantities of the envelope are in %s; write "
+                             "this unit, or remove 'unit'",
                              q->unit, s->quantity[first].unit);
     }
 }
@@ -463,40 +465,40 @@ static int is_si(const char *unit)
 
 static const struct {
     const char *unit, *remedy;
-} foreign[] = {{"mm", "write 20 mm as 20e-3 and unit: m"},
-               {"cm", "write 20 cm as 0.2 and unit: m"},
-               {"km", "write 2 km as 2e3 and unit: m"},
-               {"in", "write 2 in as 2*25.4e-3 and unit: m"},
-               {"mm^2", "write 2 mm^2 as 2e-6 and unit: m^2"},
-               {"mm^4", "write 2 mm^4 as 2e-12 and unit: m^4"},
-               {"kN", "write 2 kN as 2e3 and unit: N"},
-               {"MN", "write 2 MN as 2e6 and unit: N"},
-               {"kNm", "write 2 kNm as 2e3 and unit: N m"},
+} foreign[] = {{"mm", "write 20 mm as 20e-3 with unit: m"},
+               {"cm", "write 20 cm as 0.2 with unit: m"},
+               {"km", "write 2 km as 2e3 with unit: m"},
+               {"in", "write 2 in as 2*25.4e-3 with unit: m"},
+               {"mm^2", "write 2 mm^2 as 2e-6 with unit: m^2"},
+               {"mm^4", "write 2 mm^4 as 2e-12 with unit: m^4"},
+               {"kN", "write 2 kN as 2e3 with unit: N"},
+               {"MN", "write 2 MN as 2e6 with unit: N"},
+               {"kNm", "write 2 kNm as 2e3 with unit: N m"},
                {"Nm", "write unit: N m"},
                {"m2", "write unit: m^2"},
                {"m3", "write unit: m^3"},
                {"m4", "write unit: m^4"},
                {"kg/m3", "write unit: kg/m^3"},
                {"N/m2", "write unit: Pa"},
-               {"kN m", "write 2 kN m as 2e3 and unit: N m"},
-               {"kJ", "write 2 kJ as 2e3 and unit: J"},
-               {"kW", "write 2 kW as 2e3 and unit: W"},
-               {"deg/s", "write 45 deg/s as 45*deg and unit: rad/s"},
-               {"N mm", "write 2 N mm as 2e-3 and unit: N m"},
-               {"N/mm", "write 2 N/mm as 2e3 and unit: N/m"},
-               {"kN/m", "write 2 kN/m as 2e3 and unit: N/m"},
-               {"MPa", "write 210 MPa as 210e6 and unit: Pa"},
-               {"N/mm^2", "write 210 N/mm^2 as 210e6 and unit: Pa"},
-               {"GPa", "write 210 GPa as 210e9 and unit: Pa"},
-               {"deg", "write 45 deg as 45*deg and unit: rad"},
-               {"degree", "write 45 degrees as 45*deg and unit: rad"},
-               {"degC", "a change of temperature is in K: write unit: K"},
-               {"°C", "a change of temperature is in K: write unit: K"},
-               {"g", "write 2 g as 2e-3 and unit: kg"},
-               {"t", "write 2 t as 2e3 and unit: kg"},
-               {"ms", "write 2 ms as 2e-3 and unit: s"},
-               {"kHz", "write 2 kHz as 2e3 and unit: Hz"},
-               {"rpm", "write 60 rpm as 60*2*pi/60 and unit: rad/s"},
+               {"kN m", "write 2 kN m as 2e3 with unit: N m"},
+               {"kJ", "write 2 kJ as 2e3 with unit: J"},
+               {"kW", "write 2 kW as 2e3 with unit: W"},
+               {"deg/s", "write 45 deg/s as 45*deg with unit: rad/s"},
+               {"N mm", "write 2 N mm as 2e-3 with unit: N m"},
+               {"N/mm", "write 2 N/mm as 2e3 with unit: N/m"},
+               {"kN/m", "write 2 kN/m as 2e3 with unit: N/m"},
+               {"MPa", "write 210 MPa as 210e6 with unit: Pa"},
+               {"N/mm^2", "write 210 N/mm^2 as 210e6 with unit: Pa"},
+               {"GPa", "write 210 GPa as 210e9 with unit: Pa"},
+               {"deg", "write 45 deg as 45*deg with unit: rad"},
+               {"degree", "write 45 degrees as 45*deg with unit: rad"},
+               {"degC", "a temperature change is in K; write unit: K"},
+               {"°C", "a temperature change is in K; write unit: K"},
+               {"g", "write 2 g as 2e-3 with unit: kg"},
+               {"t", "write 2 t as 2e3 with unit: kg"},
+               {"ms", "write 2 ms as 2e-3 with unit: s"},
+               {"kHz", "write 2 kHz as 2e3 with unit: Hz"},
+               {"rpm", "write 60 rpm as 60*2*pi/60 with unit: rad/s"},
                {"-", "write unit: 1"},
                {"", "write unit: 1"}};
 
@@ -579,7 +581,7 @@ void units_read(const document_node *n, mistakes *m, unit_system *out)
     if (n == NULL)
         return;
     if (n->kind == DOCUMENT_MAP) {
-        document_mistake(m, n, 0, "units: a text is expected, such as mm, N, MPa");
+        document_mistake(m, n, 0, "units: a string is expected, such as mm, N, MPa");
         return;
     }
     for (int i = 0; n->kind == DOCUMENT_LIST && good && i < n->count; i++) {

@@ -43,8 +43,8 @@ static void tell_syntax(document_reader *r)
         mistakes_add(r->mistakes, line, column, "the line is indented with a tab; use spaces");
     else if (in_flow)
         mistakes_add(r->mistakes, line, column,
-                     "the %s opened in line %d, column %d is not closed here (%s); close it, or "
-                     "put a comma",
+                     "the %s opened in line %d, column %d is not closed here (%s); "
+                     "close it, or add a comma",
                      strstr(context, "mapping") != NULL ? "'{'" : "'['",
                      (int)p->context_mark.line + 1, (int)p->context_mark.column + 1, problem);
     else
@@ -201,8 +201,8 @@ static document_node *read_node(document_reader *r, const yaml_event_t *event, i
 {
     static const char anchor[] = "anchors are not supported; write the entry where it is needed, "
                                  "or use 'for', 'let' or 'parts'";
-    static const char tag[] = "tags are not supported; remove the tag: the key determines whether "
-                              "a value is a text, a number or a word";
+    static const char tag[] = "tags are not supported; remove the tag: the key determines "
+                              "whether a value is a string, a number or a word";
     switch (event->type) {
     case YAML_ALIAS_EVENT:
         return refuse(

@@ -23,7 +23,7 @@ static int tell_unknown(const name_context *c, const char *text, int from, int l
                             ? "; a function of time may contain t, pi, deg, functions such as "
                               "sin and exp, and the names of 'parameters' and 'let'"
                         : known == NULL && strcmp(name, "t") == 0
-                            ? "; the time t is available in functions of time only"
+                            ? "; the time t is available only in functions of time"
                             : "; define it under 'parameters' or 'let', above",
                         remedy));
     return 0;
@@ -150,8 +150,8 @@ static int divide(const document_node *n, double from, double to, int at, const 
         return -1;
     if (by_ratio && !(from > 0 && to > 0) && !(from < 0 && to < 0)) {
         document_mistake(m, n, 0,
-                         "equal ratios from %g to %g do not exist; give ends of one sign, or "
-                         "remove ':log'",
+                         "equal ratios from %g to %g do not exist; give ends with the "
+                         "same sign, or remove ':log'",
                          from, to);
         return -1;
     }

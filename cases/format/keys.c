@@ -41,8 +41,8 @@ const entry_field keys_truth[] = {
      .usual = "0"},
     {"formulation", ENTRY_TEXT, .summary = "formulation to which it applies",
      .left_out = "the continuum"},
-    {"theory", ENTRY_WORD, .words = SCENE_SHEAR_THEORIES, .summary = "theory of shear in stability",
-     .left_out = "any"},
+    {"theory", ENTRY_WORD, .words = SCENE_SHEAR_THEORIES,
+     .summary = "shear theory in stability problems", .left_out = "any"},
     {"parameters", ENTRY_NAMES, .below = nothing,
      .summary = "parameter values to which it applies, as NAME: VALUE", .left_out = "any values"},
     {"at", ENTRY_NUMBER, .summary = "point of a curve", .left_out = "none: a single value"},
@@ -98,8 +98,8 @@ const entry_field keys_loop[] = {
     {"let", ENTRY_NAMES, .below = keys_let, .summary = "values derived for this entry",
      .left_out = "none"},
     {"if", ENTRY_FORMS,
-     .summary = "{NAME: VALUE, NAME: [VALUE, ...], ...}: the entry exists only where these names "
-                "have these values",
+     .summary = "{NAME: VALUE, NAME: [VALUE, ...], ...}: the entry exists only "
+                "if these names have these values",
      .left_out = "the entry always exists"},
     {.name = NULL}};
 
@@ -139,23 +139,26 @@ const entry_field keys_root[] = {
      .summary = "{CASE: FACTOR, ...}: load cases that act together", .left_out = "none"},
     {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "analyses to run",
      .left_out =
-         "a static analysis to the end of the paths of motions; without motions a linear one"},
+         "a static analysis to the end of the motion paths; without motions, a linear analysis"},
     {"quantities", ENTRY_ENTRIES, .below = entry_quantity, .summary = "requested results",
-     .left_out = "the usual ones of each analysis: displacements "
-                 "of loaded or driven nodes, the first eigenvalue"},
+     .left_out = "the usual quantities of each analysis: displacements of "
+                 "loaded or driven nodes, the first eigenvalue"},
     {"truths", ENTRY_LIST, .below = keys_truth, .summary = "reference values", .left_out = "none"},
     {"plane", ENTRY_WORD, .words = SCENE_PLANE_CHOICES,
-     .summary = "plane in which all nodes, including those of the mesh, are held",
+     .summary = "plane to which all nodes, including those of the mesh, are confined",
      .left_out = "none"},
     {"omit", ENTRY_FORMS, .words = PHYSICS "|all|none",
-     .summary = "omitted physics: a word, a list of words, or a map {WORD: yes, WORD: {NAME: "
-                "VALUE}}: WORD is then omitted only where parameter NAME has this VALUE",
-     .left_out = "none: all physics that sections, loads and analyses require is on"},
+     .summary = "omitted physics: a word, a list of words, or a map {WORD: "
+                "yes, WORD: {NAME: VALUE}}: WORD is then omitted only if "
+                "parameter NAME has this VALUE",
+     .left_out = "none: all physics that sections, loads and analyses require is included"},
     {"shear_theory", ENTRY_WORD, .words = "haringx|engesser|own",
-     .summary = "theory of shear in stability; own: that of each formulation", .usual = "haringx"},
+     .summary = "shear theory in stability problems; own: that of each formulation",
+     .usual = "haringx"},
     {"mass", ENTRY_WORD, .words = "consistent|lumped",
-     .summary = "mass of members in vibration and steady rotation: distributed, or at their nodes "
-                "(also in motions in time without their own setting)",
+     .summary = "mass of members in vibration and steady rotation, and in "
+                "motions without their own setting: distributed, or at the "
+                "nodes",
      .usual = "consistent"},
     {"needs", ENTRY_WORDS, .words = PHYSICS "|engesser|haringx",
      .summary = "key of earlier versions: all physics not listed here, except warping, is omitted; "

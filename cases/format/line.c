@@ -233,7 +233,7 @@ static void at_station(FILE *to, const scene *s, const scene_quantity *q, const 
     if (a->kind == SCENE_ROTATION && speed(a) * last == 0) {
         fputs(", at rest", to);
     } else if (a->kind == SCENE_ROTATION) {
-        fprintf(to, ", turning at %.10g rad/s", speed(a) * at);
+        fprintf(to, ", rotating at %.10g rad/s", speed(a) * at);
     } else if (a->kind == SCENE_CONTINUATION) {
         const scene_control *control = &scene_continuation_of(a)->control;
         fputs(", where the ", to);
@@ -339,7 +339,7 @@ static void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
     else if (a->kind == SCENE_LINEAR)
         fputs(", small displacements", to);
     else if (a->follows != SCENE_NONE && isnan(instant))
-        fputs(", of the structure under its loads, small displacements", to);
+        fputs(", small displacements about the loaded state", to);
     else if (isnan(instant))
         fputs(", of the undeformed structure", to);
     if (path != NULL && path->kind == SCENE_STATIC && scene_rotates(path))

@@ -18,7 +18,8 @@ static void check_version(const scene_file *file, mistakes *m)
         document_mistake(m, n, 0, "format version '%.20s'; this program reads version %d", n->text,
                          VERSION);
     else if (strcmp(file->root->key[0]->text, "beamwork") != 0)
-        document_mistake(m, file->root, 0, "'beamwork: 1' must be the first key; move it up");
+        document_mistake(m, file->root, 0,
+                         "'beamwork: 1' must be the first key; move it to the top");
 }
 
 /* Returns the file name without its extension, with '_' for characters that a name cannot
@@ -302,11 +303,11 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
     fields_word(f, "model", "plate|solid", 0);
     if (!(t.uncertainty >= 0))
         document_mistake(m, document_find(f->map, "uncertainty"), 0,
-                         "the uncertainty is %g; give a positive one, or remove it", t.uncertainty);
+                         "the uncertainty is %g; give a positive value, or remove it",
+                         t.uncertainty);
     if ((strcmp(t.kind, "predicted") == 0) != (t.formulation[0] != '\0'))
-        document_mistake(
-            m, f->place, 0,
-            "kind 'predicted' requires a formulation, and other kinds must not have one");
+        document_mistake(m, f->place, 0,
+                         "kind 'predicted' requires a formulation; other kinds must not name one");
     const scene_quantity *q = quantity_of(s, t.quantity);
     if (q == NULL)
         fields_entry(f, "quantity", SCENE_QUANTITIES);

@@ -486,8 +486,9 @@ static void known_profiles(const char *name, char *text, size_t size)
         return;
     }
     snprintf(text, size,
-             "write IPE200, HEA200 (HEB, HEM), UPN200, L100x75x8 (legs, thickness), SHS100x5,"
-             " RHS200x100x5 or CHS114.3x5 (outer sizes, thickness) in mm, or give sizes");
+             "write IPE200, HEA200 (HEB, HEM), UPN200, L100x75x8 (legs, "
+             "thickness), SHS100x5, RHS200x100x5 or CHS114.3x5 (outer "
+             "sizes, thickness) in mm, or give dimensions");
 }
 
 /* Reads the name of a profile; blanks are ignored, and so is the case of letters. */
@@ -502,8 +503,8 @@ static void profile(const fields *f, section_spec *spec)
     if (add_profile(spec, name, f->b->units.given ? 1e-3 / f->b->units.length : 1e-3))
         return;
     known_profiles(name, known, sizeof known);
-    document_mistake(f->b->mistakes, document_find(f->map, "profile"), 0, "no profile '%.40s'; %s",
-                     text, known);
+    document_mistake(f->b->mistakes, document_find(f->map, "profile"), 0,
+                     "unknown profile '%.40s'; %s", text, known);
 }
 
 int build_shapes_read(const fields *f, section_spec *spec)

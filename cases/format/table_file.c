@@ -209,8 +209,8 @@ static int read_shift(shift_file *s, char *line)
         return 1;
     }
     if (count != t->columns)
-        return wrong(t, "another number of columns than in the first row", "",
-                     "; decimals have points, and columns commas between them");
+        return wrong(t, "the number of columns differs from that of the first row", "",
+                     "; write decimals with points, and commas between columns");
     if (s->map->count == DOCUMENT_ENTRIES)
         return wrong(t, "more than 10000 rows", "", "; write a smaller table");
     document_node *shift = arena_take(t->arena, sizeof *shift),
@@ -239,7 +239,7 @@ static int read_shifts_from(shift_file *s, FILE *from)
     while (fgets(t->text, sizeof t->text, from) != NULL) {
         t->line++;
         if (strlen(t->text) + 1 == sizeof t->text)
-            return wrong(t, "a line of more than 8000 characters", "",
+            return wrong(t, "a line has more than 8000 characters", "",
                          "; keep the columns that are needed");
         char *line = line_trim(t->text);
         if (!line_is_text(line))
@@ -277,8 +277,8 @@ static FILE *open_file(table_file *t, const char *beside)
     }
     if (beside == NULL) {
         document_mistake(t->mistakes, file, 0,
-                         "a scene that is given as text has no folder for files; give the path of "
-                         "a scene file, or write the values");
+                         "a scene given as a string has no folder for files; give the "
+                         "path of a scene file, or write the values");
         return NULL;
     }
     t->name = file->text;
@@ -322,7 +322,7 @@ static void read_table(document_node *map, const char *beside, arena *a, mistake
         if (t.of[k] == NULL || t.of[k]->kind != DOCUMENT_TEXT) {
             document_mistake(
                 m, t.of[k] != NULL ? t.of[k] : file, 0,
-                "with 'file', 'at' and 'value' are its columns: names in its header, or numbers");
+                "with 'file', 'at' and 'value' name its columns, by header or by number");
             return;
         }
     FILE *from = open_file(&t, beside);

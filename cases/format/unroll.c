@@ -258,7 +258,8 @@ static void read_axes(const document_node *axes, const scope *names, mistakes *m
         return;
     if (!(fabs(vec3_dot(x, z)) <= 1e-9 * vec3_norm(x) * vec3_norm(z)) ||
         rotation_triad(x, y, p->R) != 0)
-        document_mistake(m, axes, 0, "x and z are not at right angles; give two that are");
+        document_mistake(m, axes, 0,
+                         "x and z are not perpendicular; give two perpendicular directions");
     p->turned = 1;
 }
 

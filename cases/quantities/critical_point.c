@@ -33,11 +33,12 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     fputs(" of the path of the load factor", to);
 }
 
-const quantity_type quantity_critical_point = {.key = "critical_point",
-                                               .summary = "point where the tangent is singular",
-                                               .kind = SCENE_CRITICAL_POINT,
-                                               .field = fields,
-                                               .analyses = 1u << SCENE_CONTINUATION,
-                                               .unit = unit,
-                                               .meaning = meaning,
-                                               .names_analysis = 1};
+const quantity_type quantity_critical_point = {
+    .key = "critical_point",
+    .summary = "point at which the tangent stiffness is singular",
+    .kind = SCENE_CRITICAL_POINT,
+    .field = fields,
+    .analyses = 1u << SCENE_CONTINUATION,
+    .unit = unit,
+    .meaning = meaning,
+    .names_analysis = 1};

@@ -21,7 +21,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     (void)s;
     static const char *const word[] = {
         [SCENE_KINETIC] = "kinetic energy",
-        [SCENE_STRAIN] = "strain energy, springs included",
+        [SCENE_STRAIN] = "strain energy, including springs",
         [SCENE_ENERGY] = "kinetic and strain energy",
         [SCENE_WORK] = "work of loads and of prescribed coordinates, since the start",
         [SCENE_DISSIPATED] = "energy that damping dissipated, since the start",

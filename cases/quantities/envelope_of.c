@@ -7,7 +7,7 @@ static const entry_field fields[] = {
     {"quantities", ENTRY_FORMS, .needed = 1,
      .summary = "[NAME, NAME, ...]: quantities in one unit"},
     {"select", ENTRY_WORD, .needed = 1, .words = SCENE_ENVELOPE_CHOICES,
-     .summary = "largest or least value, or largest magnitude",
+     .summary = "largest or smallest value, or largest magnitude",
      ENTRY_IN(scene_quantity, what.of.envelope), .first = SCENE_ENVELOPE_MAX},
     {.name = NULL}};
 
@@ -34,25 +34,27 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
                          "quantity %s: an envelope without quantities; name at least one", q->name);
     for (int i = 0; i < q->overs; i++) {
         if (q->over[i] < 0 || q->over[i] >= s->quantities)
-            return fault_set(f, STATUS_REFUSED, "quantity %s: no quantity %d; add it first",
-                             q->name, q->over[i]);
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: quantity %d does not exist; add it first", q->name,
+                             q->over[i]);
         const scene_quantity *one = &s->quantity[q->over[i]];
         if (one->what.kind == SCENE_ENVELOPE_OF || one->reduction == SCENE_CURVE)
             return fault_set(f, STATUS_REFUSED,
                              "quantity %s: %s is %s; name quantities with one value", q->name,
                              one->name, one->reduction == SCENE_CURVE ? "a curve" : "an envelope");
         if (strcmp(one->unit, s->quantity[q->over[0]].unit) != 0)
-            return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: %s is in %s and %s in %s; name quantities in one unit",
-                             q->name, s->quantity[q->over[0]].name, s->quantity[q->over[0]].unit,
-                             one->name, one->unit);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "quantity %s: %s is in %s and %s in %s; name quantities with the same unit",
+                q->name, s->quantity[q->over[0]].name, s->quantity[q->over[0]].unit, one->name,
+                one->unit);
     }
     return STATUS_OK;
 }
 
 const quantity_type quantity_envelope_of = {
     .key = "envelope_of",
-    .summary = "largest or least of other quantities, of any analyses",
+    .summary = "largest or smallest of other quantities, from any analyses",
     .kind = SCENE_ENVELOPE_OF,
     .field = fields,
     .analyses = ~0u,

@@ -41,8 +41,8 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
         [SCENE_MY] = "bending moment about the section's y",
         [SCENE_MZ] = "bending moment about the section's z",
         [SCENE_BIMOMENT] = "bimoment",
-        [SCENE_MX_SAINT_VENANT] = "torque of Saint-Venant's torsion",
-        [SCENE_MX_WARPING] = "torque of the restrained warping",
+        [SCENE_MX_SAINT_VENANT] = "Saint-Venant torque",
+        [SCENE_MX_WARPING] = "torque due to restrained warping",
         [SCENE_MX_WAGNER] = "torque of the stresses along twisted fibres"};
     static const char *const along[] = {[SCENE_ALONG_PLACE] = "",
                                         [SCENE_ALONG_MAX] = "largest ",

@@ -68,7 +68,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
 }
 
 const quantity_type quantity_reaction = {.key = "reaction",
-                                         .summary = "reaction of a held or driven component",
+                                         .summary = "reaction of a fixed or driven component",
                                          .kind = SCENE_REACTION,
                                          .field = fields,
                                          .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,

@@ -4,7 +4,8 @@
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     QUANTITY_NODE(relative.node),
-    {"from", ENTRY_NAME, .needed = 1, .summary = "node relative to which, in its axes",
+    {"from", ENTRY_NAME, .needed = 1,
+     .summary = "reference node, in whose axes the motion is measured",
      ENTRY_IN(scene_quantity, what.of.relative.from), .of = SCENE_NODES},
     QUANTITY_COMPONENT("component of the relative motion", relative.component),
     QUANTITY_TAKEN,
@@ -28,7 +29,8 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     return q->what.of.relative.node != q->what.of.relative.from
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "quantity %s: no such relative coordinate; name two nodes, and UX to RZ",
+                           "quantity %s: the relative coordinate does not exist; name two "
+                           "nodes, and a component from UX to RZ",
                            q->name);
 }
 

@@ -5,7 +5,7 @@
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     QUANTITY_NODE(response.node),
-    QUANTITY_COMPONENT("component of its small motion, in fixed axes", response.component),
+    QUANTITY_COMPONENT("component of the node's small motion, in fixed axes", response.component),
     {"from", ENTRY_NAME, .summary = "node whose same component is subtracted", .left_out = "none",
      ENTRY_IN(scene_quantity, what.of.response.from), .of = SCENE_NODES},
     {"force", ENTRY_NAME, .group = 2,
@@ -130,8 +130,8 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     if (r->driver == SCENE_NONE || s->driver[r->driver].condition_driver == SCENE_NONE)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "quantity %s: the value of motion %s is unknown, but a response requires a "
-                     "known one; name another motion",
+                     "quantity %s: the value of motion %s is unknown, but a "
+                     "response requires known values; name another motion",
                      q->name, s->driver[r->driver].name);
 }
 

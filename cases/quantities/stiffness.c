@@ -47,7 +47,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
 }
 
 const quantity_type quantity_stiffness = {.key = "stiffness",
-                                          .summary = "1/compliance, the other components free",
+                                          .summary = "1/compliance, with the other components free",
                                           .kind = SCENE_STIFFNESS_ENTRY,
                                           .field = fields,
                                           .analyses = 1u << SCENE_COMPLIANCE,

@@ -58,8 +58,8 @@ static const char *settle(const scene *s, scene_quantity *q, const char **key)
     c->place = c->whole ? 0 : c->place;
     *key = "member";
     return has_points(s, c->member) ? NULL
-                                    : "its section is given by numbers and has no points; describe "
-                                      "it by sizes or walls, or request 'internal'";
+                                    : "its section is given by numbers and has no stress points; "
+                                      "describe it by dimensions or walls, or request 'internal'";
 }
 
 static status check(const scene *s, const scene_quantity *q, fault *f)
@@ -67,8 +67,9 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     if (has_points(s, q->what.of.stress.member))
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "quantity %s: the section of %s is given by numbers and has no points; "
-                     "describe it by sizes or walls, or request a resultant",
+                     "quantity %s: the section of %s is given by numbers and has no "
+                     "stress points; describe it by dimensions or walls, or request "
+                     "a resultant",
                      q->name, scene_called(s, SCENE_MEMBERS, q->what.of.stress.member).text);
 }
 

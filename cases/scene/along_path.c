@@ -388,23 +388,25 @@ static int has_spin(const scene *s, int analysis, char *who, int size)
 }
 
 static const char *const
-    no_potential = "has no potential: the tangent is not symmetric, and flutter is possible; "
-                   "request it about a static path, or use a motion",
-    *const not_symmetric =
-        "has no potential: its stiffness is not symmetric; use damped modes (damped: yes), a "
-        "harmonic analysis, a static path or a motion",
-    *const no_tangent = "has a different stiffness on each side, but this analysis needs a single "
-                        "one at rest; request it about a static path that presses on one side",
+    no_potential = "has no potential, so the tangent stiffness is not symmetric, "
+                   "and flutter is possible; request the analysis about a static "
+                   "path, or use a motion",
+    *const not_symmetric = "has no potential, so the stiffness is not symmetric; use "
+                           "damped modes (damped: yes), a harmonic analysis, a static "
+                           "path or a motion",
+    *const no_tangent = "has a different stiffness on each side, but this analysis "
+                        "requires a single stiffness at rest; request it about a "
+                        "static path that loads one side",
     *const no_feedback =
-        "acts in motions, harmonic analyses and damped modes (damped: yes) only; add path: [0, 1], "
-        "factor: [0, 0] to its load, which removes it from the others; or loops: open about an "
+        "acts only in motions, harmonic analyses and damped modes (damped: yes); add path: [0, 1], "
+        "factor: [0, 0] to its load, which removes it from other analyses; or loops: open about an "
         "instant of a motion",
-    *const no_strains = "has stresses that the undeformed state lacks; request it about a static "
-                        "or a linear analysis",
+    *const no_strains = "has stresses that the undeformed state does not have; request "
+                        "the analysis about a static or a linear analysis",
     *const no_diaphragm = "is a diaphragm, which motions in time do not support; connect the nodes "
                           "by part_of, or brace them by stiff members",
     *const no_drive =
-        "is moved, but a continuation changes loads only; remove it, or use a static path",
+        "is prescribed, but a continuation changes only loads; remove it, or use a static path",
     *const no_spin = "rotates, but this analysis omits the Coriolis forces on moving masses; use a "
                      "'rotation' analysis with that omega for frequencies";
 
@@ -526,8 +528,8 @@ static status check_unknown(const scene *s, int analysis, scene_column column, f
         if (s->driver[d].value == NULL && s->driver[d].function.pieces == 0 &&
             (column == SCENE_OF_LINEAR || column == SCENE_OF_BUCKLING))
             return fault_set(f, STATUS_REFUSED,
-                             "%s (%s) and motion %s: its value is unknown; only a static path "
-                             "solves for it; use one",
+                             "%s (%s) and motion %s: the value of the motion is unknown, "
+                             "and only a static path solves for it; use a static path",
                              scene_called(s, SCENE_ANALYSES, analysis).text,
                              scene_column_name[column], s->driver[d].name);
     return STATUS_OK;

@@ -151,7 +151,7 @@ static status coordinate_of(const scene *s, int constraint, int node, int compon
                          scene_called(s, SCENE_NODES, n->attached).text);
     if (leaves_plane(s, node, component))
         return refuse(s, constraint, node, component,
-                      "leaves the plane of the scene and is therefore held; remove it", f);
+                      "leaves the plane of the scene and is therefore fixed; remove it", f);
     *coordinate = component;
     if (component >= SCENE_RX && turns_together(n, &s->constraint[constraint]) &&
         s->plane == SCENE_SPACE) {
@@ -160,14 +160,15 @@ static status coordinate_of(const scene *s, int constraint, int node, int compon
     }
     if (angle == SCENE_NONE)
         return refuse(s, constraint, node, component,
-                      "is not a rotation about a fixed axis; hold the node's two other rotations, "
-                      "or name rx, ry and rz of nodes that rotate freely",
+                      "is not a rotation about a fixed axis; fix the node's other "
+                      "two rotations, or name rx, ry and rz of nodes that rotate "
+                      "freely",
                       f);
     *coordinate = component < SCENE_RX ? component : SCENE_RX + angle;
     *motion = component < SCENE_RX ? n->translation[component] : n->angle[angle];
     if (*motion == SCENE_HELD)
         return refuse(s, constraint, node, component,
-                      "is both held and constrained; remove one of them", f);
+                      "is both fixed and constrained; remove one of them", f);
     if (is_condition(s, node, component, *motion))
         return refuse(s, constraint, node, component,
                       "belongs to a motion of unknown value; remove the constraint", f);
@@ -217,7 +218,7 @@ static status join(const scene *s, int constraint, int k, int component, scene_t
     for (int i = 0; i < 2; i++)
         if (is_across(s, c->node[i == 0 ? 0 : k], component))
             return refuse(s, constraint, c->node[i == 0 ? 0 : k], component,
-                          "is in a diaphragm, too; remove it from one of them", f);
+                          "also belongs to a diaphragm; remove it from one of them", f);
     const scene_tie first = follow(tie, c->node[0], at[0]), other = follow(tie, c->node[k], at[1]);
     /* other.ratio root_other = ratio first.ratio root_first */
     const double ratio = c->ratio * first.ratio / other.ratio;
@@ -246,22 +247,24 @@ static status check_across(const scene *s, int i, int node, fault *f)
                       whose = scene_called(s, SCENE_NODES, node);
     double R[9];
     if (s->plane != SCENE_SPACE)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: a diaphragm needs a scene in space; connect the nodes by part_of",
-                         who.text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: a diaphragm requires a three-dimensional scene; connect the nodes by part_of",
+            who.text);
     if (n->attached != SCENE_NONE)
         return fault_set(f, STATUS_REFUSED, "%s: %s moves with %s; name that node", who.text,
                          whose.text, scene_called(s, SCENE_NODES, n->attached).text);
     if (scene_node_axes(n, R))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: %s has axes of its own, and a diaphragm is in those of the scene; "
-                         "remove its axes",
+                         "%s: %s has its own axes, but a diaphragm uses those of the "
+                         "scene; remove the axes",
                          who.text, whose.text);
     if (n->rotation != SCENE_ROTATION_SEQUENCE || !(n->axis[0][c->normal] > 0) ||
         n->axis[0][(c->normal + 1) % 3] != 0 || n->axis[0][(c->normal + 2) % 3] != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the rotation of %s is not by components, or a sequence that begins "
-                         "with the normal of the diaphragm; remove its rotation",
+                         "%s: the rotation of %s must be given by components, or by a "
+                         "sequence that begins with the normal of the diaphragm; remove "
+                         "its rotation",
                          who.text, whose.text);
     return STATUS_OK;
 }
@@ -280,7 +283,7 @@ static status join_across(const scene *s, int i, scene_tie tie[], fault *f)
             scene_tie *at = &tie[ALL * node + of[j]];
             if (at->node != SCENE_NONE)
                 return refuse(s, i, node, named,
-                              "is in another constraint, too; remove it from one of them", f);
+                              "also belongs to another constraint; remove it from one of them", f);
             if (k >= 0 && motion_at(s, (scene_tie){node, of[j], 1}) != SCENE_FREE)
                 return refuse(s, i, node, named,
                               "is fixed or driven, but follows the master of the diaphragm; fix or "
@@ -302,14 +305,14 @@ static status check_names(const scene *s, int i, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "%s: no components are given; give ux, uy, uz, rx, ry, rz", who.text);
     if (diaphragm && (c->master < 0 || c->master >= s->nodes || c->normal < 0 || c->normal > 2))
-        return fault_set(f, STATUS_REFUSED, "%s: its master does not exist; add it first",
+        return fault_set(f, STATUS_REFUSED, "%s: the master node does not exist; add it first",
                          who.text);
     if (c->nodes < (diaphragm ? 1 : 2))
-        return fault_set(f, STATUS_REFUSED, "%s: it has fewer than two nodes; give two or more",
-                         who.text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the constraint has fewer than two nodes; give two or more", who.text);
     if (!isfinite(c->ratio) || !(fabs(c->ratio) >= 1e-6 && fabs(c->ratio) <= 1e6))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: ratio = %g; give a magnitude from 1e-6 to 1e6, or hold the component",
+                         "%s: ratio = %g; give a magnitude from 1e-6 to 1e6, or fix the component",
                          who.text, c->ratio);
     if (c->ratio != 1 && !(single && c->nodes == 2))
         return fault_set(f, STATUS_REFUSED,
@@ -317,7 +320,7 @@ static status check_names(const scene *s, int i, fault *f)
                          who.text);
     for (int k = 0; k < c->nodes; k++) {
         if (c->node[k] < 0 || c->node[k] >= s->nodes)
-            return fault_set(f, STATUS_REFUSED, "%s: one of its nodes does not exist; add it first",
+            return fault_set(f, STATUS_REFUSED, "%s: one of the nodes does not exist; add it first",
                              who.text);
         for (int j = diaphragm ? -1 : 0; j < k; j++)
             if ((j < 0 ? c->master : c->node[j]) == c->node[k])

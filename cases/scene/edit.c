@@ -85,8 +85,8 @@ static status reverse(scene *s, fault *f)
         const int p = m->p, warp_p = m->warp_p, section_p = m->section;
         if (m->curvature[0] != 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: is initially twisted, so its y axis at the other end is not "
-                             "known here; keep its order of nodes",
+                             "%s: the member is initially twisted, so its y axis at the "
+                             "other end is not known; keep the order of its nodes",
                              scene_called(s, SCENE_MEMBERS, i).text);
         for (int k = 0; k < 2 && m->half_waves > 0 && m->half_waves % 2 == 0; k++)
             m->bow[k] = -m->bow[k];
@@ -118,8 +118,8 @@ static status reverse(scene *s, fault *f)
             q->what.of.deflection.place = 1 - q->what.of.deflection.place;
         else if (quantity_type_of(q) == &quantity_hinge)
             return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: reads a released end, whose axes change when its member "
-                             "is reversed; remove it",
+                             "quantity %s: it refers to a released end, whose axes change "
+                             "when the member is reversed; remove it",
                              q->name);
     }
     return STATUS_OK;

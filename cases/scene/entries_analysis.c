@@ -152,10 +152,10 @@ static const entry_field buckling[] = {{"wanted", ENTRY_NUMBER, .summary = "numb
                                        {.name = NULL}};
 
 static const entry_field compliance[] = {
-    {"node", ENTRY_NAME, .needed = 1, .summary = "node that is loaded",
+    {"node", ENTRY_NAME, .needed = 1, .summary = "loaded node",
      ENTRY_IN(scene_analysis, of.compliance.node), .of = SCENE_NODES},
     {"moments", ENTRY_WORD, .words = SCENE_MOMENTS_CHOICES,
-     .summary = "convention of a reaction's moment on a rotating node", .usual = "spatial",
+     .summary = "moment convention for reactions on a rotating node", .usual = "spatial",
      ENTRY_IN(scene_analysis, of.compliance.moments), .always = 1},
     {"released", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
      .summary = "prescribed components that are free", .usual = "[]",
@@ -194,7 +194,7 @@ static const entry_field rotation[] = {
     {"stations", ENTRY_NUMBERS, .needed = 1, .summary = "factors of omega, ascending",
      ENTRY_IN(scene_analysis, of.walk.path)},
     STEPS,
-    {"wanted", ENTRY_WHOLE, .summary = "initial number of modes, of all families", .usual = "0",
+    {"wanted", ENTRY_WHOLE, .summary = "initial number of modes over all families", .usual = "0",
      ENTRY_IN(scene_analysis, of.walk.modes), .most = 1000},
     ACTING(all_loads),
     {.name = NULL}};
@@ -214,7 +214,8 @@ static const entry_field start[] = {
     "or damping: ratio/(pi*f) of members"
 static const entry_field of_masses[] = {
     {"mass", ENTRY_NUMBER, .needed = 1, .unit = "1/s",
-     .summary = "damping force over momentum, for all masses in fixed axes; not with conserving",
+     .summary =
+         "ratio of damping force to momentum, for all masses in fixed axes; not with conserving",
      ENTRY_IN(scene_analysis, damping.mass), .most = INFINITY},
     {"stiffness", ENTRY_LATER,
      .summary = "not for motions; give it as damping: b [s] of each member, and b times their "
@@ -231,14 +232,16 @@ static const entry_field in_time[] = {
     {"integrator", ENTRY_WORD, .words = SCENE_SCHEME_CHOICES, .summary = "method",
      .left_out =
          "alpha if one of its parameters, or a step without a tolerance, is given; else radau"},
-    {"step", ENTRY_NUMBER, .unit = "s", .summary = "time step; with a tolerance the initial one",
+    {"step", ENTRY_NUMBER, .unit = "s",
+     .summary = "time step; with a tolerance, the initial time step",
      .left_out = "1/1000 of the last station", ENTRY_IN(scene_analysis, of.motion.step),
      .always = 1},
     {"tolerance", ENTRY_NUMBER,
-     .summary = "of the time error, relative to the largest motion so far (at most the size of the "
-                "structure). alpha and conserving: of all steps together, shared in proportion to "
-                "their lengths; radau: of the estimate for one step, which is far above its error; "
-                "0: equal steps",
+     .summary = "tolerance of the time error, relative to the largest motion "
+                "so far (at most the size of the structure). alpha and "
+                "conserving: for all steps together, distributed in proportion "
+                "to their lengths; radau: for the error estimate of one step, "
+                "which is far above the actual error; 0: equal steps",
      .left_out = "0 if a step is given; else 1e-3, with radau 1e-5: 0.1 % of the motion",
      ENTRY_IN(scene_analysis, of.motion.tolerance)},
     {"rho", ENTRY_NUMBER, .group = 1,
@@ -256,8 +259,9 @@ static const entry_field in_time[] = {
      .left_out =
          "consistent with alpha and radau; lumped with the others, or as given for the scene",
      ENTRY_IN(scene_analysis, of.motion.mass), .first = SCENE_LUMPED},
-    ABOUT("static analysis, continuation or rotation: start at its last state; or motion: continue "
-          "it with its velocities and its time"),
+    ABOUT("static analysis, continuation or rotation, whose last state "
+          "is the start; or a motion, which is continued with its "
+          "velocities and time"),
     {"damping", ENTRY_MAP, .below = of_masses,
      .summary =
          "mass-proportional damping; stiffness-proportional: 'damping' of members and springs",

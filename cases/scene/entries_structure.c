@@ -16,7 +16,8 @@ static const entry_field fork_[] = {
     {"axis", ENTRY_DIRECTION, .needed = 1, .count = 3, .summary = "the section's own axis",
      ENTRY_IN(scene_node, axis[0])},
     {"web", ENTRY_DIRECTION, .needed = 1, .count = 3,
-     .summary = "direction that the guides embrace", ENTRY_IN(scene_node, axis[1])},
+     .summary = "direction of the web, which the guides of the fork hold",
+     ENTRY_IN(scene_node, axis[1])},
     {.name = NULL}};
 
 static const entry_field turn[] = {
@@ -156,11 +157,11 @@ const entry_field entry_spring[] = {
     {"to", ENTRY_NAME, .needed = 1, .summary = "second node", ENTRY_IN(scene_spring, q),
      .of = SCENE_NODES},
     {"tables", ENTRY_MAP, .below = tables,
-     .summary = "of components, in addition to stiffness: gaps, stops, one-sided springs",
+     .summary = "force and moment tables, in addition to stiffness: gaps, stops, one-sided springs",
      .left_out = "none"},
     {"stiffness", ENTRY_NUMBERS,
-     .summary = "for ux, uy, uz [N/m], rx, ry, rz [N m]: six values, or the 36 entries of a "
-                "matrix, of bearings not symmetric",
+     .summary = "for ux, uy, uz [N/m], rx, ry, rz [N m]: six values, or the 36 "
+                "entries of a matrix, which for bearings may be unsymmetric",
      .left_out = "none; required without damping and tables"},
     {"damping", ENTRY_NUMBERS,
      .summary = "dashpot coefficients for ux, uy, uz [N s/m], rx, ry, rz [N m s]: six values, or "
@@ -196,11 +197,12 @@ const entry_field entry_driver[] = {
     {"path", ENTRY_NUMBERS, .summary = "path parameter, ascending",
      .left_out = "none; required with value"},
     {"value", ENTRY_NUMBERS,
-     .summary = "values at these, linear between; a motion in time uses the last one",
+     .summary = "values at these, linear in between; a motion in time uses the last value",
      .left_out = "none; for a motion in time, or unknown"},
     {"such_that", ENTRY_MAP, .group = 1, .below = condition,
      .summary = "condition that determines an unknown motion", .left_out = "the motion is known"},
-    {"unknown", ENTRY_WORD, .words = "true|yes", .summary = "a remark for readers of the file",
+    {"unknown", ENTRY_WORD, .words = "true|yes",
+     .summary = "a remark for readers of the file, without effect",
      .left_out = "as given by such_that"},
     {"time", ENTRY_TEXT, .group = 1,
      .summary = "motion in time: expression of the time t [s], in m or rad (30*deg*t)",
@@ -211,7 +213,7 @@ const entry_field entry_driver[] = {
     {"table", ENTRY_MAP, .group = 1, .below = table,
      .summary = "motion in time as a table: a cubic spline that starts and ends at rest",
      .left_out = "a motion along the path"},
-    {"case", ENTRY_NAME, .summary = "load case that it belongs to",
+    {"case", ENTRY_NAME, .summary = "load case of the motion",
      .left_out = "none: it acts in all load cases", ENTRY_IN(scene_driver, load_case),
      .of = SCENE_CASES},
     {.name = NULL}};
@@ -233,7 +235,7 @@ static const entry_field feedback[] = {
     {"integral", ENTRY_NUMBER,
      .summary = "gain of its integral over time, from the start of the motion [1/(m s), 1/(rad s)]",
      .usual = "0", ENTRY_IN(scene_load, feedback.integral)},
-    {"limit", ENTRY_NUMBER, .summary = "largest size of the factor", .left_out = "none",
+    {"limit", ENTRY_NUMBER, .summary = "largest magnitude of the factor", .left_out = "none",
      ENTRY_IN(scene_load, feedback.limit), .most = INFINITY},
     {.name = NULL}};
 
@@ -245,40 +247,46 @@ const entry_field entry_load[] = {
 
 /* Any load case. */
 const entry_field entry_constraint[] = {
-    {"equal", ENTRY_FORMS, .summary = "[NODE, NODE, ...]: their components are the same",
-     .left_out = "of two nodes, with a ratio"},
+    {"equal", ENTRY_FORMS, .summary = "[NODE, NODE, ...]: nodes with equal components",
+     .left_out = "components of two nodes have a ratio"},
     {"components", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
-     .summary = "of 'equal', along the nodes' axes; all of rx, ry and rz, or one where the others "
-                "are held",
+     .summary = "components of 'equal', along the nodes' axes; all of rx, ry "
+                "and rz, or one of them if the others are fixed",
      .left_out = "required with 'equal'"},
-    {"node", ENTRY_NAME, .summary = "one whose component is 'ratio' times that of another",
+    {"node", ENTRY_NAME, .summary = "node whose component is 'ratio' times that of 'of'",
      .left_out = "none, with 'equal'"},
     {"component", ENTRY_WORD, .words = ENTRY_COMPONENTS,
-     .summary = "of both, along their axes; a turn where the others are held",
+     .summary = "component of both nodes, along their axes; a rotation only if "
+                "the others are fixed",
      .left_out = "none, with 'equal'"},
     {"ratio", ENTRY_NUMBER, .unit = "1", .summary = "nonzero; may be negative",
      .left_out = "1, with 'equal'"},
     {"of", ENTRY_NAME, .summary = "the other node", .left_out = "none, with 'equal'"},
     {"diaphragm", ENTRY_FORMS,
-     .summary = "[NODE, ...]: move with 'master' across 'normal' and about it, as a rigid floor",
+     .summary = "[NODE, ...]: nodes that move with 'master' perpendicular to "
+                "'normal' and about it, as a rigid floor",
      .left_out = "none, with 'equal'"},
     {"master", ENTRY_NAME, .summary = "node that the nodes of the diaphragm follow",
      .left_out = "none, with 'equal'"},
-    {"normal", ENTRY_WORD, .words = "x|y|z", .summary = "axis across which the diaphragm is rigid",
+    {"normal", ENTRY_WORD, .words = "x|y|z",
+     .summary = "axis normal to the rigid plane of the diaphragm",
      .left_out = "none, with 'equal'"},
     {.name = NULL}};
 
 const entry_field entry_imperfection[] = {
-    {"mode_of", ENTRY_NAME, .summary = "buckling or modal analysis; it is of the perfect structure",
+    {"mode_of", ENTRY_NAME,
+     .summary = "buckling or modal analysis, which uses the perfect structure",
      .left_out = "none, with 'shifts'", ENTRY_IN(scene_imperfection, analysis),
      .of = SCENE_ANALYSES},
-    {"which", ENTRY_WHOLE, .summary = "index of the mode from 0; of positive critical loads",
+    {"which", ENTRY_WHOLE,
+     .summary = "index of the mode, from 0; for buckling, among the positive "
+                "critical loads",
      .usual = "0", ENTRY_IN(scene_imperfection, order), .most = ENTRY_MOST_ORDER},
     {"amplitude", ENTRY_NUMBER, .unit = "m",
      .summary = "largest shift of a point of a member, with 'mode_of'",
      .left_out = "none, with 'shifts'", ENTRY_IN(scene_imperfection, amplitude)},
     {"direction", ENTRY_DIRECTION, .count = 3,
-     .summary = "of that shift; chooses between two modes of one load or frequency",
+     .summary = "direction of that shift; required if two modes have the same load or frequency",
      .left_out = "its largest component is positive", ENTRY_IN(scene_imperfection, direction)},
     {"shifts", ENTRY_FORMS, .unit = "m",
      .summary = "{NODE: [dx, dy, dz], ...}, or {file: CSV} with the columns node, dx, dy, dz",
@@ -445,12 +453,12 @@ const entry_field entry_section[] = {
                 "diagonal",
      .usual = "[0, 0, 0, 0, 0, 0]"},
     {"shear_factor", ENTRY_FORMS, .summary = "rectangle: k, or [k_y, k_z]",
-     .left_out = "5/6, with the shear of the warping itself"},
+     .left_out = "5/6, including the shear of warping"},
     {"thickness_terms", ENTRY_WORD, .words = "no|yes", .summary = "walls: include t^3 terms",
      .usual = "no", ENTRY_IN(section_spec, thickness_terms)},
     {"cells", ENTRY_WHOLE, .summary = "number of closed cells that the walls form", .usual = "0",
      ENTRY_IN(section_spec, cells), .most = SECTION_MAX_WALLS},
-    {"given", ENTRY_MAP, .below = given, .summary = "constants that replace computed ones",
+    {"given", ENTRY_MAP, .below = given, .summary = "constants that replace the computed constants",
      .left_out = "none"},
     {"young", ENTRY_NUMBER, .unit = "Pa",
      .summary = "modulus of elasticity; for all sections except those given by stiffness",

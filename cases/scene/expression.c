@@ -377,7 +377,8 @@ static status read_arguments(reader *r, const expression_function *f, int word, 
         TRY(read_sum(r));
         const double *given = number_from(r, first);
         if (given == NULL && f->in_time == JET_NUMBER)
-            return WRONG(r, word, "%s takes numbers only, but its argument contains t; %s", f->name,
+            return WRONG(r, word, "%s accepts only numbers, but its argument contains t; %s",
+                         f->name,
                          f->kinked ? "it has kinks, where steps must end; give pieces instead"
                                    : "write it with atan or sqrt");
         if ((*count)++ == 0 || given == NULL)
@@ -388,7 +389,7 @@ static status read_arguments(reader *r, const expression_function *f, int word, 
         r->depth--;
     } while (takes(r, ','));
     return takes(r, ')') ? STATUS_OK
-                         : WRONG(r, r->at, "the arguments of %s are not closed; put ')'", f->name);
+                         : WRONG(r, r->at, "the arguments of %s are not closed; add ')'", f->name);
 }
 
 /* Reads a call after its "(". */
@@ -424,8 +425,8 @@ static status read_name(reader *r)
     }
     if (f == NULL && r->find == NULL)
         return WRONG(r, from,
-                     "unknown name; the known ones are %spi, deg, and functions such as sin, cosh, "
-                     "exp, sqrt",
+                     "unknown name; known names are %spi, deg, and functions such "
+                     "as sin, cosh, exp, sqrt",
                      r->in_time ? "t, " : "");
     if (f == NULL)
         return r->find(r->names, r->text, &r->at, &value, r->mistake)
@@ -446,7 +447,7 @@ static status read_primary(reader *r)
         return read_literal(r);
     if (takes(r, '(')) {
         TRY(read_sum(r));
-        return takes(r, ')') ? STATUS_OK : WRONG(r, from, "'(' is not closed; put ')'");
+        return takes(r, ')') ? STATUS_OK : WRONG(r, from, "'(' is not closed; add ')'");
     }
     if (c != '\0' && expression_name_length(r->text + from) > 0)
         return read_name(r);

@@ -52,7 +52,7 @@ static status check_mode(const scene *s, int i, fault *f)
     const scene_analysis *a = &s->analysis[p->analysis];
     if ((a->kind != SCENE_BUCKLING && a->kind != SCENE_MODAL) || a->damped)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: %s has no modes without damping; give a buckling or a modal analysis",
+                         "%s: %s has no undamped modes; name a buckling or a modal analysis",
                          scene_called(s, SCENE_IMPERFECTIONS, i).text,
                          scene_called(s, SCENE_ANALYSES, p->analysis).text);
     return STATUS_OK;
@@ -67,7 +67,8 @@ static status check_shifts(const scene *s, int i, fault *f)
         const char *who = called.text;
         const double *v = p->shift[k];
         if (p->node[k] < 0 || p->node[k] >= s->nodes)
-            return fault_set(f, STATUS_REFUSED, "%s: it shifts a node that does not exist", who);
+            return fault_set(f, STATUS_REFUSED, "%s: a shifted node does not exist; add it first",
+                             who);
         if (!isfinite(v[0]) || !isfinite(v[1]) || !isfinite(v[2]))
             return fault_set(f, STATUS_REFUSED, "%s: the shift of %s is not finite", who,
                              scene_called(s, SCENE_NODES, p->node[k]).text);
@@ -92,9 +93,9 @@ status scene_validate_imperfections(const scene *s, fault *f)
         TRY(s->imperfection[i].analysis != SCENE_NONE ? check_mode(s, i, f)
                                                       : check_shifts(s, i, f));
     return used ? STATUS_OK
-                : fault_set(
-                      f, STATUS_REFUSED,
-                      "%s: no analysis uses this imperfection, because those about the state of "
-                      "its mode use the perfect structure; add an analysis about another state",
-                      scene_called(s, SCENE_IMPERFECTIONS, 0).text);
+                : fault_set(f, STATUS_REFUSED,
+                            "%s: no analysis uses this imperfection, because analyses "
+                            "about the state of its mode use the perfect structure; add an "
+                            "analysis about another state",
+                            scene_called(s, SCENE_IMPERFECTIONS, 0).text);
 }

@@ -15,8 +15,9 @@ KEY(double, temperature, , "temperature", ENTRY_NUMBER, .needed = 1, .group = 1,
     .summary = "temperature change of a member, at its centroids")
 /* for SCENE_FORCE with a zero vector: pulls the nodes `where` and `towards` together */
 KEY(double, tension, , "tension", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "N",
-    .summary = "force that pulls the node and the node 'towards' together, along their line")
-KEY(int, towards, , "towards", ENTRY_NAME, .summary = "of a tension: the other node",
+    .summary =
+        "force that pulls the node and the node 'towards' together, along the line between them")
+KEY(int, towards, , "towards", ENTRY_NAME, .summary = "second node of a tension",
     .left_out = "none; required with tension", .of = SCENE_NODES)
 /* between the ends of the range, instead of a temperature */
 KEY(double, elongation, , "elongation", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "m",
@@ -48,7 +49,8 @@ KEY(scene_load_axes, axes, , "axes", ENTRY_WORD, .words = "fixed|member",
     .usual = "fixed")
 /* 0: constant direction (dead) */
 KEY(int, follower, , "follower", ENTRY_FLAG, .words = "false|true|no|yes",
-    .summary = "true: its direction rotates with the node or the sections", .usual = "false")
+    .summary = "true: the direction of the load rotates with the node or the sections",
+    .usual = "false")
 ROW("path", ENTRY_NUMBERS, .summary = "path parameter, ascending",
     .left_out = "none; required with factor")
 ROW("factor", ENTRY_NUMBERS, .summary = "factors at these values of the path parameter",
@@ -66,7 +68,7 @@ ROW("feedback", ENTRY_MAP, .below = feedback,
     .left_out = "none")
 /* SCENE_NONE: the scene has none */
 KEY(int, load_case, , "case", ENTRY_NAME,
-    .summary = "load case that it belongs to: any name; give it for all loads or none",
+    .summary = "load case of the load: any name; give it for all loads or for none",
     .left_out = "none", .of = SCENE_CASES)
 #undef KEY
 #undef ROW

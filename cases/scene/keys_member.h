@@ -4,15 +4,16 @@
 KEY(int, p, , "from", ENTRY_NAME, .needed = 1, .summary = "start node", .of = SCENE_NODES)
 KEY(int, q, , "to", ENTRY_NAME, .needed = 1, .summary = "end node", .of = SCENE_NODES)
 ROW("section", ENTRY_FORMS, .needed = 1,
-    .summary = "NAME, or [at from, at to]: sizes vary linearly, each element is prismatic")
+    .summary = "NAME, or [at from, at to]: dimensions vary linearly, each element is prismatic")
 /* its component normal to the member is used */
 KEY(double, y_axis, [3], "y", ENTRY_DIRECTION, .needed = 1, .count = 3,
     .summary = "direction of the section's y axis", .mirrors = "---")
 ROW("warping", ENTRY_FORMS,
     .summary = "free, fixed or {shared: NAME}; for different ends [at from, at to]",
     .left_out =
-        "fixed if all six components of the node are held or driven, or it is tied by part_of, "
-        "and no rotation is released; shared if two members continue in one line; else free")
+        "fixed if all six components of the node are fixed or driven, or the node is part_of a "
+        "body, and no rotation is released; shared if two members continue in one line; "
+        "otherwise free")
 /* about local y and z; the positions of interior nodes follow the arc */
 KEY(double, curvature, [3], "curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m",
     .summary = "initial twist and curvatures", .usual = "[0, 0, 0]", .mirrors = "++-")
@@ -40,8 +41,8 @@ ROW("foundation", ENTRY_MAP, .below = foundation,
 ROW("release", ENTRY_MAP, .below = release, .summary = "end releases: hinges, slides",
     .left_out = "none")
 KEY(double, damping, , "damping", ENTRY_NUMBER, .unit = "s",
-    .summary = "stiffness-proportional damping: stresses gain this times strain rates times the "
-               "undeformed stiffness",
+    .summary = "stiffness-proportional damping: adds this value times the "
+               "undeformed stiffness times the strain rates to the stresses",
     .usual = "0", .most = INFINITY)
 /* 0: as given by the mesh */
 KEY(int, divisions, , "divisions", ENTRY_WHOLE,

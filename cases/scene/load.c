@@ -98,9 +98,10 @@ status scene_member_elongation(const scene *s, int member, double length, double
     *out = m->unstressed_length != 0 ? (m->unstressed_length - length) / length : 0;
     if (!(fabs(*out) <= most_misfit) && !is_moved(s))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: unstressed_length = %g m differs by more than 1 %% from the length "
-                         "as drawn%s, %g m, to which strains refer; give one within 1 %%, or draw "
-                         "the member unstressed and move its end",
+                         "%s: unstressed_length = %g m differs by more than 1 %% from "
+                         "the length as drawn%s, %g m, to which strains refer; give a "
+                         "length within 1 %%, or draw the member unstressed and move "
+                         "its end",
                          scene_called(s, SCENE_MEMBERS, member).text, m->unstressed_length,
                          s->imperfections > 0 ? " and shifted" : "", length);
     if (m->pretension == 0)

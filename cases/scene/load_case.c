@@ -88,10 +88,10 @@ static status check_loads(const scene *s, fault *f)
 {
     for (int i = 0; i < s->loads; i++)
         if (s->cases > 0 && s->load[i].load_case == SCENE_NONE)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "%s: it has no load case, but others have one; give it case: NAME, such as %s",
-                scene_called(s, SCENE_LOADS, i).text, s->load_case[0].name);
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: this load has no load case, but other loads have one; give it "
+                             "case: NAME, such as %s",
+                             scene_called(s, SCENE_LOADS, i).text, s->load_case[0].name);
     for (int i = 0; i < s->drivers; i++)
         if (s->driver[i].value == NULL && s->driver[i].load_case != SCENE_NONE)
             return fault_set(
@@ -107,8 +107,9 @@ static status check_combination(const scene *s, int i, fault *f)
     const scene_words who = scene_called(s, SCENE_COMBINATIONS, i);
     if (c->terms == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it contains no load case of this scene, so nothing acts; give it "
-                         "{CASE: FACTOR}, or the conditions 'if' of its loads",
+                         "%s: it contains no load case of this scene, so no load acts; "
+                         "give it {CASE: FACTOR}, or the same 'if' conditions as its "
+                         "loads",
                          who.text);
     for (int k = 0; k < s->cases; k++)
         if (strcmp(s->load_case[k].name, c->name) == 0)
@@ -203,7 +204,8 @@ status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
                          scene_acting_called(s, scene_acting_of(s, q->analysis)).text);
     for (int i = 0; i < q->overs; i++)
         if (q->over[i] < 0 || q->over[i] >= s->combinations)
-            return fault_set(f, STATUS_REFUSED, "quantity %s: no combination %d; add it first",
-                             q->name, q->over[i]);
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: combination %d does not exist; add it first", q->name,
+                             q->over[i]);
     return STATUS_OK;
 }

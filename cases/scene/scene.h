@@ -1576,7 +1576,7 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
          ENTRY_WORD,                                                                               \
          .group = 3,                                                                               \
          .words = SCENE_ENVELOPE_CHOICES,                                                          \
-         .summary = "over combinations: largest and least value, or largest magnitude",            \
+         .summary = "over combinations: largest and smallest value, or largest magnitude",         \
          .left_out = "of one",                                                                     \
          ENTRY_IN(scene_quantity, envelope),                                                       \
          .first = SCENE_ENVELOPE_MAX},                                                             \

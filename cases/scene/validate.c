@@ -41,7 +41,8 @@ static status check_member(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_MEMBERS, i).text);
     if (!(across > 0) || !(across * length - along * along > 1e-12 * across * length))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: its y axis is parallel to the member; give one across it",
+                         "%s: its y axis is parallel to the member; give a direction "
+                         "that is not parallel to it",
                          scene_called(s, SCENE_MEMBERS, i).text);
     if (scene_member_tapers(m))
         TRY(check_taper(s, i, f));
@@ -87,29 +88,29 @@ static const char *table_mistake(const scene_table *t)
     if (n == 0 && t->value.stations == 0)
         return NULL;
     if (n < 2 || t->value.stations != n)
-        return "give two points or more, 'at' and 'value' of each";
+        return "give two or more points, each with 'at' and 'value'";
     for (int i = 0; i < n; i++)
         if (!isfinite(t->at.value[i]) || !isfinite(t->value.value[i]) ||
             (i > 0 && !(t->at.value[i] > t->at.value[i - 1])))
-            return "'at' does not ascend; give finite numbers that do";
+            return "'at' does not ascend; give finite, ascending numbers";
     for (int i = 1; i < n; i++)
         if (!(t->value.value[i] >= t->value.value[i - 1]))
             return "'value' decreases, which is unstable; give values that do not decrease";
     double most = fmax(fabs(t->value.value[0]), fabs(t->value.value[n - 1]));
     return fabs(scene_table_at(t, 0, &slope)) <= 1e-12 * most
                ? NULL
-               : "its value at 0 is not 0, but springs have no stress at rest; shift the values so "
-                 "that it is";
+               : "its value at 0 is not 0, but springs have no stress at rest; "
+                 "give values that are 0 at 0";
 }
 
 static status check_spring(const scene *s, int i, fault *f)
 {
     const scene_spring *p = &s->spring[i];
     if (p->p == p->q)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: both its ends are %s; connect two nodes, or one node and the ground",
-                         scene_called(s, SCENE_SPRINGS, i).text,
-                         scene_called(s, SCENE_NODES, p->q).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: both its ends are at %s; connect two nodes, or one node and the ground",
+            scene_called(s, SCENE_SPRINGS, i).text, scene_called(s, SCENE_NODES, p->q).text);
     for (int k = 0; k < 6; k++) {
         static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
         const char *mistake = table_mistake(&p->table[k]);
@@ -164,7 +165,7 @@ static status check_driver(const scene *s, int i, fault *f)
     if (!is_used(s, i))
         return fault_set(
             f, STATUS_REFUSED,
-            "driver %s: it moves nothing; prescribe a coordinate with it, or remove it", d->name);
+            "driver %s: it prescribes no coordinate; prescribe one with it, or remove it", d->name);
     if (d->value == NULL) {
         const int known = d->condition_driver >= 0 && d->condition_driver < s->drivers &&
                           s->driver[d->condition_driver].value != NULL;
@@ -207,8 +208,8 @@ static status check_range(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->lumped && (!scene_load_along(load) || within))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it acts at one position, but only loads along a member can be "
-                         "lumped; remove 'lumped'",
+                         "%s: the load acts at one position, but only loads along a "
+                         "member can be lumped; remove 'lumped'",
                          scene_called(s, SCENE_LOADS, i).text);
     if (within)
         return r[0] >= 0 && r[0] <= 1 && r[1] == r[0]
@@ -221,15 +222,15 @@ static status check_range(const scene *s, int i, fault *f)
         return r[0] >= 0 && r[0] < r[1] && r[1] <= 1
                    ? STATUS_OK
                    : fault_set(f, STATUS_REFUSED,
-                               "%s: it acts from %g to %g of the member's length; give two "
-                               "increasing fractions from 0 to 1",
+                               "%s: the load acts from %g to %g of the member's length; give "
+                               "two increasing fractions from 0 to 1",
                                scene_called(s, SCENE_LOADS, i).text, r[0], r[1]);
     if (r[0] != 0 || r[1] != (load->kind == SCENE_GRAVITY))
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: it has 'from' and 'to' of a part of a member, but is %s; remove these",
+            "%s: 'from' and 'to' select part of a member, but the load is %s; remove these",
             scene_called(s, SCENE_LOADS, i).text,
-            load->kind == SCENE_GRAVITY ? "the weight of all of one" : "at a node");
+            load->kind == SCENE_GRAVITY ? "the weight of a whole member" : "at a node");
     return STATUS_OK;
 }
 
@@ -254,14 +255,15 @@ static status check_temperature(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_LOADS, i).text);
     if (!isfinite(load->temperature) || !isfinite(load->gradient[0]) ||
         !isfinite(load->gradient[1]))
-        return fault_set(f, STATUS_REFUSED, "%s: it is not a number; give finite temperatures",
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: a temperature is NaN or Inf; give finite temperatures",
                          scene_called(s, SCENE_LOADS, i).text);
     for (int k = 0; k < 2; k++)
         expands |= scene_constants(s, profile[k], &c, NULL) != STATUS_OK || c.expansion != 0;
     if (!expands)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: a temperature of %s, whose section has no expansion; give 'expansion' [1/K]",
+            "%s: a temperature acts on %s, whose section has no expansion; give 'expansion' [1/K]",
             scene_called(s, SCENE_LOADS, i).text, scene_called(s, SCENE_MEMBERS, load->where).text);
     return STATUS_OK;
 }
@@ -285,8 +287,8 @@ static status check_load_kind(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->axes == SCENE_AXES_MEMBER && !scene_load_along(load))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it is given in a member's axes but acts on a node; give fixed axes, "
-                         "or put it on a member",
+                         "%s: the load is given in a member's axes but acts on a node; "
+                         "give fixed axes, or apply it to a member",
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->kind != SCENE_GRAVITY && load->kind != SCENE_WEIGHT)
         return STATUS_OK;
@@ -298,16 +300,17 @@ static status check_load_kind(const scene *s, int i, fault *f)
         return s->node[load->where].body.mass > 0
                    ? STATUS_OK
                    : fault_set(f, STATUS_REFUSED,
-                               "%s: gravity on %s, which has no mass; give it one",
+                               "%s: gravity acts on %s, which has no mass; give it a mass",
                                scene_called(s, SCENE_LOADS, i).text,
                                scene_called(s, SCENE_NODES, load->where).text);
     const int profile[2] = {s->member[load->where].section, s->member[load->where].section_q};
     for (int k = 0; k < 2; k++)
         if (scene_constants(s, profile[k], &c, NULL) == STATUS_OK && !(c.density > 0))
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: gravity on %s, whose section has no density; give one",
-                             scene_called(s, SCENE_LOADS, i).text,
-                             scene_called(s, SCENE_MEMBERS, load->where).text);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: gravity acts on %s, whose section has no density; give it a density",
+                scene_called(s, SCENE_LOADS, i).text,
+                scene_called(s, SCENE_MEMBERS, load->where).text);
     return STATUS_OK;
 }
 
@@ -320,12 +323,12 @@ static status check_feedback(const scene *s, int i, fault *f)
         return STATUS_OK;
     if (load->kind != SCENE_FORCE && load->kind != SCENE_MOMENT)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: feedback is of a force or a moment at a node; put a node where it "
-                         "acts",
+                         "%s: feedback applies only to a force or a moment at a node; "
+                         "add a node where the load acts",
                          who.text);
     if (b->proportional == 0 && b->derivative == 0 && b->integral == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: feedback without a gain; give proportional, derivative or integral",
+                         "%s: the feedback has no gain; give proportional, derivative or integral",
                          who.text);
     return b->from != b->node ? STATUS_OK
                               : fault_set(f, STATUS_REFUSED,
@@ -342,22 +345,23 @@ static status check_tension(const scene *s, int i, fault *f)
     if (load->towards == SCENE_NONE)
         return load->tension == 0
                    ? STATUS_OK
-                   : fault_set(f, STATUS_REFUSED,
-                               "%s: a tension pulls two nodes; name the other one with 'towards'",
-                               who.text);
+                   : fault_set(
+                         f, STATUS_REFUSED,
+                         "%s: a tension acts between two nodes; name the second one with 'towards'",
+                         who.text);
     if (load->kind != SCENE_FORCE || vec3_norm(load->vector) > 0 || load->follower ||
         vec3_norm(load->at) > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: 'towards' is of a tension, which has no vector, no 'where', no 'at' "
-                         "and is no follower; remove these",
+                         "%s: 'towards' applies only to a tension, which has no vector, "
+                         "'where', 'at' or 'follower'; remove these",
                          who.text);
     for (int k = 0; k < 3; k++)
         apart[k] = s->node[load->towards].position[k] - s->node[load->where].position[k];
     return vec3_norm(apart) > 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "%s: both nodes are at one place, so the tension has no direction; move "
-                           "one of them",
+                           "%s: both nodes have the same position, so the tension has no "
+                           "direction; move one of them",
                            who.text);
 }
 
@@ -366,14 +370,13 @@ static status check_load(const scene *s, int i, fault *f)
     const scene_load *load = &s->load[i];
     const int limit = scene_load_along(load) ? s->members : s->nodes;
     if (load->where < 0 || load->where >= limit)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: it acts on something that does not exist; add its node or member first",
-            scene_called(s, SCENE_LOADS, i).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the node or member on which it acts does not exist; add it first",
+                         scene_called(s, SCENE_LOADS, i).text);
     for (int k = 0; k < 3; k++)
         if (!isfinite(load->vector[k]) || !isfinite(load->last[k]))
             return fault_set(f, STATUS_REFUSED,
-                             "%s: it is not a number; give three finite components",
+                             "%s: a component is NaN or Inf; give three finite components",
                              scene_called(s, SCENE_LOADS, i).text);
     TRY(check_range(s, i, f));
     TRY(check_feedback(s, i, f));

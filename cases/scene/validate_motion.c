@@ -6,7 +6,7 @@
 static status check_steps(const scene *s, const scene_motion *m, int i, fault *f)
 {
     if (!(m->step > 0 && isfinite(m->step)))
-        return fault_set(f, STATUS_REFUSED, "%s: its step is %g s; give a positive one",
+        return fault_set(f, STATUS_REFUSED, "%s: its step is %g s; give a positive step",
                          scene_called(s, SCENE_ANALYSES, i).text, m->step);
     if (!(m->tolerance >= 0 && m->tolerance < 1))
         return fault_set(f, STATUS_REFUSED,
@@ -17,7 +17,7 @@ static status check_steps(const scene *s, const scene_motion *m, int i, fault *f
         if (!(m->path.value[k] >= 0 && isfinite(m->path.value[k])))
             return fault_set(
                 f, STATUS_REFUSED,
-                "%s: it has a station at %g s, but a motion starts at 0 s; give later times",
+                "%s: a station is at %g s, but a motion starts at 0 s; give later times",
                 scene_called(s, SCENE_ANALYSES, i).text, m->path.value[k]);
     return STATUS_OK;
 }
@@ -27,7 +27,7 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
 {
     if (m->scheme < SCENE_ALPHA || m->scheme >= SCENE_SCHEMES)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: no such integrator; name ALPHA, CONSERVING, RADAU or EXPLICIT",
+                         "%s: unknown integrator; name ALPHA, CONSERVING, RADAU or EXPLICIT",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (m->scheme == SCENE_ALPHA &&
         !(m->alpha.mass >= -1 && m->alpha.mass <= m->alpha.force && m->alpha.force <= 0.5))
@@ -36,7 +36,7 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
                          "alpha_m <= alpha_f <= 1/2, or give rho from 0 to 1",
                          scene_called(s, SCENE_ANALYSES, i).text, m->alpha.mass, m->alpha.force);
     if (m->mass < SCENE_MASS_USUAL || m->mass > SCENE_CONSISTENT)
-        return fault_set(f, STATUS_REFUSED, "%s: no such mass; name LUMPED or CONSISTENT",
+        return fault_set(f, STATUS_REFUSED, "%s: unknown kind of mass; name LUMPED or CONSISTENT",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (m->mass == SCENE_CONSISTENT && m->scheme != SCENE_ALPHA && m->scheme != SCENE_RADAU)
         return fault_set(f, STATUS_REFUSED,
@@ -54,14 +54,14 @@ static status check_resumed(const scene *s, const scene_analysis *a, int i, faul
     const scene_start *start = &scene_motion_of(a)->start;
     for (int k = 0; k < 3; k++)
         if (start->velocity[k] != 0 || start->spin[k] != 0)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "%s: it continues a motion with the velocities of that motion; remove its 'start'",
-                scene_called(s, SCENE_ANALYSES, i).text);
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: it continues another motion with the velocities of that motion; "
+                             "remove 'start'",
+                             scene_called(s, SCENE_ANALYSES, i).text);
     if (scene_path_of(a)->value[0] < before->value[before->stations - 1])
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: it continues a motion that ends at %g s; start its times there or later",
+            "%s: it continues a motion that ends at %g s; give stations at this time or later",
             scene_called(s, SCENE_ANALYSES, i).text, before->value[before->stations - 1]);
     return STATUS_OK;
 }
@@ -83,12 +83,12 @@ static status check_follows(const scene *s, int i, fault *f)
     if (follows != SCENE_NONE && s->analysis[follows].kind != SCENE_STATIC &&
         s->analysis[follows].kind != SCENE_CONTINUATION &&
         s->analysis[follows].kind != SCENE_ROTATION && s->analysis[follows].kind != SCENE_MOTION)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: a motion starts from the last state of a static path, a continuation, a rotation "
-            "or a motion, but it follows %s; follow one of these, or none",
-            scene_called(s, SCENE_ANALYSES, i).text,
-            scene_analysis_name(s->analysis[follows].kind));
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: a motion starts from the last state of a static path, a "
+                         "continuation, a rotation or a motion, but this one follows "
+                         "%s; follow one of these, or none",
+                         scene_called(s, SCENE_ANALYSES, i).text,
+                         scene_analysis_name(s->analysis[follows].kind));
     if (follows != SCENE_NONE && s->analysis[follows].kind == SCENE_MOTION)
         TRY(check_resumed(s, &s->analysis[i], i, f));
     return scene_validate_mass(s, i, f);
@@ -117,8 +117,8 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     int derivative;
     if (driver->value == NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "driver %s: its value is unknown, but motions in time require known ones; "
-                         "give its values",
+                         "driver %s: its value is unknown, but motions in time require "
+                         "known values; give its values",
                          driver->name);
     const scene_path *before = origin != SCENE_NONE ? scene_path_of(&s->analysis[origin]) : NULL;
     const double starts = before == NULL
@@ -128,15 +128,16 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     if (driver->function.pieces == 0) {
         if (before == NULL && (driver->stations > 1 || driver->value[0] != 0))
             return fault_set(f, STATUS_REFUSED,
-                             "driver %s: its values are given over a path, but a motion follows "
-                             "none; give a function of time, or a static path to follow",
+                             "driver %s: its values are given over a path, but a motion "
+                             "does not follow a path; give a function of time, or a static "
+                             "path to follow",
                              driver->name);
         return STATUS_OK;
     }
     if (!function_finite(&driver->function, end, 2, &time))
         return fault_set(f, STATUS_REFUSED,
-                         "driver %s: at %g s its value, velocity or acceleration is not finite; "
-                         "give another function, or pieces",
+                         "driver %s: at %g s its value, velocity or acceleration is not "
+                         "finite; give another function, or define it in pieces",
                          driver->name, time);
     if (!function_smooth(&driver->function, end, &time, &derivative))
         return fault_set(f, STATUS_REFUSED,
@@ -192,29 +193,31 @@ static status check_load(const scene *s, int l, int i, fault *f)
     if (load->feedback.node != SCENE_NONE &&
         scene_motion_of(&s->analysis[i])->scheme == SCENE_CONSERVING)
         return fault_set(f, STATUS_REFUSED,
-                         "%s (conserving): %s has feedback and puts energy in; take integrator: "
-                         "radau, alpha or explicit",
+                         "%s (conserving): %s has feedback, which supplies energy; use "
+                         "integrator: radau, alpha or explicit",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          scene_called(s, SCENE_LOADS, l).text);
     if (load->towards != SCENE_NONE && scene_motion_of(&s->analysis[i])->scheme == SCENE_CONSERVING)
         return fault_set(f, STATUS_REFUSED,
-                         "%s (conserving): it does not support %s, a tension between nodes; take "
-                         "integrator: radau, alpha or explicit",
+                         "%s (conserving): it does not support %s, a tension between "
+                         "nodes; use integrator: radau, alpha or explicit",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          scene_called(s, SCENE_LOADS, l).text);
     if (load->function.pieces == 0) {
         if (load->stations > 0 && s->analysis[i].follows == SCENE_NONE &&
             load->feedback.node == SCENE_NONE)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: its factors are given over a path, but a motion follows none; "
-                             "give a function of time, or a static path to follow",
+                             "%s: its factors are given over a path, but a motion does not "
+                             "follow a path; give a function of time, or a static path to "
+                             "follow",
                              scene_called(s, SCENE_LOADS, l).text);
         return STATUS_OK;
     }
     if (!function_finite(&load->function, path->value[path->stations - 1], 0, &time))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: at %g s its factor is not finite; give another function, or pieces",
-                         scene_called(s, SCENE_LOADS, l).text, time);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: at %g s its factor is not finite; give another function, or define it in pieces",
+            scene_called(s, SCENE_LOADS, l).text, time);
     return load->kind == SCENE_TEMPERATURE ? check_temperature(s, l, i, f) : STATUS_OK;
 }
 
@@ -232,8 +235,8 @@ static status scene_validate_motion(const scene *s, int i, fault *f)
     for (int k = 0; k < s->springs && m->scheme == SCENE_CONSERVING; k++)
         if (scene_spring_circulates(&s->spring[k]))
             return fault_set(f, STATUS_REFUSED,
-                             "%s (conserving): %s has a stiffness that is not symmetric and puts "
-                             "energy in; use integrator: radau, alpha or explicit",
+                             "%s (conserving): %s has an unsymmetric stiffness, which "
+                             "supplies energy; use integrator: radau, alpha or explicit",
                              scene_called(s, SCENE_ANALYSES, i).text,
                              scene_called(s, SCENE_SPRINGS, k).text);
     TRY(check_follows(s, i, f));
@@ -260,8 +263,8 @@ static status check_function(const scene_function *of, int idle, fault *f)
         return STATUS_OK;
     TRY(function_check(of, f));
     return idle ? fault_set(f, STATUS_REFUSED,
-                            "it is a function of time, but no analysis is in time; add a motion, "
-                            "or give values over a path")
+                            "it is a function of time, but no analysis is a motion; add a "
+                            "motion, or give values over a path")
                 : STATUS_OK;
 }
 
@@ -322,8 +325,8 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
 {
     if (a->follows != SCENE_NONE && scene_path_of(&s->analysis[a->follows]) == NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a compliance is that of a static path, or of the undeformed "
-                         "structure; name a static analysis",
+                         "%s: a compliance belongs to a static path or to the "
+                         "undeformed structure; name a static analysis",
                          scene_called(s, SCENE_ANALYSES, i).text);
     const scene_compliance *what = scene_compliance_of(a);
     const scene_node *n = what->node >= 0 && what->node < s->nodes ? &s->node[what->node] : NULL;
@@ -333,8 +336,8 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
         if ((what->released >> c & 1u) &&
             (at < SCENE_RX ? n->translation[at] : n->angle[at - SCENE_RX]) == SCENE_HELD)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: %s of %s is held, and only what a motion drives can be released; "
-                             "remove it from 'released', or free the node",
+                             "%s: %s of %s is fixed, and only driven components can be "
+                             "released; remove it from 'released', or free the node",
                              scene_called(s, SCENE_ANALYSES, i).text, component_name[c],
                              scene_called(s, SCENE_NODES, what->node).text);
     }
@@ -355,8 +358,9 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
             scene_called(s, SCENE_ANALYSES, i).text, scene_name(s, SCENE_ANALYSES, a->follows).text,
             scene_analysis_name(about));
     return fault_set(f, STATUS_REFUSED,
-                     "%s: %s about a state require the last one of a static path%s, but %s is a %s "
-                     "analysis; name a static one, or remove 'about'%s",
+                     "%s: %s about a state require the last state of a static "
+                     "path%s, but %s is a %s analysis; name a static analysis, or "
+                     "remove 'about'%s",
                      scene_called(s, SCENE_ANALYSES, i).text,
                      a->kind == SCENE_MODAL ? "frequencies" : "critical loads",
                      a->kind == SCENE_MODAL ? ", or a linear analysis" : "",
@@ -453,7 +457,7 @@ static status check_harmonic(const scene *s, const scene_analysis *a, int i, fau
                              ratios->value[k]);
     if (a->modes > 0 && ratios->stations > a->modes)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: %d ratios for %d modes; raise modes, or remove ratios", who.text,
+                         "%s: %d ratios for %d modes; increase 'modes', or remove ratios", who.text,
                          ratios->stations, a->modes);
     if (a->modes > 0 && !a->by_modes && !scene_has_ratios(a))
         return fault_set(f, STATUS_REFUSED,
@@ -516,8 +520,9 @@ status scene_spectrum_stations(const scene *s, const scene_quantity *q, int *fir
     *count = end - begin;
     if (*count < 3)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its window contains %d stations, and a spectrum needs at "
-                         "least 3; give %s evenly spaced ones, such as stations: 0..1/1000",
+                         "quantity %s: its window contains %d stations, and a spectrum "
+                         "needs at least 3; give %s evenly spaced stations, such as "
+                         "stations: 0..1/1000",
                          q->name, *count, scene_called(s, SCENE_ANALYSES, q->analysis).text);
     const double step = (at[end - 1] - at[begin]) / (*count - 1);
     for (int i = begin; i < end; i++)
@@ -613,11 +618,11 @@ static status check_abscissa(const scene *s, const scene_quantity *q, fault *f)
     const scene_quantity *x = over != SCENE_NONE ? &s->quantity[over] : NULL;
     if (x == NULL || x == q || x->reduction != SCENE_CURVE || q->transform != SCENE_HISTORY ||
         x->transform != SCENE_HISTORY)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "quantity %s: its curve is over %s, which is not another quantity with take: curve, or "
-            "one of the two is a spectrum; add take: curve there, or name a quantity that has it",
-            q->name, q->x.name);
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: its curve is over %s, but that is not another "
+                         "quantity with take: curve, or one of the two is a spectrum; "
+                         "add take: curve to it, or name a quantity that has it",
+                         q->name, q->x.name);
     if (x->analysis < 0 || x->analysis >= s->analyses ||
         path_of_curve(s, q, &points) != path_of_curve(s, x, &others) || points != others)
         return fault_set(f, STATUS_REFUSED,

@@ -38,14 +38,15 @@ static status check_fork(const scene *s, int i, fault *f)
                              scene_called(s, SCENE_NODES, i).text, "XYZ"[k],
                              n -> angle[k] == SCENE_HELD ? "held" : "driven");
     if (!(lengths > 0) || !(fabs(vec3_dot(axis, web)) <= 1e-9 * lengths))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: axis and web of its fork are not at right angles; give two that are",
-                         scene_called(s, SCENE_NODES, i).text);
-    if (!has_member_along(s, i, axis))
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: no member there runs along the axis of its fork; give the member's direction",
+            "%s: axis and web of its fork are not perpendicular; give two perpendicular directions",
             scene_called(s, SCENE_NODES, i).text);
+    if (!has_member_along(s, i, axis))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: no member at this node runs along the axis of its fork; give the "
+                         "member's direction",
+                         scene_called(s, SCENE_NODES, i).text);
     return STATUS_OK;
 }
 
@@ -111,7 +112,7 @@ status scene_validate_node(const scene *s, int i, fault *f)
         if (n->translation[k] < SCENE_HELD || n->translation[k] >= s->drivers ||
             n->angle[k] < SCENE_HELD || n->angle[k] >= s->drivers)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: moved by a driver that does not exist; add the driver first",
+                             "%s: its driver does not exist; add the driver first",
                              scene_called(s, SCENE_NODES, i).text);
         if (n->rotation == SCENE_ROTATION_VECTOR && n->angle[k] < 0)
             return fault_set(f, STATUS_REFUSED,
@@ -122,9 +123,10 @@ status scene_validate_node(const scene *s, int i, fault *f)
     const double lengths = vec3_norm(n->axes[0]) * vec3_norm(n->axes[1]);
     if (vec3_norm(n->axes[0]) > 0 &&
         !(lengths > 0 && fabs(vec3_dot(n->axes[0], n->axes[1])) <= 1e-9 * lengths))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: the axes of its supports are not at right angles; give two that are",
-                         scene_called(s, SCENE_NODES, i).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: the axes of its supports are not perpendicular; give two perpendicular axes",
+            scene_called(s, SCENE_NODES, i).text);
     if (n->rotation == SCENE_ROTATION_FORK) {
         TRY(check_fork(s, i, f));
     }
@@ -141,11 +143,10 @@ status scene_validate_node(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_NODES, n->attached).text);
     for (int k = 0; k < 3; k++)
         if (n->translation[k] != SCENE_FREE || n->angle[k] != SCENE_FREE)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "%s: its supports contradict its motion with %s; hold that node instead",
-                scene_called(s, SCENE_NODES, i).text,
-                scene_called(s, SCENE_NODES, n->attached).text);
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: its supports prevent its motion with %s; fix that node instead",
+                             scene_called(s, SCENE_NODES, i).text,
+                             scene_called(s, SCENE_NODES, n->attached).text);
     return STATUS_OK;
 }
 
@@ -167,9 +168,10 @@ static int is_beside(const scene *s, const double v[3])
 
 static status refuse(const scene *s, scene_words who, const char *what, fault *f)
 {
-    return fault_set(f, STATUS_REFUSED,
-                     "%s: %s, but the scene is held in its plane: remove that, or plane: %s",
-                     who.text, what, scene_plane_name(s));
+    return fault_set(
+        f, STATUS_REFUSED,
+        "%s: %s, but the scene is confined to its plane; remove this, or remove plane: %s",
+        who.text, what, scene_plane_name(s));
 }
 
 static double size_of(const scene *s)
@@ -365,7 +367,7 @@ static status check_driver(const scene *s, int i, fault *f)
     const scene_driver *d = &s->driver[i];
     if (d->value == NULL && d->condition_driver != SCENE_NONE && leaves(s, d->condition_component))
         return refuse(s, scene_called(s, SCENE_DRIVERS, i),
-                      "its value is found from a motion out of the plane", f);
+                      "its value is determined by a motion out of the plane", f);
     return STATUS_OK;
 }
 
@@ -377,8 +379,8 @@ static status check_quantity(const scene *s, int i, fault *f)
         q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY;
     if (entry && (leaves(s, scene_entry_of(q)->row) || leaves(s, scene_entry_of(q)->column)))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: it reads a motion out of the plane, but the scene is held "
-                         "in its plane: remove that, or plane: %s",
+                         "quantity %s: it refers to a motion out of the plane, but the "
+                         "scene is confined to its plane; remove it, or remove plane: %s",
                          q->name, scene_plane_name(s));
     return STATUS_OK;
 }

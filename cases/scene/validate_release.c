@@ -251,12 +251,13 @@ status scene_validate_turns(const scene *s, int node, fault *f)
         return STATUS_OK;
     return vec3_norm(axis) > 0
                ? fault_set(f, STATUS_REFUSED,
-                           "%s: all members there release its rotation about (%.3g, %.3g, %.3g), "
-                           "so it can rotate freely; remove one release, or hold this rotation",
+                           "%s: all members at this node release its rotation about "
+                           "(%.3g, %.3g, %.3g), so it can rotate freely; remove one "
+                           "release, or fix this rotation",
                            scene_called(s, SCENE_NODES, node).text, axis[0], axis[1], axis[2])
                : fault_set(f, STATUS_REFUSED,
-                           "%s: all members there release its rotations, so it can rotate freely; "
-                           "remove one release, or hold its rotations",
+                           "%s: all members at this node release its rotations, so it can "
+                           "rotate freely; remove one release, or fix its rotations",
                            scene_called(s, SCENE_NODES, node).text);
 }
 

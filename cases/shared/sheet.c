@@ -25,7 +25,7 @@ const parameter_type sheet_parameters[] = {
     [SHEET_SHEAR_FACTOR] = {"shear_factor", "1", 0, 0, 10, NULL,
                             "k of the shear stiffness; 0: 10 (1 + nu)/(12 + 11 nu)"},
     [SHEET_MOMENTS] = {"moment_convention", "", SCENE_MOMENTS_SPATIAL, 0, 0, SCENE_MOMENTS_CHOICES,
-                       "convention of the tip moments while the tip rotates, in C_*"},
+                       "convention for the tip moments as the tip rotates, in C_*"},
     {0},
 };
 

@@ -212,7 +212,7 @@ static void refused(void)
         scene_edit edit;
         const char *words;
     } row[] = {
-        {twisted, {SCENE_EDIT_REVERSE, 0}, "member 0: is initially twisted"},
+        {twisted, {SCENE_EDIT_REVERSE, 0}, "member 0: the member is initially twisted"},
         {curved, {SCENE_EDIT_SPLIT, 0.5}, "member 0 is curved"},
         {unchanged, {SCENE_EDIT_SPLIT, 1}, "split at 1 of its length"},
         {unchanged, {SCENE_EDIT_SPLIT, NAN}, "split at nan of its length"},

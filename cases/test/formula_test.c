@@ -153,12 +153,12 @@ static void check_refusals(void)
     check_refused("(t", 1, "'(' is not closed");
     check_refused("t)", 2, "')' after the expression; is an operator missing?");
     check_refused("t t", 3, "is an operator missing?");
-    check_refused("2 + x*t", 5, "unknown name; the known ones are t, pi");
-    check_refused("abs(t)", 1, "abs takes numbers only, but its argument contains t; it has kinks");
+    check_refused("2 + x*t", 5, "unknown name; known names are t, pi");
+    check_refused("abs(t)", 1, "abs accepts only numbers, but its argument contains t; it has kinks");
     check_refused("max(t, 1)", 1, "give pieces");
     check_refused("2*max(1, t)", 3, "give pieces");
     check_refused("atan2(t, 1)", 1,
-                  "numbers only, but its argument contains t; write it with atan");
+                  "only numbers, but its argument contains t; write it with atan");
     check_refused("sin(t, 1)", 1, "sin takes one argument, not 2");
     check_refused("sin(t, t)", 1, "sin takes one argument, not 2");
     check_refused("min(1)*t", 1, "min takes two or more arguments, not 1");

@@ -250,8 +250,8 @@ quantities:
                          self.answered("scene", "--scene", self.scene(each, "one.yaml")).stdout)
         self.same_again(self.scene(one, "again.yaml"), "-f", "collocation", "-n", 1)
         bare = one.replace(", density: 7800", "").replace("mass: 0.01, centre: [0.02, 0, 0]", "hold: []")
-        for text, words in ((one + "  twice: {gravity: [0, 0, 1], on: tip}\n", "already contains its weight"),
-                            (one + "  twice: {gravity: [0, 0, 1], on: leaf}\n", "already contains its weight"),
+        for text, words in ((one + "  twice: {gravity: [0, 0, 1], on: tip}\n", "already includes this weight"),
+                            (one + "  twice: {gravity: [0, 0, 1], on: leaf}\n", "already includes this weight"),
                             (one.replace("on: all", "on: all, follower: true"), "remove 'at', 'axes' and 'follower'"),
                             (one.replace("gravity:", "force:"), "no node 'all'"),
                             (bare, "the scene has no mass")):

@@ -83,7 +83,7 @@ static void check_mistakes(const scope *names)
                {"1 2", 12, "operator missing"},
                {"corner", 10, "choice of words"},
                {"__import__(\"os\")", 10, "unknown name '__import__'"},
-               {"2*t", 12, "the time t is available in functions of time only"},
+               {"2*t", 12, "the time t is available only in functions of time"},
                {".", 10, "point without digits"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         mistakes m = {.file = "f"};
@@ -351,7 +351,7 @@ static const struct {
                {"kHz", "Hz", 1e3},
                {"rpm", "rad/s", PI / 30}};
 
-/* Checks "write 20 mm as 20e-3 and unit: m": 20 mm are 20 times the factor of m. */
+/* Checks "write 20 mm as 20e-3 with unit: m": 20 mm are 20 times the factor of m. */
 static void remedy_of(const char *unit, const char *si, double factor)
 {
     mistakes m;
@@ -360,13 +360,13 @@ static void remedy_of(const char *unit, const char *si, double factor)
     double amount = NAN, value = NAN;
     gsl_test(text == NULL, "%s has a remedy", unit);
     const char *as = text != NULL ? strstr(text, " as ") : NULL,
-               *unit_at = text != NULL ? strstr(text, " and unit: ") : NULL;
+               *unit_at = text != NULL ? strstr(text, " with unit: ") : NULL;
     gsl_test(as == NULL || unit_at == NULL, "%s: a value and its unit", unit);
     if (as == NULL || unit_at == NULL)
         return;
     sscanf(text, "write %lf", &amount);
     snprintf(written, sizeof written, "%.*s", (int)(unit_at - as - 4), as + 4);
-    snprintf(taken, sizeof taken, "%s", unit_at + strlen(" and unit: "));
+    snprintf(taken, sizeof taken, "%s", unit_at + strlen(" with unit: "));
     mistakes none = {.file = "test"};
     const document_node node = {
         .kind = DOCUMENT_TEXT, .line = 1, .column = 1, .inset = 0, .text = written};

@@ -148,7 +148,7 @@ class LoadsTest(SceneCase):
             path = self.scene(text_of([said]) + "plane: xy\n")
             done = run("scene", "--scene", path)
             self.assertEqual((done.returncode, done.stdout), (2, ""), said)
-            self.assertRegex(done.stderr, r":11:3: l0: it (acts|rotates) out of the plane, .*: remove that, or plane: xy\n$")
+            self.assertRegex(done.stderr, r":11:3: l0: it (acts|rotates) out of the plane, .*; remove this, or remove plane: xy\n$")
 
     def test_units(self):
         """In mm and N: fractions of a length have no unit; vectors have the unit of their kind, at both ends."""

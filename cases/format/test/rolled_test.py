@@ -297,16 +297,16 @@ class ProfilesTest(SceneCase):
 
     def test_refused(self):
         for text, part in (
-                ("profile: IPE210", "no profile 'IPE210'; sizes of IPE are 80, 100, 120"),
+                ("profile: IPE210", "unknown profile 'IPE210'; sizes of IPE are 80, 100, 120"),
                 ("profile: UPN70", "sizes of UPN are 80, 100"),
-                ("profile: W8x15", "no profile 'W8x15'; write IPE200"),
-                ("profile: SHS100x60", "no profile 'SHS100x60'"),
-                ("profile: SHS100x5x7", "no profile"),
-                ("profile: RHS100x5", "no profile"),
-                ("profile: CHS20x11", "no profile"),
-                ("profile: SHS1e400x5", "no profile"),
-                ("profile: L100x-5", "no profile"),
-                ("profile: IPE200x2", "no profile"),
+                ("profile: W8x15", "unknown profile 'W8x15'; write IPE200"),
+                ("profile: SHS100x60", "unknown profile 'SHS100x60'"),
+                ("profile: SHS100x5x7", "unknown profile"),
+                ("profile: RHS100x5", "unknown profile"),
+                ("profile: CHS20x11", "unknown profile"),
+                ("profile: SHS1e400x5", "unknown profile"),
+                ("profile: L100x-5", "unknown profile"),
+                ("profile: IPE200x2", "unknown profile"),
                 ("profile: IPE200, tube: {diameter: 1, thickness: 0.1}", "profile"),
                 ("rectangle: {width: 0.1, thickness: 0.01}, given: {A: 1e-3}", "given: {A}"),
         ):

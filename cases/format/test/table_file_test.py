@@ -99,8 +99,8 @@ class TableFileTest(SceneCase):
         self.files()
         for table, told in (("{file: none.csv, at: t, value: ux}", "none.csv cannot be read: No such file"),
                             ("{file: in, at: t, value: ux}", "cannot be read"),
-                            ("{file: in/drive.csv, at: t}", "'at' and 'value' are its columns"),
-                            ("{file: in/drive.csv, at: [0, 1], value: ux}", "'at' and 'value' are its columns"),
+                            ("{file: in/drive.csv, at: t}", "'at' and 'value' name its columns"),
+                            ("{file: in/drive.csv, at: [0, 1], value: ux}", "'at' and 'value' name its columns"),
                             ("{file: [a], at: t, value: ux}", "'file' is the path of a CSV file"),
                             ("{at: t, value: ux}", "a list of numbers"),
                             ("{file: in/drive.csv, at: t, value: ux, unit: mm}", "has no key 'unit'")):

@@ -579,7 +579,7 @@ quantities:
         for text, words in (
                 (BEAM % ("hold: all", "", "", "", held), "root is held or driven, so a force along it moves nothing"),
                 (BEAM % ("hold: all", "", "", "", "  n: {internal: {analysis: steady, member: m, resultant: Mz, where: 0}}"),
-                 "join two nodes in place of one by a stiff spring"),
+                 "replace the node by two nodes joined by a stiff spring"),
                 (BEAM % ("hold: all", "", spun, ", about: before", FORCED), "rotating axes"),
                 (BEAM % ("hold: all", buckled, "  before: {static: {stations: [1], steps: 4}}", ", about: before", FORCED),
                  "not_converged|unstable"),

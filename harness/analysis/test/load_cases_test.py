@@ -212,13 +212,13 @@ quantities:
             (head.replace("on: all, case: dead", "on: all") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
              ["no load case 'dead'"]),
             (head.replace("on: c, case: wind", "on: c") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
-             ["hit: it has no load case", "give it case: NAME"]),
+             ["hit: this load has no load case", "give it case: NAME"]),
             (head.replace("on: c, case: wind", "on: c, case: wnd") + "analyses: {x: {linear: {}}}\n"
              + u.replace("WHICH", "case: wind,"), ["'wnd' is not used by any"]),
             (head.replace("lift: {", "dead: {") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
              ["dead: a load case has the same name"]),
             (head.replace("lift: {wind: -2}", "lift: {}") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
-             ["lift", "nothing acts"]),
+             ["lift", "no load acts"]),
             (head.replace("lift: {wind: -2}", "lift: {wnid: -2}") + "analyses: {x: {linear: {}}}\n"
              + u.replace("WHICH", "case: wind,"), ["no load case 'wnid'", "'wind'"]),
             (head + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "combination: ULS, combinations: [SLS],"),
@@ -307,10 +307,10 @@ quantities:
         for old, new, words in (("[M_with, M_against], select", "[M_with, none], select", "no quantity 'none'"),
                                 ("[M_with, M_against], select", "[], select", "give a list of their names"),
                                 ("max}, factor: -1}", "max}, when: {from: 0.1}}", "when: this key is for quantities of motions"),
-                                ("select: min}, unit: N m}", "select: min}, unit: N}", "unit 'N': its quantities are in N m"),
+                                ("select: min}, unit: N m}", "select: min}, unit: N}", "unit 'N': the quantities of the envelope are in N m"),
                                 ("[M_with, M_against], select", "[M_with, M], select", "M is an envelope"),
                                 ("end: from, resultant: Mz}}\n  M_against", "end: from, resultant: N}}\n  M_against",
-                                 "M_with is in N and M_against in N m; name quantities in one unit"),
+                                 "M_with is in N and M_against in N m; name quantities with the same unit"),
                                 ("resultant: Mz}}\n  M_gust", "resultant: Mz, take: curve}}\n  M_gust", "M_against is a curve")):
             text = self.text(self.METRES)
             self.assertIn(old, text)

@@ -424,8 +424,8 @@ omit: [shear]
                  "f: {displacement: {analysis: r, node: disc, component: uy}}", "it has no potential"),
                 ("A: {harmonic: {frequencies: [9], solution: modal}}", RESPONSES, "remove 'solution'"),
                 ("c: {motion: {stations: [0.1], step: 1e-3, integrator: conserving}}",
-                 "f: {displacement: {analysis: c, node: disc, component: uy}}", "spring a has a stiffness that is not "
-                 "symmetric")):
+                 "f: {displacement: {analysis: c, node: disc, component: uy}}", "spring a has an unsymmetric "
+                 "stiffness")):
             code, told = self.told(JOURNAL, analyses=analyses, quantities=quantities, **words)
             self.assertNotEqual(code, 0, analyses)
             self.assertIn(said, told)

@@ -358,8 +358,8 @@ quantities: {u: {displacement: {analysis: L, node: b, component: ux}}}
 """
         path = self.folder / "bad.yaml"
         for new, words in (("{equal: [b, b], components: ux}", "x: node b is named twice"),
-                           ("{equal: [a, b], components: ux}", "x: ux of node a is both held and constrained"),
-                           ("{equal: [b, c], components: uz}", "uz of node b is both held"),
+                           ("{equal: [a, b], components: ux}", "x: ux of node a is both fixed and constrained"),
+                           ("{equal: [b, c], components: uz}", "uz of node b is both fixed"),
                            ("{equal: [b, c], components: uy}", "uy of node c is driven twice"),
                            ("{equal: [b, d], components: ux}", "node d moves with node c; name the latter instead"),
                            ("{equal: [b, c], components: rz}", "rz of node b is not a rotation about a fixed axis"),

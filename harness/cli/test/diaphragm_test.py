@@ -99,10 +99,10 @@ class Diaphragms(ConstraintsCase):
                 self.assertLess(abs(q["error"]), 1e-8, f"{name}: {q['quantity']}")
         text, path = example.read_text(), self.folder / "storey.yaml"
         for old, new, words in (("d:  {at: [0, 4, 3], hold: [uz, rx, ry]}", "d:  {at: [0, 4, 3], hold: [uz, ux]}", "ux of node d is fixed or driven, but follows the master"),
-                                ("d:  {at: [0, 4, 3], hold: [uz, rx, ry]}", "d:  {at: [0, 4, 3], axes: {x: [0, 1, 0], y: [1, 0, 0]}}", "node d has axes of its own"),
+                                ("d:  {at: [0, 4, 3], hold: [uz, rx, ry]}", "d:  {at: [0, 4, 3], axes: {x: [0, 1, 0], y: [1, 0, 0]}}", "node d has its own axes"),
                                 ("[a, b, c, d], master", "[a, b, c, middle], master", "floor: node middle is named twice"),
-                                ("normal: z}", "normal: z}\n  two: {equal: [a, b], components: [uy]}", "uy of node a is in a diaphragm, too"),
-                                ("normal: z}", "normal: z}\n  two: {diaphragm: [a], master: b, normal: z}", "is in another constraint, too"),
+                                ("normal: z}", "normal: z}\n  two: {equal: [a, b], components: [uy]}", "uy of node a also belongs to a diaphragm"),
+                                ("normal: z}", "normal: z}\n  two: {diaphragm: [a], master: b, normal: z}", "also belongs to another constraint"),
                                 (", normal: z}", "}", "{diaphragm: [NODE], master: NODE, normal: z}")):
             self.assertIn(old, text)
             path.write_text(text.replace(old, new))

@@ -211,7 +211,7 @@ class Plane(ProgramTest):
         self.assertLess(abs(found["k"] / (3 * E * THICK * HEIGHT**3 / 12) - 1), 1e-3)
         path = self.folder / "scene.yaml"
         path.write_text(text.replace("omit", extra % "uz") + "plane: xy\n")
-        self.refused(2, "k: it reads a motion out of the plane", "solve", "--scene", path)
+        self.refused(2, "k: it refers to a motion out of the plane", "solve", "--scene", path)
 
     def test_decks(self):
         path = self.folder / "scene.yaml"
@@ -277,7 +277,7 @@ class OtherModel(ProgramTest):
         self.assertEqual({q["verdict"] for q in one["quantities"]}, {"other model"})
         self.assertTrue(all(m["value"] is not None for q in one["quantities"] for m in q["meshes"]))
         self.assertNotIn("beamw_vlasov", [a["formulation"] for a in record["answers"]])
-        self.assertIn("another model, which is not ranked: beamw_vlasov (without shear)",
+        self.assertIn("a different model, not ranked: beamw_vlasov (without shear)",
                       record["sentence"])
         for other in series.values():
             self.assertTrue(all("beamw_vlasov" not in q["source"] for q in other["quantities"]))
@@ -450,5 +450,5 @@ class NotAccepted(ProgramTest):
         for truths, code in (("accepted", 1), ("new", 0)):
             what = ("stress", "-k", f"slender_square and {NAME}", "--truths", self.truths[truths])
             out = self.answered(*what, code=code).stdout
-            self.assertEqual("which do not affect the exit status" in out, truths == "new", out)
+            self.assertEqual("they do not affect the exit status" in out, truths == "new", out)
             self.answered(*what, "-f", NAME, code=1)

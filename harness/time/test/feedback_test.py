@@ -135,10 +135,10 @@ class Feedback(ProgramTest):
         motion = MOTION % (0.01, "radau")
         self.refusal(gains, MOTION % (0.01, "conserving"), "time: 0.01,",
                      "(conserving): load motor has feedback")
-        self.refusal("node: tool, component: ux", motion, "", "feedback without a gain")
+        self.refusal("node: tool, component: ux", motion, "", "the feedback has no gain")
         self.refusal(gains + ", from: tool", motion, "", "feedback of node tool from itself")
         self.refusal(gains, "  held: {static: {stations: [1]}}\n" + motion.replace(
-            "radau", "radau, about: held"), "", "(static) and load motor (feedback): it acts in motions, harmonic")
+            "radau", "radau, about: held"), "", "(static) and load motor (feedback): it acts only in motions, harmonic")
         self.refusal(gains + ", integral: 1", motion, "", "motor (feedback): --save-state does not store the integral of the error",
                      "--save-state", self.folder / "end.h5")
 
@@ -265,7 +265,7 @@ class Tension(Driven):
 
     def test_refusals(self):
         for words, analysis, text in (
-                (", follower: true", "static: {stations: [1]}", "'towards' is of a tension"),
+                (", follower: true", "static: {stations: [1]}", "'towards' applies only to a tension"),
                 (", time: t", "motion: {stations: [1], step: 0.01, integrator: conserving}",
                  "a tension between nodes")):
             self.assertIn(text, self.solved(words, analysis, code=2))
