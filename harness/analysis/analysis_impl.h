@@ -94,6 +94,7 @@ typedef struct unsymmetric_problem {
     int decaying;            /* 1: with C, also modes that decay without oscillation */
     const sparse *B;         /* with C: mass of the internal motions of elements; NULL: none */
     double mass, stiffness;  /* proportional damping that C contains [1/s], [s] */
+    double shift;            /* a with C: K contains a C + a^2 M, C contains 2 a M [1/s]; 0: none */
 } unsymmetric_problem;
 
 /* s = growth + i frequency, ascending by magnitude. Without damping the result contains both modes

@@ -17,6 +17,90 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for damped modes");
 }
 
+static double diagonal(const sparse *a, int j)
+{
+    for (int k = a->column[j]; k < a->column[j + 1]; k++)
+        if (a->row[k] == j)
+            return fabs(a->value[k]);
+    return 0;
+}
+
+/* Largest quotient of diagonal entries: about the square of the highest frequency. */
+static double highest(const unsymmetric_problem *p)
+{
+    double square = 0;
+    for (int j = 0; j < p->K->n; j++)
+        if (diagonal(p->M, j) > 0)
+            square = fmax(square, diagonal(p->K, j) / diagonal(p->M, j));
+    return sqrt(square);
+}
+
+static double size_of(const unsymmetric_result *r, int i)
+{
+    return hypot(r->growth[i], r->frequency[i]);
+}
+
+/* Does a slow pole of an integral hide other modes in round-off? */
+static int hides(const unsymmetric_problem *p, const unsymmetric_result *r)
+{
+    const double digits = 1e-10, bearable = 1e-6;
+    int hidden = r->count == 0 || size_of(r, 0) < digits * highest(p);
+    for (int i = 0; i < r->count; i++)
+        hidden |= !(r->error[i] <= bearable);
+    return hidden;
+}
+
+/* own: values of K and C without the shift. */
+static void shift_by(sparse closed[], const double own[], double shift)
+{
+    sparse *K = &closed[0], *M = &closed[1], *C = &closed[2];
+    for (int k = 0, entries = K->column[K->n]; k < entries; k++) {
+        K->value[k] = own[k] + shift * own[entries + k] + shift * shift * M->value[k];
+        C->value[k] = own[entries + k] + 2 * shift * M->value[k];
+    }
+}
+
+/* The shift is a small part of the slowest mode after the poles of integrals. A first shift finds
+ * that mode. */
+static status solve_shifted(vibration *v, unsymmetric_problem *p, int integrals, sparse closed[],
+                            const double own[], unsymmetric_result *r, fault *f)
+{
+    const double small = 1e-3, before = p->shift;
+    for (double shift = before + small * highest(p); shift > 0;) {
+        shift_by(closed, own, shift - before);
+        p->shift = shift;
+        TRY(factor_numeric(p->K_factor, p->K, f));
+        v->c->run->counters.factorisations++;
+        unsymmetric_free(r);
+        TRY(unsymmetric_solve(p, r, f));
+        const double other = r->count > integrals ? size_of(r, integrals) : 0;
+        shift = shift > 10 * small * other && small * other > before ? small * other : 0;
+    }
+    return STATUS_OK;
+}
+
+/* Modes of the matrices of loops. If a slow pole hides other modes, the matrices are shifted. */
+static status solve_closed(vibration *v, unsymmetric_problem *p, sparse closed[],
+                           unsymmetric_result *r, fault *f)
+{
+    int integrals = 0;
+    for (int i = 0; i < v->loops; i++)
+        integrals += v->loop[i].gains->integral != 0;
+    const status first = unsymmetric_solve(p, r, f);
+    if (first == STATUS_FAULT || integrals == 0 || (first == STATUS_OK && !hides(p, r)))
+        return first;
+    const size_t entries = (size_t)p->K->column[p->K->n];
+    double *own = malloc((2 * entries + 1) * sizeof *own);
+    if (own == NULL)
+        return no_memory(f);
+    memcpy(own, closed[0].value, entries * sizeof *own);
+    memcpy(own + entries, closed[2].value, entries * sizeof *own);
+    p->wanted += integrals;
+    const status outcome = solve_shifted(v, p, integrals, closed, own, r, f);
+    free(own);
+    return outcome;
+}
+
 static status take_frequencies(const harmonic_modes *m, int *count, double **hertz, fault *f)
 {
     *hertz = calloc((size_t)m->kept + 1, sizeof **hertz);
@@ -30,26 +114,28 @@ static status take_frequencies(const harmonic_modes *m, int *count, double **her
 
 /* Finds the damped modes of at least those frequencies [Hz]. With closed loops, it finds all modes,
  * or as many as a reasonable effort finds. */
-static status find_damped_of(vibration *v, const sparse *const of[], matrix_factor *factor,
-                             double below, unsymmetric_result *r, fault *f)
+static status find_damped_of(vibration *v, const sparse *const of[], sparse closed[],
+                             matrix_factor *factor, double below, unsymmetric_result *r, fault *f)
 {
     enum { FIRST = 16 };
     const int states = 2 * of[0]->n, all = v->loops > 0 && states <= ALL_STATES;
+    double shift = 0;
     fault why = {""};
     for (int wanted = all ? states : FIRST, enough = 0; !enough; wanted *= 4) {
-        const unsymmetric_problem p = {.K = of[0],
-                                       .M = of[1],
-                                       .C = v->damped || v->loops > 0 ? of[2] : NULL,
-                                       .B = v->inside && v->loops > 0 ? of[3] : NULL,
-                                       .mass = v->c->scene->analysis[v->analysis].damping.mass,
-                                       .stiffness =
-                                           v->c->scene->analysis[v->analysis].damping.stiffness,
-                                       .K_factor = factor,
-                                       .wanted = wanted,
-                                       .estimate = v->loops > 0,
-                                       .decaying = v->damped || v->loops > 0};
+        unsymmetric_problem p = {.K = of[0],
+                                 .M = of[1],
+                                 .C = v->damped || v->loops > 0 ? of[2] : NULL,
+                                 .B = v->inside && v->loops > 0 ? of[3] : NULL,
+                                 .mass = v->c->scene->analysis[v->analysis].damping.mass,
+                                 .stiffness = v->c->scene->analysis[v->analysis].damping.stiffness,
+                                 .K_factor = factor,
+                                 .wanted = wanted,
+                                 .estimate = v->loops > 0,
+                                 .decaying = v->damped || v->loops > 0,
+                                 .shift = shift};
         unsymmetric_free(r);
-        const status found = unsymmetric_solve(&p, r, &why);
+        const status found = solve_closed(v, &p, closed, r, &why);
+        shift = p.shift;
         v->c->run->counters.solutions += r->solutions;
         if (found == STATUS_FAULT)
             return fault_set(f, found, "%s", why.text);
@@ -83,7 +169,7 @@ static status find_damped(vibration *v, harmonic_modes *m, double below, unsymme
     if (outcome == STATUS_OK) {
         v->c->run->counters.factorisations++;
         if (factor_numeric(m->factor, of[0], &why) == STATUS_OK)
-            outcome = find_damped_of(v, of, m->factor, below, r, f);
+            outcome = find_damped_of(v, of, closed, m->factor, below, r, f);
         else if (v->loops > 0)
             outcome = fault_set(f, STATUS_REFUSED,
                                 "whether the loop of feedback is stable is not known, because one "
@@ -224,10 +310,10 @@ static void say_instant(const vibration *v, size_t size, char out[])
              a->axes_of != SCENE_NONE ? scene_name(v->c->scene, SCENE_NODES, a->axes_of).text : "");
 }
 
-/* Finds modes, with the factors of K. closed: with loops, whose integrals follow the coordinates.
- */
+/* Finds modes, with the factors of K. closed: those of loops, whose integrals
+ * follow the coordinates, or NULL. */
 static status find_modes_with(vibration *v, const sparse *const of[], matrix_factor *factor,
-                              int closed, unsymmetric_result *r, fault *f)
+                              sparse closed[], unsymmetric_result *r, fault *f)
 {
     analysis_context *c = v->c;
     fault why = {""};
@@ -237,24 +323,25 @@ static status find_modes_with(vibration *v, const sparse *const of[], matrix_fac
         return fault_set(f, STATUS_REFUSED,
                          "damped modes require stiffness in every direction, but the structure "
                          "can move freely in one: hold it, or support it by a soft spring%s",
-                         closed ? ", or give feedback a proportional gain" : "");
+                         closed != NULL ? ", or give feedback a proportional gain" : "");
     if (factored != STATUS_OK)
         return fault_set(f, factored, "%s", why.text);
-    const unsymmetric_problem p = {.K = of[0],
-                                   .M = of[1],
-                                   .C = of[2],
-                                   .B = v->inside ? of[3] : NULL,
-                                   .mass = c->scene->analysis[v->analysis].damping.mass,
-                                   .stiffness = c->scene->analysis[v->analysis].damping.stiffness,
-                                   .K_factor = factor,
-                                   .wanted = modal_wanted(c, v->analysis),
-                                   .estimate = 1,
-                                   .decaying = 1};
-    const status found = unsymmetric_solve(&p, r, &why);
+    unsymmetric_problem p = {.K = of[0],
+                             .M = of[1],
+                             .C = of[2],
+                             .B = v->inside ? of[3] : NULL,
+                             .mass = c->scene->analysis[v->analysis].damping.mass,
+                             .stiffness = c->scene->analysis[v->analysis].damping.stiffness,
+                             .K_factor = factor,
+                             .wanted = modal_wanted(c, v->analysis),
+                             .estimate = 1,
+                             .decaying = 1};
+    const status found = solve_closed(v, &p, closed, r, &why);
     c->run->counters.solutions += r->solutions;
-    return found == STATUS_OK ? found
-                              : fault_set(f, found, "%.200s%s", why.text,
-                                          closed ? "; with feedback, use fewer elements" : "");
+    return found == STATUS_OK
+               ? found
+               : fault_set(f, found, "%.200s%s", why.text,
+                           closed != NULL ? "; with feedback, use fewer elements" : "");
 }
 
 /* Removes the loop integrals from the modes. */
@@ -275,7 +362,7 @@ static status find_closed_modes(vibration *v, const sparse *const of[], unsymmet
     if (outcome == STATUS_OK)
         outcome = factor_alloc(&closed[0], &v->factor, f);
     if (outcome == STATUS_OK)
-        outcome = find_modes_with(v, with, v->factor, 1, r, f);
+        outcome = find_modes_with(v, with, v->factor, closed, r, f);
     shorten(r, of[0]->n);
     loops_release(closed);
     return outcome;
@@ -295,7 +382,7 @@ static status find_modes(vibration *v, unsymmetric_result *r, fault *f)
     if (v->loops > 0)
         return find_closed_modes(v, of, r, f);
     TRY(factor_alloc(&v->K, &v->factor, f));
-    return find_modes_with(v, of, v->factor, 0, r, f);
+    return find_modes_with(v, of, v->factor, NULL, r, f);
 }
 
 status damped_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)

@@ -184,6 +184,7 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
 {
     const quantity_eigenvalue found = {side->value[i], side->growth != NULL ? -side->growth[i] : 0};
     const double size = hypot(found.decay, found.value);
+    const double undamped = 1e-4; /* with a larger error, no damping is known to be 0 */
     double part;
     if (isnan(found.value)) {
         quantity_no_value(r, side->status, side->reason);
@@ -191,6 +192,9 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
     }
     r->value = quantity_scaled(q, quantity_type_of(q)->eigenvalue(q, &found, &part));
     r->rounding = side->error != NULL ? side->error[i] : 0;
+    if (side->growth != NULL && part == 0 && found.decay == 0 && r->rounding > undamped)
+        quantity_no_value(r, STATUS_NOT_CONVERGED,
+                          "the damping is lost in round-off; use fewer elements");
     if (side->growth != NULL) /* the error is that of the whole complex eigenvalue */
         r->rounding = part != 0 ? r->rounding * size / fabs(part) : 0;
 }

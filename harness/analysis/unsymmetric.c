@@ -127,7 +127,9 @@ static void measure(unsymmetric_solver *s)
     for (int i = 0; i < s->n; i++)
         largest = fmax(largest, diagonal(s->p->K, i));
     for (int i = 0; i < s->n; i++) {
-        const double k = diagonal(s->p->K, i), by_forces = k > 0 ? 0 : scale_of(s, i);
+        const double k = diagonal(s->p->K, i),
+                     by_shift = s->p->shift > 0 ? s->p->shift * diagonal(s->p->C, i) : 0;
+        const double by_forces = k > (1 + nothing) * by_shift ? 0 : scale_of(s, i);
         s->scale[i] = by_forces > 0 ? by_forces : sqrt(k > 0 ? k : largest > 0 ? largest : 1);
         if (diagonal(s->p->M, i) > 0)
             s->of[s->massive++] = i;
@@ -181,6 +183,7 @@ static void multiply(const sparse *A, int absolute, const double complex x[], do
         }
 }
 
+/* s of the matrices, which may be shifted. */
 static double complex root(const unsymmetric_solver *s, double complex theta)
 {
     return s->p->C != NULL ? 1 / theta : csqrt(-1 / theta);
@@ -223,6 +226,7 @@ static double error_of(const unsymmetric_solver *s, int i, const growth_estimate
 {
     const int n = s->n;
     const double complex theta = s->right.theta[i], at = root(s, theta);
+    const double whole_size = cabs(at + s->p->shift), part = cabs(at) / whole_size;
     const size_t size = s->p->C != NULL ? (size_t)(n + s->massive) : (size_t)n;
     double least = INFINITY, cap = INFINITY;
     for (int j = 0; j < s->left.count; j++) {
@@ -236,11 +240,11 @@ static double error_of(const unsymmetric_solver *s, int i, const growth_estimate
         size_of(n, w, e->w);
         const double whole = slope(s, 1, at, e->w, e);
         multiply(s->p->K, 1, e->x, e->y);
-        const double rounding = DBL_EPSILON * creal(product(n, e->w, e->y)) / cabs(at);
+        const double rounding = DBL_EPSILON * creal(product(n, e->w, e->y)) / whole_size;
         least = fmin(least, rounding / simple);
         cap = fmin(cap, sqrt(rounding / whole));
     }
-    return fmin(least, cap) + s->right.residual[i] * fmin(1, least / DBL_EPSILON);
+    return fmin(least, cap) + part * s->right.residual[i] * fmin(1, least / DBL_EPSILON);
 }
 
 /* Left vectors w of K: K^-T times those of the operator. */
@@ -335,7 +339,7 @@ static double complex with_inside(const unsymmetric_solver *s, int i, double com
         e->x[k] = v[k] / s->scale[k];
     take_other(s, i, e);
     const double complex m = form(s, s->p->M, e->w, e->x, e->y),
-                         c = form(s, s->p->C, e->w, e->x, e->y),
+                         c = form(s, s->p->C, e->w, e->x, e->y) - 2 * s->p->shift * m,
                          b = form(s, s->p->B, e->w, e->x, e->y);
     for (int pass = 0; pass < 20; pass++) {
         const double complex moves = z * z + s->p->mass * z, rests = 1 + s->p->stiffness * z,
@@ -352,7 +356,7 @@ static void take(unsymmetric_solver *s, int i, double error, const growth_estima
 {
     unsymmetric_result *r = s->out;
     const double complex theta = s->right.theta[i];
-    double complex at = root(s, theta);
+    double complex at = root(s, theta) + s->p->shift;
     const int stays_real = cimag(at) == 0;
     if (s->p->B != NULL)
         at = with_inside(s, i, at, e);
@@ -373,6 +377,30 @@ static void take(unsymmetric_solver *s, int i, double error, const growth_estima
     r->error[k] = error;
     take_mode(s, i, second, r->mode + (size_t)k * (size_t)s->n);
     r->count++;
+}
+
+/* Exchanges eigenvalues so that |s| ascends: a shift has another order. */
+static void sort(unsymmetric_solver *s)
+{
+    arnoldi_result *r = &s->right;
+    const size_t size = (size_t)s->n + (size_t)s->massive;
+    for (int i = 1; i < r->count; i++)
+        for (int k = i; k > 0 && cabs(root(s, r->theta[k]) + s->p->shift) <
+                                     cabs(root(s, r->theta[k - 1]) + s->p->shift);
+             k--) {
+            double complex *x = r->mode + (size_t)k * size, *y = x - size;
+            const double complex theta = r->theta[k];
+            const double residual = r->residual[k];
+            r->theta[k] = r->theta[k - 1];
+            r->theta[k - 1] = theta;
+            r->residual[k] = r->residual[k - 1];
+            r->residual[k - 1] = residual;
+            for (size_t j = 0; j < size; j++) {
+                const double complex one = x[j];
+                x[j] = y[j];
+                y[j] = one;
+            }
+        }
 }
 
 static status hand_over(unsymmetric_solver *s, fault *f)
@@ -412,6 +440,8 @@ status unsymmetric_solve(const unsymmetric_problem *p, unsymmetric_result *r, fa
         if (p->C != NULL && s.n > 0)
             find_second(&s, s.y + n, s.y + 2 * n);
         outcome = pairs(&s, 0, &s.right, f);
+        if (outcome == STATUS_OK && p->shift > 0)
+            sort(&s);
         if (outcome == STATUS_OK)
             outcome = hand_over(&s, f);
     }

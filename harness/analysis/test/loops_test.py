@@ -149,6 +149,39 @@ omit: [trapeze, wagner_moments, wagner_torque]
             for i, s in enumerate(expected):
                 self.assertAlmostEqual(complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])/s, 1, 11)
 
+    def test_slow_integral(self):
+        """A pole far slower than the modes hides none of them, and no growth."""
+        k, own = 2e7, np.array([[3e4, -3e4], [-3e4, 3e4]])
+        rate = "  rate: {force: [1, 0, 0], on: tool, feedback: {node: tool, component: ux, derivative: -20}}\n"
+        for ki, kd in ((1e-2, 0), (1e-4, 0), (1e-2, -20), (1e-5, -20)):
+            text = f"""beamwork: 1
+sections: {{bar: {{constants: {{A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}}, young: 2e11, shear_modulus: 8e10}}}}
+nodes:
+  wall: {{at: [0, 0, 0], hold: all}}
+  cart: {{at: [1, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 1}}
+  tool: {{at: [1, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 2}}
+members: {{bar: {{from: wall, to: cart, section: bar, y: [0, 1, 0]}}}}
+springs: {{soft: {{from: cart, to: tool, stiffness: [3e4, 0, 0, 0, 0, 0], damping: [5, 0, 0, 0, 0, 0]}}}}
+loads:
+  slow: {{force: [1, 0, 0], on: cart, feedback: {{node: tool, component: ux, proportional: 1, integral: {ki}}}}}
+{rate if kd else ""}analyses:
+  poles: {{modal: {{damped: yes}}}}
+{STEADY if kd else ""}quantities:
+{poles_read(3)}{read("tool", node="tool", component="ux", force="tool", along="ux") if kd else ""}omit: [trapeze, wagner_moments, wagner_torque]
+"""
+            (self.folder / "scene.yaml").write_text(text, encoding="utf-8")
+            done = run("solve", "--scene", self.folder / "scene.yaml", "-f", "collocation", "-n", 1, "--format", "json")
+            A = np.zeros((4, 4))
+            A[:2, 2:] = np.eye(2)
+            A[2:, :2] = -np.diag([1, 0.5]) @ (own + [[k, 1], [0, 0]])
+            A[2:, 2:] = -np.diag([1, 0.5]) @ (own*5/3e4 + np.diag([0, kd]))
+            expected = [-ki/k] + sorted((s for s in np.linalg.eigvals(A) if s.imag > 0), key=abs)
+            found = self.values(json.loads(done.stdout))
+            for i, s in enumerate(expected):
+                one = complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])
+                self.assertLess(abs(one/s - 1), 1e-8 + 3*found[f"d{i}"]["rounding"] if i == 0 else 1e-8, (ki, kd, i))
+            self.assertEqual("a mode grows at 3.754" in done.stderr, kd < 0, done.stderr)
+
     def test_responses(self):
         """All inputs and outputs, including zero frequency, where an integral leaves no error."""
         quantities = "".join(read(f"{node}_{name}", node=node, component="ux", **keys) for name, keys in INPUTS.items()
