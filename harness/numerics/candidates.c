@@ -246,7 +246,7 @@ double *candidates_products(const candidates *p)
     return products;
 }
 
-/* Error bound: with x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y)
+/* Error bound: with x^T K x = 1 and y = K^-1 s A x - mu x, an eigenvalue lies within sqrt(y^T K y)
  * of mu. The component of y along a larger mode k, c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a
  * part c_k/(mu_k - mu) of that mode in x, which changes the quotient mu by c_k^2/(mu_k - mu), or by
  * mu_k - mu if the two are too close to be distinguished. The rest of y counts in full. */
@@ -273,7 +273,8 @@ void candidates_judge(candidates *p, int i, double *residual, double *error)
 }
 
 /* By Sylvester's law the number of mu > s > 0 equals the number of negative pivots of K - A/s. The
- * count is right if s is farther from every eigenvalue than the rounding of the matrices moves it.
+ * count is right if the distance of s from every eigenvalue exceeds the effect of rounding in the
+ * matrices.
  */
 
 static const double close =
@@ -387,7 +388,7 @@ static void combine(size_t n, size_t count, double Y[], const double C[], double
     }
 }
 
-/* Replaces the candidates by the Ritz vectors of Y = K^-1 s A X; if LAPACK fails they do not
+/* Replaces the candidates by the Ritz vectors of Y = K^-1 s A X; if LAPACK fails, they do not
  * change. Y[count x n], small[2 count^2 + count]. */
 static status replace(candidates *p, double Y[], double small[], long *solutions, fault *f)
 {

@@ -59,9 +59,9 @@ static status run_lanczos(candidates *p, int wanted, double least, long *solutio
     return outcome;
 }
 
-/* Number of existing eigenvalues, at most `enough`, counted above smaller and smaller values. Far
- * down, where K is small compared with A/s, the count may fail for lack of pivoting; the last valid
- * count is then returned. */
+/* Number of existing eigenvalues, at most `enough`, counted above smaller and smaller values. At
+ * very small values, where K is small compared with A/s, the count may fail for lack of pivoting;
+ * the last valid count is then returned. */
 static status count_existing(candidates *p, int enough, double scale, double least, int *exist,
                              eigen_result *r, fault *f)
 {
@@ -110,7 +110,7 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
     return STATUS_OK;
 }
 
-/* Keeps only the first candidates when not all were found. */
+/* Keeps only the first candidates if not all were found. */
 static status keep_first(candidates *p, eigen_result *r, fault *f)
 {
     int missing = 1;
@@ -147,8 +147,9 @@ static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, e
                                        : keep_first(p, r, f);
 }
 
-/* Drops values that are rounding errors of A. If one value is, all smaller ones are. The test is
- * made for the largest value, and for values that are small compared with it. */
+/* Drops values that are rounding errors of A. If one value is a rounding error, so are all smaller
+ * values. The test is made for the largest value, and for values that are small compared with it.
+ */
 static void drop_rounding(candidates *p, eigen_side *out)
 {
     const double suspect = 1e-6; /* fraction of the largest */
@@ -172,13 +173,13 @@ static double judge(candidates *p, int count, eigen_side *out, long *solutions)
     return largest;
 }
 
-/* Improves the vectors when assembly of K has changed the eigenvalues, since its errors are in the
- * vectors too. */
+/* Improves the vectors if the assembly of K has changed the eigenvalues, since its errors affect
+ * the vectors too. */
 static status improve(candidates *p, int count, eigen_side *out, eigen_result *r, fault *f)
 {
     enum { SWEEPS = 3 };
     const double bearable =
-        1e-6; /* errors of values are the square of this, times the effect of their distance */
+        1e-6; /* errors of eigenvalues are the square of this, times the effect of their distance */
     const double good = 1e-8;
     if (p->problem->K_product == NULL || candidates_departure(p, count) <= bearable) {
         judge(p, count, out, &r->solutions);
@@ -193,7 +194,7 @@ static status improve(candidates *p, int count, eigen_side *out, eigen_result *r
     return STATUS_OK;
 }
 
-/* Replaces values without digits by NaN. */
+/* Replaces values without significant digits by NaN. */
 static void drop_lost(candidates *p, int count, eigen_side *out)
 {
     const double noticeable = 1e-9; /* relative change of K due to its assembly */
@@ -263,7 +264,7 @@ static status solve(const eigen_problem *e, candidates *up, candidates *down, ei
                                       : fault_set(f, worse->status, "%s", worse->reason);
 }
 
-/* Uses the upper triangle of a matrix that is stored whole. K - A/mu, of which few digits may
+/* Uses the upper triangle of a matrix stored in full. K - A/mu, of which few digits may
  * remain, is then symmetric although rounding makes K and A unsymmetric. */
 static status take_upper(const sparse **a, by_numbers **whole, fault *f)
 {

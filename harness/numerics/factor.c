@@ -14,7 +14,7 @@
 
 static status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
                                        factor_counts *counts, fault *f);
-/* OK, SINGULAR, or FAULT when memory ran out. The first pivots are used again for all later
+/* Returns OK, SINGULAR, or FAULT if memory ran out. The first pivots are used again for all later
  * matrices, without allocation, until pivot growth requires new ones. *row, *column: position of
  * the smallest pivot; *ratio: its size relative to the largest entries of that row and column. */
 static status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a,
@@ -28,8 +28,8 @@ struct matrix_factor {
     factor_unsymmetric *unsymmetric; /* both NULL: no unknowns */
     by_numbers *whole;               /* for a matrix with by_numbers, else NULL */
     int upper;                       /* 1: `symmetric` contains the last factors */
-    factor_counts counts, of_upper; /* of_upper: entries and flops of `symmetric` when both exist */
-    double *residual, *other;       /* [n]; other is for unsymmetric matrices */
+    factor_counts counts, of_upper;  /* of_upper: entries and flops of `symmetric` if both exist */
+    double *residual, *other;        /* [n]; other is for unsymmetric matrices */
 };
 
 /* Allocates everything except the factors. */
@@ -128,7 +128,7 @@ static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
     return DBL_EPSILON * sqrt(sum);
 }
 
-/* Selects LDL^T when the values of the whole matrix are symmetric; *a then becomes its upper
+/* Selects LDL^T if the values of the full matrix are symmetric; *a then becomes its upper
  * triangle. */
 static status choose(matrix_factor *fa, const sparse **a, fault *f)
 {
@@ -364,7 +364,7 @@ void factor_unsymmetric_free(factor_unsymmetric *fu)
     free(fu);
 }
 
-/* Returns 1 when the numeric factors of a were computed with the pivot order of an earlier matrix.
+/* Returns 1 if the numeric factors of a were computed with the pivot order of an earlier matrix.
  */
 static int refactor(factor_unsymmetric *fu, const sparse *a)
 {

@@ -184,7 +184,7 @@ static double largest_entry(const factor_symmetric *fs, const double a[], int k)
     return largest;
 }
 
-/* Sums the terms of pivots only when one is not positive: otherwise they do not exceed a_kk. */
+/* Sums the terms of pivots only if one is not positive: otherwise they do not exceed a_kk. */
 static void sum_terms(factor_symmetric *fs, int negative_pivots)
 {
     memcpy(fs->terms, fs->diagonal, (size_t)fs->n * sizeof *fs->terms);

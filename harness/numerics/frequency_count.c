@@ -205,8 +205,8 @@ static double share(const motion_estimate *e, int k)
     return creal(sum * conj(sum));
 }
 
-/* Twice the missing part of the vector, relative to the eigenvalue: components along other motions
- * that were found, and along those that were not, of which the first frequency is known. */
+/* Twice the missing part of the vector, relative to the eigenvalue: components along other modes
+ * that were found, and along modes that were not, whose lowest frequency is known. */
 static double missed(motion_estimate *e, int i, double complex lambda, double own)
 {
     const double size = cabs(lambda);
@@ -227,7 +227,7 @@ static double missed(motion_estimate *e, int i, double complex lambda, double ow
     return 2 * sum;
 }
 
-/* Bound of the rounding of x^H (K + lambda^2 M + lambda G) x. The entries themselves result from a
+/* Bound on the rounding of x^H (K + lambda^2 M + lambda G) x. The entries themselves result from a
  * few operations. */
 static double rounding(const motion_estimate *e, double size, const double re[], const double im[])
 {

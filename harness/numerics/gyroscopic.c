@@ -14,10 +14,11 @@ static const double good_residual = 1e-8, bearable_residual = 1e-5;
 /* A pair need not converge if rounding changes its residual by more than this: its mass is then
  * rounding of the largest one. */
 static const double no_digits = 1e-7;
-/* K counts as nearly singular when an eigenvalue of (K, M) is below near_zero times the others, or
+/* K counts as nearly singular if an eigenvalue of (K, M) is below near_zero times the others, or
  * times the square of the rate of G; the shift is then away_from_zero times them. */
 static const double near_zero = 1e-4, away_from_zero = 1e-2;
-/* When all pairs have been found, no other one has a ratio to the last below this. */
+/* If all pairs have been found, the ratio of any other frequency to the last one is at least this.
+ */
 static const double far = 1e3;
 
 typedef struct gyroscopic_solver {
@@ -145,7 +146,7 @@ static status iterate(gyroscopic_solver *s, int wanted, fault *f)
     }
 }
 
-/* Starts the basis with the first `count` modes for G = 0, including those whose value is lost in
+/* Starts the basis with the first `count` modes for G = 0, including modes whose value is lost in
  * round-off: the basis improves them. */
 static status start(gyroscopic_solver *s, int count, fault *f)
 {
@@ -190,7 +191,7 @@ static status prove(gyroscopic_solver *s, int last, status counted, int below, i
 }
 
 /* Relative change of x^H S x of the pairs found due to the assembly of S. The frequencies of the
- * matrix, which are counted, differ by half of it. */
+ * matrix, which are counted, differ by half of this change. */
 static double departure(gyroscopic_solver *s)
 {
     double largest = 0;
@@ -206,8 +207,8 @@ static double departure(gyroscopic_solver *s)
     return largest;
 }
 
-/* Number of frequencies below a gap after those found, minus the number found. Equal frequencies
- * have no gap between them. */
+/* Number of frequencies below the first gap after those found, minus the number found. Equal
+ * frequencies have no gap between them. */
 static status missing(gyroscopic_solver *s, int wanted, int *number, fault *f)
 {
     const double gap = fmax(1e-6, 4 * departure(s)); /* relative */
@@ -277,8 +278,8 @@ static status find_shift(gyroscopic_solver *s, fault *f)
     }
 }
 
-/* Shift needed according to the first start, when K or K + shift M is nearly singular, as at a
- * critical speed. Returns the present shift when no larger one is needed. */
+/* Shift needed according to the first start, if K or K + shift M is nearly singular, as at a
+ * critical speed. Returns the present shift if no larger one is needed. */
 static double shift_after(const gyroscopic_solver *s, status started)
 {
     const double rate = rate_of_turning(s->p->G, s->p->M);
@@ -289,7 +290,7 @@ static double shift_after(const gyroscopic_solver *s, status started)
     return nearly ? away_from_zero * scale : 0;
 }
 
-/* Starts, and starts again with another shift if needed. */
+/* Starts the basis, and starts again with a different shift if needed. */
 static status begin(gyroscopic_solver *s, int count, fault *f)
 {
     const status outcome = start(s, count, f);

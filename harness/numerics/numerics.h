@@ -9,7 +9,7 @@
 /* Sparse matrices in compressed columns, and their direct factorisation.
  *
  * A symmetric matrix stores only its upper triangle (row <= column), any other matrix all entries.
- * With by_numbers = 1 a matrix stored whole is factored as symmetric when its values are symmetric.
+ * With by_numbers = 1 a matrix stored in full is factored as symmetric if its values are symmetric.
  * The pattern does not change; values are added by position, so that assembly needs no search. */
 
 typedef struct sparse {
@@ -17,7 +17,7 @@ typedef struct sparse {
     int *column;    /* [n + 1] */
     int *row;       /* [column[n]], ascending in each column */
     double *value;  /* [column[n]] */
-    int by_numbers; /* 1: stored whole, and factored as symmetric when its values are */
+    int by_numbers; /* 1: stored in full, and factored as symmetric if its values are */
 } sparse;
 
 /* The second matrix shares the pattern (column, row) of the first and owns only its values. */
@@ -26,7 +26,7 @@ void sparse_free_values(sparse *a);
 void sparse_zero(sparse *a);
 /* Copies the leading rows and columns of `whole`. */
 void sparse_copy_leading(const sparse *whole, sparse *leading);
-/* Entry (j, j); 0 where none is stored. */
+/* Entry (j, j); 0 if none is stored. */
 double sparse_diagonal(const sparse *a, int j);
 void sparse_mul(const sparse *a, const double x[], double y[]);            /* y = A x */
 void sparse_mul_transposed(const sparse *a, const double x[], double y[]); /* y = A^T x */
@@ -34,13 +34,13 @@ void sparse_mul_transposed(const sparse *a, const double x[], double y[]); /* y 
  * its upper triangle stored. */
 double sparse_rounding(const sparse *a, const double x[], const double y[]);
 
-/* Upper triangle of a matrix that is stored whole, and a test for symmetry. */
+/* Upper triangle of a matrix stored in full, and a test for symmetry. */
 typedef struct by_numbers by_numbers;
 
 status by_numbers_alloc(const sparse *pattern, by_numbers **out, fault *f);
 void by_numbers_free(by_numbers *);
-/* Copies the upper triangle of `a`. Returns its largest |a_ij - a_ji|/sqrt|a_ii a_jj|; INFINITY
- * where that is NaN. */
+/* Copies the upper triangle of `a`. Returns its largest |a_ij - a_ji|/sqrt|a_ii a_jj|; INFINITY if
+ * that is NaN. */
 double by_numbers_take(by_numbers *, const sparse *a);
 const sparse *by_numbers_upper(const by_numbers *);
 
@@ -60,21 +60,21 @@ typedef struct factor_counts {
 #define FACTOR_SYMMETRIC_WITHIN 1e-11
 /* Symbolic analysis with a fill-reducing order (AMD), done once. Symmetric: LDL^T without pivoting,
  * whose signs give the inertia; unsymmetric: KLU. With by_numbers: LDL^T of the upper triangle,
- * bit-for-bit as for a matrix that stores only that, or KLU. */
+ * bitwise as for a matrix that stores only that, or KLU. */
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f);
 /* For a matrix with the same pattern as `of`. A symmetric matrix uses the order of `of`, which must
  * outlive it; the two must not be factored at the same time. */
 status factor_alloc_like(const matrix_factor *of, const sparse *pattern, matrix_factor **out,
                          fault *f);
 void factor_free(matrix_factor *fa);
-/* SINGULAR when a pivot is zero or not finite, or growth has destroyed the digits. */
+/* SINGULAR if a pivot is zero or not finite, or if growth has destroyed the digits. */
 status factor_numeric(matrix_factor *fa, const sparse *a, fault *f);
-/* Returns 1 when the last values were factored as symmetric. */
+/* Returns 1 if the last values were factored as symmetric. */
 int factor_is_symmetric(const matrix_factor *fa);
-/* The upper triangle that was factored of a matrix with by_numbers, or NULL. The factor owns it. */
+/* The factored upper triangle of a matrix with by_numbers, or NULL. The factor owns it. */
 const sparse *factor_upper(const matrix_factor *fa);
 void factor_solve(matrix_factor *fa, double x[]); /* in place */
-/* `columns` right-hand sides, each `stride` numbers after the one before it. */
+/* Solves for `columns` right-hand sides, `stride` numbers apart. */
 void factor_solve_many(matrix_factor *fa, int columns, int stride, double x[]);
 void factor_solve_transposed(matrix_factor *fa, double x[]); /* A^T x = b */
 factor_counts factor_count(const matrix_factor *fa);
@@ -125,17 +125,17 @@ typedef struct eigen_problem {
 } eigen_problem;
 
 typedef struct eigen_side {
-    int count;  /* number found; less than requested when no more exist, or for the reason below */
-    double *mu; /* [count] largest size first */
-    double *mode;     /* [count x n] x^T K x = 1 */
+    int count;    /* number found; less than requested if no more exist, or for the reason below */
+    double *mu;   /* [count] largest magnitude first */
+    double *mode; /* [count x n] x^T K x = 1 */
     double *residual; /* [count] an eigenvalue lies within residual |mu| of mu */
     double *error; /* [count] estimate: |mu| is off by error |mu|, which is at most about residual^2
                       |mu| */
     int rounding;  /* number of candidates that were rejected as round-off of A */
     status status; /* NOT_CONVERGED: the iteration ended before all requested ones were proved
                       complete ... */
-    char reason[FAULT_TEXT]; /* ... and the reason; those that were found are still the first of
-                                their side */
+    char reason[FAULT_TEXT]; /* ... and the reason; the values found are still the first of their
+                                side */
 } eigen_side;
 
 typedef struct eigen_result {
@@ -168,14 +168,14 @@ double clock_processor_seconds(void);
  * = 1/omega, M = R^T R and K the identity.  The basis starts with the modes for G = 0 and is
  * extended by K^-1 times the residuals. The inertia counts the frequencies and proves that none is
  * missing. If K is indefinite, or nearly singular as at a critical speed, K + shift M replaces it
- * in the basis and the general projected problem is solved. A growing motion then has a lambda with
+ * in the basis and the general projected problem is solved. A growing mode then has a lambda with
  * positive real part; numerics_impl.h explains what the count proves in this case.
  *
  * Massless coordinates have no frequency. Coordinates with very little mass (frequencies above some
  * 1e4 times those of the heavy parts) may end the search before all wanted modes are found.
  *
- * Assembling K loses the digits of soft motions.  The basis is orthonormal in K_product, which
- * keeps them, and so are all residuals; the factors of the matrix only improve vectors by them. */
+ * The assembly of K loses digits of soft motions. Therefore the orthonormal basis and all residuals
+ * use K_product, which keeps these digits; the factors of the matrix only improve the vectors. */
 
 typedef struct gyroscopic_problem {
     const sparse *K, *M, *G; /* same symmetric pattern; G stores its upper triangle */
@@ -189,14 +189,14 @@ typedef struct gyroscopic_problem {
 } gyroscopic_problem;
 
 typedef struct gyroscopic_result {
-    int n, count;      /* count: less than requested when no more exist */
-    double *frequency; /* [count] lambda = growth + i frequency [1/s], ascending in size */
-    double *growth;    /* [count] zero where K is positive definite */
+    int n, count;      /* count: less than requested if no more exist */
+    double *frequency; /* [count] lambda = growth + i frequency [1/s], ascending by magnitude */
+    double *growth;    /* [count] zero if K is positive definite */
     double *error;     /* [count] estimate: lambda is off by error |lambda| */
     double *mode;      /* [count x n] real or imaginary part of the motion, whichever is larger */
     int negative;      /* negative eigenvalues of K, and ... */
-    int unproven;      /* ... how many of them no mode accounts for: that many directions of growing
-                          motions, or frequencies of negative energy, are missing */
+    int unproven;      /* ... how many of them no mode accounts for: that many growing modes, or
+                          frequencies of negative energy, are missing */
     long solutions, factorisations;
     double dense_operations; /* n^3 of each dense solution */
 } gyroscopic_result;
@@ -204,8 +204,8 @@ typedef struct gyroscopic_result {
 status gyroscopic_solve(const gyroscopic_problem *, gyroscopic_result *, fault *);
 void gyroscopic_free(gyroscopic_result *);
 
-/* Checks the available memory before a problem is solved: some systems promise memory that they do
- * not have and end the program, and others, without a message. Also growing lists. */
+/* Checks the available memory before a problem is solved, because some systems promise memory that
+ * they do not have and then end this program, or others, without a message. Also growing lists. */
 
 /* REFUSED: `what` needs more memory than the machine has. bytes: lower bound of the need. */
 status memory_check(double bytes, const char *what, const char *remedy, fault *f);
@@ -294,7 +294,7 @@ static inline const char *phase_name(newton_phase k)
 typedef struct thread_team thread_team;
 typedef void team_work(void *context, int first, int end); /* [first, end) */
 
-/* Computes one piece of work into a slot, all members of it. */
+/* Computes one piece of work into all members of a slot. */
 typedef void team_fill(void *context, int piece, int slot);
 /* Called in the calling thread to use the content of a slot; returns 0 to stop. */
 typedef int team_take(void *context, int piece, int slot);
@@ -326,7 +326,7 @@ typedef struct triplets {
 
 /* Entries of a. skew = 1: a stores the upper triangle of a skew matrix. */
 status triplets_of(const sparse *a, int skew, triplets *out, fault *);
-/* Drops all but the leading n rows and columns. */
+/* Drops all rows and columns except the leading n. */
 void triplets_lead(triplets *, int n);
 /* From a dense matrix [columns x rows], column by column. */
 status triplets_of_columns(int rows, int columns, const double value[], triplets *out, fault *);
@@ -336,12 +336,12 @@ void triplets_free(triplets *);
 
 /* Linear models with inputs u and outputs y, dense and row by row:
  *   M q'' + C q' + K q = B u,  y = L0 q + L1 q' + L2 q'' + D u.
- * The last coordinates are motions that accelerations of the inputs give: their rows of M and B are
- * those of the identity, the other ones zero. */
+ * The last coordinates are prescribed motions, whose accelerations are inputs: their rows of M and
+ * B are those of the identity, and all other rows of theirs are zero. */
 typedef struct second_order {
-    int n, motions; /* without motions; of these */
+    int n, motions; /* number of coordinates without motions, and of motions */
     int inputs, outputs;
-    int *motion_of;    /* [inputs] motion whose acceleration it is; -1: a force */
+    int *motion_of;    /* [inputs] motion whose acceleration the input is; -1: a force */
     double *K, *C, *M; /* [(n + motions)^2] */
     double *B;         /* [(n + motions) x inputs] */
     double *L[3], *D;  /* [outputs x (n + motions)], [outputs x inputs] */
@@ -351,31 +351,35 @@ status second_order_alloc(int n, int motions, int inputs, int outputs, second_or
 void second_order_free(second_order *);
 
 /* Reduced model q = T x (T [(n + motions) x (columns + motions)], which the caller frees in any
- * case): static shapes of the coordinates with edge[n] 1 and the first modes with these fixed;
- * without any modes and the static shapes of forces. REFUSED: it is free to move then. */
+ * case): static shapes of the interface coordinates (edge[n] 1) and the first modes with these
+ * fixed. Without an interface: modes and the static shapes of forces. REFUSED: the structure is
+ * free then. */
 status second_order_reduce(const second_order *, const char edge[], int modes, second_order *out,
                            double **T, fault *);
-/* Natural frequencies without damping and motions [n]; NAN: none. */
+/* Undamped natural frequencies with the motions at rest, [n]; NAN: none. */
 status second_order_frequencies(const second_order *, double hertz[], fault *);
-/* y by u at a circular frequency: out[outputs x inputs x 2], real and imaginary. */
+/* Transfer functions from u to y at a circular frequency: out[outputs x inputs x 2], real and
+ * imaginary parts. */
 status second_order_transfer(const second_order *, double w, double out[], fault *);
 
 /* x' = A x + B u, y = C x + D u, dense and row by row. */
 typedef struct state_space {
     int states, eliminated; /* coordinates without mass and damping */
-    int improper;           /* output that has none; -1: all have */
+    int improper;           /* output without a state space; -1: none */
     double *A, *B, *C, *D;
 } state_space;
 
-/* REFUSED: an output has none, or the masses or stiffnesses; the caller frees *out in any case. */
+/* REFUSED: an output, the masses or the stiffnesses do not allow one; the caller frees *out in any
+ * case. */
 status state_space_of(const second_order *, state_space *out, fault *);
 void state_space_free(state_space *);
 
-/* A factor proportional (r - y) + derivative (r' - y') + integral (its integral) adds `times` of
- * itself to an input; y: output `measured`, y': output `rate` (with a derivative gain only). */
+/* The factor proportional (r - y) + derivative (r' - y') + integral (integral of r - y), multiplied
+ * by `times`, is added to an input. y: output `measured`; y': output `rate` (only with a derivative
+ * gain). */
 typedef struct state_space_loop {
     int input, measured, rate;
-    int reference; /* input that is the rate of r, without effect before */
+    int reference; /* input that becomes the rate of r and must have no other effect */
     double times, proportional, derivative, integral;
 } state_space_loop;
 

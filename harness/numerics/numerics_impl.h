@@ -16,7 +16,7 @@ typedef struct candidates {
     double *mu;          /* [room] descending */
     double *matrix_mu;   /* [room] the Rayleigh quotient of the assembled matrices, including their
                             rounding errors */
-    double *noise;       /* [room] change of it due to rounding of the sums */
+    double *noise;       /* [room] change of matrix_mu due to rounding of the sums */
     double *stiffness;   /* [room] x^T K x as evaluated by the caller */
     double *x;           /* [room x n] normalised so that x^T K x = 1 with the matrix */
     double *work, *form; /* [n] each */
@@ -28,16 +28,16 @@ typedef struct candidates {
 
 status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f);
 void candidates_free(candidates *p);
-/* Lower estimate of the largest |mu| by a few powers of K^-1 A. Returns 0 when A contains only
+/* Lower estimate of the largest |mu| by a few powers of K^-1 A. Returns 0 if A contains only
  * rounding errors. */
 double candidates_scale(candidates *p, long *solutions);
-/* Returns 1 when rounding alone can make x^T A x as large as `energy`. */
+/* Returns 1 if rounding alone can make x^T A x as large as `energy`. */
 int candidates_is_rounding(const candidates *p, double energy, const double x[]);
 /* Largest relative change of x^T K x caused by the assembly of K, over the first `count`
  * candidates. */
 double candidates_departure(const candidates *p, int count);
 /* From now on K^-1 A x uses K_product, with iterative refinement until the present departure is
- * reduced to 1e-6 of itself. */
+ * reduced by a factor of 1e-6. */
 status candidates_refine(candidates *p, int count, fault *f);
 /* Threshold below which values are rounding errors of the largest value `scale`: n^(3/2) of them
  * add up in a slender structure of n unknowns. */
@@ -55,8 +55,8 @@ void candidates_judge(candidates *p, int i, double *residual, double *error);
 /* Proof that no eigenvalue is missing among candidates. */
 
 /* Number of eigenvalues missing among the candidates, of those that lie clearly above the one of
- * rank `wanted` (counted from 1). Requires wanted <= count. NOT_CONVERGED when the inertia counts
- * fewer than were found, or cannot be counted. */
+ * rank `wanted` (counted from 1). Requires wanted <= count. NOT_CONVERGED if the inertia counts
+ * fewer than were found, or cannot be computed. */
 status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_result *work,
                                 fault *f);
 /* Frees the memory used for counting if it is large; the next count allocates it again. */
@@ -90,7 +90,7 @@ int subspace_add(subspace *b, const double x[]);
 
 typedef struct ritz {
     int room, count, size; /* number of pairs requested and found; size of the basis at that time */
-    double complex *lambda; /* [room] ascending in size; one of each set lambda, -lambda, conj
+    double complex *lambda; /* [room] ascending by magnitude; one of each set lambda, -lambda, conj
                                lambda, -conj lambda */
     double complex
         *c; /* [room x basis room] coefficients of x in the basis, normalised to length 1 */
@@ -109,13 +109,13 @@ status ritz_hermitian(const subspace *b, ritz *r, fault *f);
 /* Solves with S = K + shift M. */
 status ritz_general(const subspace *b, double shift, ritz *r, fault *f);
 
-/* Accuracy of a motion found in a subspace.
+/* Accuracy of a mode found in a subspace.
  *
  * With w^H (lambda^2 M + lambda G + K) = 0, a change d of K moves lambda by w^H d x/(w^H (2 lambda
  * M + G) x), and lambda w^H (2 lambda M + G) x = w^H (lambda^2 M - K) x. For an oscillation w = x,
  * and the error of the vector enters as its square: r^H S^-1 r of the residual r, divided by the
- * distance to other frequencies. Where two frequencies coincide this has no bound; the square root
- * of the change has one. */
+ * distance to other frequencies. If two frequencies coincide, this is unbounded; the square root of
+ * the change is bounded. */
 
 typedef struct motion_estimate {
     const gyroscopic_problem *p;
@@ -131,8 +131,8 @@ typedef struct motion_estimate {
 status estimate_alloc(int n, motion_estimate *, fault *);
 void estimate_free(motion_estimate *);
 /* Pair i, x = re + i im. For an oscillation *lambda is improved by the quotient of quadratic forms
- * k - omega^2 m + omega g = 0, whose error is the square of the vector's. grows = 1: not an
- * oscillation. *error: estimated error of lambda relative to |lambda|. */
+ * k - omega^2 m + omega g = 0, whose error is the square of the vector's. grows = 1: the mode is
+ * not an oscillation. *error: estimated error of lambda relative to |lambda|. */
 void estimate_pair(motion_estimate *, int i, const double re[], const double im[], int grows,
                    double complex *lambda, double *error);
 /* y = K x */
@@ -150,7 +150,7 @@ status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, fac
 status factor_symmetric_alloc_like(const factor_symmetric *of, factor_symmetric **out, fault *f);
 void factor_symmetric_free(factor_symmetric *fs);
 /* OK or SINGULAR; allocates nothing. *weakest: the unknown whose pivot lost most digits; *ratio:
- * its pivot divided by the size of the terms that it is the sum of. */
+ * its pivot divided by the size of the terms that sum to it. */
 status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts,
                                 int *weakest, double *ratio);
 /* In place: `columns` right-hand sides, `stride` numbers apart. */
@@ -168,27 +168,27 @@ void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[]);
 /* Number of frequencies below a given one: the negative eigenvalues of the Hermitian K - omega^2 M
  * + i omega G with K positive definite. */
 
-/* SINGULAR when omega is too close to a frequency. */
+/* SINGULAR if omega is too close to a frequency. */
 status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, double omega, int *below,
                         fault *f);
 
 /* Proves, from the negative eigenvalues of K, that no mode about an unstable state is missing.
  *
  * (lambda^2 M + lambda G + K) x = 0 with M positive.  Each negative eigenvalue of K belongs to a
- * motion:  negative(K) = real + 2 complex + 2 opposed  counts the growing lambda > 0, the lambda =
- * a + i b with a, b > 0, and the frequencies whose energy x^H (K + omega^2 M) x is negative (T.
- * Kapitula, P. Kevrekidis, B. Sandstede, Physica D 195 (2004) 263-282).  When the modes found add
- * up to this number, none is missing.  Then K - omega^2 M + i omega G has the negative eigenvalues
- * of K, one more for each frequency of positive energy below omega, and one minus for each opposed
- * one. */
+ * mode: negative(K) = real + 2 complex + 2 opposed  counts the growing lambda > 0, the lambda = a +
+ * i b with a, b > 0, and the frequencies whose energy x^H (K + omega^2 M) x is negative (T.
+ * Kapitula, P. Kevrekidis, B. Sandstede, Physica D 195 (2004) 263-282).  If the modes found add up
+ * to this number, none is missing. The number of negative eigenvalues of K - omega^2 M + i omega G
+ * is then that of K, plus one for each frequency of positive energy below omega, minus one for each
+ * opposed frequency. */
 
 typedef struct gyroscopic_index {
     int negative; /* negative eigenvalues of K that the modes account for */
     int crossed;  /* frequencies of positive energy minus those of negative energy */
 } gyroscopic_index;
 
-/* Does motion i grow? The energy of a growing motion is zero, that of an oscillation is not; a real
- * part of the latter is rounding. Where two frequencies coincide neither test applies, and they
+/* Does mode i grow? The energy of a growing mode is zero, that of an oscillation is not; a real
+ * part of an oscillation is rounding. If two frequencies coincide, neither test applies, and they
  * count as oscillations. */
 int gyroscopic_index_grows(const ritz *, const subspace *, double shift, int i);
 /* Index of the first `count` pairs found with S = K + shift M. */
@@ -220,9 +220,9 @@ status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double 
 status polish(candidates *p, long *solutions, fault *f);
 
 /* Values of L and D in P A P^T = L D L^T, row by row. Consecutive rows with equal columns are
- * computed side by side, one in each lane. Consecutive columns of equal pattern are subtracted
- * together. Every number is the sum of its terms in the order of the columns, so that all are
- * bit-for-bit those of SuiteSparse's ldl_numeric. */
+ * computed together, one in each lane. Consecutive columns of equal pattern are subtracted
+ * together. The terms of every number are summed in the order of the columns, so that all numbers
+ * agree bitwise with those of SuiteSparse's ldl_numeric. */
 
 enum { TRIANGULAR_LANES = 4, TRIANGULAR_RUN = 7 };
 
@@ -254,7 +254,7 @@ static inline int triangular_column_of(int place)
     return place / TRIANGULAR_LANES;
 }
 
-/* Returns 0 when a pivot is zero; the rows from there on are not computed. The second function is
+/* Returns 0 if a pivot is zero; the rows from there on are not computed. The second function is
  * for processors with AVX2: elements/math/real.h. */
 int triangular_rows_factor_plain(const triangular_rows *, const double a[]);
 int triangular_rows_factor_avx2(const triangular_rows *, const double a[]);
@@ -286,9 +286,9 @@ int triangular_groups_find(const triangular_pattern *, int L_row[], triangular_g
 void triangular_groups_place(const triangular_groups *, const int column[], int row[]);
 void triangular_groups_free(triangular_groups *);
 
-/* Solves P^T L D L^T P x = b for one or several right-hand sides. Every number is the sum of its
- * terms in the order of SuiteSparse's ldl_lsolve and ldl_ltsolve, so that the bits do not depend on
- * how many are solved together. */
+/* Solves P^T L D L^T P x = b for one or several right-hand sides. Terms are summed in the order of
+ * SuiteSparse's ldl_lsolve and ldl_ltsolve, so that the bits do not depend on how many right-hand
+ * sides are solved together. */
 
 enum { TRIANGULAR_TOGETHER = 4 };
 

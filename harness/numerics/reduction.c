@@ -1,6 +1,7 @@
 /* Reduced linear models: static shapes of interface coordinates and motions, and modes with the
- * interface fixed (R. R. Craig, M. C. C. Bampton, AIAA Journal 6 (1968) 1313); without an interface
- * modes and the static shapes of forces. Shapes and modes are those of the symmetric part of K. */
+ * interface fixed (R. R. Craig, M. C. C. Bampton, AIAA Journal 6 (1968) 1313); without an
+ * interface, modes and the static shapes of forces. Shapes and modes are those of the symmetric
+ * part of K. */
 #include <complex.h>
 #include <float.h>
 #include <lapacke.h>
@@ -20,13 +21,13 @@ static status no_memory(fault *f)
 /* A basis under construction; columns of V one after the other. */
 typedef struct reduction {
     const second_order *m;
-    int inner, edge; /* coordinates that are not of the interface, and those that are */
+    int inner, edge; /* number of coordinates outside the interface, and in it */
     int *of;         /* [n] first the inner ones */
     double *K;       /* [inner^2] symmetric; becomes its Cholesky factor */
     double *mode;    /* [inner^2] by columns, K-orthonormal; the highest frequency first */
-    double *mu;      /* [inner] of these, 1/w^2 */
+    double *mu;      /* [inner] 1/w^2 of the modes */
     double *V;       /* [columns x n] */
-    double *r;       /* [motions x n] of motions */
+    double *r;       /* [motions x n] static shapes of motions */
     int columns;
 } reduction;
 
@@ -56,7 +57,7 @@ static status decompose(reduction *b, fault *f)
                                  "the modes for a reduced model did not converge");
 }
 
-/* Not more than have mass, apart from round-off: there are fewer than coordinates. */
+/* Checks that there are not more modes than coordinates with mass, apart from round-off. */
 static status check_modes(const reduction *b, int modes, fault *f)
 {
     const int n = b->inner;
@@ -77,7 +78,7 @@ static void solve_inner(const reduction *b, double force[], double sign, double 
         out[b->of[i]] = sign * force[i];
 }
 
-/* Adds the static shape of a force, without the part that V contains, if there is more. */
+/* Adds the static shape of a force, without the part that V contains, unless nothing remains. */
 static void add_shape(reduction *b, const double force[], double room[])
 {
     const int n = b->inner;
@@ -166,8 +167,9 @@ static void project(const double left[], const double A[], const double right[],
                 out[i * R + j] += left[k * R + i] * room[k * R + j];
 }
 
-/* Row y of the outputs minus z^T (K q + C q' + M q'' - B u), which is zero, with the static shape z
- * of the output: the rest comes from inertia and damping (mode acceleration). */
+/* Subtracts z^T (K q + C q' + M q'' - B u), which is zero, from row y of the outputs, with the
+ * static shape z of the output. The remainder is due to inertia and damping (mode acceleration
+ * method). */
 static void correct_output(const reduction *b, int y, double *L[3], double D[], double room[])
 {
     const second_order *m = b->m;
@@ -274,7 +276,7 @@ status second_order_frequencies(const second_order *m, double hertz[], fault *f)
         }
     const int info =
         n == 0 ? 0 : LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'N', 'L', m->n, M, m->n, K, m->n, mu);
-    for (size_t i = 0; i < n; i++) /* none where it is free to move */
+    for (size_t i = 0; i < n; i++) /* none if the structure is free */
         hertz[i] =
             info == 0 && mu[n - 1 - i] > 0 ? 1 / sqrt(mu[n - 1 - i]) / (2 * PI) : (double)NAN;
     free(K);

@@ -186,8 +186,9 @@ static void insert(const subspace *b, ritz *r, double complex lambda, const doub
 }
 
 /* nu [Kp, 0; 0, 1] z = [-Gp, -R^T; R, 0] z with nu = 1/lambda, z = (x, lambda R x), Mp = R^T R and
- * Kp = 1 - shift Mp; column-major. Massless motion is a simple nu = 0. With lambda x in place of
- * lambda R x it would be a double one, which rounding splits by the root of its size. */
+ * Kp = 1 - shift Mp; column-major. A massless motion is a simple nu = 0. With lambda x instead of
+ * lambda R x it would be a double eigenvalue, which rounding splits by the square root of its size.
+ */
 static void general_matrices(const subspace *b, double shift, const double R[], double A[],
                              double B[])
 {

@@ -1,9 +1,10 @@
 /* State space of M q'' + C q' + K q = B u.
  *
- * Coordinates with mass become undamped modes a by unit mass, with circular frequencies w from a
- * one-sided Jacobi method, which keeps the digits of low and high ones alike (Z. Drmac, K. Veselic,
- * SIAM J. Matrix Anal. Appl. 29 (2008) 1322); states are w a and a'. What has no mass, but damping,
- * is of first order; what has neither is eliminated, its equations are those of statics. */
+ * Coordinates with mass become undamped modes a with unit mass. Their circular frequencies w come
+ * from a one-sided Jacobi method, which is accurate for low and high frequencies alike (Z. Drmac,
+ * K. Veselic, SIAM J. Matrix Anal. Appl. 29 (2008) 1322); the states are w a and a'. Coordinates
+ * without mass but with damping are of first order; coordinates with neither are eliminated by
+ * their static equations. */
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
@@ -18,12 +19,13 @@
 typedef struct split {
     const second_order *of;
     int n, masses, slow, rigid;
-    double *T;              /* [n x n] */
-    double *w;              /* [n] circular frequencies of coordinates with mass, 1 */
-    double *K, *C, *M;      /* [n x n] T^T K T */
-    double *moved[3], *F;   /* [n x motions] by K, C and M of motions; [n x inputs] */
-    double shift;           /* of squares of frequencies */
-    double *still;          /* [rigid x (n + motions + inputs)] what is eliminated, by all else */
+    double *T;            /* [n x n] */
+    double *w;            /* [n] circular frequencies of coordinates with mass, otherwise 1 */
+    double *K, *C, *M;    /* [n x n] T^T K T */
+    double *moved[3], *F; /* [n x motions] forces due to motions by K, C and M; [n x inputs] B */
+    double shift;         /* of squares of frequencies */
+    double
+        *still; /* [rigid x (n + motions + inputs)] eliminated coordinates in terms of the others */
     double *row, *of_input; /* [states x states], [states x inputs] */
 } split;
 
@@ -76,7 +78,7 @@ static void turned(const split *s, const double A[], int size, int from, int col
                     s->T[k * n + i] * A[k * (size_t)size + (size_t)from + j];
 }
 
-/* T in the new coordinates, and all matrices. */
+/* Transforms all matrices by T. */
 static status project(split *s, fault *f)
 {
     const second_order *m = s->of;
@@ -131,7 +133,7 @@ static int range_of(split *s, const double A[], const double scale[], int from, 
     return count;
 }
 
-/* First the coordinates with mass: as they are where all have. */
+/* Separates the coordinates with mass; they remain as they are if all have mass. */
 static status split_masses(split *s, fault *f)
 {
     const size_t n = (size_t)s->n;
@@ -153,7 +155,7 @@ static status split_masses(split *s, fault *f)
     return outcome;
 }
 
-/* Of the others first those with damping. */
+/* Among the others, separates those with damping. */
 static status split_dampers(split *s, fault *f)
 {
     const size_t n = (size_t)s->n, from = (size_t)s->masses;
@@ -170,8 +172,8 @@ static status split_dampers(split *s, fault *f)
     return s->slow < 0 ? STATUS_FAULT : project(s, f);
 }
 
-/* What is eliminated, from its equations of statics: still = K00^-1 [K0., moved by K, F]. Then K
- * without it. */
+/* Expresses the eliminated coordinates by their static equations, still = K00^-1 [K0., moved by K,
+ * F], and removes them from K. */
 static status eliminate(split *s, fault *f)
 {
     const size_t n = (size_t)s->n, first = (size_t)s->masses + (size_t)s->slow,
@@ -210,8 +212,8 @@ static status eliminate(split *s, fault *f)
                     : STATUS_OK;
 }
 
-/* R L^-T of K + shift M = R^T R, M = L L^T, column by column, of the coordinates with mass; L is
- * the lower triangle [masses x masses]. 0: not positive. */
+/* R L^-T of K + shift M = R^T R, M = L L^T, column by column, for the coordinates with mass; L is
+ * the lower triangle [masses x masses]. Returns 0 if K + shift M is not positive definite. */
 static int relative(const split *s, double L[], double G[])
 {
     const size_t n = (size_t)s->n, p = (size_t)s->masses;
@@ -260,7 +262,7 @@ static status decompose(split *s, double L[], double G[], double V[], int *posit
     return STATUS_OK;
 }
 
-/* Undamped modes of the coordinates with mass; what is free to move has a shift of the order of the
+/* Undamped modes of the coordinates with mass; a free structure has a shift of the order of the
  * lowest frequency. */
 static status take_modes(split *s, double L[], double G[], double V[], fault *f)
 {
@@ -322,8 +324,8 @@ static status find_modes(split *s, fault *f)
     for (size_t i = 0; i < p; i++) {
         double square = s->w[i] * s->w[i] - s->shift;
         if (fabs(square) <= 1e-9 * s->shift)
-            square = 0;                  /* free to move */
-        for (size_t j = 0; j < p; j++) { /* what is symmetric is diagonal */
+            square = 0;                  /* a rigid-body mode */
+        for (size_t j = 0; j < p; j++) { /* the symmetric part is diagonal */
             const double skew = 0.5 * (s->K[i * n + j] - s->K[j * n + i]);
             if (j > i) {
                 s->K[i * n + j] = skew;
@@ -335,8 +337,8 @@ static status find_modes(split *s, fault *f)
     return STATUS_OK;
 }
 
-/* to[states + inputs] += times what moves the equation of coordinate r without its mass: F - C q' -
- * K q. */
+/* to[states + inputs] += times the force in the equation of coordinate r, without inertia: F - C q'
+ * - K q. */
 static void force_on(const split *s, size_t r, double times, const double *slow_rows, double to[])
 {
     const second_order *m = s->of;
@@ -362,7 +364,8 @@ static void force_on(const split *s, size_t r, double times, const double *slow_
         if (m->motion_of[j] >= 0)
             of_input[j] -= times * s->moved[2][r * motions + (size_t)m->motion_of[j]];
     }
-    for (size_t i = 0; i < (size_t)s->rigid; i++) { /* of what is eliminated, beside K of it */
+    for (size_t i = 0; i < (size_t)s->rigid;
+         i++) { /* of eliminated coordinates, in addition to their K */
         const double k = times * s->K[r * n + first + i];
         for (size_t j = 0; j < motions; j++)
             to[first + j] += k * s->still[i * width + first + j];
@@ -415,7 +418,7 @@ static void fill_positions(const split *s, double out[])
         out[(n + i) * width + first + i] = 1;
 }
 
-/* Does an input act at once on c x + d u, beside its size by way of the modes? */
+/* Does an input act instantaneously on c x + d u, relative to its effect through the modes? */
 static int passes_through(const split *s, const double rows[], const double c[], int states)
 {
     const size_t p = (size_t)s->masses, rates = p + (size_t)s->slow + (size_t)s->of->motions,
@@ -431,8 +434,8 @@ static int passes_through(const split *s, const double rows[], const double c[],
     return 0;
 }
 
-/* Outputs [outputs x (states + inputs)]: L0 q + L1 q' + L2 q'' + D u, with q' = Q A x + Q B u where
- * R is zero. */
+/* Outputs [outputs x (states + inputs)]: L0 q + L1 q' + L2 q'' + D u, with q' = Q A x + Q B u if R
+ * is zero. */
 static status fill_outputs(const split *s, const double rows[], const double position[],
                            double *work, state_space *out, fault *f)
 {

@@ -1,4 +1,4 @@
-/* Closes loops of feedback around a state space: x' = A x + B w, and for each loop the factor
+/* Closes feedback loops around a state space: x' = A x + B w, and for each loop the factor
  *   u = Kp (r - y) + Kd (r' - y') + Ki z,  z' = r - y,
  * which is added to its input. The references r are states, whose rates are inputs. */
 #include <stdlib.h>
@@ -12,12 +12,12 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for a state space");
 }
 
-/* Sizes, and the factors of all loops by states, references, integrals and inputs. */
+/* Sizes, and the factors of all loops in terms of states, references, integrals and inputs. */
 typedef struct closing {
     const state_space *of;
     const state_space_loop *loop;
     int loops, inputs;
-    size_t wide; /* of the rows: states + 2 loops + inputs */
+    size_t wide; /* length of the rows: states + 2 loops + inputs */
     double *u;   /* [loops x wide] */
 } closing;
 
@@ -31,7 +31,7 @@ static void add_output(const closing *c, int y, double times, double to[])
         to[states + 2 * (size_t)c->loops + j] += times * c->of->D[(size_t)y * inputs + j];
 }
 
-/* to[wide] += times what the loops add through the inputs: row of B or D [inputs]. */
+/* to[wide] += times the contribution of the loops through the inputs: row of B or D [inputs]. */
 static void add_loops(const closing *c, const double by_input[], double times, double to[])
 {
     for (int l = 0; l < c->loops; l++)
@@ -40,7 +40,8 @@ static void add_loops(const closing *c, const double by_input[], double times, d
                      c->u[(size_t)l * c->wide + j];
 }
 
-/* The factors, which may act at once on what they measure: (1 + Kp D + Kd D') u = ... */
+/* Solves for the factors, which may act instantaneously on their measured outputs: (1 + Kp D + Kd
+ * D') u = ... */
 static status find_factors(closing *c, fault *f)
 {
     const size_t loops = (size_t)c->loops, states = (size_t)c->of->states;
@@ -75,7 +76,7 @@ static status find_factors(closing *c, fault *f)
                       : STATUS_OK;
 }
 
-/* Integrals that are used, behind states and references. */
+/* Position of a loop's integral after states and references; unused integrals are skipped. */
 static int position(const closing *c, int loop)
 {
     int at = c->of->states + c->loops;
@@ -84,7 +85,8 @@ static int position(const closing *c, int loop)
     return at;
 }
 
-/* A row of the new state space from one of states, references, all integrals and inputs. */
+/* Stores a row of the new state space, given in terms of states, references, all integrals and
+ * inputs. */
 static void keep_row(const closing *c, const double row[], double A[], double B[])
 {
     const size_t known = (size_t)c->of->states + (size_t)c->loops;

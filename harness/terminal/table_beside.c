@@ -122,7 +122,7 @@ static void write_row(FILE *to, const block *b, const char *head,
     fputc('\n', to);
 }
 
-/* Every number of elements used by a formulation of the block, ascending. */
+/* Writes a row for every number of elements used by a formulation of the block, ascending. */
 static void write_meshes(FILE *to, const block *b)
 {
     for (int last = 0, next = 0;; last = next) {
@@ -150,7 +150,7 @@ static void write_sentences(FILE *to, const block *b)
         if (c->shown.kind == VERDICT_PASS || c->shown.kind == VERDICT_OTHER_MODEL)
             continue; /* undecided limits are listed once, at the end */
         if (c->shown.kind == VERDICT_NO_TRUTH && (c->row != NULL || !b->known))
-            continue; /* the heading says it of all of them */
+            continue; /* the heading states it for all of them */
         sentence_of_verdict(&c->shown, b->q->least_order, text, sizeof text);
         paragraph_write(to, fprintf(to, "  %s: ", c->one->formulation.key), 4, text);
     }

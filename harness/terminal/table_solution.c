@@ -40,13 +40,13 @@ static int is_told(const solve_result *r, int index)
            strcmp(r->quantity[index - 1].reason, r->quantity[index].reason) == 0;
 }
 
-/* Is it nothing but round-off? */
+/* Is the value only round-off? */
 static int is_zero(const scene *s, int index, const solve_result *r)
 {
     return fabs(r->quantity[index].value) < change_scale(s, index, r) * noise;
 }
 
-/* Bound of the change of a value by round-off and by refinement of the mesh. */
+/* Bound on the change of a value due to round-off and mesh refinement. */
 static double uncertainty_of(const scene *s, int index, const solve_result *r)
 {
     const quantity_result *v = &r->quantity[index];
@@ -118,7 +118,7 @@ static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result
     }
 }
 
-/* What omitted modes may add to curves. */
+/* Prints bounds on the contribution of omitted modes to curves. */
 static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
 {
     for (int i = 0; i < r->quantities; i++)
@@ -127,7 +127,7 @@ static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
                     s->quantity[i].name, r->quantity[i].rounding);
 }
 
-/* "ULS = 1.35 dead + 1.5 wind; ...": what acts where loads have cases. */
+/* "ULS = 1.35 dead + 1.5 wind; ...": the combinations, if loads have cases. */
 static void combinations(FILE *to, const scene *s)
 {
     if (s->combinations == 0)
@@ -172,7 +172,8 @@ static void imperfections(FILE *to, const scene *s)
     paragraph_end(&words, at, INDENT);
 }
 
-/* Does an analysis that is linear about a state hold what drives prescribe? Names these kinds. */
+/* Does an analysis that is linear about a state hold the driven components fixed? Names the kinds
+ * of these analyses. */
 static int holding(const scene *s, char words[40])
 {
     static const struct {
@@ -209,7 +210,7 @@ static void put_driven(FILE *text, const scene *s, int node, const int driver[3]
                     scene_name(s, SCENE_NODES, node).text, names + 2 * k);
 }
 
-/* "held: stage ux, driven (modal)": where a drive does not move. */
+/* "held: stage ux, driven (modal)": driven components that are fixed in an analysis. */
 static void driven(FILE *to, const scene *s)
 {
     char kinds[40], *words = NULL;
@@ -237,7 +238,7 @@ static int has_no_inertia(const scene_body *b)
     return none;
 }
 
-/* Can it turn, and has nothing that moves with it a mass away from it? */
+/* Can the node rotate, and does no other node with a body move with it? */
 static int turns_alone(const scene *s, int node)
 {
     const scene_node *n = &s->node[node];
@@ -330,7 +331,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     table_path_steps(to, &c->solve);
 }
 
-/* The loops of feedback that small vibrations close. */
+/* Prints the feedback loops that small vibrations close. */
 static void loop_lines(FILE *to, const scene *s)
 {
     for (int i = 0; i < s->loads; i++) {

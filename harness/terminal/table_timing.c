@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Lowest cost for the quantities of a point (`every`), or for the first with a reference value.
- * Returns 0 when none has one. list[series]: work space. */
+ * Returns 0 if none has one. list[series]: work space. */
 static int table_cheapest(FILE *to, const sweep *, const judgement *, int point, int every,
                           reached list[]);
 
@@ -65,8 +65,8 @@ static int meshes_run(const series *one, int at)
     return one->point == at && one->missing[0] == '\0' ? one->meshes : 0;
 }
 
-/* The first quantity that a formulation has a reference value for which none of the quantities
- * before has one for it; `done`: of each series, 1: its errors were shown. -1: none. */
+/* The first quantity with a reference value for a formulation whose errors were not shown yet;
+ * done[series]: 1: its errors were shown. -1: none. */
 static int next_quantity(const sweep *s, const judgement *j, int at, const char done[])
 {
     for (int q = 0; q < s->point[at].scene.quantities; q++)
@@ -82,7 +82,8 @@ static void mark_shown(const sweep *s, const judgement *j, int at, int quantity,
         done[i] |= s->series[i].point == at && judged_on(j, i, quantity) != NULL;
 }
 
-/* Formulations without a reference value of the first quantity: their errors in others. */
+/* Prints errors in other quantities for formulations without a reference value of the first
+ * quantity. */
 static void errors_of(FILE *to, const sweep *s, const judgement *j, int at, int quantity)
 {
     fprintf(to, "  %-*s%5s %11s   of %s\n", NAME, "formulation", "n", "error",
@@ -318,8 +319,8 @@ static int same_answer(const cheapest_answer *a, const cheapest_answer *b)
     return same;
 }
 
-/* "u_x, F_y within 10, 1 %: collocation, n = 1": one line for quantities with the same answers as
- * the first; neighbouring levels with equal answers are combined. */
+/* "u_x, F_y within 10, 1 %: collocation, n = 1": one line for all quantities with the same answers
+ * as the first; adjacent levels with equal answers are combined. */
 static void write_together(FILE *out, const scene *here, cheapest_answer a[], int count)
 {
     for (int level = 0, next; level < REACH_LEVELS; level = next) {

@@ -117,7 +117,7 @@ static void print_verdict(verdicts_block *b, const verdict *v)
     verdict_words(b, v, words, sizeof words);
     fputc(' ', b->to);
     paragraph_write(b->to, column, 6, words);
-    if (v->reason[0] != '\0' && v->kind != VERDICT_OTHER_MODEL) /* printed once, at the end */
+    if (v->reason[0] != '\0' && v->kind != VERDICT_OTHER_MODEL) /* it is printed once, at the end */
         paragraph_say(b->to, 0, 6, "%s", v->reason);
 }
 
@@ -254,7 +254,8 @@ static void add(char *text, const char *word)
     snprintf(text + used, WORDS - used, "%s", word);
 }
 
-/* Describes steps `first` to `last` of a path, which are alike; `end`: they are its last. */
+/* Describes steps `first` to `last` of a path, which have equal stability; `end`: they end the
+ * path. */
 static void add_run(const solve_result *r, int first, int last, int begin, int end, char *text)
 {
     const step_record *a = &r->step[first], *b = &r->step[last];

@@ -50,9 +50,8 @@ void screen_put(FILE *to, screen, screen_ink, const char *text);
 /* Conversion 'g', 'e' or 'f' of printf in a field of `width`; a dash if the value is not finite. */
 void table_value(FILE *to, int width, int digits, char conversion, double value);
 /* A line "case (parameters), formulation". */
-/* Prints a line on members that loads divide, one on omitted physics, and one on the theory of
- * shear of the formulation if there are both shear and stability; lines that do not apply are
- * omitted. */
+/* Prints a line on members divided by loads, one on omitted physics, and one on the formulation's
+ * shear theory if there are both shear and stability; lines that do not apply are omitted. */
 void table_omitted(FILE *to, const sweep_point *p);
 void table_theory(FILE *to, const scene *s, const element_type *type);
 void table_series(FILE *to, const sweep *s, int index);
@@ -60,9 +59,9 @@ void table_series(FILE *to, const sweep *s, int index);
 /* Comparison of formulations: a table for each quantity, a column for each formulation. */
 
 /* Table for the single point of a sweep: rows are meshes, then the limit, its uncertainty and
- * order; below it verdicts other than pass, in words. Shows errors if there is a reference, else
- * values. Width 100 columns: further formulations follow in more blocks; the last part lists what
- * did not run. */
+ * order; below it verdicts other than pass, in words. Shows errors if there is a reference,
+ * otherwise values. The width is 100 columns: further formulations follow in more blocks; the last
+ * part lists formulations that did not run. */
 void table_beside(FILE *to, const sweep *s, const truths *t);
 
 /* Series over their meshes as text, with their limits. */
