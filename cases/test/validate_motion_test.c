@@ -212,7 +212,7 @@ static const refusal refusals[] = {
     {starts_nowhere, "analysis 1: ", "spin = nan"},
     {without_mass, "analysis 1: ", "the structure has no mass"},
     {after_linear, "analysis 2: ", "this one follows linear"},
-    {modes_of_motion, "analysis 2: ", "its base state is that of a motion"},
+    {modes_of_motion, "analysis 2: ", "about an instant of a motion"},
     {unknown_driver, "driver slide: ", "its value is unknown"},
     {values_over_no_path, "driver push: ", "its values are given over a path"},
     {factors_over_no_path, "load 0: ", "its factors are given over a path"},

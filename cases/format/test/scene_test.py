@@ -221,7 +221,7 @@ quantities:
 WRONG = [
     ("hold: all}\n      top: {at: [0, 0.08, 0]", "hold: all}\n      top: {at: [0, 0, 0]",
      "left.leaf: its ends coincide"),
-    ("from: peak, to: stage, st", "from: peak, to: peak, st", "strap: both its ends are node peak"),
+    ("from: peak, to: stage, st", "from: peak, to: peak, st", "strap: both its ends are at node peak"),
     ("stiffness: [1, 1, 1, 0", "stiffness: [1, -1, 1, 0", "strap: its stiffness"),
     ("[0, 1e-3, 0], on: stage", "[0, 1/0, 0], on: stage", "division by zero"),
     ("{force: [0, 1e-3, 0], on: stage}", "{distributed: [0, 1, 0], on: brace_2, axes: member, follower: yes}\n"
