@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns 1 when the cells of the series are run here. */
+/* Returns 1 if this process runs the cells of the series. */
 static int cells_runs(const sweep *s, int index)
 {
     const series *one = &s->series[index];
@@ -36,7 +36,7 @@ static void add_quantity(digest *to, const quantity_result *q)
     add_numbers(to, q->curve.value, q->curve.points);
 }
 
-/* Values, how each of them ended, and the work that was counted; no times. */
+/* Adds values, their statuses and the counted work, without times. */
 static void add_cell(digest *to, const cell_result *cell)
 {
     const solve_result *r = &cell->solve;
@@ -138,8 +138,8 @@ void cells_keep(sweep *s, const char keep[])
     s->partial = s->unfinished > 0;
 }
 
-/* [s] estimated, on the reference machine; little work is cut into smaller batches, so that every
- * process gets some */
+/* [s] estimated, on the reference machine; a small amount of work is cut into smaller batches, so
+ * that every process gets some */
 static const double batch_most = 0.5, batch_least = 0.02, batch_share = 1.0 / 32;
 
 /* The sweep cut into batches. An item is a series that is run. */
@@ -220,7 +220,7 @@ static void sum_costs(int batches, const int first[], const double each[], doubl
     }
 }
 
-/* deal_cut, with the cost of each batch; returns the number of batches. */
+/* As deal_cut, also with the cost of each batch; returns the number of batches. */
 static int cut_items(int items, const double each[], int first[], double cost[])
 {
     double all = 0;

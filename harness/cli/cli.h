@@ -13,10 +13,11 @@
 #include "harness/study/study.h"
 
 /* Verbs, their options, and command lines. A verb has an array of its own options, groups of
- * options that it shares with others, and its own request struct. Each group is declared with its
+ * options shared with other verbs, and its own request struct. Each group is declared with its
  * topic: case_input, named, spread. */
 
-/* Largest number of arguments of a verb or values of a repeated option; of options in total. */
+/* Largest number of arguments of a verb or of values of a repeated option, and of options in total.
+ */
 enum { COMMAND_MOST_WORDS = 64, COMMAND_MOST_GIVEN = 512 };
 
 typedef struct verb_option verb_option;
@@ -30,12 +31,12 @@ enum {
     OPTION_HDF5 = 8,    /* the output file is never a stream ... */
     OPTION_FOLDER = 16, /* ... or the output is a new folder */
     OPTION_ASIDE =
-        32, /* does not affect results: only their presentation, or which process computes them */
+        32, /* does not affect results, only their presentation or which process computes them */
     OPTION_VERDICT = 64 /* affects verdicts but not cells */
 };
 
 /* Member that an option sets: int for a switch (1) or a number, text_list for an option that may be
- * repeated, else const char *. */
+ * repeated, otherwise const char *. */
 struct verb_option {
     const char *name;
     char letter;                 /* 0: none */
@@ -54,16 +55,16 @@ typedef struct experiment_type experiment_type; /* harness/experiments/experimen
 
 typedef struct given_option {
     const verb_option *option;
-    const char *value; /* NULL: a switch, or no value given */
+    const char *value; /* NULL: a switch, or no value was given */
 } given_option;
 
 /* A command line, with options in the order given. */
 typedef struct command_line {
-    const verb *verb, *const *verbs; /* the verb; all verbs, NULL-terminated, for messages about
-                                        options of another verb */
+    const verb *verb, *const *verbs; /* the verb, and all verbs, NULL-terminated, for messages about
+                                        options of other verbs */
     const char *argument[COMMAND_MOST_WORDS];
     int arguments;
-    given_option given[COMMAND_MOST_GIVEN + 1]; /* one more for the --scene of an example */
+    given_option given[COMMAND_MOST_GIVEN + 1]; /* with room for the --scene of an example */
     int givens;
 } command_line;
 
@@ -92,12 +93,12 @@ struct verb {
     const verb_group *shared;     /* ends with group NULL */
     const verb_option *own;       /* ends with name NULL; NULL: no options */
     size_t request;
-    int place; /* in the help: a heading, and a number below it */
+    int place; /* position in the help: a heading, and a number below it */
     int (*answer)(const command_line *,
                   void *request);     /* returns the exit status; NULL: a heading */
     void (*before)(char **arguments); /* called before options are read; NULL: none */
     const experiment_type
-        *experiment; /* experiment whose records the results file gets; NULL: none */
+        *experiment; /* experiment whose records are written to the results file; NULL: none */
 };
 
 /* Option number i of a verb, in the order of its help; NULL after the last. at: receives the offset
@@ -106,16 +107,16 @@ const verb_option *verb_option_at(const verb *, int i, size_t *at);
 /* Name of an option in version 0.2; NULL if it has not changed. */
 const char *verb_former_name(const verb_option *);
 /* Finds the option in a word: "--name=VALUE" by its full name, a former name or a unique
- * abbreviation; "-xyVALUE" by the first letter that takes a value, else the last. *value: NULL: the
- * word contains no value. Returns NULL when the letter at *value is no option, or when *begun
- * options match the abbreviation. */
+ * abbreviation; "-xyVALUE" by the first letter that takes a value, otherwise the last letter.
+ * *value: NULL: the word contains no value. Returns NULL if the letter at *value is not an option,
+ * or if *begun options match the abbreviation. */
 const verb_option *verb_word(const verb *, const char *word, const char **value, int *begun);
 /* Does the letter belong to the option, also in previous versions? */
 int verb_is_letter(const verb_option *, char letter);
 const verb_option *verb_letter(const verb *, char letter, size_t *at);
 /* help and usage; added to each verb */
 extern const verb_option verb_help[];
-/* 1: its value is optional. */
+/* 1: the option's value is optional. */
 int verb_optional(const verb_option *);
 /* Finds a verb by name; NULL: none. */
 const verb *verb_find(const verb *const *verbs, const char *name);
@@ -200,12 +201,12 @@ typedef struct case_options {
 extern const option_group options_case;  /* --scene, --set */
 extern const option_group options_scene; /* --scene alone */
 
-/* If the name is that of a scene file (*.yaml), or not a built-in case but an example
- * (cases/examples/NAME.yaml), treats it as --scene with that file. */
+/* Treats the name as --scene with a file if it names a scene file (*.yaml) or, unless it is a
+ * built-in case, an example (cases/examples/NAME.yaml). */
 void case_input_example(case_options *);
-/* The case of the request with its parameters; NULL after an error message. */
+/* Returns the case of the request with its parameters; NULL after an error message. */
 const case_type *case_input_find(case_options *);
-/* The case of --scene FILE; NULL after messages about all its errors. */
+/* Returns the case of --scene FILE; NULL after messages about all its errors. */
 const case_type *case_input_scene(case_options *);
 /* Reads one scene file; returns EXIT_AS_EXPECTED, or an exit status after error messages. */
 int case_input_read(const command_line *, const char *path, scene_file **out);
@@ -235,7 +236,7 @@ typedef struct scenes {
         *type[2 * SCENES_MOST + 1]; /* types of the files, and of built-in cases if requested */
 } scenes;
 
-/* Reads everything that --scene names: files, and every *.yaml of a folder in the order of names.
+/* Reads everything that --scene names: files, and every *.yaml in a folder in the order of names.
  * type is NULL-terminated. Returns EXIT_AS_EXPECTED, or an exit status after error messages; two
  * cases with the same name are an error. */
 int scenes_read(const command_line *, const scenes_options *, scenes *out);
@@ -272,14 +273,14 @@ void help_write(FILE *to, const verb *v);
 status files_check(const command_line *, int whole_file, const char *truths_path, fault *f);
 /* As files_check; stored: -o is a results file, which may contain results of other experiments. */
 status files_check_results(const command_line *, int stored, const char *truths_path, fault *f);
-/* Called for a file, every *.yaml of a folder in the order of names, and files named by
+/* Called for a file, for every *.yaml in a folder in the order of names, and for files named by
  * exec:COMMAND. */
 typedef status file_visit(const void *context, const char *path, fault *f);
 status files_named(const char *input, file_visit *visit, const void *context, fault *f);
 
 /* Error messages of the program, and its exit status. */
 
-/* Call at the end of the program. Returns the exit status, or EXIT_FAULT when standard output could
+/* Call at the end of the program. Returns the exit status, or EXIT_FAULT if standard output could
  * not be written. */
 int message_finish(int code);
 /* Prints one line on stderr and returns the exit status for a status. */
@@ -317,7 +318,7 @@ typedef struct offer {
  * ":folders". */
 void offer_text(const offer *o, const char *text, const char *summary);
 
-/* words: those after the verb up to the cursor; the last one, possibly empty, is completed. */
+/* words: words after the verb up to the cursor; the last one, possibly empty, is completed. */
 void completion_write(FILE *to, const verb *v, int count, char *const *word);
 
 /* Formulations of a command line: those named by -f and those loaded by --element, which may come
@@ -336,7 +337,7 @@ extern const option_group options_element;      /* --element alone */
 extern const option_group
     options_time_limit; /* must follow one of the groups above in the same member */
 
-/* Returns 1 when every formulation was requested by name; 0 when all were requested, or none. */
+/* Returns 1 if every formulation was requested by name; 0 if all were requested, or none. */
 int named_alone(const chosen_formulations *);
 /* Adds a formulation, or "all". An error ends the program. */
 void named_add(chosen_formulations *, const char *text);

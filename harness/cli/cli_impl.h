@@ -13,7 +13,7 @@
 
 /* Cells as bytes of a batch, and the part that must be equal when they are computed again. */
 
-/* Writes the cells of a series, the scatter of its finest mesh and its times, as far as measured.
+/* Writes the cells of a series, and the scatter of its finest mesh and its times if measured.
  */
 status cells_write(FILE *to, const sweep *s, int series, digest *content, fault *f);
 status cells_read(FILE *from, sweep *s, int series, fault *f);
@@ -34,7 +34,7 @@ typedef struct bench_options {
     const char *select, *output, *format, *error, *against;
     int jobs;
     int dense;    /* 1: also times the dense reference */
-    int slowdown; /* percentage of its time that is added to every run of the other one */
+    int slowdown; /* percentage of its time that is added to every run of the other cell */
 } bench_options;
 
 /* Returns the exit status. */
@@ -66,8 +66,8 @@ void contestant_here(contestant *, const bench_options *r, const scene *s,
 void contestant_elsewhere(contestant *, const bench_options *r, const char *program);
 /* Runs both in alternation on one processor for a few seconds, and compares the counts of work. */
 status contestant_compete(contestant *a, contestant *b, contest_clock *out, fault *f);
-/* Prints both times, which one is faster, and how their work differs; the second function returns
- * JSON, which the caller owns. */
+/* Prints both times, the faster one, and the difference of work; the second function returns JSON,
+ * which the caller owns. */
 void contestant_show(const contestant *a, const contestant *b, const contest_clock *v);
 json_t *contestant_json(const contestant *a, const contestant *b, const contest_clock *v);
 /* Prints a line for each whose times are not ranked, with the reason. */
@@ -85,7 +85,7 @@ typedef struct manual_program {
     const char *summary, *question; /* one line each */
     const verb *const *verbs;       /* all verbs, NULL-terminated */
     const manual_row *examples, *statuses;
-    const char *of_compare; /* exit statuses of the verb that behaves as diff */
+    const char *of_compare; /* exit statuses of `compare`, which are those of diff */
 } manual_program;
 
 /* A table of a result file. */
@@ -144,7 +144,7 @@ typedef struct shard_options {
 } shard_options;
 extern const option_group options_shards; /* all except jobs and quiet */
 
-/* Returns 1 when --into, --shard or --from were given. REFUSED: an invalid combination. */
+/* Returns 1 if --into, --shard or --from was given. REFUSED: an invalid combination. */
 status spread_asked(const shard_options *, int *asked, fault *f);
 /* Computes the shard and reports its outcome, or reads the batches. */
 status spread_work(const shard_options *, const shard_work *w, spread_end *out, fault *f);

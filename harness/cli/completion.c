@@ -1,5 +1,5 @@
-/* Completion of a command line: words that may be at the cursor, for shells: fixed words, names
- * known to the program, and values that depend on the words before the cursor. */
+/* Completion of a command line for shells: fixed words, names known to the program, and values that
+ * depend on the words before the cursor. */
 #include "harness/cli/cli.h"
 
 #include <string.h>
@@ -162,7 +162,7 @@ typedef struct completion_reading {
     const verb_option *open; /* option whose value is at the cursor; NULL: none */
     int only_arguments;      /* after "--" */
     const char *last;        /* last argument; NULL: none yet */
-    int arguments;           /* that many */
+    int arguments;           /* number of arguments */
     const char *scene;       /* value of --scene */
     char said[SAID];         /* arguments, each followed by a blank */
 } completion_reading;
@@ -206,7 +206,7 @@ static void read_word(completion_reading *r, const char *word)
     }
 }
 
-/* A term of several words may be given as several arguments or as one. */
+/* Offers terms; a term of several words may be given as several arguments or as one. */
 static void offer_words(const offer *o, const completion_reading *r)
 {
     const offer word = offer_behind(o, " ");

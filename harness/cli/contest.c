@@ -246,12 +246,12 @@ static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
     return compare(d, r, f);
 }
 
-/* For each error target finds the least number of elements of each formulation at and above which
- * all requested quantities meet it (study/study.h), then times these two cells in alternation.
- * Targets:
+/* For each error target, finds the smallest number of elements of each formulation at and above
+ * which all requested quantities meet the target (study/study.h), then times these two cells in
+ * alternation. Targets:
  * --error, or those of reach_level that both meet. Quantities: -k, or all with a reference value or
- * an agreement for both. REFUSED: one does not run, there is no reference value, or no target is
- * met. */
+ * an agreement for both. REFUSED: one formulation does not run, there is no reference value, or no
+ * target is met. */
 static status against_error(bench_options *r, const case_type *type, fault *f)
 {
     duel d = {.levels = 0};
@@ -299,7 +299,7 @@ static status against_program(const bench_options *r, const case_type *type, sce
     return STATUS_OK;
 }
 
-/* Another formulation. */
+/* Compares with another formulation. */
 static status compete(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;

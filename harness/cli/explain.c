@@ -1,4 +1,4 @@
-/* Verb explain: meaning of words of the program and of the field. */
+/* Verb explain: meaning of terms of the program and of structural mechanics. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -101,7 +101,7 @@ static int explain_inputs(const char *word)
     return 1;
 }
 
-/* The rule that a cause "the same" refers to: the last previous one that gives a cause. */
+/* The rule to which a cause "the same" refers: the last previous rule with a cause. */
 static const rule *said_before(const truths *ledger, int i)
 {
     while (i > 0 && strncmp(ledger->rule[i].cause, "the same", 8) == 0)
@@ -137,7 +137,7 @@ static int explain_rule(const dictionary *d, const char *word)
     return 0;
 }
 
-/* Explains a quantity of one case. Returns 1 when the case has it. */
+/* Explains a quantity of one case. Returns 1 if the case has it. */
 static int explain_quantity_of(const case_type *type, const char *word, int found)
 {
     double value[CASE_MAX_PARAMETERS] = {0};

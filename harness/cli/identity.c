@@ -66,8 +66,8 @@ static void add_given(json_t *to, const given_option *g, path_form form)
         add_path(to, value, file ? form : PATHS_GIVEN);
 }
 
-/* Everything that results depend on, in the fixed order of the verb's options. Excludes where
- * results go, how they look, and the number of processes. */
+/* Everything that results depend on, in the fixed order of the verb's options. Excludes the
+ * destinations and formats of results, and the number of processes. */
 static json_t *words_of(const command_line *l, path_form form)
 {
     json_t *to = json_array();

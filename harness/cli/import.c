@@ -14,8 +14,8 @@ static int as_json(const import_request *r)
     return strcmp(r->format, "json") == 0;
 }
 
-/* Prints all errors of a file, one per line; as JSON if that is the output format, then for every
- * file, also those without errors. */
+/* Prints all errors of a file, one per line; as JSON if that is the output format, in JSON for
+ * every file, also those without errors. */
 static status print_mistakes(const import_request *r, const mistakes *m, fault *f)
 {
     if (as_json(r))

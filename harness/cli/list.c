@@ -126,7 +126,7 @@ static void show_rules(const formulation *chosen, const rule *rules, int count)
         printf("known deviations: none\n");
 }
 
-/* Prints the entries of one kind with the same explanation as the first, as one group. */
+/* Prints all entries of one kind with the same explanation as the first, as one group. */
 static void show_alike(const runs_on all[], int count, int first, const char *head)
 {
     char line[LINE];

@@ -14,8 +14,8 @@ static __attribute__((noinline)) int run(int count, char **arguments)
     return verb_table_run(count, arguments);
 }
 
-/* Raises the limit of the stack as far as allowed, because a stack overflow would end the program
- * without a message. Returns 1 when it is large enough. */
+/* Raises the stack limit as far as allowed, because a stack overflow would end the program without
+ * a message. Returns 1 if the limit is large enough. */
 static int stack_suffices(void)
 {
     enum { LEAST = 1 << 20, USUAL = 1 << 23 }; /* [bytes] */
@@ -44,9 +44,9 @@ int main(int count, char **arguments)
     ending_begin();
     gsl_set_error_handler_off();
     /* beamwork closes all HDF5 objects itself, and the exit handler of HDF5 crashes or prints many
-     * lines after memory was short */
+     * lines if memory ran out */
     H5dont_atexit();
-    /* exceeding the size limit of a file then becomes a write error, reported in one line */
+    /* exceeding the file size limit then becomes a write error, reported in one line */
     signal(SIGXFSZ, SIG_IGN);
     return message_finish(run(count, arguments));
 }

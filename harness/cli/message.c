@@ -49,7 +49,7 @@ void message_refuse(const char *text)
     exit(message_fail(STATUS_REFUSED, text));
 }
 
-static pid_t program; /* the process to which the handlers apply; its children end by themselves */
+static pid_t program; /* the process to which the handlers apply; children end without them */
 
 static void say(const char *text)
 {
@@ -266,7 +266,7 @@ static void report_former(const verb_option *o, const char *word)
                 was, o->name);
 }
 
-/* *more: 1 when the next argument is the value. */
+/* *more: 1 if the next argument is the value. */
 static status check_word(const verb *v, const verb *const *verbs, const char *word, int last,
                          int *more, fault *f)
 {
@@ -360,7 +360,7 @@ static error_t take(int key, char *value, struct argp_state *state)
         fprintf(stderr,
                 "beamwork: -%c is --%s now; the letter will be removed in the next version\n", key,
                 o->name);
-    if (o == NULL || o == verb_help) { /* -? as well */
+    if (o == NULL || o == verb_help) { /* the letter -? too */
         help_write(stdout, v);
         exit(message_finish(EXIT_AS_EXPECTED));
     } else if (o == verb_help + 1)

@@ -80,7 +80,7 @@ const char *verb_former_name(const verb_option *o)
     return NULL;
 }
 
-/* 2: `name` equals the text of this length, 1: it begins with it, 0: neither. */
+/* Returns 2 if `name` equals the text of this length, 1 if it begins with it, otherwise 0. */
 static int match_name(const char *name, const char *text, size_t length)
 {
     if (name == NULL || strncmp(name, text, length) != 0)

@@ -28,7 +28,7 @@ static const char begin_program[] =
     "import runpy, sys; sys.path.insert(0, sys.argv.pop(1)); "
     "runpy.run_module('reports.graph', run_name='__main__', alter_sys=True)";
 
-/* Does the picture take the values at the stations as they are? */
+/* Does a quantity of the analysis depend on the given stations? */
 static int takes_stations(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++)
@@ -50,8 +50,8 @@ static status divide(scene_path *path, double begin, double end, int parts, int 
     return STATUS_OK;
 }
 
-/* Motions are read densely, which does not change their steps; static paths of one station get
- * more of them. */
+/* Motions are read at many stations, which does not change their steps; static paths with one
+ * station get more stations. */
 static status read_densely(scene *s, int analysis, fault *f)
 {
     scene_analysis *a = &s->analysis[analysis];
@@ -99,7 +99,7 @@ static int can_be_drawn(const scene *s, const scene_quantity *q)
            (scene_path_of(a) != NULL || (a->kind == SCENE_COMPLIANCE && a->follows != SCENE_NONE));
 }
 
-/* Makes the quantity a curve; 0: it cannot be one. */
+/* Makes the quantity a curve; returns 0 if this is impossible. */
 static int make_curve(scene *s, scene_quantity *q)
 {
     fault no;
@@ -122,7 +122,7 @@ static int make_curve(scene *s, scene_quantity *q)
     return 0;
 }
 
-/* Leaves out those of others, which are about to become curves. */
+/* Removes envelopes of other quantities, which are about to become curves. */
 static void drop_envelopes(scene *s)
 {
     int kept = 0;
@@ -134,7 +134,7 @@ static void drop_envelopes(scene *s)
     s->quantities = kept;
 }
 
-/* Leaves the quantities that can be drawn, as curves. */
+/* Keeps the quantities that can be drawn, as curves. */
 static status make_curves(scene *s, fault *f)
 {
     int kept = 0;
@@ -182,7 +182,7 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
                               .meshes = &meshes,
                               .truths = &usual};
     TRY(defaults_fill(&missing, note, why, f));
-    solution_choice_free(why); /* of values that are not curves */
+    solution_choice_free(why); /* its results are values, not curves */
     const solution_request what = defaults_request(&missing);
     TRY(solution_plan(&what, s, f));
     TRY(make_curves(&s->point[0].scene, f));
@@ -194,12 +194,12 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
         return solved != STATUS_OK ? solved
                                    : fault_set(f, STATUS_REFUSED, "no quantity has a value");
     if (solved != STATUS_OK)
-        message_fail(solved, f->text); /* up to there it is drawn */
+        message_fail(solved, f->text); /* the solution is drawn up to this point */
     fputs(ftell(to) > 0 ? "," : "[", to);
     return json_write_solution(to, s, &none, f);
 }
 
-/* Of several formulations, one that cannot be solved is reported and skipped. */
+/* Solves with all formulations; of several, one that cannot be solved is reported and skipped. */
 static status solve_all(const plot_request *r, const case_type *type, FILE *to, fault *f)
 {
     status outcome = STATUS_OK;
@@ -223,7 +223,7 @@ static status solve_all(const plot_request *r, const case_type *type, FILE *to, 
                            "a temporary file cannot be written (is the disk full?)");
 }
 
-/* In the child. */
+/* Runs in the child process. */
 static void become(int from, int to, const char *folder, const char *form)
 {
     if (dup2(from, STDIN_FILENO) >= 0 && dup2(to, STDOUT_FILENO) >= 0)
@@ -231,7 +231,7 @@ static void become(int from, int to, const char *folder, const char *form)
     _exit(127);
 }
 
-/* Draws the solutions in the file; messages of the program are its own. */
+/* Draws the solutions in the file; the plotting program prints its own messages. */
 static status draw(FILE *solutions, const char *folder, const char *form, FILE *picture, fault *f)
 {
     int how = -1;

@@ -21,8 +21,8 @@ typedef struct solve_request {
     int shapes;                 /* number of path states with stored shapes; 0: none */
     const char *follow;         /* NAME=A..B/N: follow modes over this parameter */
     const char *matrices;       /* folder for the matrices of all states */
-    int state_space;            /* 1: and linear models */
-    const char *reduce;         /* and reduced ones */
+    int state_space;            /* 1: also linear models */
+    const char *reduce;         /* also reduced models */
     const char *ends, *restart; /* files: output for the final state of motions; state from which
                                    motions continue */
 } solve_request;
@@ -93,7 +93,7 @@ static status write_out(const solve_request *r, const char *note, const sweep *s
     return output_finish(&file, write_to(file.stream, r, note, s, t, f), f);
 }
 
-/* What the state space of a harmonic analysis leaves out. */
+/* Reports what the state space of a harmonic analysis omits. */
 static void tell_apart(const scene *s, const state_matrices *m)
 {
     if (m->model.apart > 0)
@@ -105,7 +105,7 @@ static void tell_apart(const scene *s, const state_matrices *m)
                 s->quantity[m->model.farthest].name);
 }
 
-/* The errors of a reduced model. */
+/* Reports the errors of a reduced model. */
 static void tell_reduced(const scene *s, const system_matrices *all, const state_matrices *m)
 {
     const reduced_model *r = &m->reduced;
@@ -134,7 +134,8 @@ static void tell_reduced(const scene *s, const system_matrices *all, const state
     fprintf(stderr, "\n");
 }
 
-/* Feedback is in no matrix but those of state spaces of harmonic analyses: its loads are inputs. */
+/* Reports that feedback is only in the state spaces of harmonic analyses; in other matrices its
+ * loads are inputs. */
 static void tell_loops(const scene *s, const system_matrices *of)
 {
     int closed = 0;
@@ -154,7 +155,7 @@ static status write_matrices(const solve_request *r, const sweep *s, fault *f)
 {
     const cell_result *cell = &s->series[0].cell[0];
     char title[256];
-    if (r->matrices == NULL || cell->solve.systems.label == NULL) /* why is reported */
+    if (r->matrices == NULL || cell->solve.systems.label == NULL) /* the reason is reported */
         return STATUS_OK;
     snprintf(title, sizeof title, "%s, %s, %d elements per member", s->point[0].scene.name,
              r->chosen.formulation[0].key, r->meshes.elements[0]);
@@ -214,7 +215,7 @@ static status write_curves(const solve_request *r, const char *note, const char 
     return output_finish(&file, written, f);
 }
 
-/* --follow: follows modes over a parameter, instead of one solution. */
+/* --follow: follows modes over a parameter instead of computing one solution. */
 static status follow_modes(solve_request *r, const case_type *type, fault *f)
 {
     char name[SCENE_NAME], note[DEFAULTS_NOTE];
@@ -310,8 +311,8 @@ static status write_all(const solve_request *r, const solve_work *w, fault *f)
     return write_matrices(r, &w->s, f);
 }
 
-/* Reports a quantity without a value; the others are still computed. If a mesh has no such mode, or
- * a path no such point, this counts as a result. */
+/* Reports a quantity without a value; the others are still computed. If the mesh has no such mode,
+ * or the path no such point, the missing value counts as a result. */
 static int tell_missing(status solved, const cell_result *cell, const fault *f)
 {
     const int refused = cell_values(cell) > 0 && solved == STATUS_REFUSED;

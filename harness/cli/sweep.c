@@ -76,7 +76,7 @@ static status identify(const sweep_options *r, sweeping *s, fault *f)
     return STATUS_OK;
 }
 
-/* Reads what --from names. */
+/* Reads the batches that --from names. */
 static status take_given(void *context, const shard_work *w, fault *f)
 {
     sweeping *s = context;
@@ -134,14 +134,14 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
     TRY(prepare(r, type, s, f));
     if (!csv && !quiet)
         ranges_table_head(stdout, &s->sweep.ranges);
-    if (r->output == NULL) /* otherwise the text output stays free for other data */
+    if (r->output == NULL) /* otherwise standard output remains free for other data */
         TRY(output_flush(f));
     if (s->spread && s->asked.take == NULL)
         return spread_work(&r->shards, &s->sweep.all, &s->end, f);
     return experiment_run(&experiment_sweep, &s->asked, &to, &s->sweep, f);
 }
 
-/* Reports missing points, which the same command computes when repeated. */
+/* Reports missing points, which repeating the command computes. */
 static int tell(const sweep_options *r, const sweeping *s)
 {
     if (s->spread)
@@ -294,7 +294,7 @@ static status compute(const shard_options *r, const shard_work *w, spread_end *o
     return output_flush(f);
 }
 
-/* Names all kinds of processors. */
+/* Names all processor types. */
 static void name_processors(const stock *s, spread_end *out)
 {
     size_t at = 0;

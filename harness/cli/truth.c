@@ -17,7 +17,7 @@ typedef struct truth_request {
 
 enum { NAME = 28, INDENT = 6 };
 
-/* The fewest digits that give the value within a thousandth of its uncertainty. */
+/* The smallest number of digits that gives the value to within a thousandth of its uncertainty. */
 static void digits_of(double value, double uncertainty, char text[32])
 {
     for (int digits = 1; digits <= 17; digits++) {

@@ -16,7 +16,7 @@ static const verb compute = {.name = "compute", .place = VERB_COMPUTE};
 static const verb judge = {.name = "evaluate and compare", .place = VERB_JUDGE};
 static const verb exchange = {.name = "exchange", .place = VERB_EXCHANGE};
 #define VERB_OF(name) &verb_##name,
-/* verbs.h has a word for each verb of the files in cli/, in any order. */
+/* verbs.h contains the identifier of each verb in cli/, in any order. */
 static const verb *verbs[] = {&look, &compute, &judge, &exchange, VERB_TYPES(VERB_OF) NULL};
 enum { COUNT = sizeof verbs / sizeof verbs[0] - 1 };
 
@@ -111,7 +111,7 @@ static int help(void)
     return EXIT_AS_EXPECTED;
 }
 
-/* Handles `beamwork help VERB`; another form prints a page of the manual. */
+/* Handles `beamwork help VERB`; a different `write` prints a manual page. */
 static int help_of(const char *name, void write(FILE *, const verb *))
 {
     const verb *v = verb_find(verbs, name);

@@ -14,11 +14,12 @@ typedef struct verify_request {
     text_list imported;     /* stored imports: other programs to compare */
     int imported_must_pass; /* 1: their verdicts affect the exit status */
     int exit_zero;          /* 1: verdicts do not change the exit status */
-    double tolerance;       /* replaces those of the cases */
-    const char *former;     /* previous results; this run must not be worse */
-    int refine;             /* number of refinements beyond the finest mesh */
-    int shapes;             /* number of path states with stored shapes; 0: none */
-    int verbose;            /* verbose: every limit; shards.quiet: only unexpected results */
+    double tolerance;       /* replaces the tolerances of the cases */
+    const char
+        *former; /* previous results, with which this run is compared; it must not be worse */
+    int refine;  /* number of refinements beyond the finest mesh */
+    int shapes;  /* number of path states with stored shapes; 0: none */
+    int verbose; /* verbose: every limit; shards.quiet: only unexpected results */
 } verify_request;
 
 enum { PICTURED_STATES = 5 };
@@ -48,7 +49,7 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
     return r->exit_zero ? EXIT_AS_EXPECTED : code;
 }
 
-/* Warns of units of each scene file that look like others. */
+/* Warns about scene files whose numbers suggest different units. */
 static void tell_units(const scenes *own, const sweep *s)
 {
     for (int k = 0; k < own->count; k++)

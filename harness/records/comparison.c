@@ -8,7 +8,8 @@
 
 /* Counts a line and writes its beginning: kind, name, mesh. */
 static void comparison_lines_heading(const listing *l, comparison_kind kind);
-/* Compares sums over `meshes` meshes; the threshold is that of one mesh, whatever their number. */
+/* Compares sums over `meshes` meshes; the threshold is that of one mesh, whatever the number of
+ * meshes. */
 static void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
                                   const long after[RESULTS_WORKS], int meshes);
 /* Writes the difference of counted work if both are known. */
@@ -54,7 +55,8 @@ static int selected(const char *select, const char *name)
     return select == NULL || select_matches(select, name) > 0;
 }
 
-/* One line for all meshes of a series of another program that is gone or new: what to do. */
+/* Writes one line for all meshes of a series of another program that is missing or new, with a
+ * remedy. */
 static void tell_foreign(const listing *l, int which, const char **last)
 {
     const char *instead = results_part_instead(which == 0 ? l->after : l->before,
@@ -334,7 +336,7 @@ static int compare_meshes(const listing *l, const result_series *a, const result
     return same;
 }
 
-/* Returns 1 when the error has changed. */
+/* Returns 1 if the error has changed. */
 static int compare_error(const listing *l, const char *which, const result_error *a,
                          const result_error *b)
 {

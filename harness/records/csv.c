@@ -163,7 +163,7 @@ void csv_record_line(FILE *to, int parts, const csv_part part[])
     fputc('\n', to);
 }
 
-/* comment: one line, or NULL. */
+/* Writes a matrix; comment: one line, or NULL. */
 static void matrix_market_write(FILE *to, const triplets *t, const char *comment)
 {
     static const char *const kind[] = {"general", "symmetric", "skew-symmetric"};
@@ -293,7 +293,8 @@ static void write_loads(FILE *to, const void *what)
 
 static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
-/* "force", "moment", "load", "acceleration" of a motion, "reference rate" of a load. */
+/* Writes the inputs: "force", "moment", "load", "acceleration" of a motion, "reference rate" of a
+ * load. */
 static void write_inputs(FILE *to, const void *what)
 {
     const contents *c = what;
@@ -377,7 +378,7 @@ static status add_matrix(const output_folder *folder, const char *state, const c
     return output_folder_file(folder, file, write_matrix, &what, f);
 }
 
-/* Of a reduced model. */
+/* Writes the errors of a reduced model. */
 static void write_errors(FILE *to, const void *what)
 {
     const contents *c = what;
@@ -391,7 +392,7 @@ static void write_errors(FILE *to, const void *what)
                 i % c->of->inputs + 1, m->apart[i], m->at[i]);
 }
 
-/* Title with the number of elements, and whether loops of feedback are closed. */
+/* Title with the number of elements, and whether feedback loops are closed. */
 static void titled_state(const contents *c, const char *name, int closed, char out[TITLE])
 {
     snprintf(out, TITLE, "%.120s%s, %.90s", c->title,

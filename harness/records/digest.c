@@ -148,7 +148,7 @@ static void add_float(walk *w, const char *at, size_t size)
 
 static void add_value(walk *w, hid_t type, const char *at);
 
-/* Members in order, without times. */
+/* Adds the members in order, without times. */
 static void add_compound(walk *w, hid_t type, const char *at)
 {
     const int members = H5Tget_nmembers(type);
@@ -213,7 +213,7 @@ typedef struct table {
     size_t row; /* bytes per first index */
 } table;
 
-/* Rows first to first + count - 1. */
+/* Adds rows first to first + count - 1. */
 static void add_rows(walk *w, const table *t, char *room, hsize_t first, hsize_t count)
 {
     hsize_t start[MOST_RANK] = {first}, size[MOST_RANK];

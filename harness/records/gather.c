@@ -201,7 +201,7 @@ static void gather_series(const gathering *g, const record_type *type, int index
     }
 }
 
-/* Points that have a series. */
+/* Adds the points that have a series. */
 static void gather_points(const gathering *g, const case_type *of, subjects *out)
 {
     const sweep *all = g->sweep;

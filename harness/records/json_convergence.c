@@ -80,7 +80,7 @@ static json_t *curves_of(const sweep *s, const series *one)
     return all;
 }
 
-/* What one of the functions below writes, without the end of its line; NULL: no memory. */
+/* Returns the output of one of the functions below, without its line end; NULL: out of memory. */
 static char *said(void (*write)(FILE *, const sweep *, const truths *, double), const sweep *s,
                   const truths *t, double level)
 {
@@ -328,7 +328,7 @@ static int write_asked(FILE *to, const reach_question *q)
     return known;
 }
 
-/* Returns 1 when its model error is the difference from a computed solid, plate or shell. */
+/* Returns 1 if its model error is the difference from a computed solid, plate or shell. */
 static int is_of_another_model(const verdict *v)
 {
     const truth *other = v->model_truth;

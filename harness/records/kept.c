@@ -17,7 +17,7 @@ hid_t kept_group(record_file *r, const char *name)
     return own;
 }
 
-/* Returns 1 when the file begins with the HDF5 signature. */
+/* Returns 1 if the file begins with the HDF5 signature. */
 static int is_hdf5(const char *path)
 {
     static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
@@ -73,7 +73,7 @@ static int is_ours(hid_t file)
             strcmp(schema, SCHEMA_NAME) == 0);
 }
 
-/* *file: -1: there is nothing to be kept. */
+/* *file: -1: there is nothing to keep. */
 static status open_former(const char *path, int patience, hid_t *file, fault *f)
 {
     *file = -1;
@@ -215,7 +215,8 @@ static int is_there(int lock, const char *name)
 }
 
 /* Uses a separate lock file, because the results file is replaced. A lock file left by a killed run
- * does no harm: the lock ends with its process. Returns -1 with errno when there is no lock. */
+ * is harmless, because the lock ends with its process. Returns -1 with errno if there is no lock.
+ */
 static int take_lock(const char *name, int patience)
 {
     for (;;) {

@@ -43,7 +43,7 @@ static void output_forget(const char *path)
             atomic_store(&unfinished[i].owner, 0);
 }
 
-/* Removes all outputs. From here on only system calls, as a signal handler requires. */
+/* Removes all outputs. From here on only system calls are used, as a signal handler requires. */
 static void remove_all(int at, const char *name);
 
 /* Returns the number of entries found. */
@@ -142,7 +142,7 @@ static int open_stream(const file_place *to)
 {
     if (to->descriptor < 0)
         return open(to->path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
-    /* keeps the order of output to the same file */
+    /* preserves the order of output to the same file */
     fflush(to->descriptor == STDOUT_FILENO ? stdout : stderr);
     return dup(to->descriptor);
 }
@@ -329,7 +329,7 @@ static status create(output_folder *out, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 when the folder is empty. */
+/* Returns 1 if the folder is empty. */
 static int is_empty(const char *path)
 {
     DIR *folder = opendir(path);
@@ -364,7 +364,7 @@ status output_folder_try(const char *path, file_place *where, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 0 when the path is too long. */
+/* Returns 0 if the path is too long. */
 static int name_inside(const output_folder *out, const char *name, char path[PATH_MAX])
 {
     return snprintf(path, PATH_MAX, "%s/%s", out->temporary, name) < PATH_MAX;

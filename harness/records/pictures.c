@@ -138,7 +138,7 @@ static void count(grid *g)
     }
 }
 
-/* Chooses the states: of a motion, else of a path, else solutions and modes. */
+/* Chooses the states: those of a motion, otherwise of a path, otherwise solutions and modes. */
 static void choose_states(grid *g)
 {
     int paths = 0, frames = 0;

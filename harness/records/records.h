@@ -36,18 +36,19 @@ typedef struct assumption {
     assumption_kind kind;
     int section;                /* index of the section in the scene */
     char physics[100];          /* "shear, warping": words of `omit`; "": none */
-    char text[ASSUMPTION_TEXT]; /* what is assumed, with the name of the section */
+    char text[ASSUMPTION_TEXT]; /* the assumption, with the name of the section */
 } assumption;
 
 const char *assumptions_kind(int kind); /* "not known" */
-/* Returns assumption number `index` of the point, or 0 when there is none. */
+/* Fetches assumption number `index` of the point; returns 0 if there is none. */
 int assumptions_at(const sweep_point *p, int index, assumption *out);
-/* All of them as "kind: text", separated by semicolons; if the text is too small, the number of the
- * remaining ones. */
+/* All assumptions as "kind: text", separated by semicolons; if the text is too small, it ends with
+ * the number of the remaining ones. */
 void assumptions_words(const sweep_point *p, size_t size, char out[]);
 
 /* Results of a stored run: errors and work of each cell, and a summary of each series of meshes.
- * Read from results.h5, or from the short table of its series, which can be committed. */
+ * Read from results.h5, or from the short table of its series, which is small enough to be
+ * committed. */
 
 typedef enum results_work {
     WORK_ITERATIONS,
@@ -76,7 +77,7 @@ typedef struct result_cell {
     int elements;
     char status[RESULTS_STATUS];
     long work[RESULTS_WORKS];
-    double cost; /* cost of the counted work [s], of a sweep; not positive or NAN: unknown */
+    double cost; /* cost of the counted work [s], in a sweep; not positive or NAN: unknown */
     int values;
     result_value *value;
 } result_cell;
@@ -88,7 +89,7 @@ typedef struct result_mesh {
 
 typedef struct result_limit {
     char quantity[SCENE_NAME];
-    double value, near_zero; /* as of a value; near_zero 0: not known */
+    double value, near_zero; /* as for a value; near_zero 0: not known */
 } result_limit;
 
 /* Largest |error| of one mesh. elements 0: no value has an error. */
@@ -105,11 +106,11 @@ typedef struct result_series {
     result_mesh *mesh;        /* [meshes] ascending by elements */
     long work[RESULTS_WORKS]; /* sums over the meshes */
     int errors;               /* number of values with an error, on all meshes */
-    double
-        decades; /* sum of log10(|error| + RESULTS_FLOOR) over them: it changes with every error */
+    double decades; /* sum of log10(|error| + RESULTS_FLOOR) over these values: it changes with
+                       every error */
     result_error least,
-        largest;         /* least: on the mesh where it is smallest; largest: on all meshes */
-    result_limit *limit; /* [limits] at a default point, in the order of its quantities */
+        largest;         /* least: on the mesh with the smallest error; largest: on all meshes */
+    result_limit *limit; /* [limits] at a default point, in the order of the point's quantities */
 } result_series;
 
 /* Selection of a run: series outside it are not missing, because they were not requested. NULL: no
@@ -123,10 +124,10 @@ typedef struct results_part {
 typedef struct stored_results {
     results_part part;
     int cells, seriess;
-    int whole;         /* 1: with cells, 0: with series only */
-    int limits;        /* 1: limits were evaluated */
-    int swept;         /* 1: a sweep; its cells without a mesh contain the references of a point */
-    result_cell *cell; /* ascending by name and elements */
+    int whole;             /* 1: with cells, 0: with series only */
+    int limits;            /* 1: limits were evaluated */
+    int swept;             /* 1: a sweep; cells without a mesh contain the references of a point */
+    result_cell *cell;     /* ascending by name and elements */
     result_series *series; /* ascending by name */
 } stored_results;
 
@@ -141,10 +142,10 @@ void results_free(stored_results *r);
 status results_table_read(const char *path, FILE *from, stored_results *out, fault *f);
 void results_table_write(FILE *to, const stored_results *r);
 
-/* Comparison of two stored runs: what became worse or better, or exists in only one of them.
- * Complete runs and sweeps are compared cell by cell and quantity by quantity, others series by
- * series. No reference value is used: a previous run only shows that something has changed, not
- * which result is right. */
+/* Comparison of two stored runs: lists the results that became worse or better, or that exist in
+ * only one of them. Complete runs and sweeps are compared cell by cell and quantity by quantity,
+ * others series by series. No reference value is used: a previous run shows only that a result has
+ * changed, not which result is right. */
 
 typedef struct comparison_limits {
     double error; /* threshold for the relative change of an error */
@@ -174,8 +175,8 @@ typedef struct comparison {
     int count[COMPARISON_KINDS];   /* number of lines of each kind */
     double work[2][RESULTS_WORKS]; /* sums over the pairs: old, new */
     double cost[2];                /* cost of the counted work [s], of sweeps */
-    /* number of series in one run only (old, new) that do not count as changes: outside the
-     * selection of the other run; of formulations that do not affect the exit status yet */
+    /* number of series in one run only (old, new) that do not count as changes. outside: not
+     * selected in the other run; fresh: of formulations that do not affect the exit status yet */
     int outside[2], fresh[2];
     int partial; /* number of series for which one run omits some quantities: their errors and work
                     are not compared */
@@ -265,9 +266,9 @@ struct schema_field {
     const char *name, *unit; /* "1": dimensionless number; "": not a number */
     field_kind kind;
     const char *summary;
-    field_base base; /* object to which the offset refers; if it is NULL there is no value */
+    field_base base; /* object to which the offset refers; NULL: there is no value */
     size_t offset;
-    int address;              /* 1: the offset is that of a pointer to the TEXT */
+    int address;              /* 1: the offset refers to a pointer to the TEXT */
     field_getter *get;        /* computes a derived value; the offset is then not used */
     const char *(*word)(int); /* ENUM: its words ... */
     int words;                /* ... 0 to words - 1 */
@@ -295,8 +296,8 @@ extern const record_type record_point, record_series, record_cell, record_quanti
     record_verdict, record_agreement, record_coverage, record_import, record_scene,
     record_parameter, record_meaning, record_assumption;
 extern const record_type *const record_types[]; /* all of them; NULL-terminated */
-extern const record_type record_truth;          /* of a quantity, in JSON only */
-extern const record_type record_declaration;    /* of a whole run, in HDF5 only */
+extern const record_type record_truth;          /* reference values of a quantity, in JSON only */
+extern const record_type record_declaration;    /* declarations of a whole run, in HDF5 only */
 
 /* Pointers to the fields whose key is at most `keys`, in order; returns their number. */
 int schema_fields(const record_type *type, int keys, const schema_field *out[SCHEMA_MOST_FIELDS]);
@@ -335,9 +336,9 @@ void digest_add_text(
     const char *text); /* includes the terminating zero, so that "ab", "c" differs from "a", "bc" */
 /* Equal numbers give equal digests: -0 as 0, and all NaN alike. */
 void digest_add_number(digest *, double value);
-/* Returns the digits; the digest may be continued. */
+/* Writes the digits; further data may then be added to the digest. */
 void digest_text(const digest *, char out[DIGEST_TEXT]);
-/* Adds all bytes of a file. Returns 0, or -1 when it cannot be read. */
+/* Adds all bytes of a file. Returns 0, or -1 if the file cannot be read. */
 int digest_add_file(digest *, const char *path);
 
 /* Identity of a record: the first fields of the tables of fields_*.c, and shared helpers. */
@@ -372,8 +373,8 @@ typedef struct subjects {
     int bad;           /* 1: out of memory */
 } subjects;
 
-/* Reference values with which quantities are compared: those of the verdicts, or the stored ones if
- * nothing was evaluated. Both may be NULL. */
+/* Reference values with which quantities are compared: those of the verdicts, or the stored values
+ * if nothing was evaluated. Both may be NULL. */
 typedef struct gathering {
     const sweep *sweep;
     const judgement *judged;
@@ -383,7 +384,7 @@ typedef struct gathering {
 /* Adds the records of one mesh. If the mesh has no records of a kind, nothing is added. */
 void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh,
                  subjects *out);
-/* Assumptions on its sections. */
+/* Adds the assumptions on the sections of a point. */
 void gather_assumptions(const sweep_point *p, subjects *out);
 subject gather_cell(const gathering *g, int series_index, int mesh);
 subject gather_verdict(const gathering *g, const verdict *v);
@@ -452,8 +453,8 @@ typedef struct file_place {
     place_kind kind;
     int descriptor;      /* 1, 2: standard output or error of this process; -1: none */
     int shared;          /* 1: a character device, to which several may write */
-    char path[PATH_MAX]; /* with links resolved; for a stream as given */
-    dev_t device;        /* of the file; if free, of its folder */
+    char path[PATH_MAX]; /* with links resolved; for a stream, as given */
+    dev_t device;        /* of the file; for a free path, of its folder */
     ino_t inode;
     mode_t mode; /* permissions of the existing file */
     uid_t owner;
@@ -464,7 +465,7 @@ typedef struct file_place {
 status place_find(const char *path, file_place *out, fault *f);
 /* Are they the same file, by device and inode? Free paths: the same name in the same folder. */
 int place_same(const file_place *a, const file_place *b);
-/* The part of a path after its folder. */
+/* Returns the part of a path after its folder. */
 const char *place_leaf(const char *path);
 
 /* Files that appear complete or not at all: written under a temporary name in the same folder, then
@@ -479,7 +480,7 @@ typedef struct output {
     char temporary[PATH_MAX]; /* empty: written directly */
 } output;
 
-/* 1: its name says that it is HDF5. */
+/* 1: the file name has an HDF5 extension. */
 int output_is_hdf5(const char *path);
 /* Opens a text file; path NULL: standard output. */
 status output_open(const char *path, output *out, fault *f);
@@ -488,7 +489,7 @@ status output_open_whole(const char *path, output *out, fault *f);
 status output_close(output *out, fault *f);
 /* Closes the output if it was written; otherwise discards it. */
 status output_finish(output *out, status written, fault *f);
-/* FAULT: standard output could not be written. */
+/* Flushes standard output. FAULT: it could not be written. */
 status output_flush(fault *f);
 /* Checks an output before any computation. REFUSED: an invalid name, or a target that cannot take
  * this form. FAULT: it cannot be written. *where: its location, for comparison with others. */
@@ -511,7 +512,8 @@ typedef struct record_file {
 } record_file;
 
 status record_open(record_file *r, fault *f);
-/* Builds the file on disk, for data larger than memory. REFUSED, FAULT: it cannot be written there.
+/* Builds the file on disk, for data larger than memory. REFUSED, FAULT: the file cannot be written
+ * there.
  */
 status record_open_beside(record_file *r, const char *path, fault *f);
 /* Writes the file to `path` (NULL: nothing; on disk: the path given at opening) and frees its
@@ -553,11 +555,11 @@ hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int c
 /* Group for the output of an experiment; name NULL: the root. The caller closes it with H5Gclose.
  */
 hid_t kept_group(record_file *r, const char *name);
-/* As record_close, keeping everything that the file at `path` contains of experiments other than
- * `name`. After FAULT the file is unchanged. */
+/* As record_close, but keeps the other experiments in the file at `path`. After FAULT the file is
+ * unchanged. */
 status kept_close(record_file *r, const char *name, const char *path, fault *f);
-/* Call before the computation. REFUSED: the existing HDF5 file is damaged or contains no results
- * and would be lost, or another program has locked it; FAULT: it cannot be locked. */
+/* Must be called before the computation. REFUSED: the existing HDF5 file is damaged or contains no
+ * results and would be lost, or another program has locked it. FAULT: it cannot be locked. */
 status kept_check(const char *path, fault *f);
 
 /* Summary of a verification as Markdown, for the description of a pull request. */
@@ -577,7 +579,7 @@ typedef struct output_folder {
  * FAULT: it cannot be written. */
 status output_folder_try(const char *path, file_place *where, fault *f);
 status output_folder_open(const char *path, output_folder *out, fault *f);
-/* Creates a file inside it, "K.mtx" or "state/K.mtx", with the output of `write` for `what`. */
+/* Creates a file in the folder, "K.mtx" or "state/K.mtx", with the output of `write` for `what`. */
 status output_folder_file(const output_folder *, const char *name,
                           void (*write)(FILE *, const void *what), const void *what, fault *f);
 /* Renames the folder if everything was written; otherwise removes it. */
@@ -588,15 +590,16 @@ status output_folder_finish(output_folder *, status written, fault *f);
 #define REACH_LINE_LEVEL 0.01 /* where none is requested */
 
 /* "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2 (0.4 ms): costs tie;
- * beamw n = 8 (2 ms)": in the order of study.h, with the cost of their counted work.
- * Then follow the formulations with a defect and those not within the level. "in 5 of 6 quantities
- * (without a reference: frequency_1)" is added if some have neither a reference value nor an
- * agreement; curves do not count. Refers to the first point. One line. */
+ * beamw n = 8 (2 ms)": in the order of study.h, with the cost of their counted work. The
+ * formulations with a defect and those not within the level follow. "in 5 of 6 quantities (without
+ * a reference: frequency_1)" is added if some have neither a reference value nor an agreement;
+ * curves do not count. Refers to the first point. One line. */
 void reach_line_write(FILE *to, const sweep *s, const truths *t, double level);
-/* How far those that pass are from a solid, plate or shell: one line, none if that is not known. */
+/* Writes one line with the difference of passing formulations from a solid, plate or shell; no line
+ * if it is not known. */
 void reach_model_write(FILE *to, const sweep *s, const truths *t, double level);
 
-/* As record_rows_of_type, where the context does not identify the records. */
+/* As record_rows_of_type, for records that the context does not identify. */
 void record_rows_alone(record_file *r, hid_t at, const record_type *type, int count,
                        const subject row[]);
 /* Writes a record as attributes. */
@@ -632,8 +635,8 @@ typedef struct store {
 status store_open(const char *experiment, const sweep *s, const judgement *j, store *out, fault *f);
 /* Adds a case, all of whose series have been evaluated. */
 void store_case(store *, const case_type *);
-/* Adds the remaining cases and the description of the run. Written under a temporary name and
- * renamed: FAULT leaves no file. path NULL: nothing is written. */
+/* Adds the remaining cases and the description of the run. The file is written under a temporary
+ * name and renamed: FAULT leaves no file. path NULL: nothing is written. */
 status store_close(store *, const char *path, const environment *e, fault *f);
 
 /* Written under a temporary name and renamed: FAULT leaves no file. */
@@ -647,8 +650,8 @@ status store_write_solution(const char *path, const sweep *s, const environment 
 void store_environment(record_file *r, hid_t at, const environment *e);
 
 /* A folder with the matrices of small motions about the states of a solution:
- *   dofs.csv    what each row is, loads.csv what each column of B is, states.csv what each folder
- * is STATE/      K.mtx, M.mtx, where the axes turn G.mtx, where there are loads B.mtx */
+ *   dofs.csv meaning of each row, loads.csv meaning of each column of B, states.csv meaning of each
+ * folder STATE/      K.mtx, M.mtx, where the axes turn G.mtx, where there are loads B.mtx */
 
 /* title: of the solution, one line, for the comments of the matrices. The folder appears complete
  * or not at all. */
@@ -666,7 +669,7 @@ typedef struct table_column {
 } table_column;
 
 /* Returns the number of rows of `size` bytes, which the caller frees. -1: the table or a column of
- * that kind is missing, or memory is. */
+ * that kind is missing, or out of memory. */
 int table_reader_rows(hid_t at, const char *name, int columns, const table_column column[],
                       size_t size, void **rows);
 

@@ -17,24 +17,24 @@ int results_order(const result_cell *a,
                   const result_cell *b); /* compares by name, then by elements */
 /* Computes the series from the sorted cells. FAULT: out of memory. */
 status results_series_summarise(stored_results *r, fault *f);
-/* Sums over the meshes that another run has of the series; 0: r has not all of them, or no memory.
- * The caller frees out->mesh and out->limit. */
+/* Sums over the meshes that another run has of the series; Returns 0 if r does not have all of
+ * them, or if out of memory. The caller frees out->mesh and out->limit. */
 int results_series_restrict(const stored_results *r, const result_series *to, result_series *out);
 
 /* Is the text one of the lines? Returns 0 for lines NULL. */
 int results_part_has(const char *lines, const char *text);
-/* Is it of another program, or of an element that is not loaded? No selection names it: it is
- * requested wherever its case is run. */
+/* Does the series belong to another program, or to an element that is not loaded? No selection
+ * names it: it is requested wherever its case is run. */
 int results_part_is_foreign(const char *series);
-/* Such a series that r has there and `other` has not: its name; NULL: none. */
+/* Returns the name of such a series that r has there and `other` does not have; NULL: none. */
 const char *results_part_instead(const stored_results *r, const stored_results *other,
                                  const char *series);
 /* Was the quantity of a series (case/parameters/formulation) requested? */
 int results_part_selects(const results_part *p, const char *series, const char *quantity);
 /* Did only `other`, and not the selection of run r, request the series, with any quantity that the
- * two runs know? */
+ * two runs contain? */
 int results_part_wants(const stored_results *r, const stored_results *other, const char *series);
-/* Did the two runs request different quantities of a series, as far as they know them? */
+/* Did the two runs request different quantities of a series, among those that they contain? */
 int results_part_differ(const stored_results *a, const stored_results *b, const char *series);
 /* Is its formulation new to the run? */
 int results_part_is_fresh(const results_part *p, const char *series);
@@ -52,18 +52,18 @@ void fields_keys_assumed(const subject *s, field_value *out);
 
 /* Adds the records of all series of a case. */
 void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out);
-/* Adds one record for each formulation that was run here, in the order of the series. */
+/* Adds one record for each formulation run by this program, in the order of the series. */
 void gather_declarations(const gathering *g, subjects *out);
 
 /* Opens a group of this name, or creates it; the caller closes it with H5Gclose. */
 hid_t record_group(record_file *r, hid_t at, const char *name);
-/* Write two integers, or an ASCII text of exactly its length (as VTK requires). */
+/* These write two integers, or an ASCII text with exactly its length (as VTK requires). */
 void record_version(record_file *r, hid_t at, const char *name, const int version[2]);
 void record_ascii(record_file *r, hid_t at, const char *name, const char *text);
 /* Creates a data set text[count]. */
 void record_texts(record_file *r, hid_t at, const char *name, int count, const char *const text[]);
 
-/* Creates a folder inside it. */
+/* Creates a subfolder. */
 status output_folder_below(const output_folder *, const char *name, fault *f);
 
 /* Records as rows of a typed, compressed table; units and summaries of the columns are its
@@ -125,7 +125,8 @@ status results_case_damaged(const char *path, const char *where, const char *wha
 /* Reads a stored sweep. */
 
 /* Adds a cell for each point, formulation and mesh, named by the values of all parameters in the
- * file, in the order of their names; and one without a mesh for the references of each point. */
+ * file, in the order of their names; and one cell without a mesh for the references of each point.
+ */
 status results_sweep_read(const char *path, hid_t at, stored_results *out, fault *f);
 
 /* Short table of a run: a row for each series, small enough to be committed and read in a diff. */

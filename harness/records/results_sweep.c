@@ -185,7 +185,7 @@ static const char *read_request(sweep_file *s, stored_results *out)
     return out->part.select != NULL ? NULL : "selection";
 }
 
-/* Line `at` of a text, at most size - 1 bytes; empty if there is none. */
+/* Copies line `at` of a text, at most size - 1 bytes; empty if there is none. */
 static void take_line(const char *lines, double at, char *out, int size)
 {
     const char *line = lines;
@@ -380,7 +380,7 @@ static hid_t memory_type(hid_t member, const table_column *c)
     return type;
 }
 
-/* Returns 0 when the stored type has no such column. */
+/* Returns 0 if the stored type has no such column. */
 static int add_column(hid_t type, hid_t stored, const table_column *c)
 {
     const int index = H5Tget_member_index(stored, c->name);

@@ -279,8 +279,8 @@ int results_part_differ(const stored_results *a, const stored_results *b, const 
            leaves_out(&b->part, a, series_name) || leaves_out(&b->part, b, series_name);
 }
 
-/* Does `name` belong to the series, or, if the series has no options, to its case? With options
- * only quantities are evaluated that depend on them, namely those with limits. */
+/* Does `name` belong to the series, or, if the series has no options, to its case? With options,
+ * only the quantities that depend on them are evaluated, namely those with limits. */
 static int speaks_for(const char *name, const char *series_name)
 {
     return strchr(formulation_of(series_name), ':') != NULL
@@ -288,7 +288,7 @@ static int speaks_for(const char *name, const char *series_name)
                : strncmp(name, series_name, strcspn(series_name, "/") + 1) == 0;
 }
 
-/* Does the selection include any quantity that a run knows? */
+/* Does the selection include any quantity that a run contains? */
 static int selects_any(const results_part *p, const stored_results *known, const char *series_name)
 {
     const int judged = strchr(formulation_of(series_name), ':') != NULL;
@@ -317,7 +317,7 @@ static int has_formulation(const stored_results *r, const char *key)
     return 0;
 }
 
-/* Has the run any series of the same case and parameters? */
+/* Does the run have any series of the same case and parameters? */
 static int is_run(const stored_results *r, const char *series_name)
 {
     const size_t point = (size_t)(formulation_of(series_name) - series_name);

@@ -70,7 +70,8 @@ static void put_points(record_file *r, hid_t at, const case_type *type, const su
     record_rows(r, at, record_point.table, count, fields, list->count, list->row);
 }
 
-/* The record of a scene is its text; "" for a refused point, or a scene that a file cannot express.
+/* The record of a scene is its text; "" for a rejected point, or a scene that a file cannot
+ * express.
  */
 static void put_scenes(record_file *r, hid_t at, subjects *list)
 {
