@@ -618,7 +618,15 @@ void units_read(const document_node *n, mistakes *m, unit_system *out)
 
 void units_translate(const unit_system *s, const char *unit, size_t size, char out[])
 {
-    static const char *const whole[][2] = {{"kg m/s", "N s"}, {"kg m^2/s", "N m s"}, {"J", "N m"}};
+    static const char *const whole[][2] = {{"kg m/s", "N s"},
+                                           {"kg m^2/s", "N m s"},
+                                           {"J", "N m"},
+                                           {"1/kg", "m/(N s^2)"},
+                                           {"1/(kg s)", "m/(N s^3)"},
+                                           {"1/(kg s^2)", "m/(N s^4)"},
+                                           {"rad/(kg m)", "rad/(N s^2)"},
+                                           {"rad/(kg m s)", "rad/(N s^3)"},
+                                           {"rad/(kg m s^2)", "rad/(N s^4)"}};
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
     size_t used = 0;
     for (size_t i = 0; s->given && i < sizeof whole / sizeof whole[0]; i++)

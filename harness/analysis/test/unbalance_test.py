@@ -130,6 +130,25 @@ class Unbalance(ProgramTest):
             tilted = found["reaction_rx"][i]/(2*np.pi*hertz)**2
             self.assertAlmostEqual(tilted, -1, 9)
 
+    def test_units(self):
+        """Masses in mm and N are in N s^2/mm: no unit names a kilogram."""
+        lines = []
+        for name, component, part in (("shift", "uy", "real"), ("rate", "uy, of: velocity", "imaginary"), ("turn", "rz", "real")):
+            lines.append(f"  {name}: {{response: {{analysis: steady, node: disc, component: {component}, part: {part}, "
+                         "unbalance: disc, at: 5}}\n")
+        scene = text(stiffness=matrix(), quantities="".join(lines)).replace("mass: 2, inertia: [0.01, 0.006, 0.006, 0, 0, 0]", "mass: 2e-3")
+        scene = scene.replace("beamwork: 1", "beamwork: 1\nunits: mm, N, MPa", 1).replace(
+            "E: 210e9, I: 5e-10, L: 0.4", "E: 210e3, I: 500, L: 400").replace("A: 1e-4", "A: 100").replace("8e10", "8e4")
+        (self.folder / "scene.yaml").write_text(scene, encoding="utf-8")
+        record = self.record("solve", "--scene", self.folder / "scene.yaml", "-f", "collocation", "-n", 1)
+        w = 10*np.pi
+        shift = 1000*w*w/(3*E*I/L**3 - MASS*w*w)    # [mm/(kg m)]; 1 kg m is 1 N s^2
+        expected = {"shift": (shift, "mm/(N s^2)"), "rate": (w*shift, "mm/(N s^3)"), "turn": (1.5e-3*shift/L, "rad/(N s^2)")}
+        for q in record["quantities"]:
+            value, unit = expected[q["quantity"]]
+            self.assertAlmostEqual(q["value"]/value, 1, 9)
+            self.assertEqual(q["unit"], unit)
+
     def test_refused(self):
         for more, words in (("force: disc", "unbalance"), ("about: ux", "rx|ry|rz")):
             scene = text(quantities=read("uy", **dict([more.split(": ")])))
