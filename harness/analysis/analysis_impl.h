@@ -94,7 +94,7 @@ typedef struct unsymmetric_problem {
     int decaying;            /* 1: with C, also modes that decay without oscillation */
     const sparse *B;         /* with C: mass of the internal motions of elements; NULL: none */
     double mass, stiffness;  /* proportional damping that C contains [1/s], [s] */
-    double shift;            /* a with C: K contains a C + a^2 M, C contains 2 a M [1/s]; 0: none */
+    double shift; /* shift a, with C: K contains a C + a^2 M, and C contains 2 a M [1/s]; 0: none */
 } unsymmetric_problem;
 
 /* s = growth + i frequency, ascending by magnitude. Without damping the result contains both modes
@@ -417,7 +417,7 @@ status harmonic_input(const vibration *, const scene_response *, double w, doubl
 int harmonic_carried(const vibration *, const scene_response *, double y[]);
 /* The linear form o of a quantity in the displacements: o^T x. */
 void harmonic_output(vibration *, const scene_response *, double w, double complex o[]);
-/* The part of the input carried by the prescribed motion whose reaction is read. */
+/* The part of the input that acts directly on the prescribed motion whose reaction is read. */
 double complex harmonic_force_at(const vibration *, const scene_response *, double w);
 /* The forces of a quantity's input, independent of frequency, and its output as forces: out[n
  * each]. Returns their number, at most HARMONIC_SHAPES. */
@@ -494,7 +494,8 @@ void harmonic_release(vibration *);
 status harmonic_inside(analysis_context *, int analysis, double *error, int *quantity, fault *);
 /* REFUSED: the motion is a component of a rotation vector. */
 status harmonic_check_motion(const vibration *, int driver, fault *);
-/* REFUSED: about an instant, the rate of what the quantity reads has more parts. */
+/* REFUSED: about an instant of a motion, the rate that the quantity reads contains further terms.
+ */
 status harmonic_check_rates(const vibration *, const scene_response *, fault *);
 /* The driven coordinate whose reaction a quantity reads; it must act on one node only. */
 status harmonic_reacting(const vibration *, const scene_response *, int *out, fault *);

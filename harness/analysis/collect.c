@@ -369,7 +369,7 @@ static status keep_about(const analysis_context *c, int analysis, workspace *w, 
     return keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f);
 }
 
-/* About an instant of a motion: C is damping, G what rates do besides. */
+/* Matrices about an instant of a motion: C is the damping, G the remaining effect of rates. */
 static status keep_instant(const analysis_context *c, int analysis, workspace *w,
                            system_matrices *s, fault *f)
 {

@@ -25,7 +25,7 @@ static double diagonal(const sparse *a, int j)
     return 0;
 }
 
-/* Largest quotient of diagonal entries: about the square of the highest frequency. */
+/* Largest quotient of diagonal entries, approximately the square of the highest frequency. */
 static double highest(const unsymmetric_problem *p)
 {
     double square = 0;
@@ -40,7 +40,7 @@ static double size_of(const unsymmetric_result *r, int i)
     return hypot(r->growth[i], r->frequency[i]);
 }
 
-/* Does a slow pole of an integral hide other modes in round-off? */
+/* Does the slow pole of an integral hide other modes in round-off? */
 static int hides(const unsymmetric_problem *p, const unsymmetric_result *r)
 {
     const double digits = 1e-10, bearable = 1e-6;
@@ -79,7 +79,8 @@ static status solve_shifted(vibration *v, unsymmetric_problem *p, int integrals,
     return STATUS_OK;
 }
 
-/* Modes of the matrices of loops. If a slow pole hides other modes, the matrices are shifted. */
+/* Finds the modes of the matrices with closed loops. If a slow pole hides other modes, the matrices
+ * are shifted. */
 static status solve_closed(vibration *v, unsymmetric_problem *p, sparse closed[],
                            unsymmetric_result *r, fault *f)
 {
@@ -202,7 +203,7 @@ static status damped_frequencies(vibration *v, double below, int *count, double 
     return outcome;
 }
 
-/* Above round-off? */
+/* Is the growth above round-off? */
 static int grows(const vibration *v, const unsymmetric_result *r, int i)
 {
     return r->growth[i] > (v->about != NULL ? 1e-7 : 1e-9) * r->frequency[i];
@@ -232,7 +233,7 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
                  "stability of the loop of feedback is known up to %.4g Hz only", below);
     if (outcome != STATUS_OK || growth == 0)
         return outcome;
-    if (v->about != NULL) { /* which is no loss of stability */
+    if (v->about != NULL) { /* growth about an instant is not a loss of stability */
         if (v->c->result->reason[0] == '\0')
             snprintf(v->c->result->reason, sizeof v->c->result->reason,
                      "a mode of the coefficients at %g s grows at %.4g 1/s: responses are transfer "
@@ -310,8 +311,8 @@ static void say_instant(const vibration *v, size_t size, char out[])
              a->axes_of != SCENE_NONE ? scene_name(v->c->scene, SCENE_NODES, a->axes_of).text : "");
 }
 
-/* Finds modes, with the factors of K. closed: those of loops, whose integrals
- * follow the coordinates, or NULL. */
+/* Finds modes, with the factors of K. closed: matrices with closed loops, whose integrals follow
+ * the coordinates, or NULL. */
 static status find_modes_with(vibration *v, const sparse *const of[], matrix_factor *factor,
                               sparse closed[], unsymmetric_result *r, fault *f)
 {

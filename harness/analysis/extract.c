@@ -184,7 +184,7 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
 {
     const quantity_eigenvalue found = {side->value[i], side->growth != NULL ? -side->growth[i] : 0};
     const double size = hypot(found.decay, found.value);
-    const double undamped = 1e-4; /* with a larger error, no damping is known to be 0 */
+    const double undamped = 1e-4; /* with a larger error, zero damping cannot be established */
     double part;
     if (isnan(found.value)) {
         quantity_no_value(r, side->status, side->reason);
@@ -205,7 +205,7 @@ static void take_meaning(const outcome_spectrum *from, quantity_result *r)
         memcpy(r->meaning, from->meaning, sizeof r->meaning);
 }
 
-/* Names the kind of mode i of buckling about the undeformed state, in space. */
+/* Names the kind of buckling mode i about the undeformed state, in space. */
 static void name_kind(const analysis_context *c, const scene_quantity *q, const outcome_side *side,
                       int i, quantity_result *r)
 {

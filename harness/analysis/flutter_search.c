@@ -69,8 +69,8 @@ static void describe(search *s, const unsymmetric_result *r, station *out)
                                                      : rate * rate;
 }
 
-/* The station at `path`, reached from the kept state. STATUS_SINGULAR: the tangent is singular.
- * With the flag set, growth within round-off counts as none. */
+/* Computes the station at `path`, starting from the stored state. STATUS_SINGULAR: the tangent is
+ * singular. With the flag set, growth within round-off counts as none. */
 static status look_closely(search *s, double path, int surely, station *out, fault *f)
 {
     newton_run *n = s->n;

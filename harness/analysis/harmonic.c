@@ -224,7 +224,7 @@ status harmonic_check_rates(const vibration *v, const scene_response *r, fault *
     return STATUS_OK;
 }
 
-/* Reactions and velocities that are asked for are such. */
+/* Checks that the requested reactions and rates can be evaluated. */
 static status check_outputs(const vibration *v, fault *f)
 {
     const scene *s = v->c->scene;

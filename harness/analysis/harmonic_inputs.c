@@ -20,8 +20,8 @@ status harmonic_check_motion(const vibration *v, int driver, fault *f)
     return STATUS_OK;
 }
 
-/* Generalised force in coordinate k of the node, T[6 x count]: of 1 along a component, or of an
- * unbalance of 1, which rotates. */
+/* Generalised force in coordinate k of the node, T[6 x count], due to a unit force along a
+ * component or a unit rotating unbalance. */
 static double complex force_of(const scene_response *r, double w, const double T[], int count,
                                int k)
 {

@@ -64,7 +64,7 @@ static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
     return linearise_state(&c->eq, &c->run->memory, v->state, &lin, f);
 }
 
-/* K and C of all rates about an instant, of all coordinates; G: work space. */
+/* K, and C including all effects of rates, about an instant, in all coordinates; G: work space. */
 static status small_motions(const vibration *v, sparse *K, sparse *C, sparse *G, fault *f)
 {
     const outcome_about *about = v->about;

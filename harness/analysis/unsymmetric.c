@@ -183,7 +183,7 @@ static void multiply(const sparse *A, int absolute, const double complex x[], do
         }
 }
 
-/* s of the matrices, which may be shifted. */
+/* Eigenvalue s of the matrices, which may be shifted. */
 static double complex root(const unsymmetric_solver *s, double complex theta)
 {
     return s->p->C != NULL ? 1 / theta : csqrt(-1 / theta);
@@ -379,7 +379,7 @@ static void take(unsymmetric_solver *s, int i, double error, const growth_estima
     r->count++;
 }
 
-/* Exchanges eigenvalues so that |s| ascends: a shift has another order. */
+/* Sorts eigenvalues by ascending |s|, because a shift changes their order. */
 static void sort(unsymmetric_solver *s)
 {
     arnoldi_result *r = &s->right;

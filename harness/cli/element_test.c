@@ -40,7 +40,7 @@ static status add_file(const void *context, const char *path, fault *f)
                : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
 }
 
-/* Of a command: of the files that it names, one after the other. */
+/* Hash of a formulation; for a command, of the files that it names, in order. */
 static void hash_of(const element_type *t, char out[DIGEST_TEXT])
 {
     const char *from = formulations_element(t);

@@ -29,7 +29,7 @@ static void rotate(const double q[4], double v[3])
     rotation_apply(q, before, v);
 }
 
-/* Moves the nodes and turns what they carry. */
+/* Moves the nodes, and rotates bodies and offsets with them. */
 static void move_nodes(const double increment[], model_imperfect *p)
 {
     scene *s = &p->own;

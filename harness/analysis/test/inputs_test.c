@@ -352,7 +352,7 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
         in->name,
         column == SCENE_OF_HARMONIC_ABOUT ? SCENE_OF_COMPLIANCE_ABOUT : SCENE_OF_COMPLIANCE, 1);
     scene s;
-    if (column != SCENE_OF_HARMONIC_LINEAR && !is_called(in, "feedback")) { /* which is refused */
+    if (column != SCENE_OF_HARMONIC_LINEAR && !is_called(in, "feedback")) { /* rejected */
         solve(&p, e, &a);
         const double off = largest_apart(with, &a, at_rest);
         gsl_test(!(off <= 1e-7), "%s: %s, %s: at 0 Hz the compliance (%g)", e->name,
@@ -372,7 +372,7 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
              scene_column_name[column], in->name, off, by_modes.reason);
 }
 
-/* About the start of a motion from a state in balance it is as about that state. */
+/* About the start of a motion from equilibrium the response is that about the equilibrium state. */
 static void law_of_harmonic_instant(const scene_input *in, const element_type *e)
 {
     static answer state, instant;
@@ -381,7 +381,7 @@ static void law_of_harmonic_instant(const scene_input *in, const element_type *e
     for (int about = 0; about < 2; about++) {
         scene s;
         structure(&p, &s);
-        s.lumped = 1; /* as the motions of some formulations have it */
+        s.lumped = 1; /* as in the motions of some formulations */
         int of = scene_add_static(&s, 1, &p.end, 2);
         of = about ? move(&s, of, p.column) : of;
         const int harmonic = scene_add_harmonic(&s, of, 2, (const double[]){0, shaking});
@@ -528,7 +528,8 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     const int refused = with.status == STATUS_REFUSED;
     if ((column == SCENE_OF_MODAL_LINEAR || column == SCENE_OF_HARMONIC_LINEAR) &&
         in->part[SCENE_OF_LINEAR] == SCENE_PART_REFUSED)
-        where = scene_column_name[SCENE_OF_LINEAR]; /* which is refused before */
+        where =
+            scene_column_name[SCENE_OF_LINEAR]; /* the linear analysis rejects the input first */
     if ((column == SCENE_OF_BUCKLING_ABOUT || column == SCENE_OF_MODAL_ABOUT ||
          column == SCENE_OF_COMPLIANCE_ABOUT || column == SCENE_OF_HARMONIC_ABOUT) &&
         in->part[SCENE_OF_STATIC] == SCENE_PART_REFUSED)

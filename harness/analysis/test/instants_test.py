@@ -1,4 +1,4 @@
-"""Small motions about instants of motions: closed forms, a steady rotation, and motions that start nearby."""
+"""Small motions about instants of motions: closed forms, a steady rotation, and motions with nearby initial states."""
 import csv
 import json
 import math
@@ -123,7 +123,7 @@ class Instants(ProgramTest):
         self.near(found["decay"]**2, -square)
 
     def test_rotor(self):
-        """A disc that spins between bearings: (I s^2 - i J w s + c s + k) x = 0."""
+        """A disc spinning between bearings: (I s^2 - i J w s + c s + k) x = 0."""
         found = self.solved(ROTOR)
         exact = [abs(numpy.roots([0.02, 0.1 + sign * 0.03j * 300, 400]).imag) for sign in (1, -1)]
         bounce = math.sqrt(1600 / 2 - (0.4 / 4)**2)
@@ -138,7 +138,7 @@ class Instants(ProgramTest):
                 self.near(found[f"m_{i}"], found[f"r_{i}"])
 
     def test_bead(self):
-        """Softened by its rotation: (k/m - w^2 + s^2) (l/m - w^2 + s^2) + 4 w^2 s^2 = 0."""
+        """Rotation softens the structure: (k/m - w^2 + s^2) (l/m - w^2 + s^2) + 4 w^2 s^2 = 0."""
         for time in (0, 0.123, 0.3):
             found = self.solved(BEAD % {"time": time})
             p, q, w = 800 - 144, 1800 - 144, 12
@@ -148,7 +148,8 @@ class Instants(ProgramTest):
                 self.near(found[f"f_{i}"] * 2 * math.pi, right[i])
 
     def test_nearby_motions(self):
-        """Accelerations of motions that start with other velocities differ by -M^-1 (C + G) of that difference."""
+        """Initial accelerations of motions with different initial velocities differ by -M^-1 (C + G) times the
+        velocity difference."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
             folder = self.folder / formulation
             self.solved(FLYING % {"x": 10.0, "y": -20.0}, formulation, 2, 0,

@@ -38,7 +38,7 @@ static void guided(scene *s, double across_y, double across_z, int direction, in
     scene_add_quantity(s, "u", "m", scene_add_linear(s), scene_coordinate(tip, direction));
 }
 
-/* Deflection; NAN: refused, in words[200]. */
+/* Deflection; NAN: rejected, with the reason in words[200]. */
 static double deflection(const element_type *type, scene *s, char *words)
 {
     formulation chosen;

@@ -150,7 +150,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
                 self.assertAlmostEqual(complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])/s, 1, 11)
 
     def test_slow_integral(self):
-        """A pole far slower than the modes hides none of them, and no growth."""
+        """A pole far slower than the modes hides neither a mode nor growth."""
         k, own = 2e7, np.array([[3e4, -3e4], [-3e4, 3e4]])
         rate = "  rate: {force: [1, 0, 0], on: tool, feedback: {node: tool, component: ux, derivative: -20}}\n"
         for ki, kd in ((1e-2, 0), (1e-4, 0), (1e-2, -20), (1e-5, -20)):

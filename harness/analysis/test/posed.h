@@ -72,7 +72,7 @@ static void twist(scene *s)
     scene_add_load(s, SCENE_FORCE, scene_add_attached(s, TIP, 1, 0.2, 0), 0, 5, 40);
 }
 
-/* The base cannot turn about its axis at the tip. */
+/* The base cannot rotate about its axis at the tip. */
 static void ended_in_a_fork(scene *s)
 {
     const double *to = s->node[TIP].position, axis[3] = {to[0], to[1], to[2]},

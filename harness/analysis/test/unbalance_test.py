@@ -1,4 +1,5 @@
-"""Synchronous response to an unbalance: Jeffcott's rotor, and an overhung disc with gyroscopic moments on any bearing."""
+"""Synchronous response to an unbalance: the Jeffcott rotor, and an overhung disc with gyroscopic moments on
+general bearings."""
 import re
 
 import numpy as np
@@ -60,10 +61,10 @@ class Unbalance(ProgramTest):
                 for name, values in curves.items() if name.endswith("_real")}
 
     def test_jeffcott(self):
-        """Z = w^2/(K - i q - m w^2 + i c w) of y + i z, which turns forward: z is a quarter of a turn behind y."""
+        """Z = w^2/(K - i q - m w^2 + i c w) of y + i z in forward whirl: z lags y by 90 degrees."""
         K = 3*E*I/L**3
         for film, cross, damping in ((0, 0, 30), (4e3, 1e3, 40)):
-            # the disc is held against tilting by nothing: its rotations follow, and have no mass
+            # the disc can tilt freely: its rotations follow, without rotary inertia
             scene = text(disc="hold: [ux, rx]", stiffness=matrix(uy_uy=film, uz_uz=film, uy_uz=cross, uz_uy=-cross),
                          damping=matrix(uy_uy=damping, uz_uz=damping), quantities=read("uy") + read("uz"))
             found = self.solved(scene.replace(", inertia: [0.01, 0.006, 0.006, 0, 0, 0]", ""))
@@ -74,7 +75,7 @@ class Unbalance(ProgramTest):
                 self.assertAlmostEqual(found["uz_rx"][i]/Z, -1j, 9)
 
     def overhung(self, hertz, speed, k, c, axis_forces):
-        """uy, uz, ry, rz of the disc with gyroscopic moments, by 4 x 4 matrices."""
+        """Returns uy, uz, ry, rz of the disc with gyroscopic moments, from 4 x 4 matrices."""
         w = 2*np.pi*hertz
         b = E*I/L**3
         K = np.array([[12, 0, 0, -6*L], [0, 12, 6*L, 0], [0, 6*L, 4*L*L, 0], [-6*L, 0, 0, 4*L*L]])*b
@@ -86,7 +87,7 @@ class Unbalance(ProgramTest):
         return np.linalg.solve(K + 1j*w*C - w*w*M, w*w*np.array(axis_forces))
 
     def test_bearings(self):
-        """Bearings that are not isotropic, with cross terms, and gyroscopic moments at one speed: orbits are ellipses."""
+        """Anisotropic bearings with cross terms, and gyroscopic moments at one speed: orbits are ellipses."""
         k, c, speed = np.array([[9e3, 2e3], [-1e3, 5e3]]), np.array([[90, 5], [5, 60.]]), 2*np.pi*11
         stiff = matrix(uy_uy=k[0, 0], uy_uz=k[0, 1], uz_uy=k[1, 0], uz_uz=k[1, 1])
         damp = matrix(uy_uy=c[0, 0], uy_uz=c[0, 1], uz_uy=c[1, 0], uz_uz=c[1, 1], ry_rz=0.01*speed, rz_ry=-0.01*speed)
@@ -97,7 +98,7 @@ class Unbalance(ProgramTest):
                 self.assertLess(abs(found[f"{name}_rx"][i] - value), 1e-9*np.abs(expected).max(), (name, hertz))
 
     def test_modal(self):
-        """All modes have the direct solution; a few are within their bound."""
+        """With all modes the response is that of the direct solution; with a few modes it is within the bound."""
         damp, parts = matrix(uy_uy=50, uz_uz=20), "".join(map(read, ("uy", "uz", "ry", "rz")))
         stiff = matrix(uy_uy=4e3, uz_uz=9e3)
         direct, modal = (self.solved(text(stiffness=stiff, damping=damp, quantities=parts, solution=solution))
@@ -106,7 +107,8 @@ class Unbalance(ProgramTest):
             self.assertLess(np.abs(modal[name] - values).max(), 1e-8*np.abs(values).max(), name)
 
     def test_axes(self):
-        """It leads along the next axis, and is along the one after it a quarter of a turn later; the base feels it."""
+        """The unbalance starts along the next axis and is along the one after it 90 degrees later; its force acts on
+        the base."""
         free = text(root="hold: all", disc="hold: [rx, ry, rz]", stiffness=matrix(ux_ux=1e4, uy_uy=2e4, uz_uz=3e4),
                     damping=matrix(ux_ux=30, uy_uy=30, uz_uz=30),
                     quantities="".join(read(c, axis) for axis in ("rx", "ry", "rz") for c in ("ux", "uy", "uz")))
@@ -122,7 +124,8 @@ class Unbalance(ProgramTest):
                     self.assertLess(abs(found[f"{SIX[component]}_{SIX[3 + axis]}"][i] - x), 1e-9*max(abs(x), 1e-6))
 
     def test_reaction(self):
-        """Of a motion at rest against which the unbalance acts: the force of the unbalance with the sign of a support."""
+        """The reaction of a prescribed motion at rest on which the unbalance acts directly is the unbalance force
+        with the sign of a support."""
         found = self.solved(text(disc="hold: [ux, rx], drive: {uy: still}",
                                  motions="motions: {still: {unit: m, path: [0, 1], value: [0, 0]}}\n",
                                  quantities=read("uy", of="reaction") + read("uz")))

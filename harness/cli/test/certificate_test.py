@@ -69,13 +69,13 @@ class Certificates(Tested):
         self.refused(2, "twice", "element-test", "beamw", "beamw")
 
 
-ROWS = re.compile(r"^    (.*) \\\\$", re.M)  # of tables in LaTeX
+ROWS = re.compile(r"^    (.*) \\\\$", re.M)  # rows of LaTeX tables
 
 
 class Tables(Tested):
-    """What a paper prints: the numbers of the JSON, with version and hash of the element."""
+    """LaTeX output for a paper: the numbers of the JSON, with version and hash of the element."""
 
-    usual = None  # of the example without changes
+    usual = None  # output for the unmodified example
 
     def forms(self, *changes, code=0):
         if not changes and Tables.usual is not None:
@@ -100,7 +100,7 @@ class Tables(Tested):
             self.assertIn(found["json"]["commit"], found[form])
 
     def test_hash_of_a_command(self):
-        """Of the files that it names; the program's own, for a formulation in it."""
+        """The hash is that of the named files, or of the program for a built-in formulation."""
         script = self.folder / "timoshenko.py"
         script.write_bytes((EXAMPLES / "timoshenko.py").read_bytes())
         path = environment(PYTHONPATH=str(EXAMPLES))
@@ -132,7 +132,7 @@ class Tables(Tested):
                                                "torsion, warping held"])
 
     def test_markdown(self):
-        """Rows of a table have as many cells as its head."""
+        """Rows of a table have as many cells as its header."""
         text = self.forms()["markdown"]
         tables = [[line.count("|") for line in part.splitlines()]
                   for part in re.findall(r"(?:^\|.*\n)+", text, re.M)]
@@ -145,7 +145,7 @@ class Tables(Tested):
         self.assertIn("vibration with the mass that beamwork computes", text)
 
     def test_latex(self):
-        """Environments and braces match, rows have the columns of their head, and no character of the words is a
+        """Environments and braces match, rows have the columns of their header, and no character of a text acts as a
         command."""
         text = self.forms()["latex"]
         opened = []
@@ -177,7 +177,7 @@ class Tables(Tested):
         self.assertRegex(found["latex"], r"stress, C and G derive .* & violated ")
 
     def test_special_characters(self):
-        """Of an element whose words are not LaTeX."""
+        """An element with characters that are special in LaTeX."""
         text = self.forms(("two nodes, one point", "50 % of {a_b} & #1 | $x^2$ ~ \\\\"),
                           ('"timoshenko"', '"my_beam"'))
         self.assertIn(r"\caption{my\_beam: ", text["latex"])

@@ -101,7 +101,7 @@ class PhysicsTest(SceneCase):
         self.near(self.column(section, more="omit: [shear]\n")["up"], 43535, 1e-3)
 
     def test_kinds(self):
-        """What buckling modes do: by symmetry, sections without an axis of symmetry along y and z bend and twist."""
+        """Kinds of buckling modes follow from symmetry: sections without symmetry about y or z bend and twist."""
         for section, kind in (("rectangle: {width: 0.02, thickness: 0.03}", "flexural"),
                               ("tube: {diameter: 0.04, thickness: 2e-3}", "flexural, double"),
                               ("constants: {A: 1.6e-3, Iy: 3e-6, Iz: 4e-6, It: 8e-9, Iw: 1e-12}", "torsional"),
