@@ -363,6 +363,8 @@ static void take(unsymmetric_solver *s, int i, double error, const growth_estima
     if (stays_real)
         at = creal(at);
     const int damped = s->p->C != NULL, second = !damped && cimag(theta) < 0, k = r->count;
+    if (s->p->decaying && fabs(cimag(at)) <= fmin(10 * error, nothing) * cabs(at))
+        at = creal(at); /* two equal real eigenvalues, which round-off makes a pair */
     const double complex square = at * at;
     const double same = damped ? 10 * error : fmax(unsymmetric_same, 20 * error);
     const int grows = fabs(creal(at)) > (damped ? same * cabs(at) : same / 2 * cabs(at));

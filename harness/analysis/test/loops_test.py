@@ -182,6 +182,32 @@ loads:
                 self.assertLess(abs(one/s - 1), 1e-8 + 3*found[f"d{i}"]["rounding"] if i == 0 else 1e-8, (ki, kd, i))
             self.assertEqual("a mode grows at 3.754" in done.stderr, kd < 0, done.stderr)
 
+    def test_equal_real_poles(self):
+        """Two equal loops have two equal real poles; round-off makes no pair of them."""
+        loop = "  %(c)s: {force: [%(x)s], on: cart, feedback: {node: cart, component: u%(c)s, proportional: 5, derivative: %(kd)s, integral: 3}}\n"
+        for kd in (3, 100, 200):
+            text = """beamwork: 1
+sections: {bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 2e-9}, young: 2e11, shear_modulus: 8e10}}
+nodes:
+  wall: {at: [0, 0, 0], hold: all}
+  cart: {at: [1, 0, 0], mass: 2, inertia: [0.01, 0.02, 0.02, 0, 0, 0]}
+members: {bar: {from: wall, to: cart, section: bar, y: [0, 1, 0]}}
+loads:
+""" + "".join(loop % {"c": c, "x": x, "kd": kd} for c, x in (("y", "0, 1, 0"), ("z", "0, 0, 1"))) + """analyses:
+  poles: {modal: {damped: yes}}
+quantities:
+""" + poles_read(4) + "omit: [shear, trapeze, wagner_moments, wagner_torque]\n"
+            (self.folder / "scene.yaml").write_text(text, encoding="utf-8")
+            found = self.values(self.record("solve", "--scene", self.folder / "scene.yaml", "-f", "collocation", "-n", 1))
+            A = np.zeros((5, 5))
+            A[:2, 2:4] = np.eye(2)
+            A[2:4, :2] = -np.diag([0.5, 50]) @ ([[2405, -1200], [-1200, 800]])
+            A[2, 2], A[2, 4], A[4, 0] = -kd/2, -1.5, 1
+            expected = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0), key=abs)
+            for i in range(4):
+                s = complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])
+                self.assertLess(abs(s/expected[i//2] - 1), 1e-7, (kd, i))
+
     def test_responses(self):
         """All inputs and outputs, including zero frequency, where an integral leaves no error."""
         quantities = "".join(read(f"{node}_{name}", node=node, component="ux", **keys) for name, keys in INPUTS.items()
@@ -254,7 +280,7 @@ loads:
         plant = Plant()
         modes = read("r", node="cart", component="ux", force="cart", along="ux")
         for analyses, quantities, words in (
-                ("  plain: {modal: {}}\n", "  f: {frequency: {analysis: plain}}\n", "damped modes (damped: yes) only"),
+                ("  plain: {modal: {}}\n", "  f: {frequency: {analysis: plain}}\n", "only in motions, harmonic analyses and damped modes (damped: yes)"),
                 (STEADY.replace("5]", "5], loops: open"), read("r", node="cart", component="ux", reference="motor"),
                  "the loop of load motor is open in"),
                 (STEADY, read("r", node="cart", component="ux", reference="motor", force="cart"), "reference"),
