@@ -110,7 +110,7 @@ typedef struct unsymmetric_result {
     long solutions;
 } unsymmetric_result;
 
-/* A smaller relative imaginary part of s^2 is round-off of a double value. */
+/* A smaller relative imaginary part of s^2 is round-off of a double eigenvalue. */
 static const double unsymmetric_same = 1e-6;
 
 status unsymmetric_solve(const unsymmetric_problem *, unsymmetric_result *, fault *);
@@ -153,7 +153,7 @@ typedef struct flutter_point {
     int massless;
     double *mode;
 } flutter_point;
-/* From the current path to `target`: static_walk. */
+/* Walks from the current path to `target`, as static_walk does. */
 typedef status flutter_walk(newton_run *, double target, double *increment, fault *);
 status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *, fault *);
 
@@ -280,7 +280,7 @@ typedef struct rival {
 } rival;
 
 /* continuation_critical.c: the critical points between `here` and `next`, if any, become events.
- * The step was found with the goal. *jump: 1 when the inertia of the tangent stiffness changes
+ * The step was found with the goal. *jump: 1 if the inertia of the tangent stiffness changes
  * without a critical point: the step led to another branch. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
 /* If critical points are requested: *hidden is 1 if an indicator changes and changes back within
@@ -337,7 +337,7 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
 /* Natural frequencies about the undeformed state. */
 
 status modal_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* About the undeformed state. */
+/* Analyses about the undeformed state. */
 status linear_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 status buckling_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Number of modes that the quantities of an analysis request. */
@@ -519,8 +519,8 @@ void rotation_judge_stations(analysis_context *, int analysis, const analysis_ou
 /* Nonlinear equilibrium along a path. */
 
 status static_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* From the current path to `target` in steps that are halved if Newton's method fails and doubled
- * if it converges easily; *increment: the first step, then the next. */
+/* Walks from the current path to `target` in steps that are halved if Newton's method fails and
+ * doubled if it converges easily; *increment: the first step, then the next. */
 status static_walk(newton_run *, double target, double *increment, fault *);
 
 #endif

@@ -17,7 +17,7 @@ static const double good_residual = 1e-12, rounding_residual = 1e-14, stalled_re
                     bearable_residual = 1e-5;
 /* Eigenvalues with a smaller relative difference count as equal. */
 static const double same = 1e-6;
-/* Relative size of the remainder when a vector in the basis is orthogonalised. */
+/* Relative size of the remainder after orthogonalising a vector in the basis. */
 static const double nothing = 1e-14;
 
 typedef struct solver {

@@ -179,7 +179,7 @@ static path_goal part_of(const continuation *p, path_goal goal, double from, dou
     return (path_goal){0, from + way * (fabs(p->here.control - from) + length)};
 }
 
-/* From `here` to the goal in smaller steps. */
+/* Repeats the step from `here` to the goal in smaller steps. */
 static status retrace(continuation *p, path_goal goal, double station, const rival *r, double *size,
                       fault *f)
 {

@@ -46,7 +46,7 @@ static int is_defined(const scene *s, const scene_quantity *q, fault *f)
     return 1;
 }
 
-/* At full load, about the undeformed state, under one load case or combination. */
+/* Takes a value at full load, about the undeformed state, under one load case or combination. */
 static void under_one(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                       int acting, quantity_result *r)
 {

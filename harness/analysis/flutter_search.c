@@ -168,7 +168,7 @@ static status look_between(search *s, station a, station b, station c, int i, fa
     return STATUS_OK;
 }
 
-/* The search ends after `last`. */
+/* Reports that there is no critical load up to `last`, and why the search ends there. */
 static status is_lost(const search *s, const char *why, fault *f)
 {
     return fault_set(f, STATUS_NOT_CONVERGED, "no critical load from path 0 to %g; beyond %s",
@@ -185,7 +185,7 @@ static status confirm(search *s, fault *f)
                : is_lost(s, "growing modes are lost in the round-off of the tangent", f);
 }
 
-/* From the kept state, which is that of `last`, to the first unstable station s->next. */
+/* Walks from the stored state, which is that of `last`, to the first unstable station s->next. */
 static status walk(search *s, fault *f)
 {
     double step = first_step * s->size, end = farthest * s->size;

@@ -515,7 +515,8 @@ static double thrust_of_elements(const newton_run *n)
     return most;
 }
 
-/* Without mass, flutter is not searched for, and a divergence may be due to the mesh. */
+/* Returns NOT_CONVERGED if a divergence of a massless structure is an artefact of the mesh. Without
+ * mass, flutter is not searched for. */
 static status judge_massless(const newton_run *n, const flutter_point *first, fault *f)
 {
     const double most = first->massless ? thrust_of_elements(n) : 0;

@@ -126,7 +126,7 @@ static void write_results(FILE *to)
     manual_write_results(to, verbs);
 }
 
-/* Page about a file format, which is not a verb. */
+/* Returns the function that writes a page about a file format, or NULL. */
 static void (*file_page(const char *name))(FILE *)
 {
     if (strcmp(name, "beamwork-scene.5") == 0)

@@ -62,7 +62,7 @@ static void tell_units(const scenes *own, const sweep *s)
         }
 }
 
-/* Runs here, or as batches of shards, which are evaluated when all exist. */
+/* Runs the sweep here, or as batches of shards, which are evaluated once all exist. */
 static status compute(const verify_request *r, const scenes *own, verification_request *asked,
                       verification *v, spread_end *end, fault *f)
 {

@@ -112,7 +112,7 @@ static int is_sheared(unsigned needs)
     return (needs & FEATURE_SHEAR) && (needs & (FEATURE_GEOMETRIC | FEATURE_LARGE));
 }
 
-/* Returns the features that the scene needs when this physics is omitted. */
+/* Returns the features that the scene needs if this physics is omitted. */
 static unsigned needed_without(const scene *s, unsigned omits)
 {
     unsigned needs = s->demands | needs_of_analyses(s) | (features_of_quantities(s) & ~omits),

@@ -33,7 +33,7 @@ static int stored(const mesh_pattern *p, int row, int column)
            (!p->matrix.symmetric || row <= column);
 }
 
-/* NULL when not stored. */
+/* Returns NULL if the entry is not stored. */
 static double *place_of(sparse *a, int row, int column)
 {
     int low = a->column[column], high = a->column[column + 1] - 1;

@@ -47,7 +47,7 @@ static int stations_of(const scene_analysis *a)
 }
 
 /* Checks a lower bound of the memory for elements, matrix patterns and states stored along the
- * path; REFUSED where the machine has less. */
+ * path; REFUSED if the machine has less. */
 static status check_memory(const model *m, fault *f)
 {
     const double entries = (double)m->mesh.coordinates * m->mesh.coordinates / 2,

@@ -681,7 +681,7 @@ void kinematics_gather(const model *m, const model_state *s, const mesh_element 
 void kinematics_position(const model *m, const model_state *s, int vertex, double r[3]);
 /* For a body moved by a diaphragm: derivative of its position with respect to its first angle. */
 void kinematics_arm(const model *, const model_state *, int vertex, double moved[3]);
-/* Its displacement if that angle increases by `more` from the state. */
+/* The body's displacement if that angle increases by `more` from the state. */
 void kinematics_swing(const model *, const model_state *, int vertex, double more, double by[3]);
 /* Spatial axes of a sequence's angles in the current state: b[angles][3]. */
 void kinematics_axes(const model *m, const model_state *s, int vertex, double b[3][3]);

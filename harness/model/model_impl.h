@@ -86,7 +86,7 @@ const double *turns_between(const model *, const model_state *, int from, int no
 
 /* The undeformed axis of a member. */
 
-/* An arc of constant torsion and curvature between two points (straight when these are zero). */
+/* An arc of constant torsion and curvature between two points (straight if these are zero). */
 typedef struct member_arc {
     double length;         /* along the arc [m] */
     double start[3], R[9]; /* position and triad at p */

@@ -31,7 +31,7 @@ struct factor_symmetric {
     double *L_value;
 };
 
-/* Returns 0 when out of memory, as the functions below do. */
+/* Returns 0 if out of memory, as the functions below do. */
 static int lay_out_numbers(factor_symmetric *fs, size_t n)
 {
     fs->D = malloc((3 * n + 1) * sizeof *fs->D);

@@ -92,7 +92,7 @@ static void apply(const lanczos_problem *p, double x[], double y[])
     deflate(n, p->known, p->X, x, p->KX, x);
 }
 
-/* Returns ARPACK's status: 0 when all requested values converged. */
+/* Returns ARPACK's status: 0 if all requested values converged. */
 static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutions)
 {
     int ido = 0, info = 1;

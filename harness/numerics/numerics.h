@@ -30,7 +30,7 @@ void sparse_copy_leading(const sparse *whole, sparse *leading);
 double sparse_diagonal(const sparse *a, int j);
 void sparse_mul(const sparse *a, const double x[], double y[]);            /* y = A x */
 void sparse_mul_transposed(const sparse *a, const double x[], double y[]); /* y = A^T x */
-/* Change of x^T A y when all terms are rounded in the same direction; A is symmetric, or skew with
+/* Change of x^T A y if all terms are rounded in the same direction; A is symmetric, or skew with
  * its upper triangle stored. */
 double sparse_rounding(const sparse *a, const double x[], const double y[]);
 
@@ -179,9 +179,8 @@ double clock_processor_seconds(void);
 
 typedef struct gyroscopic_problem {
     const sparse *K, *M, *G; /* same symmetric pattern; G stores its upper triangle */
-    matrix_factor
-        *K_factor; /* after factor_numeric; its values are replaced when K is indefinite */
-    int wanted;    /* number of lowest modes requested */
+    matrix_factor *K_factor; /* after factor_numeric; its values are replaced if K is indefinite */
+    int wanted;              /* number of lowest modes requested */
     eigen_product
         *K_product; /* y = K x, more accurate than the matrix product; NULL: not available */
     eigen_form *K_rounding; /* rounding error of x^T K x; NULL: from the matrix */
@@ -271,7 +270,7 @@ static inline void phases_stop(phases *p)
     p->running = 0;
 }
 
-/* All parts; they add up to `whole` [s] minus the duration of the readings. */
+/* Sets all parts so that they add up to `whole` [s] minus the duration of the readings. */
 static inline void phases_of_whole(const phases *p, double whole, double part[PHASES])
 {
     part[PHASE_REST] = whole - (double)p->readings * p->reading;
@@ -328,7 +327,7 @@ typedef struct triplets {
 status triplets_of(const sparse *a, int skew, triplets *out, fault *);
 /* Drops all rows and columns except the leading n. */
 void triplets_lead(triplets *, int n);
-/* From a dense matrix [columns x rows], column by column. */
+/* Takes the entries from a dense matrix [columns x rows], column by column. */
 status triplets_of_columns(int rows, int columns, const double value[], triplets *out, fault *);
 /* y[rows] = A x */
 void triplets_mul(const triplets *A, const double x[], double y[]);

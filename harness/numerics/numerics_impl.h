@@ -153,7 +153,7 @@ void factor_symmetric_free(factor_symmetric *fs);
  * its pivot divided by the size of the terms that sum to it. */
 status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts,
                                 int *weakest, double *ratio);
-/* In place: `columns` right-hand sides, `stride` numbers apart. */
+/* Solves in place for `columns` right-hand sides, `stride` numbers apart. */
 void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, double x[]);
 
 /* LU of a sparse unsymmetric matrix with partial pivoting (SuiteSparse KLU). */
@@ -161,7 +161,7 @@ void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, doubl
 typedef struct factor_unsymmetric factor_unsymmetric;
 
 void factor_unsymmetric_free(factor_unsymmetric *fu);
-/* In place: `columns` right-hand sides, `stride` numbers apart. */
+/* Solves in place for `columns` right-hand sides, `stride` numbers apart. */
 void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[]);
 void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[]);
 
@@ -278,7 +278,7 @@ typedef struct triangular_groups {
     triangular_run *of_columns;         /* ... [columns] */
 } triangular_groups;
 
-/* Also fills L_row[begin[n]]. Returns 0 when out of memory; call triangular_groups_free in either
+/* Also fills L_row[begin[n]]. Returns 0 if out of memory; call triangular_groups_free in either
  * case. */
 int triangular_groups_find(const triangular_pattern *, int L_row[], triangular_groups *out);
 /* Converts rows of the matrix [column[n]] into the positions where triangular_rows adds its
@@ -301,8 +301,9 @@ typedef struct triangular_factors {
     const triangular_run *run; /* ... and the rows of that */
 } triangular_factors;
 
-/* In place. x: `columns` right-hand sides [n], `stride` numbers apart; work: [TRIANGULAR_TOGETHER
- * n]. The second function is for processors with AVX2: elements/math/real.h. */
+/* Solves in place. x: `columns` right-hand sides [n], `stride` numbers apart; work:
+ * [TRIANGULAR_TOGETHER n]. The second function is for processors with AVX2: elements/math/real.h.
+ */
 void triangular_solve_plain(const triangular_factors *, int columns, int stride, double x[],
                             double work[]);
 void triangular_solve_avx2(const triangular_factors *, int columns, int stride, double x[],

@@ -83,7 +83,7 @@ use_run(const triangular_rows *t, triangular_run run, int rows, lanes own[ROWS])
     }
 }
 
-/* The rows' own columns, after all previous ones. Returns 0 when a pivot is zero. */
+/* The rows' own columns, after all previous ones. Returns 0 if a pivot is zero. */
 static inline __attribute__((always_inline)) int factor_own(const triangular_rows *t, int first,
                                                             int rows, lanes own[ROWS])
 {

@@ -140,7 +140,7 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     return json_finish(root, to, f);
 }
 
-/* Text before and after the verdicts when the document has no other contents, in the same layout.
+/* Text before and after the verdicts if the document has no other contents, in the same layout.
  */
 static const char alone_before[] = "{\n \"verdicts\": [", alone_behind[] = "\n ]\n}",
                   none[] = "\n \"verdicts\": []";

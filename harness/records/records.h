@@ -430,7 +430,7 @@ status json_convergence_write(FILE *to, const sweep *s, const truths *t, double 
 
 /* Records as JSON objects, field by field. */
 
-/* keys: KEY_AROUND when the context does not identify the record; 0 when it does. */
+/* keys: KEY_AROUND if the context does not identify the record; 0 if it does. */
 json_t *json_record(const record_type *type, const subject *s, int keys);
 void json_record_add(json_t *list, const record_type *type, const subject *s, int keys);
 json_t *json_record_type(const record_type *type); /* describes the fields of a record */
@@ -548,7 +548,7 @@ hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int c
 
 #define KEPT_GROUPS "experiments"
 #define KEPT_SWEEP  "sweep"
-/* Attribute of the group of a sweep, or of the root of a file written for one sweep only; when
+/* Attribute of the group of a sweep, or of the root of a file written for one sweep only; if
  * another experiment is added to such a file, its root becomes the group. */
 #define KEPT_SWEEP_MARK "beamwork_sweep"
 

@@ -106,7 +106,7 @@ static int take_limits(result_series *s, const result_cell *cell)
     return 1;
 }
 
-/* Returns 0 when out of memory. */
+/* Returns 0 if out of memory. */
 static int take_cell(result_series *s, const result_cell *cell)
 {
     result_mesh *mesh = results_add_mesh(s);

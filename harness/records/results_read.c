@@ -212,8 +212,8 @@ static int is_of(const cell_row *cell, const case_value_row *value)
            strcmp(cell->point, value->point) == 0;
 }
 
-/* Takes the values of one cell, from *next on; values are in the order of their cells. Returns 0
- * when out of memory. */
+/* Takes the values of one cell, from *next on; values are in the order of their cells. Returns 0 if
+ * out of memory. */
 static int take_values(const case_tables *t, const cell_row *row, int *next, result_cell *cell)
 {
     int count = 0;
@@ -375,7 +375,7 @@ static status hdf5_read_tables(const char *path, hid_t at, stored_results *out, 
     return outcome;
 }
 
-/* Copies a text attribute; NULL if it is missing. Returns 0 when out of memory. */
+/* Copies a text attribute; NULL if it is missing. Returns 0 if out of memory. */
 static int read_text(hid_t file, const char *name, char **out)
 {
     enum { MOST = 1 << 16 };

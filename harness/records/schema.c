@@ -148,7 +148,7 @@ static void set_kind(const struct stat *there, file_place *out)
         out->kind = S_ISREG(there->st_mode) && out->descriptor < 0 ? PLACE_FILE : PLACE_STREAM;
 }
 
-/* If out->path does not exist: finds the folder for it. */
+/* Finds the folder for out->path if that does not exist. */
 static status find_folder(const char *given, file_place *out, fault *f)
 {
     char folder[PATH_MAX] = ".";

@@ -53,7 +53,7 @@ void table_point(FILE *to, const sweep_point *p)
     fprintf(to, "%s%s%s", p->type->name, p->text[0] != '\0' ? ": " : "", p->text);
 }
 
-/* Physics that the source of a case omits, when all physics was requested. */
+/* Physics that the source of a case omits, if all physics was requested. */
 static unsigned omitted_by_source(const sweep_point *p)
 {
     double value[CASE_MAX_PARAMETERS];

@@ -95,7 +95,7 @@ static void write_limit(FILE *to, const block *b, const beside_column *c)
     fprintf(to, "%*s", COLUMN, text);
 }
 
-/* In percent, relative to the same value as the error. */
+/* Prints the uncertainty in percent, relative to the same value as the error. */
 static void write_uncertainty(FILE *to, const block *b, const beside_column *c)
 {
     const double own = c->shown.fit.limit_uncertainty;
@@ -193,8 +193,8 @@ static void write_why(FILE *to, int at, const sweep *s, const truths *t, int qua
     paragraph_end(&words, at, 4);
 }
 
-/* Writes name, unit and the references of the formulations, without duplicates. Returns 0 when
- * there is none. */
+/* Writes name, unit and the references of the formulations, without duplicates. Returns 0 if there
+ * is none. */
 static int write_heading(FILE *to, const sweep *s, const truths *t, int quantity)
 {
     const sweep_point *p = &s->point[0];

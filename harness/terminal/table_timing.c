@@ -231,7 +231,7 @@ static void faster_ones(FILE *to, const sweep *s, const reached list[], int coun
         }
 }
 
-/* If none passes: those within the error, grouped by defect. */
+/* Prints the formulations within the error, grouped by defect, if none passes. */
 static void defective_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {

@@ -344,7 +344,7 @@ static int is_given(const sweep *s, int quantity, int reference)
     return 1;
 }
 
-/* In percent, without a sign. */
+/* Prints an error in percent, without a sign. */
 static void write_percent(FILE *to, double error)
 {
     char text[ROUNDING_TEXT];

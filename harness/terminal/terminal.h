@@ -76,7 +76,8 @@ void table_follow(FILE *to, const char *parameter, const follow_curves *);
 /* Overview of a run on one screen: a matrix of cases and formulations with a mark each, and the
  * meaning of the marks. */
 
-/* In lines of at most PARAGRAPH_WIDTH. If there are many cases, those that pass share lines. */
+/* Prints lines of at most PARAGRAPH_WIDTH columns. If there are many cases, those that pass share
+ * lines. */
 void table_overview(FILE *to, screen, const overview *);
 
 /* Summary of a whole run, as text. */

@@ -11,9 +11,9 @@
 
 /* A relative error in percent, in 12 columns with a leading blank; a dash if there is none. */
 void table_percent(FILE *to, double error);
-/* A value with the digits that its uncertainty allows (harness/study/study.h). */
+/* Prints a value with the digits that its uncertainty allows (harness/study/study.h). */
 void table_known(FILE *to, int width, double value, double uncertainty);
-/* A value with the given number of digits. */
+/* Prints a value with the given number of digits. */
 void table_digits(FILE *to, int width, double value, int digits);
 /* "case: parameters", with the parameters that differ from their defaults. */
 void table_point(FILE *to, const sweep_point *p);
@@ -49,7 +49,7 @@ void table_motion(FILE *to, const scene *, const solve_result *);
 void table_path_steps(FILE *to, const solve_result *r);
 /* Critical points and branch jumps of continued paths. */
 void table_path_events(FILE *to, const solve_result *r);
-/* At the last station reached. */
+/* Prints the matrices of nodes at the last station reached. */
 void table_path_matrices(FILE *to, const scene *s, const solve_result *r);
 
 #endif
