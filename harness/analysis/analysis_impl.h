@@ -352,6 +352,7 @@ typedef struct control_loop {
     int load;
     const scene_feedback *gains;
     double *push, *measured; /* [free + driven] P of its factor 1, and S */
+    int integrates; /* 1: its integral adds a pole; 0: none, or it moves or follows nothing */
 } control_loop;
 
 typedef struct vibration {

@@ -86,7 +86,7 @@ static status solve_closed(vibration *v, unsymmetric_problem *p, sparse closed[]
 {
     int integrals = 0;
     for (int i = 0; i < v->loops; i++)
-        integrals += v->loop[i].gains->integral != 0;
+        integrals += v->loop[i].integrates;
     const status first = unsymmetric_solve(p, r, f);
     if (first == STATUS_FAULT || integrals == 0 || (first == STATUS_OK && !hides(p, r)))
         return first;

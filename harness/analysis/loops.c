@@ -16,6 +16,14 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for loops of feedback");
 }
 
+static int any(int n, const double x[])
+{
+    for (int i = 0; i < n; i++)
+        if (x[i] != 0)
+            return 1;
+    return 0;
+}
+
 status loops_find(vibration *v, fault *f)
 {
     const scene *s = v->c->scene;
@@ -34,8 +42,11 @@ status loops_find(vibration *v, fault *f)
         if (!scene_closes_loop(s, v->analysis, i))
             continue;
         double *push = v->signals + 2 * (size_t)v->loops * all;
-        v->loop[v->loops++] = (control_loop){i, &s->load[i].feedback, push, push + all};
+        control_loop *one = &v->loop[v->loops++];
+        *one = (control_loop){i, &s->load[i].feedback, push, push + all, 0};
         feedback_signals(&v->c->eq, v->state, i, push, push + all);
+        one->integrates =
+            one->gains->integral != 0 && any(size.free, push) && any(size.free, push + all);
     }
     return STATUS_OK;
 }
@@ -97,7 +108,7 @@ static void add_loops(const vibration *v, int n, int j, full_column *c)
                 add(c, 0, i, b->proportional * loop->push[i] * measured);
                 add(c, 2, i, b->derivative * loop->push[i] * measured);
             }
-        if (b->integral == 0)
+        if (!loop->integrates)
             continue;
         if (measured != 0) /* z' + S^T x = 0, forces Ki P z */
             add(c, 0, at, measured);
@@ -176,7 +187,7 @@ status loops_close(const vibration *v, const sparse *const from[], sparse to[], 
             pushed += v->loop[l].push[i] != 0;
             measured += v->loop[l].measured[i] != 0;
         }
-        more += v->loop[l].gains->integral != 0;
+        more += v->loop[l].integrates;
         most += (pushed + 1) * (measured + 1);
     }
     full_column c = {.n = more,

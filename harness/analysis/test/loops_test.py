@@ -182,6 +182,23 @@ loads:
                 self.assertLess(abs(one/s - 1), 1e-8 + 3*found[f"d{i}"]["rounding"] if i == 0 else 1e-8, (ki, kd, i))
             self.assertEqual("a mode grows at 3.754" in done.stderr, kd < 0, done.stderr)
 
+    def test_integral_of_drive(self):
+        """The integral of a loop that pushes a driven component moves nothing: no pole, and the motor's force is its reaction."""
+        plant = Plant()
+        (self.folder / "scene.yaml").write_text((SCENE % {
+            "k1": 300, "c": 4, "at": "tool", "time": "", "still": "", "analyses": POLES + STEADY.replace("[0, ", "["),
+            "quantities": poles_read(2) + read("wall", node="base", component="ux", of="reaction", drive="shake"),
+            "gains": "proportional: 20, integral: 30"}).replace("on: cart", "on: base"), encoding="utf-8")
+        record = self.record("solve", "--scene", self.folder / "scene.yaml", "-f", "collocation", "-n", 1)
+        found = self.values(record)
+        curves = {c["quantity"]: c["curve_value"] for c in record["curves"]}
+        for i, s in enumerate(plant.poles()):
+            self.assertAlmostEqual(complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])/s, 1, 9)
+        for i, hertz in enumerate(HERTZ[1:]):
+            _, tool, wall = plant.response(hertz, "drive")
+            wall += (20 + 30/(2j*np.pi*hertz))*tool
+            self.assertLess(abs(complex(curves["wall_real"][i], curves["wall_imaginary"][i])/wall - 1), 1e-9)
+
     def test_equal_real_poles(self):
         """Two equal loops have two equal real poles; round-off makes no pair of them."""
         loop = "  %(c)s: {force: [%(x)s], on: cart, feedback: {node: cart, component: u%(c)s, proportional: 5, derivative: %(kd)s, integral: 3}}\n"
