@@ -1,5 +1,5 @@
-/* The stress function of condensed internal modes (variants.h): the modes, their Hessian, their
- * equilibrium. */
+/* The stress function of condensed internal modes (variants.h): evaluation of the modes, their
+ * Hessian, and the solution of their equilibrium. */
 #ifndef BEAMWORK_BEAMW_EQUILIBRIUM_H
 #define BEAMWORK_BEAMW_EQUILIBRIUM_H
 
@@ -10,13 +10,14 @@
 #include "elements/math/dense.h"
 #include "elements/shared/lanes.h"
 
-/* Internal modes (variants.h) and functions of them: (u, h) of y = (e, z), with D the quadratic
- * parts of their derivatives; for one element or several in lanes. */
+/* Internal modes (variants.h) and the functions (u, h) of y = (e, z). D contains the quadratic
+ * parts of their derivatives. For one element or several in lanes. */
 
 enum {
     BEAMW_INTERNAL_Y = BEAMW_MODIFIED_VARIABLES,
     BEAMW_INTERNAL_Z = BEAMW_STRAINS,   /* position of z */
-    BEAMW_INTERNAL_U = 4,               /* number of u whose derivatives change */
+    BEAMW_INTERNAL_U = 4,               /* number of components of u whose derivatives depend on
+                                         * y */
     BEAMW_INTERNAL_H = BEAMW_INTERNAL_U /* row of h_y in D */
 };
 
@@ -56,7 +57,7 @@ static inline void beamw_internal_add_half(const beamw_condensed *d,
     s->h[2] += d->share * (quadratic[1] / 2);
 }
 
-/* Adds the terms of z alone, due to the change of z. */
+/* Adds to D the contributions of z to the terms that are quadratic in z. D is linear in z. */
 static inline void beamw_internal_add_own(const beamw_condensed *d, const real z[BEAMW_INTERNAL_Y],
                                           beamw_internal *s)
 {
@@ -111,7 +112,7 @@ static inline void beamw_internal_evaluate(const beamw_condensed *d, beamw_inter
     beamw_internal_add_half(d, quadratic, s);
 }
 
-/* Like beamw_internal_evaluate, after z has changed by dz. */
+/* Updates u, h and D after z has changed by dz. */
 static inline void beamw_internal_move(const beamw_condensed *d, const real dz[3],
                                        beamw_internal *s)
 {
@@ -183,9 +184,9 @@ static inline void beamw_hessian_evaluate(const beamw_condensed *d, const beamw_
     }
 }
 
-/* inverse = A^-1 by cofactors, which do not depend on the units of rows and columns. Returns the
- * lanes in which the determinant of A is below -1/10: G and X are -1 without stress or flexibility,
- * and change with it. */
+/* Computes A^-1 by cofactors, which do not depend on the units of rows and columns. Returns the
+ * lanes in which the determinant of A is below -1/10. G and X are minus the identity if there is no
+ * stress or no flexibility. */
 static inline real_truth beamw_hessian_invert(const real A[9], real inverse[9])
 {
     for (int i = 0; i < 3; i++) {
@@ -217,7 +218,7 @@ static inline void beamw_hessian_factorise(const beamw_condensed *d, beamw_hessi
     k->regular &= beamw_hessian_invert(X, k->inverse);
 }
 
-/* (dz, dq) = Hessian^-1 (z, q). */
+/* Computes (dz, dq) = Hessian^-1 (z, q). */
 static inline void beamw_hessian_solve(const beamw_hessian *k, const real z[3], const real q[3],
                                        real dz[3], real dq[3])
 {
@@ -233,7 +234,7 @@ static inline void beamw_hessian_solve(const beamw_hessian *k, const real z[3], 
 }
 
 /* Solves with the Hessian of one lane, with pivoting, for the columns of right[6 x columns] in
- * place. Returns 0, or 1 if it is singular. */
+ * place. Returns 0, or 1 if the Hessian is singular. */
 static inline int beamw_hessian_pivoted(const beamw_condensed *d, const beamw_hessian *k, int lane,
                                         int columns, double right[])
 {
@@ -257,7 +258,8 @@ static inline int beamw_hessian_pivoted(const beamw_condensed *d, const beamw_he
 
 enum { BEAMW_EQUILIBRIUM_MOST = 30 }; /* iterations */
 
-/* Computes a step of Newton's method: dz and dq are to be subtracted; NaN if there is none. */
+/* Computes a step of Newton's method, which the caller subtracts: dz and dq. They are NaN if the
+ * Hessian is singular. */
 static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_internal *s,
                                           real dz[3], real dq[3])
 {
@@ -310,13 +312,14 @@ static inline real_truth beamw_equilibrium_settle(const beamw_condensed *d, beam
             s->q[i] -= real_choose(left, dq[i], real_of(0));
         }
         beamw_internal_move(d, dz, s);
-        good &= change <= DBL_MAX; /* also for converged lanes, which are evaluated as before */
+        good &= change <= DBL_MAX; /* also true for converged lanes, which are evaluated again with
+                                    * unchanged z */
         left &= good & (change > close_enough * close_enough * size);
     }
     return good & (left == 0);
 }
 
-/* C_ee, half of it, and the mixed second derivatives with respect to z and e, q and e. */
+/* C_ee, half of C_ee, and the mixed second derivatives with respect to (z, e) and (q, e). */
 typedef struct beamw_equilibrium_outside {
     real B[BEAMW_INTERNAL_U][BEAMW_STRAINS], C[BEAMW_STRAINS * BEAMW_STRAINS];
     real z[3 * BEAMW_STRAINS], q[3 * BEAMW_STRAINS];
@@ -364,7 +367,7 @@ static inline void beamw_equilibrium_rows(const beamw_condensed *d, const beamw_
         o->z[d->term[t].entry] += d->term[t].c * w[d->term[t].row];
 }
 
-/* Computes C of one lane whose Hessian is factored with pivoting. Returns 1, or 0 if it is
+/* Computes C for one lane and factors its Hessian with pivoting. Returns 1, or 0 if the Hessian is
  * singular. */
 static inline int beamw_equilibrium_condense_pivoted(const beamw_condensed *d,
                                                      const beamw_internal *s,
@@ -395,7 +398,8 @@ static inline int beamw_equilibrium_condense_pivoted(const beamw_condensed *d,
     return 1;
 }
 
-/* C = C_ee - (z, q)^T Hessian^-1 (z, q). Returns the lanes in which the Hessian is regular. */
+/* Computes C = C_ee - (z, q)^T Hessian^-1 (z, q), where z and q stand for the mixed second
+ * derivatives. Returns the lanes in which the Hessian is regular. */
 static inline real_truth beamw_equilibrium_condense(const beamw_condensed *d,
                                                     const beamw_internal *s, real C[])
 {
@@ -440,7 +444,7 @@ static inline real beamw_equilibrium_energy(const beamw_condensed *d, const beam
     return sum;
 }
 
-/* sigma = d energy/de. */
+/* Computes sigma = d energy/de. */
 static inline void beamw_equilibrium_forces(const beamw_condensed *d, const beamw_internal *s,
                                             real sigma[BEAMW_STRAINS])
 {
@@ -460,7 +464,7 @@ static inline void beamw_equilibrium_forces(const beamw_condensed *d, const beam
         sigma[d->linear[t].i] += d->linear[t].c * dual[d->linear[t].row];
 }
 
-/* Like element_type.stress; returns the lanes in which an equilibrium exists. */
+/* Like element_type.stress, but returns the lanes in which an equilibrium was found. */
 static inline real_truth beamw_equilibrium_stress(const beamw_condensed *d,
                                                   const real e[BEAMW_STRAINS], stress_real *out)
 {

@@ -1,4 +1,4 @@
-/* Fields between the two nodes of an element: twist, bending and shear, mass. */
+/* Fields between the two nodes of an element: twist, bending and shear, and mass. */
 #ifndef BEAMWORK_BEAMW_FIELDS_H
 #define BEAMWORK_BEAMW_FIELDS_H
 
@@ -7,16 +7,16 @@
 #include "elements/shared/status.h"
 
 /* Distribution of the twist rate along an element: cubic functions (J Eq. 38), or hyperbolic
- * functions, the exact linear solution with Saint-Venant torsion. If M_w = -B' is constant except
- * for torsion, T = G It kx + M_w and kx - a = f (Q, M_w), B'' = (lambda/l)^2 B, lambda^2 = l^2 G
- * It/(E Iw (1 + r)), r = G It f_ww, l^2 kx = e2 + A odd(x) + tw even(x); odd -> 1 - 2x, even ->
- * 6x(1-x) - 1 for lambda -> 0. */
+ * functions, which are the exact linear solution with Saint-Venant torsion. If M_w = -B' is
+ * constant apart from the effect of torsion, T = G It kx + M_w and kx - a = f (Q, M_w), B'' =
+ * (lambda/l)^2 B, lambda^2 = l^2 G It/(E Iw (1 + r)), r = G It f_ww, l^2 kx = e2 + A odd(x) + tw
+ * even(x); In the limit lambda -> 0, odd is 1 - 2x and even is 6x(1-x) - 1. */
 
 typedef enum beamw_twist_kind { BEAMW_TWIST_CUBIC, BEAMW_TWIST_HYPERBOLIC } beamw_twist_kind;
 
 typedef struct beamw_twist {
     double uneven;   /* [N m^3] stiffness of hg_w, the even part of the warping */
-    double opposite; /* [N/m] of A = (e7 - e8)/2, the odd part */
+    double opposite; /* [N/m] stiffness of A = (e7 - e8)/2, the odd part */
     double lambda;   /* 0: cubic */
     double excess;   /* lambda/2 coth(lambda/2) - 1 */
     double soft;     /* 1 + r */
@@ -24,8 +24,8 @@ typedef struct beamw_twist {
                       by this factor */
 } beamw_twist;
 
-/* shear: 0 if the section is rigid in shear. Iw = 0 has only cubic functions, because there is no
- * warping. */
+/* Returns the twist functions of an element of length l. shear: 0 if the section is rigid in shear.
+ * If Iw = 0, there is no warping, and the functions are cubic for either kind. */
 beamw_twist beamw_twist_of(const section *c, double l, int shear, beamw_twist_kind kind);
 
 typedef struct beamw_twist_shapes {
@@ -37,8 +37,8 @@ beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x);
 
 enum { BEAMW_TWIST_MAX_POINTS = 144 };
 
-/* Computes points and weights on [from, to] in [0, 1] that integrate products of two shapes with
- * polynomials; returns their number. */
+/* Computes the points and weights of a quadrature on [from, to] in [0, 1] for products of two shape
+ * functions with polynomials. Returns the number of points. */
 int beamw_twist_points(const beamw_twist *t, double from, double to,
                        double x[BEAMW_TWIST_MAX_POINTS], double w[BEAMW_TWIST_MAX_POINTS]);
 
@@ -56,22 +56,23 @@ typedef enum beamw_stiffness_shear {
 typedef struct beamw_stiffness_fields {
     double h[3][8]; /* [1/m, 1/m, 1/m^2] mean antisymmetric deformation (y, z, omega) = bending part
                        + shear strain */
-    double hg[3][8]; /* its bending part (warping part for omega) */
+    double hg[3][8]; /* bending part of h (warping part for omega) */
     double g[3][8];  /* shear strains g_y, g_z [1], g_w [1/m] */
     double A[8];     /* (e7 - e8)/2 */
     double tw[8];    /* l0^2 hg_w */
 } beamw_stiffness_fields;
 
-/* Computes the stiffness. t: beamw_twist_of the same section, length and shear. */
+/* Computes the stiffness. t is the result of beamw_twist_of for the same section, length and
+ * shear. */
 void beamw_stiffness_of(const section *c, double l0, beamw_stiffness_shear kind,
                         const beamw_twist *t, beamw_stiffness_fields *fields, double S[8 * 8]);
 
-/* Mass along a two-node element, for displacements given by interpolated nodal values and
+/* Mass along a two-node element. The displacements are the sum of interpolated nodal values and
  * functionals of the deformation modes (beamw/inertia.c). */
 
 enum {
     BEAMW_GAUSS = 8,      /* largest number of points of the consistent mass */
-    BEAMW_FIELDS = 6,     /* number of its functionals at each point */
+    BEAMW_FIELDS = 6,     /* number of functionals at each point */
     BEAMW_FIELD_MODES = 8 /* number of modes of J Eq. 7 */
 };
 
@@ -89,12 +90,13 @@ status beamw_spread_inertia(const beamw_spread *, const node_state x[2],
                             const element_rotating_frame *, inertia_output *);
 
 /* Mass along a two-node element in transient analysis: inertia forces, with derivatives. The masses
- * follow the displacements above, except that the warping mass is at the nodes; without rotary
- * inertia the twist is linear between them. A rigid motion of the nodes is a rigid motion of all
- * masses. */
+ * follow the displacements above, except that the warping mass is at the nodes. Without rotary
+ * inertia, the twist is linear between the nodes. A rigid motion of the nodes is a rigid motion of
+ * all masses. */
 
-/* out += M, taken, C and K at its rate; only the upper half of M is set. The second function is for
- * processors with AVX2, with the same bits (elements/math/real.h). */
+/* Adds M, taken, C and K at the rate in `out` to `out`; only the upper half of M is set. The second
+ * function is for processors with AVX2 and gives bit-for-bit the same result
+ * (elements/math/real.h). */
 typedef void beamw_in_time(const beamw_spread *, const node_state x[2], inertia_output *out);
 beamw_in_time beamw_in_time_plain, beamw_in_time_avx2;
 

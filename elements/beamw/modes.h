@@ -74,7 +74,8 @@ static inline void beamw_modes_gradient(double l0, const beamw_modes *m,
     J[6 * N + MODES_AP] = J[7 * N + MODES_AQ] = real_of(l0 * l0);
 }
 
-/* B += c [sym(u v^T) - (u . v) I]: second derivative of c u . v when one of them rotates. */
+/* B += c [sym(u v^T) - (u . v) I]: second derivative of c u . v with respect to the rotation of one
+ * of the two vectors. */
 static inline void beamw_modes_turning(real c, const real u[3], const real v[3], real B[9])
 {
     const real dot = c * vec3_dot(u, v), half = c / 2;
@@ -85,7 +86,8 @@ static inline void beamw_modes_turning(real c, const real u[3], const real v[3],
     }
 }
 
-/* B += c [(u . v) I - v u^T]: with respect to rotations of u and of v. */
+/* B += c [(u . v) I - v u^T]: mixed second derivative of c u . v with respect to the rotations of u
+ * and v. */
 static inline void beamw_modes_crossing(real c, const real u[3], const real v[3], real B[9])
 {
     const real dot = c * vec3_dot(u, v);
@@ -109,7 +111,8 @@ static inline void beamw_modes_mixed(const beamw_modes *m, const real v[3], real
             rt[3 * i + j] = (skew[3 * i + j] - m->n[i] * across[j]) / m->l;
 }
 
-/* Blocks of the second derivatives: chord and chord, chord and rotation, rotations. */
+/* Blocks of the second derivatives: with respect to the chord, to the chord and a rotation, and to
+ * the rotations. */
 typedef struct beamw_modes_blocks {
     real rr[9], rp[9], rq[9], pp[9], qq[9], pq[9];
 } beamw_modes_blocks;
@@ -193,9 +196,10 @@ static inline void beamw_modes_evaluate(double l0, const node_real x[2], strain_
 
 /* Time derivatives of the gradients of the deformation modes. */
 
-/* slope[8 x 14] = H x' of each mode, H its second derivatives in the exponential chart, at rates
- * x'[14]: the rate of the gradient J minus 1/2 w x J at the rotations of each node. The second time
- * derivative of a mode without accelerations is slope . x'. */
+/* Computes slope[8 x 14] = H x' of each mode at the rates x'[14], where H is its matrix of second
+ * derivatives in the exponential chart. This is the rate of the gradient J minus 1/2 w x J at the
+ * rotations of each node. Without accelerations, the second time derivative of a mode is slope .
+ * x'. */
 void beamw_modes_slopes(double l0, const node_state x[2], const double J[8 * 14],
                         const double rate[14], double slope[8 * 14]);
 

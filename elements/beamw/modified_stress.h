@@ -1,4 +1,4 @@
-/* The stress function of modified modes, for one element or several in lanes: with D = Q(e) and B =
+/* The stress function of modified modes, for one element or several in lanes. With D = Q(e) and B =
  * 1 + D, sigma = B^T S ebar and dsigma/de = B^T S B + sum (S ebar)_i Q_i. */
 #ifndef BEAMWORK_BEAMW_MODIFIED_STRESS_H
 #define BEAMWORK_BEAMW_MODIFIED_STRESS_H
@@ -46,7 +46,7 @@ static inline void beamw_modified_stress_stiffness(const element_data *d, const 
             C[E * i + j] = C[E * j + i];
 }
 
-/* D, and ebar. */
+/* Computes D and the modified strains ebar. */
 static inline void beamw_modified_stress_strains(const element_data *d, const real e[BEAMW_STRAINS],
                                                  real D[], real modified[BEAMW_STRAINS])
 {
@@ -67,7 +67,7 @@ static inline void beamw_modified_stress_strains(const element_data *d, const re
     }
 }
 
-/* As element_type.stress. */
+/* Like element_type.stress. */
 static inline void beamw_modified_stress_evaluate(const element_data *d,
                                                   const real e[BEAMW_STRAINS], stress_real *out)
 {

@@ -1,7 +1,8 @@
 /* The screw displacement from node p and its triad to node q, for one element or several in lanes.
- * With R the mean of the triads of the nodes, D the chord in its axes, psi the rotation vector and
- * a = psi/2, the translation along the screw, in axes that rotate with it, is U = V^-1 D, V = int
- * from -1/2 to 1/2 of exp(x psi~) dx, V^-1 = mu + nu a a^T, mu = |a|/sin |a|, nu = (1 - mu)/|a|^2.
+ * R is the mean of the triads of the nodes, D the chord in the axes of R, psi the rotation vector,
+ * and a = psi/2. In axes that rotate along the screw, the translation is U = V^-1 D, where V is the
+ * integral of exp(x psi~) dx from -1/2 to 1/2 and V^-1 = mu + nu a a^T, mu = |a|/sin |a|, nu = (1 -
+ * mu)/|a|^2.
  */
 #ifndef BEAMWORK_BEAMW_SCREW_H
 #define BEAMWORK_BEAMW_SCREW_H
@@ -18,7 +19,7 @@ enum { SCREW_MU, SCREW_NU = 2, SCREW_TAU = 5, SCREW_FACTORS = 7 };
 typedef struct screw {
     real R[9]; /* triad of the middle */
     real D[3], a[3];
-    real U[3];  /* less l0 along x */
+    real U[3];  /* minus l0 along x */
     real along; /* a . D */
     real T[9];  /* dU/dpsi; dU/dD is V^-1 */
     real V[9];  /* V^-1 */
@@ -62,7 +63,8 @@ static inline void beamw_screw_factors(real square, real f[SCREW_FACTORS])
     }
 }
 
-/* Computes the quaternion of a rotation, w >= 0, from the trace if this is its largest part. */
+/* Computes the quaternion of a rotation, with w >= 0; from the trace if w is its largest
+ * component. */
 static inline void beamw_screw_quaternion(const real B[9], real q[4])
 {
     const real trace = B[0] + B[4] + B[8];
@@ -92,8 +94,8 @@ static inline void beamw_screw_half_way(const node_real x[2], screw *w)
     real between[9], q[4], half[9];
     mat3_transpose_mul(x[0].R, x[1].R, between);
     beamw_screw_quaternion(between, q);
-    /* half of the angle = atan2(v, w); divided by v: 1/w (1 - (v/w)^2/3 + ..) near 0, where w =
-     * 1 */
+    /* Half of the angle is atan2(v, w). Near 0, where w = 1, atan2(v, w)/v is 1/w (1 - (v/w)^2/3 +
+     * ..). */
     const real square = q[1] * q[1] + q[2] * q[2] + q[3] * q[3], v = real_sqrt(square),
                scale = real_choose(v > 1e-5, real_atan2(v, q[0]) / v, (1 - square / 3) / q[0]);
     const real cosine = real_sqrt((1 + q[0]) / 2), sines = 0.5 / cosine;
@@ -141,17 +143,18 @@ static inline void beamw_screw_of(double l0, const node_real x[2], screw *w)
     }
 }
 
-/* First derivatives of a screw with respect to the nodes' coordinates. Along a path of constant
- * spatial velocities and spins, in the mean axes: v is the velocity of q relative to p, s the mean
- * of the nodes' spins and delta their difference. The mean axes rotate with w = s - tau/2 a x delta
- * and dpsi/dt = V^-1 delta, dD/dt = v - w x D, d(v, s, delta)/dt = -w x (v, s, delta). */
+/* First derivatives of a screw with respect to the coordinates of the nodes, along a path of
+ * constant spatial velocities and spins. In the mean axes, v is the velocity of q relative to p, s
+ * the mean of the spins of the nodes, and delta their difference. The mean axes rotate with w = s -
+ * tau/2 a x delta and dpsi/dt = V^-1 delta, dD/dt = v - w x D, d(v, s, delta)/dt = -w x (v, s,
+ * delta). */
 
 enum { SCREW_COORDINATES = 2 * NODE_COORDINATES };
 enum { SCREW_RP = 0, SCREW_TP = 3, SCREW_AP = 6, SCREW_RQ = 7, SCREW_TQ = 10, SCREW_AQ = 13 };
 
 /* Work conjugates of the rates: f . dU/dt + t . dpsi/dt = g . v + mean . s + difference . delta. */
 typedef struct screw_work {
-    real g[3], t[3], m[3]; /* dual to D, to psi; m = D x g = -mean */
+    real g[3], t[3], m[3]; /* conjugate to D and to psi; m = D x g = -mean */
     real p[3];             /* V^-1 t */
     real difference[3];
 } screw_work;
@@ -167,7 +170,7 @@ static inline void beamw_screw_rates_complete(const screw *w, screw_work *k)
         k->difference[i] = k->p[i] + w->f[SCREW_TAU] / 2 * side[i];
 }
 
-/* Computes the work conjugates of forces f and moments. */
+/* Computes the work conjugates of the force f and the moment. */
 static inline void beamw_screw_rates_work(const screw *w, const real f[3], const real moment[3],
                                           screw_work *k)
 {
@@ -178,8 +181,8 @@ static inline void beamw_screw_rates_work(const screw *w, const real f[3], const
     beamw_screw_rates_complete(w, k);
 }
 
-/* Gradients in global axes: of U with respect to v, s and delta, by columns. The gradient of psi
- * with respect to delta equals that of U with respect to v. */
+/* Gradients of U with respect to v, s and delta, in global axes, stored by columns. The gradient of
+ * psi with respect to delta equals that of U with respect to v. */
 typedef struct screw_gradient {
     real v[9], s[9], delta[9];
 } screw_gradient;
@@ -202,7 +205,7 @@ static inline void beamw_screw_rates_gradient(const screw *w, screw_gradient *ou
     mat3_mul(w->R, difference, out->delta);
 }
 
-/* Computes a row: sign of the gradient of U_translation and `part` of l0 times that of
+/* Computes a row: sign times the gradient of U_translation plus part l0 times the gradient of
  * psi_rotation. */
 static inline void beamw_screw_rates_row(const screw_gradient *g, int translation, double sign,
                                          int rotation, double part, real row[SCREW_COORDINATES])
@@ -223,14 +226,14 @@ static inline void beamw_screw_rates_row(const screw_gradient *g, int translatio
 /* Second derivatives of a screw with respect to the coordinates of the nodes, in the exponential
  * chart: symmetric forms in (v, s, delta) above, first in the mean axes, then in global axes. */
 
-/* There is no product of v with v; the product of v with s is due to the rotation of g. ss and dd
- * are symmetric. */
+/* There is no block for v and v. The block for v and s is due to the rotation of g. ss and dd are
+ * symmetric. */
 typedef struct screw_form {
     real vd[9], ss[9], sd[9], dd[9];
 } screw_form;
 
-/* Computes the second derivatives of f . U with respect to (D, psi): bent [psi, psi], mixed [psi,
- * D]. */
+/* Computes the second derivatives of f . U with respect to (D, psi): `bent` with respect to (psi,
+ * psi) and `mixed` with respect to (psi, D). */
 static inline void beamw_screw_forms_translation(const screw *w, const real f[3], real bent[9],
                                                  real mixed[9])
 {
@@ -257,7 +260,8 @@ static inline void beamw_screw_forms_translation(const screw *w, const real f[3]
         }
 }
 
-/* Transforms to v, w and delta; the blocks of w are stored in place of those of s. */
+/* Transforms the second derivatives to v, w and delta; the blocks of w are stored in place of those
+ * of s. */
 static inline void beamw_screw_forms_middle(const screw *w, const screw_work *k, const real f[3],
                                             screw_form *out)
 {
@@ -295,7 +299,7 @@ static inline void beamw_screw_forms_middle(const screw *w, const screw_work *k,
     }
 }
 
-/* Transforms by w = s + C delta, C = -tau/2 a~. */
+/* Transforms from w to s, where w = s + C delta and C = -tau/2 a~. */
 static inline void beamw_screw_forms_nodes(const screw *w, const screw_work *work, screw_form *k)
 {
     real c[3], ssC[9], Csd[9];
@@ -323,7 +327,7 @@ static inline void beamw_screw_forms_nodes(const screw *w, const screw_work *wor
         }
 }
 
-/* R A R^T. */
+/* Replaces A by R A R^T. */
 static inline void beamw_screw_forms_turn(const real R[9], real A[9])
 {
     real RA[9];
@@ -367,7 +371,7 @@ static inline void beamw_screw_forms_nodal(const screw *w, const screw_work *wor
         }
 }
 
-/* H [14 x 14]: second derivatives of f . U + moment . psi. */
+/* Computes H [14 x 14]: the second derivatives of f . U + moment . psi. */
 static inline void beamw_screw_forms_second(const screw *w, const real f[3], const real moment[3],
                                             real H[SCREW_COORDINATES * SCREW_COORDINATES])
 {
@@ -379,15 +383,15 @@ static inline void beamw_screw_forms_second(const screw *w, const real f[3], con
     beamw_screw_forms_nodal(w, &k, &second, H);
 }
 
-/* Helicoidal strains, which are those of a beam with uniform strains. For the screw displacement
- * from node p and its triad to node q, with the rotation vector psi and the translation U in axes
- * that rotate along the screw, e1 = U_x - l0, e2 = l0 psi_x, e3, e4 = l0 psi_y/2 -+ U_z, e5, e6 =
+/* Helicoidal strains, which are those of a beam with uniform strains. The screw displacement from
+ * node p and its triad to node q has the rotation vector psi and, in axes that rotate along the
+ * screw, the translation U. Then e1 = U_x - l0, e2 = l0 psi_x, e3, e4 = l0 psi_y/2 -+ U_z, e5, e6 =
  * l0 psi_z/2 +- U_y, e7, e8 = l0^2 a. They agree with J Eq. 7 to first order, and do not change
- * when p and q are exchanged. Uniform strains of any size are represented exactly, U = l0 (e_x +
- * gamma), psi = l0 kappa; with shear deformation, this is not so for J's sines of angles to the
- * chord. */
+ * when p and q are exchanged. Uniform strains of any size are represented exactly: U = l0 (e_x +
+ * gamma), psi = l0 kappa. J Eq. 7, which uses sines of angles to the chord, does not represent them
+ * exactly if there is shear deformation. */
 
-/* e1 .. e6: sign U_translation + part psi_rotation l0. */
+/* e1 .. e6 are sign U_translation + part l0 psi_rotation. */
 static const struct {
     int translation, rotation;
     double sign, part;

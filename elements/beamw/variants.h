@@ -1,5 +1,5 @@
-/* The BEAMW variants: their data, modified and condensed modes, preparation, and several elements
- * at once. */
+/* The BEAMW variants: data, modified and condensed modes, inertia, preparation, and evaluation of
+ * several elements at once. */
 #ifndef BEAMWORK_BEAMW_VARIANTS_H
 #define BEAMWORK_BEAMW_VARIANTS_H
 
@@ -13,12 +13,12 @@
 typedef struct beamw_quadratic_term {
     double c;
     short row, i, j;
-    short to, mirrored; /* positions of c y_j and c y_i in the derivatives of the rows, row-major; a
-                           position after the end is not used, for i = j */
+    short to, mirrored; /* positions of c y_j and c y_i in the derivatives of the rows, row-major.
+                         * For i = j, `mirrored` is a position after the end, which is not used */
     short entry;        /* position in a matrix of second derivatives */
 } beamw_quadratic_term;
 
-/* Returns the term of row `row` of `rows`, with n variables. */
+/* Returns the term c y_i y_j of row `row` of `rows`, for n variables. */
 static inline beamw_quadratic_term beamw_quadratic_of(double c, int rows, int n, int row, int i,
                                                       int j, int entry)
 {
@@ -55,14 +55,14 @@ struct element_data {
     double free[BEAMW_STRAINS]; /* modified strains of the stress-free element */
 };
 
-/* Q += c (a b^T + b a^T): the quadratic c (a . e)(b . e). */
+/* Q += c (a b^T + b a^T), which adds the quadratic term c (a . e)(b . e). */
 void beamw_variants_add_product(double Q[8 * 8], double c, const double a[8], const double b[8]);
 
-/* Uniform torsion, without warping: e7 and e8 equal e2. A[n x n] <- T^T A T; the second function
- * treats a whole variant. */
+/* Impose uniform torsion without warping, where e7 and e8 equal e2. The first function replaces A[n
+ * x n] by T^T A T; the second transforms all data of a variant. */
 void beamw_variants_merge_torsion(int n, double A[]);
 void beamw_variants_drop_warping(element_data *d);
-/* Lists the nonzero terms; call it when S and Q are complete. */
+/* Lists the nonzero terms of S and Q, which must be complete. */
 void beamw_variants_list(element_data *d);
 
 size_t beamw_variants_data_size(const element_request *);
@@ -88,15 +88,15 @@ enum {
     BEAMW_MODIFIED_VARIABLES = BEAMW_STRAINS + 3
 }; /* e, followed by z: the bending (y, z) and warping parts of h [3] */
 
-/* Sets modes from the full shear interpolation: consistent with shear and eccentricity
- * (reference/ERRATA.md), for either shear theory in stability, with the monosymmetric Wagner
- * moments if requested. ebar = e + 1/2 y^T Q y, y = (e, z). */
+/* Sets modes derived from the full shear interpolation. They are consistent with shear and
+ * eccentricity (reference/ERRATA.md), follow either shear theory in stability, and include the
+ * monosymmetric Wagner moments if requested. ebar = e + 1/2 y^T Q y, y = (e, z). */
 void beamw_modified_consistent(
     const section *c, unsigned features, double l0, const beamw_twist *t,
     const beamw_stiffness_fields *fields,
     double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES]);
 
-/* As above with z = hg, as in the unstressed element: Q for e alone. */
+/* Inserts z = hg e, as in the unstressed element. The result is Q for e alone. */
 void beamw_modified_reduce(
     const beamw_stiffness_fields *fields,
     double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES], element_data *d);
@@ -116,7 +116,7 @@ enum {
         BEAMW_CONDENSED_ROWS * BEAMW_MODIFIED_VARIABLES * (BEAMW_MODIFIED_VARIABLES + 1) / 2
 };
 
-/* c e_i of a row of (u, h). */
+/* Term c e_i of a row of (u, h). */
 typedef struct beamw_condensed_linear {
     double c;
     short row, i;
@@ -137,7 +137,8 @@ typedef struct beamw_condensed {
     beamw_quadratic_term term[BEAMW_CONDENSED_TERMS];
 } beamw_condensed;
 
-/* Uses Q from beamw_modified_consistent; warping 0: e7 = e8 = e2, no warping. */
+/* Prepares condensed modes from Q of beamw_modified_consistent. warping: 0 for uniform torsion
+ * without warping, e7 = e8 = e2. */
 void beamw_condensed_prepare(
     const section *c, double l0, int shear, int warping, const beamw_twist *t,
     const beamw_stiffness_fields *fields,
@@ -158,9 +159,9 @@ typedef enum beamw_inertia_kind {
     BEAMW_INERTIA_AVERAGED
 } beamw_inertia_kind;
 
-/* Fills lumped, field and share. Without FEATURE_ROTARY_INERTIA, only translations and the polar
- * moment for the twist count, so that the matrix is singular in the other rotations and in the
- * warping. fields: NULL for lumped. */
+/* Fills lumped, field and share. Without FEATURE_ROTARY_INERTIA, only the translations and the
+ * twist (polar moment of inertia) have inertia, so that the matrix is singular in the other
+ * rotations and in the warping. fields: NULL for lumped mass. */
 void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_kind kind,
                            const beamw_stiffness_fields *fields, element_data *d);
 
@@ -179,7 +180,8 @@ typedef void beamw_lanes_stresses(int count, const element_data *const data[],
 beamw_lanes_strains beamw_lanes_modes_plain, beamw_lanes_modes_avx2;
 beamw_lanes_strains beamw_lanes_helicoidal_plain, beamw_lanes_helicoidal_avx2;
 beamw_lanes_stresses beamw_lanes_modified_plain, beamw_lanes_modified_avx2;
-/* Stresses of beamw_prepare_consistent, with internal modes that depend on the stress or not. */
+/* Stresses of elements prepared by beamw_prepare_consistent, whose internal modes may depend on the
+ * stress. */
 beamw_lanes_stresses beamw_lanes_consistent_plain, beamw_lanes_consistent_avx2;
 
 /* Common preparation of the BEAMW variants: selects a stiffness, modified modes and a mass. */
@@ -194,7 +196,8 @@ typedef enum beamw_prepare_modes {
 status beamw_prepare_variant(const element_request *request, beamw_stiffness_shear shear,
                              beamw_prepare_modes modes, element_data *out, fault *f);
 
-/* For beamw_modified_consistent; `variant` is the first member, so that both have the same address.
+/* Data of an element prepared by beamw_prepare_consistent. `variant` is the first member, so that
+ * both have the same address.
  */
 typedef struct beamw_consistent_data {
     element_data variant;
@@ -210,12 +213,12 @@ static inline const beamw_consistent_data *beamw_prepare_whole(const element_dat
 status beamw_prepare_consistent(const element_request *request, beamw_consistent_data *out,
                                 fault *f);
 
-/* The option of beamw_prepare_variant, and the additional options of beamw_prepare_consistent. */
+/* Options: of beamw_prepare_variant, and the additional ones of beamw_prepare_consistent. */
 extern const parameter_type beamw_prepare_mass[], beamw_prepare_inside[];
 /* Common to all variants. */
 int beamw_prepare_mass_of_field(const double options[]);
 element_order beamw_prepare_order(element_analysis, const double options[]);
-/* element_type.judged for both. */
+/* Member element_type.judged of types with either list of options. */
 extern const unsigned beamw_prepare_judged[];
 
 /* For element_type: members common to types prepared by beamw_prepare_variant, and their features

@@ -38,9 +38,10 @@ void exact_variables_change(const exact_stages *s, int i, const double change[],
                             double slope[3]);
 
 /* Stresses of collocation elements: derivatives of the energy at the present values of the
- * unknowns, with the unknowns eliminated. In lanes (real.h). */
+ * unknowns, which are eliminated. Several elements are evaluated in lanes (real.h). */
 
-/* X for 2 X, v, (a_p, a_q, 1), and for the rotation of loads along the element. */
+/* Solution columns for the blocks 2 X, v and (a_p, a_q, 1), and for the rotation of loads along the
+ * element. */
 typedef struct exact_collocated {
     real A[EXACT_VARIABLES_BLOCKS][9], V[EXACT_VARIABLES_BLOCKS][9], d[EXACT_STAGES_UNKNOWNS],
         X[4][EXACT_STAGES_MAX][9];
@@ -105,8 +106,9 @@ exact_collocated_evaluate(int stages, const exact_stages *s, const real e[], con
     E[8] = twice;
 }
 
-/* Eliminates with row exchange for one lane; columns: of strains, of the constant 1 and the
- * following ones. Returns 0, or the number of a failing pivot. */
+/* Eliminates the unknowns with row exchange for one lane. columns: number of columns for the
+ * strains, the constant 1 and the parameters after it. Returns 0, or the number of a failing pivot.
+ */
 static inline int exact_collocated_exchange(int stages, int columns, int lane, exact_collocated *w)
 {
     const int outer = (columns + 2) / 3, blocks = exact_blocks_at(0, stages + outer);
@@ -166,7 +168,8 @@ static inline void exact_collocated_write(int stages, const exact_stages *s, exa
                          fabs(real_lane(&w->A[exact_blocks_at(i, stages + 2)][3 * r + 2], lane)));
     }
     if (out->memory != NULL)
-        for (int i = 0; i < stages; i++) { /* F is first, but in the last block */
+        for (int i = 0; i < stages; i++) { /* F is the first variable, but is stored in the last
+                                            * block */
             double *rows = &out->memory[(i < stages - 1 ? i + 1 : 0) * 3 * (OUTER + 1)];
             for (int r = 0; r < 3; r++)
                 for (int c = 0; c < 3; c++) {
@@ -221,7 +224,7 @@ static inline void exact_collocated_stress(const exact_stages *s, int run, const
         exact_collocated_run(s->stages, s, run, e, inner, out, outcome);
 }
 
-/* Stresses of collocation elements under loads along them (collocation.h).  In lanes (real.h). */
+/* Stresses of collocation elements under loads along them (collocation.h), in lanes (real.h). */
 
 static inline void exact_loaded_write(int stages, const exact_stages *s, const exact_along *a,
                                       const exact_along_frame *at, exact_collocated *w,

@@ -1,4 +1,5 @@
-/* Elements by collocation: their data, loads along them, prestress, and several elements at once.
+/* Collocation elements: data, loads along them, prestress, and evaluation of several elements at
+ * once.
  */
 #ifndef BEAMWORK_COLLOCATION_COLLOCATION_H
 #define BEAMWORK_COLLOCATION_COLLOCATION_H
@@ -65,7 +66,7 @@ typedef struct exact_along {
     double half[ELEMENT_ALONG_POINTS]; /* of int q [m] */
 } exact_along;
 
-/* The frame G of an element's state, and g. */
+/* The frame G of an element in its present state, and g in it. */
 typedef struct exact_along_frame {
     double q[2][4], u[4], size; /* quaternions of the nodes; their mean, and its length */
     double G[9], g[EXACT_STAGES_MAX][3], missed[9]; /* [N]; [N m], columns in axes of G */
@@ -75,18 +76,19 @@ typedef struct exact_along_frame {
 void exact_along_prepare(const element_request *, const exact_stages *, exact_along *);
 void exact_along_frame_of(const exact_stages *, const exact_along *, const node_state x[],
                           const double force[], exact_along_frame *);
-/* Computes the terms that need the evaluated stages: ends, rotation, H, and the part of the
- * undeformed line in `moment`. moved[stages][3]: derivative of the energy with respect to xi. */
+/* Computes the terms that depend on the evaluated stages: end forces, the effect of the rotation of
+ * G, H, and the contribution of the undeformed line to `moment`. moved[stages][3]: derivative of
+ * the energy with respect to xi. */
 void exact_along_finish(const exact_stages *, const exact_along *, const exact_along_frame *,
                         double moved[][3], along_output *);
-/* Computes the undeformed element, linear in the force. */
+/* Computes the output for the undeformed element, which is linear in the force. */
 status exact_along_linear(const exact_stages *, const exact_along *, const node_state x[],
                           along_output *);
 /* Computes derivatives with respect to the size of along_output.rate. */
 status exact_along_rate(const exact_stages *, const exact_along *, const node_state x[],
                         along_output *);
 
-/* d(xi)/d(psi). */
+/* Computes column = d(xi)/d(psi). */
 static inline void exact_along_column(const double xi[3], double column[9])
 {
     const double skew[9] = {0, -xi[2], xi[1], xi[2], 0, -xi[0], -xi[1], xi[0], 0};
@@ -94,20 +96,20 @@ static inline void exact_along_column(const double xi[3], double column[9])
         column[i] = skew[i];
 }
 
-/* Geometric stiffness of the undeformed collocation element due to a prestress. */
+/* Geometric stiffness of an undeformed collocation element due to a prestress. */
 
 /* Computes Q[i]: derivative of the condensed stiffness [8 x 8] with respect to stress i in the
  * undeformed geometry, where it is linear; dimensionless. */
 void exact_prestress_derivatives(
     const exact_stages *s, double Q[EXACT_STAGES_OUTER][EXACT_STAGES_OUTER * EXACT_STAGES_OUTER]);
 
-/* As above, in the direction of loads along the element with fixed nodes, which add along[stages]
- * to F at the points: Q [strains x strains]. */
+/* As above, for loads along the element with its nodes fixed, which add along[stages] to F at the
+ * points. Q is [strains x strains]. */
 void exact_prestress_load(const exact_stages *s, double along[][3],
                           double Q[EXACT_STAGES_OUTER * EXACT_STAGES_OUTER]);
 
 /* Stresses of one element by collocation. The second function of each pair is for processors with
- * AVX2, with the same bits (elements/math/real.h). */
+ * AVX2 and gives bit-for-bit the same result (elements/math/real.h). */
 
 typedef status exact_alone_stresses(const exact_stages *, const double e[], const double inner[],
                                     stress_output *);
@@ -124,7 +126,7 @@ exact_alone_loads exact_alone_along_plain, exact_alone_along_avx2;
 typedef void exact_lanes_loads(const exact_stages *, const exact_along *, int count,
                                const node_state x[], along_output out[], status outcome[]);
 
-/* For data that begin with exact_stages. */
+/* Strains and stresses for data that begin with exact_stages. */
 exact_lanes_strains exact_lanes_stages_strain_plain, exact_lanes_stages_strain_avx2;
 exact_lanes_stresses exact_lanes_stages_stress_plain, exact_lanes_stages_stress_avx2;
 /* Like element_type.along, for at most LANES_TOGETHER elements of one kind. */

@@ -34,7 +34,7 @@ static inline void exact_milenkovic_forms(real t, exact_milenkovic_form *orienta
     };
 }
 
-/* Computes B for w along each axis: the vector itself [3]. */
+/* Computes the vector with components B(w, y; x) for w along each axis [3]. */
 static inline void exact_milenkovic_vector(const exact_milenkovic_form *f, const real x[3],
                                            const real y[3], real out[3])
 {
@@ -45,7 +45,8 @@ static inline void exact_milenkovic_vector(const exact_milenkovic_form *f, const
         out[i] = f->s[0] * y[i] - f->p[0] * once[i] + f->q[0] * twice[i];
 }
 
-/* Computes the gradients of the vector with respect to x and y: rows are its components. */
+/* Computes the gradients of that vector with respect to x and y; each row belongs to a
+ * component. */
 static inline void exact_milenkovic_gradients(const exact_milenkovic_form *f, const real x[3],
                                               const real y[3], real dx[9], real dy[9])
 {
@@ -72,7 +73,7 @@ static inline void exact_milenkovic_gradients(const exact_milenkovic_form *f, co
     }
 }
 
-/* XX += d2B/dx2, XY = d2B/dx dy (rows x). */
+/* Adds d2B/dx2 to XX and sets XY = d2B/dx dy, whose rows belong to x. */
 static inline void exact_milenkovic_add_hessian(const exact_milenkovic_form *f, const real x[3],
                                                 const real w[3], const real y[3], real XX[9],
                                                 real XY[9])
@@ -106,7 +107,7 @@ static inline void exact_milenkovic_add_hessian(const exact_milenkovic_form *f, 
 }
 
 /* One Gauss point of a collocation element: geometry, energy, and their derivatives with respect to
- * x, x' and F.  In lanes (real.h). */
+ * x, x' and F, in lanes (real.h). */
 
 enum {
     EXACT_STAGE_MILENKOVIC = 0,
@@ -116,7 +117,7 @@ enum {
 }; /* positions of x, x' and F */
 
 typedef struct exact_stage {
-    real x[3], slope[3], kappa[3], N[3]; /* kappa: minus that of the undeformed state */
+    real x[3], slope[3], kappa[3], N[3]; /* kappa: difference from the undeformed state */
     exact_milenkovic_form orientation, curvature;
 } exact_stage;
 
@@ -126,8 +127,8 @@ typedef struct exact_stage_material {
     real kk[9], kN[9], NN[9];    /* Hessian */
 } exact_stage_material;
 
-/* Derivatives of the energy of a point with respect to x, x' and F; z: those of the argument of the
- * warping energy. */
+/* Derivatives of the energy of a point with respect to x, x' and F. The members z are the
+ * derivatives of the argument of the warping energy. */
 typedef struct exact_stage_terms {
     real gradient[EXACT_STAGE_SPACE], z[EXACT_STAGE_SPACE];
     real xx[9], xs[9], ss[9], xF[9], sF[9], FF[9]; /* s: x' */
@@ -173,7 +174,7 @@ static inline void exact_stage_coupled(const beam_constants *c, const real kappa
     m->N[0] -= 1;
 }
 
-/* Computes the energy of a point. T: its warping torque. */
+/* Computes the energy of a point with the warping torque T. */
 static inline void exact_stage_energy(const beam_constants *c, const real kappa[3], const real N[3],
                                       real T, exact_stage_material *m)
 {
@@ -216,7 +217,8 @@ static inline void exact_stage_energy(const beam_constants *c, const real kappa[
     m->NN[8] = real_of(-c->F[4]);
 }
 
-/* out = kk A; for sections without matrices only the first row and the diagonal of kk are set. */
+/* Computes out = kk A. Without section matrices, only the first row and the diagonal of kk are
+ * set. */
 static inline void exact_stage_bend(const exact_stage_material *m, int coupled, const real A[9],
                                     real out[9])
 {
@@ -231,7 +233,7 @@ static inline void exact_stage_bend(const exact_stage_material *m, int coupled, 
     }
 }
 
-/* out = NN A, likewise: axial and shear forces are uncoupled. */
+/* Computes out = NN A. Without section matrices, axial and shear forces are uncoupled. */
 static inline void exact_stage_stretch(const exact_stage_material *m, int coupled, const real A[9],
                                        real out[9])
 {
@@ -246,7 +248,7 @@ static inline void exact_stage_stretch(const exact_stage_material *m, int couple
     }
 }
 
-/* out += kN A, likewise: only torsion is coupled. */
+/* Adds kN A to out. Without section matrices, only torsion is coupled. */
 static inline void exact_stage_add_mixed(const exact_stage_material *m, int coupled,
                                          const real A[9], real out[9])
 {
@@ -256,7 +258,7 @@ static inline void exact_stage_add_mixed(const exact_stage_material *m, int coup
                 m->kN[3 * i] * A[j] + m->kN[3 * i + 1] * A[3 + j] + m->kN[3 * i + 2] * A[6 + j];
 }
 
-/* out += kN^T A. */
+/* Adds kN^T A to out. */
 static inline void exact_stage_add_mixed_transposed(const exact_stage_material *m, int coupled,
                                                     const real A[9], real out[9])
 {
@@ -269,7 +271,8 @@ static inline void exact_stage_add_mixed_transposed(const exact_stage_material *
             out[3 * i + j] += m->kN[i] * A[j];
 }
 
-/* Derivatives of kappa (rows K) and N (rows B) with respect to x and of kappa to x', of N to F. */
+/* Derivatives of kappa (rows K) and N (rows B) with respect to x, of kappa with respect to x', and
+ * of N with respect to F. */
 typedef struct exact_stage_rows {
     real Kx[9], Ks[9], Nx[9], NF[9];
 } exact_stage_rows;

@@ -1,5 +1,5 @@
 /* Symmetric matrices in blocks of 3 x 3, of which those on and above the diagonal are stored, and
- * the elimination of their first rows: K = L D L^T without exchange of rows. In lanes (real.h). The
+ * the elimination of their first rows: K = L D L^T without exchange of rows, in lanes (real.h). The
  * elimination is accurate if those rows are positive definite except for a negative definite end,
  * for any condition number; exact_blocks_definite tests this. */
 #ifndef BEAMWORK_COLLOCATION_SUMS_H
@@ -17,7 +17,7 @@ static inline int exact_blocks_at(int i, int j)
     return j * (j + 1) / 2 + i;
 }
 
-/* Computes D of a diagonal block and, in its place, L^T above the diagonal. */
+/* Computes D of a diagonal block and overwrites the block with L^T above the diagonal. */
 static inline void exact_blocks_pivot(real a[9], real d[3], real inverse[3])
 {
     d[0] = a[0];
@@ -33,9 +33,10 @@ static inline void exact_blocks_pivot(real a[9], real d[3], real inverse[3])
     a[5] = l12;
 }
 
-/* Eliminates `rows` block rows of a matrix of n, A [n (n + 1)/2][9]. In the result V the eliminated
- * rows contain L^T and D^-1 L^-1 A, the others the Schur complement of A. Block column `late` is
- * zero above row rows - 1 (n: none). D: d [3 rows]. */
+/* Eliminates the first `rows` block rows of a matrix of n block rows, A [n (n + 1)/2][9]. In the
+ * result V, the eliminated rows contain L^T and D^-1 L^-1 A, and the others the Schur complement of
+ * A. Block column `late` is zero above row rows - 1 (n: no such column). d [3 rows] is the diagonal
+ * of D. */
 static inline __attribute__((always_inline)) void
 exact_blocks_eliminate(int rows, int n, int late, real A[][9], real V[][9], real d[])
 {
@@ -68,7 +69,7 @@ exact_blocks_eliminate(int rows, int n, int late, real A[][9], real V[][9], real
     }
 }
 
-/* Computes X [rows][9]: K^-1 times block column j of A, for the eliminated rows; `late` as
+/* Computes X [rows][9] = K^-1 times block column j of A, for the eliminated rows. `late` is as
  * above. */
 static inline __attribute__((always_inline)) void exact_blocks_solve(int rows, int late, int j,
                                                                      real V[][9], real X[][9])
@@ -92,8 +93,8 @@ static inline __attribute__((always_inline)) void exact_blocks_solve(int rows, i
     }
 }
 
-/* Were the pivots d of one lane positive, and the last three negative? A pivot lost in round-off
- * counts as neither. */
+/* Returns 1 if the pivots d of one lane are positive except for the last three, which are negative.
+ * A pivot lost in round-off counts as neither. */
 static inline int exact_blocks_definite(int rows, real A[][9], const real d[], int lane)
 {
     const double lost = 1e-9;
@@ -109,12 +110,12 @@ static inline int exact_blocks_definite(int rows, real A[][9], const real d[], i
 }
 
 /* Sums over the Gauss points of a collocation element: the Hessian of its energy, bordered by the
- * gradient, in blocks of 3 x 3. In lanes (real.h).
+ * gradient, in blocks of 3 x 3 and in lanes (real.h).
  *
  * Blocks: x of the inner nodes (stages - 1), F, then the strains 2 X, v, and last (a_p, a_q, 1).
  * The column of 1 contains the gradient, and its last entry twice the energy. */
 
-/* Computes x, x' at all points; at: x of the inner nodes, then 2 X. */
+/* Computes x and x' at all points. `at` contains x of the inner nodes, then 2 X. */
 static inline void exact_sums_geometry(int stages, const exact_stages *s, real at[][3],
                                        const real force[3], exact_stage p[])
 {
@@ -132,8 +133,8 @@ static inline void exact_sums_geometry(int stages, const exact_stages *s, real a
     }
 }
 
-/* Computes the gradient Sz of the warping energy with respect to its arguments (twist at the
- * points, both amplitudes a). Returns twice the energy. */
+/* Computes the gradient Sz of the warping energy with respect to its arguments, which are the twist
+ * at the points and both amplitudes a. Returns twice the warping energy. */
 static inline real exact_sums_warping(int stages, const exact_stages *s, const exact_stage p[],
                                       const real a[2], real Sz[])
 {
@@ -152,8 +153,7 @@ static inline real exact_sums_warping(int stages, const exact_stages *s, const e
     return energy;
 }
 
-/* Adds the warping energy S, which couples the points: t += z S z for x, x' of point i with x of
- * variable l, as the two products for its weights there. */
+/* Adds the warping energy S, which couples the points. */
 static inline void exact_sums_couple(int stages, const exact_stages *s, exact_stage_terms t[],
                                      real through[][EXACT_STAGES_MAX][3])
 {
@@ -218,7 +218,7 @@ static inline void exact_sums_column(int stages, const exact_stages *s, int l,
     }
 }
 
-/* Fills the blocks of x or 2 X, variable k, with F and with (a_p, a_q, 1). */
+/* Fills the blocks that couple variable k (x or 2 X) with F and with (a_p, a_q, 1). */
 static inline void exact_sums_border(int stages, const exact_stages *s, int k,
                                      const exact_stage_terms t[], real A[][9])
 {
@@ -252,7 +252,7 @@ static inline void exact_sums_border(int stages, const exact_stages *s, int k,
                 A[exact_blocks_at(F, row)][3 * i + j] = Y[3 * j + i];
 }
 
-/* Fills the blocks of F with itself, with v (1) and with (a_p, a_q, 1). */
+/* Fills the blocks that couple F with itself, with v (identity) and with (a_p, a_q, 1). */
 static inline void exact_sums_force(int stages, const exact_stages *s, const exact_stage_terms t[],
                                     real A[][9])
 {
@@ -360,7 +360,7 @@ static inline void exact_sums_gather(int stages, const exact_stages *s, exact_st
         for (int i = 0; i < 2; i++)
             for (int j = 0; j < 2; j++)
                 E[3 * i + j] = real_of(s->S[(stages + i) * (stages + 2) + stages + j]);
-    else if (s->c.warping) /* amplitudes without effect */
+    else if (s->c.warping) /* the amplitudes have no effect */
         for (int i = 0; i < 2; i++)
             E[4 * i] = real_of(s->c.GJ);
 }
