@@ -8,7 +8,7 @@
 /* Runs a scene's analyses on a model and extracts its quantities. The only public function of
  * harness/analysis. */
 
-/* Fills result even on failure (with the quantities found so far); result_free frees it. */
+/* Fills the result even on failure, with the quantities found so far; result_free frees it. */
 status solve_scene(const scene *, const model *, const solve_options *, solve_result *, fault *);
 
 #endif

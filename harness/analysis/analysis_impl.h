@@ -10,9 +10,9 @@
 #include "harness/numerics/numerics.h"
 
 /* Eigenpairs of largest magnitude of a real unsymmetric operator, from its projection on a growing
- * orthonormal basis (Arnoldi). Their number is not known from an inertia. Therefore, after the
- * requested eigenvalues have converged, start vectors are added until one yields no further
- * eigenvalue of that magnitude. */
+ * orthonormal basis (Arnoldi). An inertia count, which would prove that none is missing, does not
+ * exist for such an operator. Therefore, after the requested eigenvalues have converged, further
+ * start vectors are added until one of them yields no new eigenvalue of that magnitude. */
 
 typedef struct arnoldi_problem {
     int n, wanted;
@@ -21,7 +21,7 @@ typedef struct arnoldi_problem {
 } arnoldi_problem;
 
 typedef struct arnoldi_result {
-    int count; /* fewer than wanted if all others are round-off; one more if the last one is the
+    int count; /* fewer than `wanted` if all others are round-off; one more if the last one is the
                   first of a conjugate pair */
     double complex *theta; /* [count] largest magnitude first, conjugates next to each other */
     double complex *mode;  /* [count x n] of length 1 */
@@ -34,13 +34,13 @@ void arnoldi_free(arnoldi_result *);
 
 /* Linear buckling about the undeformed state. */
 
-/* Centre lines of all solutions, for pictures. */
+/* Centre lines of the structure in all solutions, for pictures. */
 
 /* Collects the shapes of the undeformed structure, of at most `most` states of every path, of
  * linear solutions and of modes. */
 status collect_shapes(const analysis_context *, int most, shapes *, fault *);
 
-/* Matrices for small motions about all solutions. */
+/* Matrices for small motions about the states of all solutions. */
 
 /* Matrices about the undeformed structure, every computed station of every path, and the loaded
  * states of modal analyses. */
@@ -48,10 +48,12 @@ status collect_systems(const analysis_context *, system_matrices *, fault *);
 
 /* Imperfections. */
 
-/* Number of modes of an analysis (buckling: of positive loads) that imperfections use. */
+/* Returns the number of modes that an analysis must find for its imperfections, including two more
+ * that reveal equal modes; buckling modes are counted over the positive loads. 0: no imperfection
+ * uses the analysis. */
 int imperfection_modes(const scene *, int analysis);
-/* x[free + driven]: sum of the modes that are imperfections, with their amplitudes. REFUSED: a mode
- * does not exist or is not unique. */
+/* Sets x[free + driven] to the sum of the modes that are imperfections, multiplied by their
+ * amplitudes. REFUSED: a mode does not exist or is not unique. */
 status imperfection_of_modes(const analysis_context *, double x[], fault *);
 
 /* Compliance and stiffness of a node in a deformed state. */
@@ -59,13 +61,15 @@ status imperfection_of_modes(const analysis_context *, double x[], fault *);
 status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
 /* Compliances along a path, computed during the path. If Newton's last correction changes the
- * tangent by less than its round-off, the last tangent serves the station and none is computed for
- * it. If members are condensed, the tangent is computed immediately. */
+ * tangent by less than its round-off, the last tangent is used for the station and no other is
+ * computed. If members are condensed, the tangent is computed at once, because the states of many
+ * elements are not stored. */
 
 typedef struct compliance_walk compliance_walk;
 
-/* To be called when Newton's method has reached the station. The analysis later computes the
- * compliances that are not available now. w NULL: no analysis follows. FAULT: out of memory. */
+/* Must be called when Newton's method has converged at the station. Compliances that this function
+ * does not compute are computed later by the analysis. w NULL: no compliance analysis follows.
+ * FAULT: out of memory. */
 status compliance_walk_take(compliance_walk *w, const newton_run *, int station, fault *);
 void compliance_walk_end(compliance_walk *);
 
@@ -75,7 +79,7 @@ status continuation_analysis(analysis_context *, int analysis, analysis_outcome 
 
 /* Quantities of a continued path. */
 
-/* Curves and critical points; 0: another quantity. */
+/* Evaluates curves and critical points; returns 0 for any other quantity. */
 int continuation_extract(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                          quantity_result *);
 
@@ -88,11 +92,11 @@ int continuation_extract(const analysis_context *, const scene_quantity *, const
 
 typedef struct unsymmetric_problem {
     const sparse *K, *M, *C; /* same pattern; C NULL: no damping */
-    matrix_factor *K_factor; /* factor_numeric done */
-    int wanted;              /* modes of smallest |s| */
-    int estimate;            /* 1: estimate errors, which doubles the work */
+    matrix_factor *K_factor; /* after factor_numeric */
+    int wanted;              /* number of modes of smallest |s| requested */
+    int estimate;            /* 1: estimates the errors, which doubles the work */
     int decaying;            /* 1: with C, also modes that decay without oscillation */
-    const sparse *B;         /* with C: mass of the internal motions of elements; NULL: none */
+    const sparse *B;         /* with C: mass matrix of the motions inside elements; NULL: none */
     double mass, stiffness;  /* proportional damping that C contains [1/s], [s] */
     double shift; /* shift a, with C: K contains a C + a^2 M, and C contains 2 a M [1/s]; 0: none */
 } unsymmetric_problem;
@@ -103,14 +107,14 @@ typedef struct unsymmetric_problem {
 typedef struct unsymmetric_result {
     int n, count;
     double *frequency,
-        *growth;   /* [count] [rad/s], [1/s]; growth 0: below the round-off of a double value */
+        *growth; /* [count] [rad/s], [1/s]; growth 0: below the round-off of a double eigenvalue */
     double *split; /* [count] imaginary part of s^2 relative to its size; 1: divergence */
     double *error; /* [count] estimate of the rounding error, relative to |s| */
     double *mode;  /* [count x n] real */
     long solutions;
 } unsymmetric_result;
 
-/* A smaller relative imaginary part of s^2 is round-off of a double eigenvalue. */
+/* Smallest relative imaginary part of s^2 that is not round-off of a double eigenvalue. */
 static const double unsymmetric_same = 1e-6;
 
 status unsymmetric_solve(const unsymmetric_problem *, unsymmetric_result *, fault *);
@@ -118,37 +122,38 @@ void unsymmetric_free(unsymmetric_result *);
 
 /* Small motions and stability about states with an unsymmetric tangent (follower loads, moments
  * about fixed axes). Stability is lost by divergence, where the tangent is singular, or by flutter,
- * where two frequencies coincide; with damping of members, where a mode grows. */
+ * where two frequencies coincide. With damping of members, it is lost where a mode begins to
+ * grow. */
 
 typedef enum flutter_kind { FLUTTER_NONE, FLUTTER_DIVERGES, FLUTTER_OSCILLATES } flutter_kind;
 
 /* Matrices of small motions about the current state of Newton's method; K is factored. */
 typedef struct flutter_system {
     sparse M, C;
-    int damped;   /* 1: C is the damping of members and dashpots; 0: motions without damping */
+    int damped; /* 1: C contains the damping of members and dashpots; 0: the motions are undamped */
     int massless; /* 1: the structure has no mass, and M is the isotropic metric, which keeps double
                      values real; only divergence is meaningful */
 } flutter_system;
 
 status flutter_system_alloc(const newton_run *, flutter_system *, fault *);
 void flutter_system_free(flutter_system *);
-/* The `wanted` modes of smallest |s| about the state. */
+/* Computes the `wanted` modes of smallest |s| about the state. */
 status flutter_motions(const newton_run *, flutter_system *, int wanted, int estimate,
                        unsymmetric_result *, fault *);
-/* Moves frequencies, modes and errors to an outcome; values without digits become NaN. */
+/* Moves the frequencies, modes and errors to an outcome. Values without significant digits become
+ * NaN, and the status becomes NOT_CONVERGED. */
 void flutter_take(unsymmetric_result *from, outcome_side *to);
-/* Returns "" if nothing is damped; otherwise "with damping", or "undamped" if damped is 0.
- */
+/* Returns "" if nothing is damped; otherwise "with damping", or "undamped" if damped is 0. */
 const char *flutter_damping(const scene *, int damped);
-/* Kind of the fastest growing mode, whose number is *mode. */
+/* Returns the kind of instability of the fastest growing mode and sets *mode to its number. */
 flutter_kind flutter_of(const flutter_system *, const unsymmetric_result *, int *mode);
-/* "flutter, undamped", "divergence", "flutter, growth with damping" */
+/* Returns the kind in words: "flutter, undamped", "divergence", "flutter, growth with damping". */
 const char *flutter_name(const flutter_system *, flutter_kind);
 
-/* The path parameter at which stability is first lost, from path 0. The state is on the path. *mode
- * [free], which the caller frees. */
+/* The smallest path parameter at which stability is lost; the search starts at path 0. The state at
+ * that point is on the path. The caller frees mode[free]. */
 typedef struct flutter_point {
-    double path, error, frequency; /* error: relative to the path; [rad/s] */
+    double path, error, frequency; /* error: relative to the path parameter; frequency in [rad/s] */
     const char *what;              /* flutter_name */
     int massless;
     double *mode;
@@ -163,16 +168,16 @@ status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *
 /* Workspace of one analysis; initially all members are zero. */
 typedef struct flutter_judge {
     int begun;
-    newton_run n; /* its tangent has all coordinates; that of a path may not */
+    newton_run n; /* run whose tangent has all coordinates; the tangent of the path may not have all
+                     of them */
     flutter_system of;
 } flutter_judge;
 
-/* Stores the stability in the record of the step that ended at the state; unknown: STEP_OPEN. Not
- * counted as work. */
+/* Stores the stability of the state in the record of the step that ended there; STEP_OPEN if it is
+ * unknown. The work is not counted. */
 status flutter_judge_state(flutter_judge *, analysis_context *, const model_state *, step_record *,
                            fault *);
-/* The same for the state of j->n; negative_pivots of the record become those of the state, -1: not
- * symmetric, or singular. */
+/* Allocates j->n at the first call; later calls have no effect. */
 status flutter_judge_begin(flutter_judge *, analysis_context *, fault *);
 void flutter_judge_free(flutter_judge *);
 
@@ -186,13 +191,14 @@ void flutter_judge_free(flutter_judge *);
 enum { LEFT_NEAREST = 6 };
 
 typedef struct left_of_axis {
-    int count; /* -1: not known */
+    int count; /* number left of the imaginary axis; -1: unknown */
     int nearest;
-    double complex mu[LEFT_NEAREST]; /* [nearest] nearest to zero, smallest first */
+    double complex
+        mu[LEFT_NEAREST]; /* [nearest] eigenvalues nearest to zero, smallest magnitude first */
     long solutions;
 } left_of_axis;
 
-/* K factored, [n]; weight [n] of the metric. */
+/* K: factored. weight: [n] diagonal of the metric D. */
 status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *, fault *);
 
 /* Continuation of equilibrium paths under proportional loads: private declarations.
@@ -212,13 +218,13 @@ typedef struct path_point {
     double rate;            /* dfactor/ds with s in the model's metric */
     double *tangent;        /* [free + driven] dx/ds */
     int symmetric;
-    int negative;    /* negative pivots of K, or the replacement from left_count; -1: not known */
+    int negative;    /* negative pivots of K, or the replacement from left_count; -1: unknown */
     int determinant; /* sign of det K */
-    double
-        least; /* smallest eigenvalue of K, its real part if K is not symmetric; NAN: not needed */
+    double least;    /* smallest eigenvalue of K, or its real part if K is not symmetric; NAN: not
+                        needed */
     int nearest;
-    double complex mu[LEFT_NEAREST]; /* [nearest] eigenvalues nearest to zero, smallest first, if K
-                                        is not symmetric */
+    double complex mu[LEFT_NEAREST]; /* [nearest] eigenvalues nearest to zero, smallest magnitude
+                                        first, if K is not symmetric */
 } path_point;
 
 /* Goal of a step: a value of the control coordinate, or an arc length. */
@@ -243,10 +249,10 @@ typedef struct continuation {
     double *load;     /* [free + driven] f' */
     double *response; /* [free + driven] K^-1 f' */
     double *moved;    /* [free + driven] sum of the increments of the step */
-    double *mode;     /* [free + driven] null vector */
-    path_goal goal;   /* of the current step */
+    double *mode;     /* [free + driven] null vector of K */
+    path_goal goal;   /* goal of the current step */
     path_point here, next, trial;
-    int first;    /* negative pivots at the start */
+    int first;    /* negative pivots at the start of the path */
     int narrow;   /* 1: a change of stability has been located as closely as possible */
     int doubtful; /* 1: it is not known whether the step has critical points */
     int looked;   /* 1: n.dx, response and the factors are those of the current state */
@@ -257,17 +263,18 @@ status continuation_step_alloc(analysis_context *, int analysis, outcome_continu
 void continuation_step_free(continuation *);
 
 double continuation_step_dot(const continuation *, const double a[],
-                             const double b[]); /* in the metric */
-/* Newton's method to the goal from n.backup = the state of `here`; the arc is measured along its
- * tangent. */
+                             const double b[]); /* scalar product in the metric */
+/* Applies Newton's method from n.backup, which is the state of `here`, until the goal is reached.
+ * The arc length is measured along the tangent of `here`. */
 status continuation_step_correct(continuation *, path_goal, step_record *, fault *);
-/* The same from the current state, the result of the previous iteration. */
+/* Like continuation_step_correct, but starts from the current state, the result of the previous
+ * iteration. */
 status continuation_step_go_on(continuation *, path_goal, step_record *, fault *);
-/* Factors K in the current state and fills the point; the direction of its tangent is along[free +
- * driven] (NULL: to a larger load). */
+/* Factors K in the current state and fills the point. The tangent points in the direction of
+ * along[free + driven]; NULL: towards larger loads. */
 status continuation_step_look(continuation *, const double along[], path_point *, step_record *,
                               fault *);
-/* After a converged correction: fills the point from the last factors, which belong to the state
+/* Fills the point after a converged correction from the last factors, which belong to the state
  * before this correction; no further correction is made. */
 status continuation_step_end(continuation *, path_point *, const step_record *, fault *);
 /* Restores the state of `here`. */
@@ -279,12 +286,12 @@ typedef struct rival {
     double factor;
 } rival;
 
-/* continuation_critical.c: the critical points between `here` and `next`, if any, become events.
- * The step was found with the goal. *jump: 1 if the inertia of the tangent stiffness changes
- * without a critical point: the step led to another branch. */
+/* continuation_critical.c: stores the critical points between `here` and `next` as events. `goal`:
+ * the goal with which the step was found. *jump: 1 if the inertia of the tangent stiffness changes
+ * without a critical point, that is, if the step led to another branch. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
-/* If critical points are requested: *hidden is 1 if an indicator changes and changes back within
- * the step, provided that this interval is at least a fifth of the step. */
+/* If critical points are requested, sets *hidden to 1 if an indicator changes and changes back
+ * within the step; a change that lasts for at least a fifth of the step is detected. */
 status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
 
 /* Quantities of a scene from the outcomes of its analyses. */
@@ -293,23 +300,24 @@ void extract_quantity(const analysis_context *, const scene_quantity *, quantity
 
 /* Quantities of a path: at a station, the maximum or minimum over all stations, or a curve. */
 
-/* Sets no value: the path ends before the stations that the quantity needs. */
+/* Sets no value if the path ends before the stations that the quantity needs. */
 void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                   quantity_result *);
 
-/* Sets the quantity's spectrum from `count` values at constant time steps [s], in its units. */
+/* Sets the quantity's spectrum from `count` values, in the quantity's unit, at constant time steps
+ * [s]. */
 void spectrum_take(const scene_quantity *, int count, double step, const double value[],
                    quantity_result *);
 
-/* 1: some quantity other than a curve is evaluated at this station of the path[stations]. */
+/* Returns 1 if any quantity except curves is evaluated at this station of path[stations]. */
 int extract_path_asks(const analysis_context *, int analysis, int stations, const double path[],
                       int station);
-/* The same, or 1 if all stations are needed. */
+/* Like extract_path_asks, but returns 1 if all stations are needed. */
 int extract_path_wants(const analysis_context *, int analysis, int stations, const double path[],
                        int station);
-/* 1: besides the motion of nodes, the station needs resultants, reactions, shapes, matrices, or the
- * start state of a following analysis. Compliances that were computed during the path do not need
- * more. */
+/* Returns 1 if the station needs more than the motion of nodes: resultants, reactions, shapes,
+ * matrices, or the start state of a following analysis. Compliances that were already computed
+ * during the path do not count. */
 int extract_path_whole(const analysis_context *, int analysis, int station);
 
 /* Quantities of eigenvalues: critical loads and frequencies. */
@@ -317,8 +325,8 @@ int extract_path_whole(const analysis_context *, int analysis, int station);
 /* Checks whether stability is lost and regained within a step of a static path: the state is
  * examined after every sixth of the step, so that a loss over a fifth of the step is noticed. */
 
-/* The step led from one state to the other. *found: a path value within the step with a stability
- * that is not between those of the ends; INFINITY: none was found. Not counted as work. */
+/* Examines the step between the two states. *found: a path value within the step whose stability is
+ * not between those of the ends; INFINITY: none was found. The work is not counted. */
 status within_step(flutter_judge *, analysis_context *, const model_state *from,
                    const model_state *to, double *found, fault *);
 
@@ -329,9 +337,9 @@ status within_step(flutter_judge *, analysis_context *, const model_state *from,
 
 /* Natural frequencies: M x = (1/omega^2) K x with tangent K and mass M of the deformed state. */
 status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
-/* The value of the path parameter, beyond the end of the static path, at which the tangent of the
- * nonlinear path first becomes singular (a bifurcation; loads and drivers continue as along the
- * path). */
+/* Finds the value of the path parameter, beyond the end of the static path, at which the tangent of
+ * the nonlinear path first becomes singular (a bifurcation). Loads and drivers continue beyond the
+ * end as they did along the path. */
 status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
 
 /* Natural frequencies about the undeformed state. */
@@ -343,7 +351,8 @@ status buckling_analysis(analysis_context *, int analysis, analysis_outcome *, f
 /* Number of modes that the quantities of an analysis request. */
 int modal_wanted(const analysis_context *, int analysis);
 
-/* Steady vibration by frequency: D(w) x = f with the dynamic stiffness D (harmonic_matrices.c). */
+/* Steady-state vibration as a function of frequency: D(w) x = f with the dynamic stiffness D
+ * (harmonic_matrices.c). */
 
 typedef struct harmonic_modes harmonic_modes;
 
@@ -351,7 +360,8 @@ typedef struct harmonic_modes harmonic_modes;
 typedef struct control_loop {
     int load;
     const scene_feedback *gains;
-    double *push, *measured; /* [free + driven] P of its factor 1, and S */
+    double *push, *measured; /* [free + driven] loads for a factor of 1, and the linear form of the
+                                measured quantity */
     int integrates; /* 1: its integral adds a pole; 0: none, or it moves or follows nothing */
 } control_loop;
 
@@ -360,74 +370,80 @@ typedef struct vibration {
     int analysis, free, all;
     const model_state *state;
     const outcome_about *about; /* an instant of a motion; NULL: a state at rest */
-    sparse K, M, C, B;          /* on all coordinates */
+    sparse K, M, C, B;          /* matrices of all coordinates */
     int damped, inside;
-    int plain;           /* 1: without the mass inside elements, and extremes between frequencies */
-    sparse D;            /* [2 (free + border + loops)] real form */
-    int *source, *first; /* entry of K for each entry of the free block, by columns; [free + 1] */
+    int plain; /* 1: neglects the mass inside elements and omits the extremes between frequencies */
+    sparse D;  /* [2 (free + border + loops)] real form of the dynamic stiffness */
+    int *source, *first; /* for each entry of the free block, its index in K, column by column;
+                            first: [free + 1] */
     int *row, *rows;
-    double complex *column; /* [free + border + loops], as rows: values in one column of D */
+    double complex *column; /* [free + border + loops] rows and values of one column of D */
     matrix_factor *factor;
-    double *x;                     /* [2 (free + border + loops)] */
-    double complex *found, *left;  /* [quantities x (all + loops)], [quantities x free] */
-    double complex *output, *dual; /* [all + loops] */
-    double *room;                  /* [model_stresses + all] */
-    harmonic_modes *modes;         /* NULL: direct solution without modal damping */
-    int loops;                     /* closed loops; their factors follow all coordinates */
-    control_loop *loop;            /* [loops] */
-    double *signals;               /* [2 loops x (free + driven)] */
+    double *x; /* [2 (free + border + loops)] */
+    double complex *found,
+        *left; /* [quantities x (all + loops)] solutions, [quantities x free] left solutions */
+    double complex *output,
+        *dual;             /* [all + loops] linear form of an output, and its dual solution */
+    double *room;          /* [model_stresses + all] */
+    harmonic_modes *modes; /* NULL: direct solution without modal damping */
+    int loops;             /* number of closed loops; their factors follow all coordinates */
+    control_loop *loop;    /* [loops] */
+    double *signals;       /* [2 loops x (free + driven)] */
 } vibration;
 
-/* Finds the feedback loops that the analysis closes, about v->state. */
+/* Finds the feedback loops that the analysis closes, linearised about v->state. */
 status loops_find(vibration *, fault *);
 void loops_free(vibration *);
-/* Number of coordinates and loop factors. */
+/* Returns the number of coordinates and loop factors. */
 size_t loops_whole(const vibration *);
-/* Returns NULL if the loop is not closed. */
+/* Returns the loop of a load; NULL: it is not closed. */
 const control_loop *loops_of(const vibration *, int load);
-/* own u + gain S^T x = gain r at s = i w. */
+/* A loop with the factor u, the error r and the measured form S obeys own u + gain S^T x = gain r
+ * at s = i w. Returns gain and sets *own; both are multiplied by s if there is an integral gain. */
 double complex loops_gain(const control_loop *, double w, double complex *own);
-/* K, M, C, B of the free coordinates, on one pattern, with all loops closed, followed by the
- * integrals. The caller releases to[4] in any case. */
+/* Computes K, M, C, B of the free coordinates and the integrals of the errors, which follow them,
+ * on one pattern and with all loops closed. The caller releases to[4] in any case. */
 status loops_close(const vibration *, const sparse *const from[], sparse to[], fault *);
 void loops_release(sparse closed[]);
 
-/* Entry k of K, M, ... in D. */
+/* Returns entry k of the dynamic stiffness D at the circular frequency w. */
 double complex harmonic_dynamic(const vibration *, double w, int k);
-/* Computes K, M, C, B; whole: including driven coordinates. */
+/* Computes K, M, C, B; whole 1: including the driven coordinates. */
 status harmonic_matrices(vibration *, int whole, fault *);
-/* The free block as a full matrix: v->first, row, source. */
+/* Prepares the free block as a full matrix: v->first, row, source. */
 status harmonic_pattern(vibration *, fault *);
-/* The matrix of a direct solution. */
+/* Allocates the matrix of a direct solution. */
 status harmonic_matrix(vibration *, fault *);
-/* Factors it at a circular frequency. */
+/* Factors this matrix at a circular frequency. */
 status harmonic_factor(vibration *, double w, fault *);
-/* Modes with a damping ratio in a direct solution: one unknown y = i w U^T (x - r) for each, so
- * that D x + U y = f; r: static displacements due to driven coordinates. */
+/* Returns the number of additional unknowns for modes with a damping ratio in a direct solution.
+ * Each has one unknown, y = i w U^T (x - r), so that D x + U y = f, where r are the static
+ * displacements due to driven coordinates. */
 int harmonic_border(const vibration *);
 
 /* Inputs and outputs (harmonic_inputs.c). */
 
 enum { HARMONIC_SHAPES_OF_MOTION = 4, HARMONIC_SHAPES = 2 * HARMONIC_SHAPES_OF_MOTION };
 
-/* Sets the right-hand side of an input; a prescribed motion is 1 in x[all]. */
+/* Sets the right-hand side of an input. A prescribed motion has the value 1 in x[all]. */
 status harmonic_input(const vibration *, const scene_response *, double w, double complex x[],
                       fault *);
-/* y[border] of the direct solution: U^T r of the input's driven coordinate. Returns 0 for a force.
- */
+/* Sets y[border] of the direct solution to U^T r of the input's driven coordinate. Returns 0 if the
+ * input is a force. */
 int harmonic_carried(const vibration *, const scene_response *, double y[]);
 /* The linear form o of a quantity in the displacements: o^T x. */
 void harmonic_output(vibration *, const scene_response *, double w, double complex o[]);
-/* The part of the input that acts directly on the prescribed motion whose reaction is read. */
+/* Returns the part of the input that acts directly on the prescribed motion whose reaction is
+ * read. */
 double complex harmonic_force_at(const vibration *, const scene_response *, double w);
-/* The forces of a quantity's input, independent of frequency, and its output as forces: out[n
- * each]. Returns their number, at most HARMONIC_SHAPES. */
+/* Sets the forces of a quantity's input, without their frequency dependence, and its output as
+ * forces; each has n entries of out. Returns their number, at most HARMONIC_SHAPES. */
 int harmonic_shapes(vibration *, const scene_response *, double out[]);
 
 /* Largest and smallest amplitudes, real parts and imaginary parts between the frequencies of the
  * analysis (harmonic_extremes.c). Phases are excluded, because they wrap around. */
 
-/* One quantity at a frequency; sign * value is to be large. */
+/* Computes one quantity at a frequency. The search maximises sign * value. */
 typedef status harmonic_value(vibration *, int quantity, double sign, double hertz, outcome_peak *,
                               fault *);
 status harmonic_extremes_refine(vibration *, harmonic_value *, outcome_harmonic *, fault *);
@@ -436,75 +452,84 @@ status harmonic_extremes_refine(vibration *, harmonic_value *, outcome_harmonic 
  * (harmonic_reduced.c). */
 
 struct harmonic_modes {
-    int n, kept, count; /* of free coordinates; modes, and columns of V */
+    int n, kept, count; /* number of free coordinates; of modes; of columns of V */
     int complete;       /* 1: V is complete */
     int damped;         /* modes with a damping ratio */
-    sparse K, M, C, B;  /* free block, K shifted */
+    sparse K, M, C, B;  /* free blocks; K is shifted */
     matrix_factor *factor;
-    double shift, least, inner; /* [1/s^2]; `least` shifted; b */
-    double *square;             /* [kept] squares of circular frequencies, shifted */
-    double *V;                  /* [count x n] K-orthonormal */
-    double *U, *carried;        /* [damped x n]; [damped] factor of V^T K in U^T ... */
-    int *of;                    /* [damped] ... for this mode */
-    double *Kp, *Mp, *Cp, *Bp;  /* [count x count] V^T K V, ... */
-    double *coupling[3];        /* [kept x kept] of C with C, C with B, B with B */
-    double complex *D, *entry;  /* [count x count] scaled and factored; of D by v->first */
-    double *scale;              /* [count] */
+    double shift, least,
+        inner;      /* shift [1/s^2]; least: shifted square of the next frequency; inner: bound b */
+    double *square; /* [kept] squares of circular frequencies, shifted */
+    double *V;      /* [count x n] K-orthonormal */
+    double *U, *carried;       /* [damped x n]; [damped] factor of V^T K r in U^T r */
+    int *of;                   /* [damped] index of the mode with this damping ratio */
+    double *Kp, *Mp, *Cp, *Bp; /* [count x count] V^T K V, V^T M V, V^T C V, V^T B V */
+    double *coupling[3];       /* [kept x kept] products of C with C, C with B, and B with B */
+    double complex *D,
+        *entry;    /* [count x count] scaled and factored; entries of D in the order of v->first */
+    double *scale; /* [count] */
     int *pivot;
     double complex *y, *inverse, *half; /* [count]; [kept x kept] */
     double *work;                       /* [2 n] */
-    double w, positive;                 /* `positive` is the real part at w */
+    double w, positive; /* circular frequency, and `positive`: lower bound of the real part at w */
 };
 
 /* Extracts the free blocks of K, M, C, B. */
 status harmonic_modes_blocks(vibration *, harmonic_modes *, fault *);
-/* Computes the first modes; wanted 0: all. */
+/* Computes the first `wanted` modes; 0: all modes. */
 status harmonic_modes_lowest(vibration *, harmonic_modes *, int wanted, fault *);
 status harmonic_modes_find(vibration *, fault *);
 void harmonic_modes_free(harmonic_modes *);
-/* Natural frequencies [Hz], ascending, at least those below a frequency; the caller frees *hertz.
- * They are undamped, or those of damped modes if springs or dashpots are not symmetric. There are
- * none if loads make the stiffness unsymmetric, or if there would be too many. */
+/* Computes the natural frequencies [Hz], ascending, at least those below the given frequency; the
+ * caller frees *hertz. They are the frequencies of damped modes if springs or dashpots are not
+ * symmetric, otherwise the undamped frequencies. *count is 0 if loads make the stiffness
+ * unsymmetric or if there would be too many frequencies. */
 status harmonic_natural(vibration *, double below, int *count, double **hertz, fault *);
-/* REFUSED: springs without a potential, or loops of feedback, make a mode grow. */
+/* REFUSED: a mode grows because of springs without a potential or of feedback loops. */
 status harmonic_judge_growth(vibration *, double below, fault *f);
-/* Modes with damping ratios: C + U U^T with U [count x free]. */
+/* Returns the number of modes with damping ratios and sets U[count x free], with which the damping
+ * matrix is C + U U^T. */
 int harmonic_modes_damped(const harmonic_modes *, const double **U);
-/* U^T r for the static displacements r due to a unit displacement of the driven coordinate,
- * [count]. */
+/* Sets out[count] to U^T r, where r are the static displacements due to a unit displacement of the
+ * driven coordinate. */
 void harmonic_modes_carried(const vibration *, int driven, double out[]);
-/* The static shapes of inputs and outputs, and the projected matrices. f: [count x free] forces. */
+/* Adds the static shapes of inputs and outputs, f: [count x free] forces, and computes the
+ * projected matrices. */
 status harmonic_modes_project(vibration *, int count, const double f[], fault *);
-/* Factors D at a frequency; returns SINGULAR as a direct solution does. */
+/* Factors D at a circular frequency. SINGULAR as in a direct solution. */
 status harmonic_modes_factor(vibration *, double w, fault *);
-/* x [free]: forces, replaced by the solution; f: residual of the forces. */
+/* x[free]: forces, replaced by the solution. f: receives the residual of the forces. */
 void harmonic_modes_solve(vibration *, double complex f[], double complex x[]);
-/* Bound on |o^T (x - D^-1 f)| from the residuals of the solutions for f and o; INFINITY: none. */
+/* Returns a bound on |o^T (x - D^-1 f)| from the residuals of the solutions for f and o; INFINITY:
+ * no bound is known. */
 double harmonic_modes_bound(vibration *, const double complex left_of_f[],
                             const double complex left_of_o[]);
 
 status harmonic_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* Matrices about the state in all coordinates, and the loops that are closed. */
+/* Computes the matrices about the state in all coordinates, and finds the closed loops. */
 status harmonic_begin(vibration *, fault *);
-/* K, M, C and the modes with damping ratios of a harmonic analysis; the caller releases *out in any
- * case. */
+/* Computes K, M, C and the modes with damping ratios of a harmonic analysis. The caller releases
+ * *out in any case. */
 status harmonic_system(analysis_context *, int analysis, vibration *out, fault *);
 void harmonic_release(vibration *);
-/* Largest difference of responses without the mass inside elements, relative to the largest of each
- * curve; *error 0 on entry. */
+/* Repeats the analysis without the mass inside elements. *error: largest difference of the
+ * responses, relative to the largest value of each curve; must be 0 on entry. *quantity: the
+ * quantity with this difference. */
 status harmonic_inside(analysis_context *, int analysis, double *error, int *quantity, fault *);
-/* REFUSED: the motion is a component of a rotation vector. */
+/* REFUSED: the prescribed motion is a component of a rotation vector. */
 status harmonic_check_motion(const vibration *, int driver, fault *);
-/* REFUSED: about an instant of a motion, the rate that the quantity reads contains further terms.
- */
+/* REFUSED: the velocity or acceleration that the quantity reads is not only the rate of its
+ * displacement, because its body rotates at this instant of a motion. */
 status harmonic_check_rates(const vibration *, const scene_response *, fault *);
-/* The driven coordinate whose reaction a quantity reads; it must act on one node only. */
+/* Sets *out to the driven coordinate whose reaction a quantity reads. REFUSED: it acts on more than
+ * one node. */
 status harmonic_reacting(const vibration *, const scene_response *, int *out, fault *);
 
-/* Linear models with the inputs and outputs of the scene (second_order.c). */
+/* Second-order models with the inputs and outputs of the scene (second_order.c). */
 
 status second_order_list(const scene *, system_matrices *, fault *);
-/* v: matrices of all coordinates, state and modes with ratios; G: NULL, or gyroscopic. */
+/* Stores the matrices. v: matrices of all coordinates, the state, and the modes with damping
+ * ratios; G: gyroscopic matrix, or NULL. */
 status second_order_keep(const vibration *v, const sparse *G, const system_matrices *,
                          state_matrices *, fault *);
 
@@ -514,14 +539,15 @@ status damped_modal(analysis_context *, int analysis, analysis_outcome *, fault 
 /* Stationary rotation and small motions about it. */
 
 status rotation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* Sets the stability of the stations from the modes found, after the steps have been evaluated. */
+/* Sets the stability of the stations from the modes found, once the steps have been evaluated. */
 void rotation_judge_stations(analysis_context *, int analysis, const analysis_outcome *);
 
 /* Nonlinear equilibrium along a path. */
 
 status static_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* Walks from the current path to `target` in steps that are halved if Newton's method fails and
- * doubled if it converges easily; *increment: the first step, then the next. */
+/* Advances from the current path parameter to `target` in steps that are halved if Newton's method
+ * fails and doubled if it converges easily. *increment: the first step on entry, the next one on
+ * return. */
 status static_walk(newton_run *, double target, double *increment, fault *);
 
 #endif

@@ -6,69 +6,71 @@
 #include "elements/element.h"
 #include "harness/model/model.h"
 
-/* elements: per piece, if the member does not specify it. */
+/* elements: number per piece of each member that does not specify its own. */
 status division_make(const scene *, int elements, division *, fault *);
 void division_free(division *);
 
 int division_pieces(const division *, int member);
 int division_elements(const division *, int member);
-/* ends: start and end of the piece of an element, counted along its member. Returns the element's
- * number in the piece. */
+/* Sets ends[2] to the start and end of the piece that contains an element, counted along its
+ * member. Returns the element's number in the piece. */
 int division_piece(const division *, int member, int number, double ends[2]);
 
 status discrete_build(model *, fault *);
-/* rigid_body.c: Inertia of a body by its node's coordinates [7: translation, spatial rotation,
- * warping (not moved)]; x has the position, and in R the rotation since the undeformed state. frame
- * NULL: the frame is at rest. */
+/* rigid_body.c: computes the inertia of a body in its node's coordinates [7: translation, spatial
+ * rotation, warping, which does not move]. x has the position and, in R, the rotation since the
+ * undeformed state. frame NULL: the frame is at rest. */
 void body_inertia(const scene_body *b, const node_state *x, const element_rotating_frame *frame,
                   inertia_output *out);
 
-/* Features that the scene requires, and the unsupported features or the exceeded limit in words; 0:
- * the type can solve the scene. */
-/* 1: elements of the type have distributed mass in this motion. */
+/* Features that the scene requires, and a description of the unsupported features or of the
+ * exceeded limit. */
+/* Returns 1 if elements of the type have distributed mass in this motion. */
 int features_spreads(const scene *, int analysis, const element_type *, const double options[]);
 
 /* Returns the features without which a requested quantity is meaningless. */
 unsigned features_of_quantities(const scene *);
 
-/* Removes omitted physics from a section if elements do not do so themselves. */
+/* Removes omitted physics from a section, where elements do not do so themselves. */
 void missing_omit(section *, unsigned omits);
-/* The limit of the type that a section with N closed cells exceeds, in words; NULL: none. */
+/* Returns the description of the limit of the type that a section with this number of closed cells
+ * exceeds; NULL: none. */
 const char *missing_in_section(const element_type *, const section *, int cells, int warps);
 
-/* Sections of the elements. First those of the scene, then for tapered members one section for each
- * element, at its middle. Tapered members with the same end sections and the same number of equal
- * elements share them.
+/* Sections of the elements: first those of the scene, then one section for each element of tapered
+ * members, evaluated at its middle. Tapered members with the same end sections and the same number
+ * of equal elements share them.
  *
- * The pieces are prismatic, so the error is of second order in their length for every formulation.
- */
+ * The pieces are prismatic, so the error is of second order in their length for every
+ * formulation. */
 
 /* Computes the sections of the scene. */
 status profile_scene(model *m, fault *f);
-/* Computes the sections of all elements of tapered members. No later call changes m->section;
- * *sections: their number. */
+/* Computes the sections of all elements of tapered members. No later call changes m->section.
+ * *sections: number of sections. */
 status profile_members(model *m, int *sections, fault *f);
 
-/* Number of released ends of all members. */
+/* Returns the number of released ends of all members. */
 int release_count(const scene *);
-/* Creates their vertices together with the elements. */
+/* Creates the vertices of released ends together with the elements. */
 status release_build(model *, fault *);
 
-/* d[6] += the motion of the end relative to its node for the increment dx of its own coordinates.
- */
+/* Adds to d[6] the motion of the end relative to its node for the increment dx of its own
+ * coordinates. */
 void release_add_local(const model *, const model_state *, int vertex, const double dx[],
                        double d[6]);
-/* Transforms T[6 x count] of its node to that of the end; its own columns start at `own`. */
+/* Transforms T[6 x count] of the node to that of the end; the end's own columns start at `own`. */
 void release_jacobian(const model *, const model_state *, int vertex, int count, int own,
                       double T[]);
-/* Sets position and orientation, after those of all nodes. */
+/* Sets the position and orientation of released ends, after those of all nodes. */
 void release_follow(const model *, model_state *);
 
-/* Transforms force[7 at, its six] from the end's frame to that of its node; own[]: forces of the
- * end's own coordinates. */
+/* Transforms force[6] from the end's frame to that of its node. own[]: forces of the end's own
+ * coordinates. */
 void release_force(const model *, const model_state *, int vertex, double force[6], double own[]);
-/* The same for K; the six coordinates of the end start at `at`, its own ones at `own`. force[6] as
- * in release_force, to be called before; NULL: no second derivatives. */
+/* Transforms K in the same way. The six coordinates of the end start at `at`, its own coordinates
+ * at `own`. force[6]: as in release_force, which must be called first; NULL: no second
+ * derivatives. */
 void release_matrix(const model *, const model_state *, int vertex, int n, int at, int own,
                     double force[6], double K[]);
 
@@ -79,7 +81,7 @@ status turns_build(model *, fault *);
 /* Updates the rotation vectors of a state after a change of orientations; state.turn contains their
  * previous values. */
 void turns_follow(const model *, model_state *);
-/* NULL: no quantity reads it. */
+/* Returns the rotation vector between two nodes; NULL: no quantity reads it. */
 const double *turns_between(const model *, const model_state *, int from, int node);
 
 /* Inertia of a rigid body that moves with a node. */
@@ -91,13 +93,14 @@ typedef struct member_arc {
     double length;         /* along the arc [m] */
     double start[3], R[9]; /* position and triad at p */
     double k[3];           /* [1/m] */
-    double bow[2];         /* deviation from it, in its axes: bow sin(half_waves pi s/length) [m] */
+    double bow[2]; /* deviation from the arc, in its axes: bow sin(half_waves pi s/length) [m] */
     int half_waves;
 } member_arc;
 
-/* axes_angle [rad]: of its section. REFUSED: no arc of this curvature connects its ends. */
+/* axes_angle [rad]: angle of the section's axes. REFUSED: no arc of this curvature connects the
+ * member's ends. */
 status member_arc_of(const scene *s, int member, double axes_angle, member_arc *out, fault *f);
-/* Position, and triad without the bow, at the abscissa s [m]. */
+/* Computes the position, and the triad without the bow, at the arc length s [m]. */
 void member_arc_at(const member_arc *a, double s, double position[3], double R[9]);
 
 /* Private members of a model, for harness/model alone. */
@@ -121,7 +124,7 @@ struct model {
     int *profile;             /* [members] section of the first element */
     mesh_triad *triad;        /* [triads], capacity for all nodes of all elements */
     int triads;
-    int *kind_of_section;  /* [sections] the first, or NONE */
+    int *kind_of_section;  /* [sections] first kind of the section, or NONE */
     scene_spring *founded; /* springs of foundations, at the vertices of their members */
     mesh_turn *turn;       /* [turns] in the order of model_turns */
     double size;           /* length of the longest member [m] */
@@ -144,17 +147,18 @@ struct model_imperfect {
 
 /* imperfect: shape for the requested scene, which must outlive the model; NULL: perfect. */
 status model_alloc_imperfect(const model_request *, const model_imperfect *, model **, fault *);
-/* The scene that defines the lines of members from which modes deviate. */
+/* Returns the scene that defines the lines of members from which modes deviate. */
 const scene *imperfect_lines(const model *);
-/* Moves a point of a line, and its triad; nothing in a perfect model. */
+/* Moves a point of a member's line and its triad; no effect in a perfect model. */
 void imperfect_move(const model *, int member, double place, double position[3], double R[9]);
-/* Change of the rotation between two positions on a member. */
+/* Computes the change of the rotation between two positions on a member. */
 void imperfect_turn(const model *, int member, const double place[2], double turn[3]);
-/* centreline.c: increments of all vertices, [vertices x 6]; also of nodes without members. */
+/* centreline.c: computes the increments of all vertices, [vertices x 6], including nodes without
+ * members. */
 void centreline_increments(const model *, const double x[], double out[]);
 
-/* release.c: sets length and R of an arc with curvature k between two points; y: axis at its start.
- * REFUSED: there is no such arc. */
+/* release.c: sets the length and R of an arc with curvature k between two points. y: axis at its
+ * start. REFUSED: there is no such arc. */
 status member_arc_between(const scene *s, int member, const double chord[3], const double y[3],
                           member_arc *, fault *);
 
