@@ -46,17 +46,17 @@ enum element_limit {
         1 << 1, /* exchanging p and q changes the result (by a discretisation error) */
     LIMIT_QUARTER_TURN = 1 << 2, /* strains are sines of the rotation between the nodes; beyond pi/2
                                     another state has the same strains */
-    LIMIT_WARPING_RIGID =
-        1 << 3, /* warping causes no shear; closed cells, where it does, are a different model */
-    LIMIT_FLAT_ARC = 1 << 4,  /* an initially curved element of length l and curvature k is too
-                                 flexible in bending, by a fraction that depends only on EA l^4
-                                 k^2/(E Iz): 1 % at 64, 10 % at 256, where its arc rises by l^2 k/8 =
-                                 2 radii of gyration; beyond 6107 its stiffness is indefinite */
-    LIMIT_HALF_TURN = 1 << 5, /* strains represent rotations between the ends up to pi, because
-                                 frames do not contain the number of full rotations. Types that
-                                 declare neither limit have this one */
+    LIMIT_WARPING_RIGID = 1 << 3, /* warping causes no shear; sections with closed cells, where
+                                   * warping does cause shear, are a different model */
+    LIMIT_FLAT_ARC = 1 << 4,      /* an initially curved element of length l and curvature k is too
+                                     flexible in bending, by a fraction that depends only on EA l^4
+                                     k^2/(E Iz): 1 % at 64, 10 % at 256, where its arc rises by l^2 k/8 =
+                                     2 radii of gyration; beyond 6107 its stiffness is indefinite */
+    LIMIT_HALF_TURN = 1 << 5,     /* strains represent rotations between the ends up to pi, because
+                                     frames do not contain the number of full rotations. Types that
+                                   * declare neither rotation limit have this one */
     LIMIT_TENSION = 1 << 6, /* an element that is too long for its axial force loses its transverse
-                               stiffness: `tension` returns the ratio */
+                             * stiffness; `tension` returns the ratio of its length to the limit */
     LIMIT_EIGHTH_TWIST =
         1 << 7 /* the torsional strain is the sine of the twist between the nodes; beyond pi/4 the
                   torque decreases, and another state has the same strain */
@@ -68,9 +68,9 @@ enum element_lack {
     LACKS_SHEAR_Y = 1 << 0 /* rigid in shear along y, although FEATURE_SHEAR is supported */
 };
 
-/* Derivatives that the harness computes by differences (harness/formulations) for a type that does
- * not provide them: of sixth order in the rotation chart, accurate to about ten digits, and slow.
- * Results report this, and such times are not ranked. */
+/* Derivatives that the harness computes by finite differences (harness/formulations) for a type
+ * that does not provide them: they are of sixth order in the rotation chart, accurate to about ten
+ * digits, and slow. Results report this, and their times are not ranked. */
 enum element_left {
     LEAVES_J = 1 << 0,      /* strain returns e only */
     LEAVES_H = 1 << 1,      /* strain returns no H */
@@ -80,7 +80,7 @@ enum element_left {
 
 /* Shear theories in stability that the equations of a type follow, as bits; 0: rigid in shear. A
  * type is evaluated against the reference value of its own theory, whatever a scene specifies. A
- * type that supports several uses the one in the features of the request. */
+ * type that supports several theories uses the one that the features of the request select. */
 enum shear_theory {
     SHEAR_ENGESSER = 1 << 0, /* the axial force does work on 1/2 (v'^2 + w'^2) of the fibre */
     SHEAR_HARINGX =
@@ -98,12 +98,13 @@ typedef enum element_analysis {
     ELEMENT_ANALYSES
 } element_analysis;
 
-/* Orders in the number of elements: the lowest for a smooth solution, and the highest for any
- * quantity, if leading error terms vanish. With loads along members and large rotations the order
- * is four, except for loads that the element includes in its equilibrium (along). For vibration the
- * lowest order is that of frequencies of stress-free straight members of one material: four in
- * bending, stretch and twist with the mass of the displacement field. Under stress or in a rotating
- * frame, shear, stretch and twist have order two. */
+/* Orders of convergence in the number of elements: the lowest order for a smooth solution, and the
+ * highest order of any quantity, which is attained if leading error terms vanish. With loads along
+ * members and large rotations the order is four, except for loads that the element includes in its
+ * equilibrium (along). For vibration the lowest order is that of frequencies of stress-free
+ * straight members of one material: four in bending, stretch and twist with the mass of the
+ * displacement field. Under stress or in a rotating frame, shear, stretch and twist have order two.
+ */
 typedef struct element_order {
     int least, highest; /* lowest for a smooth solution; highest for any quantity */
 } element_order;
@@ -126,8 +127,8 @@ typedef struct element_data
 /* State of a node. */
 typedef struct node_state {
     double r[3]; /* position [m] */
-    double u[3]; /* displacement since the undeformed state [m]: r - u is the initial position, so
-                    that an elongation needs no cancellation */
+    double u[3]; /* displacement from the undeformed state [m]; r - u is the initial position, so
+                  * that an elongation is computed without cancellation */
     double R[9]; /* node rotation times the element's initial triad; columns nX nY nZ */
     double a;    /* warping amplitude [rad/m]; phi_x' in the shear-rigid limit */
 } node_state;
@@ -159,23 +160,23 @@ typedef struct element_type {
     unsigned offers;     /* element_feature; shear theories as in shear_theories */
     /* Bytes of its element_data. */
     size_t (*data_size)(const element_request *);
-    /* Called once per kind of element. Rejects a request that it does not support, and gives the
-     * reason. */
+    /* Called once per kind of element. Rejects an unsupported request and states the reason. */
     status (*prepare)(const element_request *, element_data *, fault *);
 
     /* Required: these two functions, or `force` instead. */
     /* Computes strains e from the states of the nodes, with their derivatives. */
     void (*strain)(const element_data *, const node_state x[], strain_output *);
-    /* NOT_CONVERGED or SINGULAR: the formulation cannot be evaluated in this state. */
+    /* Computes stresses for strains e. NOT_CONVERGED or SINGULAR: the formulation cannot be
+     * evaluated in this state. */
     status (*stress)(const element_data *, const double e[], const double inner[], stress_output *);
-    /* For codes that compute force and tangent of node states, or an energy that is invariant to
-     * rigid motion. The strains are then the positions of the nodes relative to the first one.
-     * Straight elements only; in linear buckling the strains of the prestress count inside each
-     * element, which causes an error of their size. */
+    /* For codes that compute the force and tangent from node states, or an energy that is invariant
+     * under rigid motion. The strains are then the positions of the nodes relative to the first
+     * node. Straight elements only. Linear buckling includes the strains of the prestress inside
+     * each element, which causes a relative error of the size of these strains. */
     status (*force)(const element_data *, const node_state x[], force_output *);
 
     /* Optional: properties for the evaluation. */
-    unsigned leaves;         /* element_left; default: nothing is computed by differences */
+    unsigned leaves;         /* element_left; default: nothing is computed by finite differences */
     unsigned limits;         /* element_limit: none */
     unsigned lacks;          /* element_lack: nothing */
     const char *lacks_by;    /* equation or assumption that omits it */
@@ -187,7 +188,8 @@ typedef struct element_type {
     /* Optional: -f name:key=value. */
     const parameter_type *options[PARAMETER_PARTS]; /* none */
     /* [options] element_feature: `verify` evaluates every choice of an option for quantities that
-     * depend on one of these features; 0: only its default. Default (NULL): only the defaults. */
+     * depend on one of these features; 0: only the default choice. Default (NULL): only the default
+     * choices of all options. */
     const unsigned *judged;
 
     /* Optional: sizes, which may depend on the options (stages, nodes). */
@@ -198,19 +200,20 @@ typedef struct element_type {
                                               default: 0 */
 
     /* Optional, for types with inner unknowns. */
-    /* inner += (correction from the last stress) for the strain increment de; returns the
-     * dimensionless size of the change. */
+    /* Adds to `inner` the correction from the last call of `stress` for the strain increment de.
+     * Returns the dimensionless size of the change. */
     double (*update)(const element_data *, const double de[], const double memory[],
                      double inner[]);
-    /* Inner unknowns of the undeformed state; default: zero. */
+    /* Computes the inner unknowns of the undeformed state; default: zero. */
     void (*rest)(const element_data *, double inner[]);
 
     /* Optional: further physics. */
-    /* G[strains x strains] = derivative of C at e = 0 in the direction of the prestress sigma: sum
-     * sigma_i Q_i; default: zero. */
+    /* Computes G[strains x strains], the derivative of C at e = 0 in the direction of the prestress
+     * sigma, which is sum sigma_i Q_i; default: zero. */
     void (*geometric)(const element_data *, const double sigma[], double G[]);
-    /* frame NULL: the frame does not rotate. Default (NULL): the mass of the displacement field
-     * that is exact without loads (field/field.h); lumped for three nodes. */
+    /* Computes inertia. frame NULL: the frame does not rotate. Default (NULL): the mass of the
+     * displacement field that is exact without loads (field/field.h); for three nodes, lumped
+     * mass. */
     status (*inertia)(const element_data *, const node_state x[], const element_rotating_frame *,
                       inertia_output *);
 
@@ -248,13 +251,13 @@ typedef struct element_type {
     /* For LIMIT_TENSION: length of the element divided by the largest length that its axial force
      * allows; default: 0, no limit. */
     double (*tension)(const element_data *, const double sigma[]);
-    /* For a formulation kept as printed: one line with the equation and its error. It is never
-     * ranked, chosen or included in an agreement. Default: NULL. */
+    /* For a formulation with an uncorrected misprint: one line with the equation and its error. The
+     * formulation is never ranked, chosen or included in an agreement. Default: NULL. */
     const char *misprint;
     /* Optional: includes dead forces along elements of two nodes in the equilibrium of the element,
-     * for `count` elements: x[count x nodes], outcome[count]. Default (NULL), and for follower
-     * loads, moments, and in scenes with a motion: their work on a displacement field between the
-     * nodes, the same for all types. */
+     * for `count` elements: x[count x nodes], outcome[count]. By default (NULL), and always for
+     * follower loads, for moments and in scenes with a motion, loads do work on a displacement
+     * field between the nodes that is the same for all types. */
     void (*along)(int count, const element_data *const data[], const node_state x[],
                   along_output out[], status outcome[]);
     /* Optional: kind of mass. 1: with these options, `inertia` for two nodes in the undeformed
@@ -263,24 +266,24 @@ typedef struct element_type {
      * the mass matrix alone. For a type without `inertia`: 1. */
     int (*mass_of_field)(const double options[]);
     /* Optional: data of the same element with an additional stress-free elongation and curvatures
-     * about y and z [1, 1/m, 1/m]; x: its nodes in the free state; out: data of the same size.
-     * Strains are still computed from the nodes. Default (NULL): strains are measured from the
-     * strains of x, which is an error of second order in curvature if the stress function is
-     * nonlinear. */
+     * about y and z [1, 1/m, 1/m]. x: nodes of the element in the stress-free state; out: data of
+     * the same size. Strains are still computed from the nodes. Default (NULL): strains are
+     * measured from the strains of x, which causes an error of second order in curvature if the
+     * stress function is nonlinear. */
     void (*unstressed)(const element_data *, const double more[3], const node_state x[],
                        element_data *out);
 } element_type;
 
-/* Makes a symbol visible outside its shared object, also with -fvisibility=hidden. */
+/* Makes a symbol visible outside its shared object, even with -fvisibility=hidden. */
 #if defined(__GNUC__)
 #define ELEMENT_EXPORT __attribute__((visibility("default")))
 #else
 #define ELEMENT_EXPORT
 #endif
-/* The formulation of a shared object, to be defined after this header, in C or C++. */
+/* The formulation of a shared object, to be defined after inclusion of this header, in C or C++. */
 ELEMENT_EXPORT extern const element_type beamwork_element;
 /* Alternative for languages whose constants cannot contain addresses of functions (Fortran): a
- * function that returns the formulation, which exists until the program ends. */
+ * function that returns the formulation, which must exist until the program ends. */
 ELEMENT_EXPORT const element_type *beamwork_element_type(void);
 
 static inline element_order element_order_in(const element_type *t, element_analysis a,
@@ -291,8 +294,9 @@ static inline element_order element_order_in(const element_type *t, element_anal
         return t->order(a, options);
     return t->constants && t->constants->order[a].highest > 0 ? t->constants->order[a] : usual;
 }
-/* Returns the order in transient analyses: with consistent mass, four in slender bending and two
- * with shear, stretch and twist; with mass lumped at two nodes, two. */
+/* Returns the orders of convergence in transient analyses. With consistent mass, the order is four
+ * in slender bending and two with shear, stretch and twist. With mass lumped at two nodes, it is
+ * two. */
 static inline element_order element_order_of_motion(void)
 {
     const element_order usual = {2, 4};
@@ -308,7 +312,7 @@ static inline int element_nodes(const element_type *t, const double options[])
         return t->nodes(options);
     return t->constants && t->constants->nodes > 0 ? t->constants->nodes : 2;
 }
-/* Returns 1 if transient analyses can use its consistent mass. */
+/* Returns 1 if transient analyses can use the consistent mass of the type. */
 static inline int element_spreads(const element_type *t, const double options[])
 {
     return t->spreads && t->inertia != NULL && element_nodes(t, options) == 2 &&

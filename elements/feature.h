@@ -1,5 +1,5 @@
-/* Physics: features that can be requested of an element, that a type supports and a scene requires;
- * their names in files. */
+/* Features (physics): scenes require them, element types support them, and requests select them.
+ * Their names in files. */
 #ifndef BEAMWORK_FEATURE_H
 #define BEAMWORK_FEATURE_H
 
@@ -32,7 +32,7 @@ typedef struct feature_row {
     const char *summary; /* one line */
 } feature_row;
 
-/* Returns the row for results and rules; "unknown" if `feature` is not a single bit. */
+/* Returns the row of a feature; its name is "unknown" if `bit` is not a single known bit. */
 static inline const feature_row *feature_row_of(unsigned bit)
 {
     static const feature_row row[] = {
@@ -58,19 +58,19 @@ static inline const feature_row *feature_row_of(unsigned bit)
     return one;
 }
 
-/* Returns the name as used in files and results. */
+/* Returns the name used in files and results. */
 static inline const char *feature_name(unsigned bit)
 {
     return feature_row_of(bit)->name;
 }
 
-/* Summary in one line. */
+/* Returns the summary in one line. */
 static inline const char *feature_summary(unsigned bit)
 {
     return feature_row_of(bit)->summary;
 }
 
-/* Returns the bit of a name; 0: unknown name. */
+/* Returns the bit of the feature with this name, or 0 if the name is unknown. */
 static inline unsigned feature_named(const char *name)
 {
     for (unsigned bit = 1; bit < FEATURE_END; bit <<= 1)

@@ -1,5 +1,5 @@
-/* Outputs of the functions of an element (element.h): n nodes, 7n coordinates; matrices are
- * row-major; outputs that are NULL are not computed. */
+/* Outputs of the functions of an element (element.h) with n nodes and 7n coordinates. Matrices are
+ * row-major. Outputs that are NULL are not computed. */
 #ifndef BEAMWORK_ELEMENT_OUTPUT_H
 #define BEAMWORK_ELEMENT_OUTPUT_H
 
@@ -24,7 +24,7 @@ typedef struct stress_output {
 typedef struct inertia_output {
     double *M; /* [7n x 7n] mass matrix: translations [kg]; with `rate`, the mass matrix for
                   transient analysis */
-    /* In a rotating frame; zero without rotation. */
+    /* Only in a rotating frame; zero without rotation. */
     double *potential; /* [1] centrifugal: -1/2 int |Omega x r|^2 dm [J] */
     double *force;     /* [7n] centrifugal, outward: -d potential/dx [N, N m, N m^2] */
     double *N;         /* [7n x 7n] d2 potential/dx2, symmetric: centrifugal softening */
@@ -40,7 +40,7 @@ typedef struct inertia_output {
                   only increase the number of iterations */
 } inertia_output;
 
-/* Outputs of a type without strain and stress functions, for the whole element. */
+/* Outputs of `force`, which replaces strain and stress functions. */
 typedef struct force_output {
     double *energy; /* [1] [J] */
     double
@@ -50,7 +50,7 @@ typedef struct force_output {
                   the exponential chart */
 } force_output;
 
-/* Number of points of a load along an element, and of coordinates of its nodes. */
+/* Number of points of a load along an element, and number of coordinates of its two nodes. */
 enum { ELEMENT_ALONG_POINTS = 8, ELEMENT_ALONG_COORDINATES = 14 };
 
 /* Input and outputs of `along`: a dead force per length along an element of two nodes. All forces
@@ -60,7 +60,7 @@ enum { ELEMENT_ALONG_POINTS = 8, ELEMENT_ALONG_COORDINATES = 14 };
 typedef struct along_output {
     const double *force; /* in: [8 x 3] at Gauss points of [0, 1], global axes [N/m] */
     const double *rate;  /* in: like force; if not NULL, sigma, moment and ends are derivatives with
-                            respect to its size, and other outputs are not used */
+                          * respect to the size of `rate`, and other outputs are not used */
     const double *e;     /* in: [strains]; NULL: for the undeformed element, linear in the force */
     const double *inner; /* in: [inner] */
     double *sigma;       /* as `stress`, under the force; linear case: for fixed nodes */
@@ -70,9 +70,9 @@ typedef struct along_output {
     double *mixed;    /* [strains x 3] derivative of sigma with respect to the rotation [N]; linear
                          case: only with H */
     double *followed; /* [inner x 3] derivative of the inner unknowns with respect to the rotation,
-                         which `update` omits; may be NULL */
-    double *H; /* [14 x 14] contribution of the rotations of the nodes to the second derivative of
-                  the energy, in addition to turn^T second turn; exponential chart; may be NULL */
+                       * which `update` does not include; may be NULL */
+    double *H; /* [14 x 14] second derivative of the energy due to the rotations of the nodes,
+                * without turn^T second turn, in the exponential chart; may be NULL */
     double turn[3 * ELEMENT_ALONG_COORDINATES]; /* [3 x 14] */
     double ends[ELEMENT_ALONG_COORDINATES];     /* forces acting directly on the nodes [N, N m] */
     double moment[3]; /* derivative of the energy with respect to the rotation [N m] */

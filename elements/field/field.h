@@ -2,15 +2,17 @@
  * the uniform straight beam without loads, with the shear and non-uniform torsion of its section
  * and the active physics.
  *
- * Two nodes: written as the nodes' values between p and q plus functionals of the deformation modes
- * e of J Eq. 7 (beamw/modes.h), along the mean m_k of the nodes' unit vectors n_k,
+ * With two nodes, the field is the linear interpolation lin() between p and q plus functionals of
+ * the deformation modes e of J Eq. 7 (beamw/modes.h) along m_k, the mean of the unit vectors n_k of
+ * the nodes:
  *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),
  *   n_x = lin(n_x) + m_y (chi_z . e) - m_z (chi_y . e), and so on.
- * e refers to the straight element; for a curved element its initial value describes the shape. The
- * functionals are those of J section 3.2 with the exact twist (beamw/fields.h): because the field
+ * e refers to the straight element; for a curved element, its initial value describes the shape.
+ * The functionals are those of J section 3.2 with the exact twist (beamw/fields.h). Because the
+ * field
  * contains every solution without loads, any load has the correct work on the nodes of an element
- * that is exact without it. Three nodes: Lagrange polynomials for r and n_k, and in r an additional
- * term for the nonlinear part of the rotations,
+ * that is exact without it. With three nodes, r and n_k are Lagrange polynomials, and r has an
+ * additional term for the nonlinear part of the rotations,
  *   (l/3) x (1-x)(1-2x) (n_x^1 - 2 n_x^2 + n_x^3). */
 #ifndef BEAMWORK_FIELD_FIELD_H
 #define BEAMWORK_FIELD_FIELD_H
@@ -21,7 +23,7 @@
 enum { FIELD_NU_Y, FIELD_NU_Z, FIELD_CHI_X, FIELD_CHI_Y, FIELD_CHI_Z, FIELD_FUNCTIONALS };
 enum { FIELD_MODES = 8 };
 
-/* At a point x in [0, 1], or integrated over points. */
+/* Weights and functionals at a point x in [0, 1], or their integrals. */
 typedef struct field_rows {
     double part[ELEMENT_MAX_NODES]; /* weights of r and n_k of the nodes */
     double lean[ELEMENT_MAX_NODES]; /* three nodes: weights of n_x in r [m] */
@@ -42,36 +44,36 @@ typedef struct displacement_field {
  * their constants. */
 void field_prepare(const element_request *, int nodes, displacement_field *);
 void field_at(const displacement_field *, double x, field_rows *);
-/* Computes psi . e: the warping amplitude [1/m], for two nodes. */
+/* Computes psi [1/m], where psi . e is the warping amplitude, for two nodes. */
 void field_warping_at(const displacement_field *, double x, double psi[FIELD_MODES]);
-/* Returns the section with the shear flexibility of the active physics. */
+/* Returns the section of the request with the shear flexibility of the active physics. */
 section field_section(const element_request *);
-/* out += size times the rows at a point. */
+/* Adds size times the rows at a point to `out`. */
 void field_gather(double size, const field_rows *at, field_rows *out);
 
 enum { FIELD_MOST_POINTS = BEAMW_TWIST_MAX_POINTS };
 /* Computes points and weights that integrate the functionals times polynomials over [from, to] in
- * [0, 1]; returns their number. */
+ * [0, 1]. Returns the number of points. */
 int field_points(const displacement_field *, double from, double to, double x[FIELD_MOST_POINTS],
                  double weight[FIELD_MOST_POINTS]);
 
-/* Loads at one point. */
+/* Load at one point. */
 typedef struct field_load {
     double force[3], moment[3]; /* [N, N m] in global axes; follower: in axes of the section */
     double arm[3]; /* from the line to the point of application, in axes of the section [m] */
     int follower;
 } field_load;
 
-/* forces[7 nodes] += generalised forces of the loads on the coordinates of the nodes, K[7 nodes x 7
- * nodes] -= their derivative in the exponential chart (may be NULL); symmetric for forces in global
- * axes, which have a potential. rows[count]: points where the loads act; loads on the line without
- * an arm may be integrated. */
+/* Adds the generalised forces of the loads on the coordinates of the nodes to forces[7 nodes].
+ * Subtracts their derivative in the exponential chart from K[7 nodes x 7 nodes] (may be NULL); it
+ * is symmetric for forces in global axes, which have a potential. rows[count]: the points where the
+ * loads act; for loads on the line without an arm, the rows may be integrals. */
 void field_add_loads(const displacement_field *, const node_state x[], int count,
                      const field_rows rows[], const field_load load[], double forces[], double K[]);
 
-/* Mass along an element on the displacement field. Two nodes: the consistent mass of the field; its
- * frequencies converge with order 4 in slender bending, and with the correction for the motion
- * inside the element (below) with order 4 in any motion of a straight member. Three nodes: lumped
+/* Mass along an element that moves with the displacement field. Two nodes: the consistent mass of
+ * the field. Frequencies converge with order 4 in slender bending and, with the correction for the
+ * motion inside the element (below), in any motion of a straight member. Three nodes: mass lumped
  * by Simpson's rule, of order 4. */
 
 typedef struct field_mass {
@@ -80,8 +82,8 @@ typedef struct field_mass {
     lumped_mass lumped;  /* three nodes: lumped mass of the whole element */
 } field_mass;
 
-/* Order of frequencies without prestress, for two nodes and a stiffness that is exact without
- * loads; the highest order is that of slender bending. */
+/* Orders of convergence of frequencies without prestress, for two nodes and a stiffness that is
+ * exact without loads. The highest order is that of slender bending. */
 #define FIELD_MASS_ORDER ((element_order){4, 8})
 
 /* nodes: number of nodes. */
@@ -91,15 +93,16 @@ status field_mass_inertia(const field_mass *, const node_state x[], const elemen
 
 enum { FIELD_INNER = 2 * NODE_COORDINATES };
 
-/* Effect of the deviation of the mass of a straight two-node element from the motion of the field:
- * a motion v of the nodes [14, in the axes of the element] of the eigenvalue lambda = omega^2 obeys
+/* Computes B, the effect of the motion of a straight two-node element relative to the field. A mode
+ * v of the nodes [14, in the axes of the element] with the eigenvalue lambda = omega^2 obeys
  *   v . K v = lambda v . M v + lambda^2 v . B v + O(lambda^3),   B = M_bu^T K_bb^-1 M_bu,
  * where b are the displacements between fixed ends. B is the flexibility of the element with fixed
  * ends under the inertia of its static field, twice the complementary energy
  *   min over r: int s . C s dx,   s = s_p v + s_r r,
- * of resultants s_p in equilibrium with that inertia and those s_r of forces at the ends, and of
- * bimoments, alone. B [14 x 14, kg s^2 and with m for each rotation, likewise warping], symmetric
- * and positive; zero for sections with coupled matrices, and where a stiffness is zero. */
+ * where the resultants s_p are in equilibrium with that inertia, and s_r are due to forces and
+ * bimoments at the ends alone. B [14 x 14] is symmetric and positive semidefinite, in kg s^2 times
+ * m for each rotation, likewise for warping. It is zero for sections with coupled matrices and if a
+ * stiffness is zero. */
 void field_inner(const element_request *, const displacement_field *,
                  double B[FIELD_INNER * FIELD_INNER]);
 

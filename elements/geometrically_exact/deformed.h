@@ -12,7 +12,7 @@
  *
  * A rotation of node k by the spatial increment theta gives q_k -> exp(theta/2) q_k: first
  * derivative 1/2 theta q_k, second -1/4 |theta|^2 q_k; A = N_k a_k theta, D = N'_k a_k theta. The
- * caller chooses the unit of length. In lanes (real.h). */
+ * caller chooses the unit of length. For one element or several in lanes (real.h). */
 #ifndef BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 #define BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 
@@ -30,12 +30,12 @@ typedef struct exact_point {
     real v[3];     /* y in the axes of the section */
 } exact_point;
 
-/* Effect of the rotation of one node at the point. */
+/* Effect of the rotation of one node on the values at the point. */
 typedef struct exact_point_turn {
     real c[4];             /* u^-1 q */
     real a[12];            /* [4 x 3] */
     real kappa[9], v[9];   /* derivatives of kappa and v with respect to theta, rows */
-    real twice[12], by[9]; /* exact_point_second: right factors of its products */
+    real twice[12], by[9]; /* right factors of the products in exact_point_second */
 } exact_point_turn;
 
 /* ab = a^-1 o b */
@@ -61,7 +61,8 @@ static inline void exact_point_axes(const real q[4], real R[9])
     R[8] = 1 - 2 * (x * x + y * y);
 }
 
-/* Computes the point. q [nodes][4], N and dN [nodes]. */
+/* Computes the values at the point from the quaternions q [nodes][4] and the interpolation N and dN
+ * [nodes]. */
 static inline void exact_point_at(int nodes, real q[][4], const double N[], const double dN[],
                                   const real y[3], exact_point *p)
 {
@@ -150,8 +151,8 @@ static inline void exact_point_second(const exact_point *p, const real n[3], con
     mat3_add_transpose_mul(turned, Z, t->by);
 }
 
-/* H += second derivative for nodes k and l [3 x 3]; the derivative with respect to y is N_k
- * t_k->by. */
+/* Adds the second derivative for nodes k and l [3 x 3] to H. The mixed derivative with respect to y
+ * is N_k t_k->by. */
 static inline void exact_point_add_second(const real n[3], const double N[], const double dN[],
                                           int k, int l, const exact_point_turn t[], real H[9])
 {
@@ -187,11 +188,11 @@ static inline real exact_point_curved(const exact_point *p, const real n[3], con
     return -0.25 * sum / p->m;
 }
 
-/* The strains of exact.h with their derivatives.  In lanes (real.h). */
+/* The strains of exact.h with their derivatives, in lanes (real.h). */
 
 enum { EXACT_DEFORMED_PAIRS = ELEMENT_MAX_NODES * (ELEMENT_MAX_NODES + 1) / 2 };
 
-/* Values derived from the nodes' states, once per evaluation. */
+/* Values derived from the states of the nodes once per evaluation. */
 typedef struct exact_deformed_nodes {
     real q[ELEMENT_MAX_NODES][4];
     real r[ELEMENT_MAX_NODES][3], u[ELEMENT_MAX_NODES][3]; /* per l0 */
@@ -200,11 +201,11 @@ typedef struct exact_deformed_nodes {
 /* Values of all points. */
 typedef struct exact_deformed {
     real e[EXACT_STRAIN_MAX_POINTS][6];
-    /* blocks of J: of v with respect to r, and l0 times those of v and of the measured kappa with
-     * respect to theta */
+    /* blocks of J: derivatives of v with respect to r, and l0 times the derivatives of v and of the
+     * measured kappa with respect to theta */
     real axes[EXACT_STRAIN_MAX_POINTS][9], v[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES][9],
         kappa[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES][9];
-    /* blocks of H: of theta with theta, k <= l, and of theta with r */
+    /* blocks of H: for theta and theta, k <= l, and for theta and r */
     real turns[EXACT_DEFORMED_PAIRS][9], moves[ELEMENT_MAX_NODES][ELEMENT_MAX_NODES][9];
 } exact_deformed;
 
@@ -223,8 +224,8 @@ static inline void exact_deformed_observe(int nodes, const exact_strain_line *li
     exact_point_at(nodes, s->q, line->N[g], line->dN[g], y, p);
 }
 
-/* Computes v - v0; the part along x follows from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, which avoids
- * cancellation for small elongations. */
+/* Computes v - v0. The component along x follows from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, which
+ * avoids cancellation for small elongations. */
 static inline void exact_deformed_stretch(const real v[3], const double v0[3], const real y[3],
                                           const real dy[3], real e[3])
 {
@@ -278,7 +279,7 @@ static inline void exact_deformed_second(int nodes, const exact_strain_line *lin
     }
 }
 
-/* s [strains]: stresses, or NULL. */
+/* Evaluates the strains and their derivatives. s [strains]: stresses for H, or NULL. */
 static inline __attribute__((always_inline)) void
 exact_deformed_evaluate(int nodes, const exact_strain_line *line, exact_deformed_nodes *state,
                         int first, const real s[], exact_deformed *out)
@@ -395,7 +396,7 @@ static inline void exact_deformed_write_second(int nodes, exact_deformed *d, int
         }
 }
 
-/* Evaluates with `nodes` nodes. */
+/* Evaluates `run` elements with `nodes` nodes each. */
 static inline __attribute__((always_inline)) void exact_deformed_run(int nodes,
                                                                      const exact_strain_line *line,
                                                                      int run, const node_state x[],

@@ -1,4 +1,5 @@
-/* Geometrically exact elements: strains, energy and warping, and several elements at once. */
+/* Geometrically exact elements: strains, energy, warping, and evaluation of several elements at
+ * once. */
 #ifndef BEAMWORK_GEOMETRICALLY_EXACT_EXACT_H
 #define BEAMWORK_GEOMETRICALLY_EXACT_EXACT_H
 
@@ -6,7 +7,7 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/beam_constants.h"
 
-/* Polynomials on the unit interval: Lagrange's basis.  All dimensionless. */
+/* Lagrange polynomials on the unit interval. All values are dimensionless. */
 
 /* Computes L[n], dL[n] (may be NULL): Lagrange polynomials on the points p[n] and their derivatives
  * at x. */
@@ -22,11 +23,11 @@ typedef enum exact_measure_kind {
     EXACT_MEASURE_EIGHTH   /* 8 tan(angle/8) */
 } exact_measure_kind;
 
-/* Computes the factor m of 4 y that gives the angle, y = tan(angle/4), and its first and second
- * derivative with respect to t = y^2. */
+/* Computes the factor m for which 4 m y is the angle, with y = tan(angle/4), and its first and
+ * second derivatives with respect to t = y^2. */
 void exact_measure_angle(double t, double m[3]);
 
-/* As above for the requested kind, with x of the first kind. */
+/* Computes the same three values for the requested kind; x is a measure of the first kind. */
 static inline void exact_measure_ratio(exact_measure_kind kind, const real x[3], real m[3])
 {
     const real t = vec3_dot(x, x) * (1.0 / 16);
@@ -69,10 +70,10 @@ static inline void exact_measure_second(const real m[3], const real x[3], const 
     }
 }
 
-/* Strains of the Simo-Reissner beam at points of an element whose nodes' quaternions are
- * interpolated (deformed.h): e[6 g ..] = l0 (gamma_x, gamma_y, gamma_z), gamma = R^T r' - e_x, and
- * l0^2 (kappa_x, kappa_y, kappa_z), at point g, e[6 points ..] = l0^2 a of every node, all in [m],
- * minus their values in the undeformed (curved) state. */
+/* Strains of the Simo-Reissner beam at points of an element, with interpolated quaternions of the
+ * nodes (deformed.h). At point g, e[6 g ..] are l0 (gamma_x, gamma_y, gamma_z), gamma = R^T r' -
+ * e_x, and l0^2 (kappa_x, kappa_y, kappa_z). e[6 points ..] are l0^2 a of every node. All are in
+ * [m] and relative to their values in the undeformed (curved) state. */
 
 enum { EXACT_STRAIN_MAX_POINTS = 2 };
 
@@ -86,8 +87,8 @@ typedef struct exact_strain_line {
     double rest[EXACT_STRAIN_MAX_POINTS][6];    /* R^T r' and l0 kappa undeformed, dimensionless */
 } exact_strain_line;
 
-/* Prepares Gauss points between evenly spaced nodes; constant initial curvature [1/m] and strain.
- * The values of the stress-free element at the points count as zero strain, for any arc. */
+/* Prepares Gauss points between evenly spaced nodes, for constant initial curvature [1/m] and
+ * strain. The values at the points of the stress-free element count as zero strain, for any arc. */
 void exact_strain_prepare(int nodes, int points, double l0, const double curvature[3],
                           const double strain[3], exact_measure_kind rotation,
                           exact_strain_line *line);
@@ -105,8 +106,8 @@ void exact_strain_prepare(int nodes, int points, double l0, const double curvatu
  *     is its linear part (MacNeal's residual bending flexibility): the linear element is exact for
  *     end loads, also when it is rigid in shear. With three nodes it is the quadratic part (derived
  *     here), only for sections that are rigid in shear, which would otherwise have no shear
- *     flexibility. It compares Q with the slope of M in section axes, which differ by kappa x M:
- *     the order is four in a plane and two in space. */
+ *     flexibility. Q is compared with the slope of M in section axes. The two differ by kappa x M,
+ * so that the order is four in a plane and two in space. */
 
 enum {
     EXACT_STIFFNESS_MAX_STRAINS = 6 * EXACT_STRAIN_MAX_POINTS + ELEMENT_MAX_NODES,
@@ -118,12 +119,13 @@ typedef struct exact_stiffness {
     double l0;
     int modified;                                                        /* 0: ebar = e */
     double S[EXACT_STIFFNESS_MAX_STRAINS * EXACT_STIFFNESS_MAX_STRAINS]; /* [N/m] */
-    /* Strains on which the twist rate depends; they are few. */
+    /* Strains on which the twist rate depends. */
     int twisting, place[EXACT_STIFFNESS_MAX_STRAINS], order[EXACT_STIFFNESS_MAX_STRAINS]; /* -1 */
     double Q[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS]
             [EXACT_STIFFNESS_MAX_STRAINS];    /* [1/m], for these strains: mean of kappa_x^2 about a
                                                  point */
-    double r[3];                              /* on gamma_x, kappa_y, kappa_z of the point */
+    double r[3];                              /* factors of gamma_x, kappa_y, kappa_z at the
+                                               * point */
     double torque[EXACT_STIFFNESS_MAX_FIELD]; /* weight of kappa_x^4 [N/m^3] */
     double twist[EXACT_STIFFNESS_MAX_FIELD]
                 [EXACT_STIFFNESS_MAX_STRAINS]; /* for these strains: l0^2 kappa_x = twist . e */
@@ -131,7 +133,7 @@ typedef struct exact_stiffness {
     double coupling[EXACT_STRAIN_MAX_POINTS][EXACT_STRAIN_MAX_POINTS]; /* r_g . S r_h */
 } exact_stiffness;
 
-/* Head of the element_data of elements with strains at Gauss points. */
+/* First part of the element_data of elements with strains at Gauss points. */
 typedef struct exact_gauss {
     exact_strain_line line;
     exact_stiffness stiffness;
@@ -145,7 +147,8 @@ status exact_stiffness_stress(const exact_stiffness *k, const double e[], stress
 void exact_stiffness_geometric(const exact_stiffness *k, const double sigma[], double G[]);
 
 /* Variables of the energy of an element with strains at Gauss points, and the elimination of fields
- * that do not depend on the nodes (reasons above). Dimensionless (beam_constants.h). */
+ * that do not depend on the nodes (reasons above). All values are dimensionless
+ * (beam_constants.h). */
 
 enum {
     EXACT_FIELDS_MAX_BUBBLES = EXACT_STRAIN_MAX_POINTS, /* of the warping amplitude */
@@ -154,7 +157,7 @@ enum {
     EXACT_FIELDS_MAX_ALL = EXACT_FIELDS_MAX_FREE + EXACT_FIELDS_STRESSES * EXACT_STRAIN_MAX_POINTS
 };
 
-/* Before elimination: strains, bubbles, stresses. */
+/* The energy before elimination, with the variables in the order strains, bubbles, stresses. */
 typedef struct exact_fields {
     int nodes, points, strains, warping_bubbles, free, all, field;
     double x[EXACT_STRAIN_MAX_POINTS], w[EXACT_STRAIN_MAX_POINTS]; /* points of the strains */
@@ -178,31 +181,31 @@ int exact_fields_eliminate(const exact_fields *f, double X[]);
 /* Sections given by matrices (elements/section/section.h) in the elements of this folder: energy
  * 1/2 (gamma, kappa) . C (gamma, kappa) per length, without other terms. */
 
-/* Computes S [strains x strains] [N/m] for Gauss points that each represent their part. With one
- * point, the moment is linear along the element with the slope M' = -e_x x N, which adds the
- * flexibility int M' . (C^-1) M' to the flexibility of the forces, so that end loads are
+/* Computes S [strains x strains] [N/m] for Gauss points that each represent a part of the element.
+ * With one point, the moment is linear along the element with the slope M' = -e_x x N, which adds
+ * the flexibility int M' . (C^-1) M' to the flexibility of the forces, so that end loads are
  * represented exactly. Warping amplitudes have no stiffness. */
 status exact_coupled_stiffness(const beam_constants *c, int points, int strains, double length,
                                double S[], fault *f);
 
 /* Energy of non-uniform torsion along an element with given twist rates at Gauss points. The
  * warping amplitude a(x) may be any function with the given values at the ends. With P the
- * projection on the polynomials represented by the points, the twist rate is P kappa + a - P a, and
- * without warping shear P kappa = P a. Given kappa at the points the best a is a polynomial plus
- * the two boundary layers exp(-lambda x), exp(-lambda (1 - x)), lambda^2 = GJ/EIw, so that long
- * elements need no refinement at their ends (derived here). All of this is linear and eliminated in
- * advance. Dimensionless (beam_constants.h). */
+ * projection on the polynomials represented by the points, the twist rate is P kappa + a - P a;
+ * without warping shear, P kappa = P a. For given kappa at the points, the a of least energy is a
+ * polynomial plus the two boundary layers exp(-lambda x) and exp(-lambda (1 - x)), lambda^2 =
+ * GJ/EIw. Long elements therefore need no refinement at their ends (derived here). All equations
+ * are linear, and a is eliminated in advance. All values are dimensionless (beam_constants.h). */
 
 enum { EXACT_WARPING_MAX_STAGES = 8, EXACT_WARPING_MAX = EXACT_WARPING_MAX_STAGES + 2 };
 
-/* Computes the energy 1/2 z . S z in addition to GJ kappa^2/2 at the points, with z = (twist rate
- * minus the shear due to Q_y and Q_z, at the stages; amplitude at p, at q). x, w [stages]: Gauss
- * points and weights. */
+/* Computes S of the energy 1/2 z . S z, which is added to GJ kappa^2/2 at the points. z contains
+ * the twist rate minus the shear due to Q_y and Q_z at each stage, then the amplitudes at p and at
+ * q. x, w [stages]: Gauss points and weights. */
 void exact_warping_energy(const beam_constants *c, int stages, const double x[], const double w[],
                           double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX]);
 
-/* Strains of one exact element; the second function is for processors with AVX2, with the same bits
- * (elements/math/real.h). */
+/* Strains of one exact element. The second function is for processors with AVX2 and gives
+ * bit-for-bit the same result (elements/math/real.h). */
 
 typedef void exact_alone_strains(const exact_strain_line *, const node_state x[], strain_output *);
 
@@ -218,7 +221,7 @@ typedef void exact_lanes_stresses(int count, const element_data *const data[],
                                   const double *const e[], const double *const inner[],
                                   stress_output out[], status outcome[]);
 
-/* For data that begin with exact_gauss. */
+/* Strains and stresses for data that begin with exact_gauss. */
 exact_lanes_strains exact_lanes_gauss_strain_plain, exact_lanes_gauss_strain_avx2;
 exact_lanes_stresses exact_lanes_gauss_stress_plain, exact_lanes_gauss_stress_avx2;
 

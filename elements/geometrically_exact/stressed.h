@@ -1,4 +1,4 @@
-/* Stresses of the energy of exact.h.  In lanes (real.h). */
+/* Stresses that follow from the energy of exact.h, in lanes (real.h). */
 #ifndef BEAMWORK_EXACT_STRESSED_H
 #define BEAMWORK_EXACT_STRESSED_H
 
@@ -7,14 +7,14 @@
 #include "elements/geometrically_exact/exact.h"
 #include "elements/math/real.h"
 
-/* Per lane: stresses, energy, and the difference C - S in the rows of strains that affect the
- * twist. */
+/* In each lane: the stresses, the energy, and the difference C - S in the rows of strains that
+ * affect the twist. */
 typedef struct exact_stressed {
     real stress[EXACT_STIFFNESS_MAX_STRAINS], energy;
     real more[EXACT_STIFFNESS_MAX_STRAINS][EXACT_STIFFNESS_MAX_STRAINS];
 } exact_stressed;
 
-/* Returns the position of r_i of point g among the strains. */
+/* Returns the position among the strains of the strain that r[i] of point g multiplies. */
 static inline int exact_stressed_entry(int g, int i)
 {
     return 6 * g + (i == 0 ? 0 : 3 + i);
@@ -48,7 +48,8 @@ static inline void exact_stressed_torque(const exact_stiffness *k, const real tw
     }
 }
 
-/* Computes t_g = Q_g e and e . t_g/2, which change elongation and bending: e becomes ebar. */
+/* Computes t_g = Q_g e, and replaces e by ebar: adds e . t_g/2 times r_g to the elongation and the
+ * bending strains. */
 static inline void exact_stressed_lengthen(const exact_stiffness *k, const real twisting[],
                                            real t[][EXACT_STIFFNESS_MAX_STRAINS], real e[])
 {
@@ -65,8 +66,8 @@ static inline void exact_stressed_lengthen(const exact_stiffness *k, const real 
     }
 }
 
-/* C = S + S r_g t_g^T + t_g (S r_g)^T + t_g (r_g . S r_h) t_h^T + tau_g Q_g: rows of strains that
- * affect the twist, for columns of these up to the diagonal. */
+/* Computes C = S + S r_g t_g^T + t_g (S r_g)^T + t_g (r_g . S r_h) t_h^T + tau_g Q_g in the rows of
+ * the strains that affect the twist; in the columns of these strains, only up to the diagonal. */
 static inline void exact_stressed_tangent(const exact_stiffness *k,
                                           real t[][EXACT_STIFFNESS_MAX_STRAINS], const real tau[],
                                           exact_stressed *out)

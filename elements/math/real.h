@@ -1,7 +1,8 @@
-/* A value for several elements at once, one in each lane. Define LANES before this header, in files
- * that are compiled once for one element and once for several. Each lane performs the operations in
- * the order of the source, so that results are bit-for-bit equal for every number of lanes. An
- * array of reals in lanes is not an array of doubles: use real_put and real_lane for access.
+/* The type `real`: a number for each of several elements, one in each lane. Define LANES before
+ * this header, in files that are compiled once for one element and once for several. Each lane
+ * performs the operations in the order of the source, so that results are bit-for-bit equal for
+ * every number of lanes. An array of reals in lanes is not an array of doubles: use real_put and
+ * real_lane for access.
  *
  * The Makefile compiles some files a second time for processors with AVX2, with REAL_AVX2 defined:
  * REAL_NAMED makes the names of their functions, and callers use REAL_CHOSEN. */
@@ -116,7 +117,7 @@ static inline real real_abs(real a)
     return real_choose(a < 0, -a, a);
 }
 
-/* Is it true in any lane? */
+/* Returns 1 if the condition is true in any lane. */
 static inline int real_any(real_truth t)
 {
     int any = 0;
@@ -131,7 +132,7 @@ static inline void real_zero(int n, real a[])
         a[i] = real_of(0);
 }
 
-/* Functions of libm, lane by lane, as for a single element. */
+/* Functions of libm, called lane by lane, so that results equal those for a single element. */
 static inline real real_atan2(real y, real x)
 {
     real angle = y;

@@ -9,7 +9,8 @@
 
 enum { REAL_WIDEST = 11 };
 
-/* out[width] += sum_l c[l stride] row l of rows, with row length n, in this order. If the width is
+/* Adds to out[width] the sum over l of c[l stride] times row l of rows (row length n), in ascending
+ * l. If the width is
  * a compile-time constant, sums stay in registers. */
 static inline __attribute__((always_inline)) void
 real_add_row(int count, int width, const real *c, int stride, const real *rows, int n, real *out)
@@ -26,8 +27,8 @@ real_add_row(int count, int width, const real *c, int stride, const real *rows, 
         out[j] = sum[j];
 }
 
-/* K(n x n) += J^T S J for columns and rows from `first` on, with J(m x n), S(m x m), in pieces of
- * `width`, a divisor of n - first; SJ(m x n) is overwritten there. */
+/* K(n x n) += J^T S J for columns and rows from `first` on, with J(m x n) and S(m x m), in pieces
+ * of `width` columns, a divisor of n - first. SJ(m x n) is overwritten in these columns. */
 static inline __attribute__((always_inline)) void real_add_congruence(int m, int n, int first,
                                                                       int width, const real *J,
                                                                       const real *S, real *SJ,
@@ -44,8 +45,8 @@ static inline __attribute__((always_inline)) void real_add_congruence(int m, int
     }
 }
 
-/* Cholesky A = L L^T in place (lower triangle, n x n). Returns the lanes in which A is positive
- * definite. */
+/* Cholesky factorisation A = L L^T in place (lower triangle, n x n). Returns the lanes in which A
+ * is positive definite. */
 static inline real_truth real_cholesky(int n, real *A)
 {
     real_truth good = real_true();

@@ -34,26 +34,28 @@ void rotation_from_matrix(const double R[9], double q[4]);
 void rotation_apply(const double q[4], const double v[3], double Rv[3]); /* Rv may alias v */
 /* Computes the spatial increment from `from` to `to`: log(to o conj(from)). */
 void rotation_between(const double from[4], const double to[4], double phi[3]);
-/* Computes the triad with its x axis along `x` and its y axis along the part of `y` normal to it.
- * Returns 0, or -1 if x is zero or y is parallel to it. */
+/* Computes the triad whose x axis is along `x` and whose y axis is along the component of `y`
+ * normal to `x`. Returns 0, or -1 if x is zero or y is parallel to x. */
 int rotation_triad(const double x[3], const double y[3], double R[9]);
 
 /* An arc along which the triad rotates at a constant rate. */
 
-/* Computes a point of the arc. rotation [rad]: constant torsion and curvature of the arc times its
- * length. In the axes at its start q = exp(x rotation~) and r = int_0^x exp(t rotation~) e dt, 0 <=
- * x <= 1; e: direction of the axis in the rotating triad, (1, 0, 0) except for initial strains. */
+/* Computes a point of the arc of unit length. rotation [rad]: constant torsion and curvature of the
+ * arc times its length. In the axes at its start, q = exp(x rotation~) and r = int_0^x exp(t
+ * rotation~) e dt, 0 <= x <= 1; e: direction of the axis in the rotating triad, (1, 0, 0) except
+ * for initial strains. */
 void arc_at(const double rotation[3], const double e[3], double x, double r[3], double q[4]);
-/* Computes r of arc_at minus the value without rotation, x e. */
+/* Computes r of arc_at minus x e, which is its value without rotation. */
 void arc_beyond(const double rotation[3], const double e[3], double x, double r[3]);
 
-/* Rigid connection of a point to the body that moves it. Offset rho: dr = dr_b + theta x rho.
- * Second derivatives in the exponential chart: d2(F . rho)/dtheta2 = sym(F rho^T) - (F . rho) I. */
+/* Rigid connection of a point to the body that moves it. With the offset rho, dr = dr_b + theta x
+ * rho. Second derivatives in the exponential chart: d2(F . rho)/dtheta2 = sym(F rho^T) - (F . rho)
+ * I. */
 
-/* Transforms force[6: force, moment] from the point to the body. */
+/* Transforms force[6] (force, moment) from the point to the body. */
 void offset_force(const double rho[3], double force[6]);
-/* Transforms K[n x n] with the coordinates of the point at `at`: K <- A^T K A, plus the second
- * derivatives for the gradient `force` of the potential on the point (NULL: without these). */
+/* Replaces K[n x n] by A^T K A, where the coordinates of the point start at `at`. Adds the second
+ * derivatives for the gradient `force` of the potential at the point, unless it is NULL. */
 void offset_matrix(int n, int at, const double rho[3], const double force[3], double K[]);
 
 #endif

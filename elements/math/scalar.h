@@ -12,11 +12,11 @@ static inline double larger(double a, double b)
     return a >= b || isnan(a) ? a : b;
 }
 
-/* Gauss-Legendre quadrature with GSL's tables, which the first call in a process prepares. */
+/* Gauss-Legendre quadrature with the tables of GSL. The first call in a process prepares them. */
 
 enum { QUADRATURE_MAX_POINTS = 64 };
 
-/* Returns 1 for 1 to 20, 32 or 64 points, whose tables are accurate to all digits. */
+/* Returns 1 for n from 1 to 20, 32 and 64, whose tables are accurate to all digits. */
 int quadrature_is_tabulated(int n);
 
 /* Computes n points x[n] in ascending order and weights w[n] on [0, 1], exact for polynomials of

@@ -21,7 +21,7 @@ static inline real vec3_norm(const real a[3])
     return real_hypot(real_hypot(a[0], a[1]), a[2]);
 }
 
-/* Returns |d| - l0 for d = d0 + moved, |d0| = l0: (2 d - moved) . moved/(|d| + l0), which avoids
+/* Returns |d| - l0 for d = d0 + moved, |d0| = l0. The form (2 d - moved) . moved/(|d| + l0) avoids
  * cancellation. */
 static inline real vec3_elongation(const real d[3], const real moved[3], double l0)
 {

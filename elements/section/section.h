@@ -27,13 +27,16 @@ typedef struct section {
     double Ip;            /* polar moment Iy + Iz about the centroid [m^4] */
     double wagner_y;      /* int y (y^2 + z^2) dA [m^5] */
     double wagner_z;      /* int z (y^2 + z^2) dA [m^5] */
-    double wagner_torque; /* c of the energy E c kx^4 per length [m^6]: 1/8 int q^2 dA, where q is
-                             the part of y^2 + z^2 beyond shortening and bending strains; w^5 t /
+    double wagner_torque; /* c of the energy E c kx^4 per length [m^6]. c = 1/8 int q^2 dA, where q
+                           * is the part of y^2 + z^2 that axial and bending strains cannot
+                           * represent; w^5 t /
                              1440 for a sheet (N Eq. 46) */
     double D[9]; /* shear rigidities / G, order y, z, omega [m^2, m^2, m^4; m^3 off the diagonal]:
                     (Qy, Qz, Mw) = G D (gy, gz, gw) */
-    double F[9]; /* D^-1, stored because it exists if D would be infinite (F = 0: rigid in shear) */
-    double axes_angle;              /* beta [rad]: principal y axis from the wall y axis */
+    double F[9]; /* D^-1, which also exists for a section that is rigid in shear (F = 0, D
+                  * infinite) */
+    double axes_angle;              /* beta [rad]: angle from the wall y axis to the principal y
+                                     * axis */
     double centroid[2];             /* in wall coordinates [m] */
     int matrices;                   /* 1: a section given by matrices */
     double stiffness[36], mass[36]; /* for such a section, otherwise zero */
@@ -62,8 +65,8 @@ typedef enum section_zero {
     SECTION_ZERO_WAGNER_TORQUE = 1 << 4
 } section_zero;
 
-/* Constants that a section may give instead of those of its shape (values of a printed table,
- * fillets that thin walls do not have). A, Iy, Iz and beta: only for walls. */
+/* Constants that a section may specify instead of those computed from its shape (values of a
+ * published table, fillets that thin walls do not have). A, Iy, Iz and beta: only for walls. */
 #define SECTION_GIVEN(X)                                                                           \
     X(A)                                                                                           \
     X(Iy)                                                                                          \
@@ -76,8 +79,8 @@ typedef struct section_spec {
     unsigned zeros;                       /* SECTION_ZERO_... */
     double young, shear_modulus, density; /* [Pa, Pa, kg/m^3] */
     int points, walls;
-    int cells; /* number of cells that the walls close; a wall that closes a further cell is
-                  rejected */
+    int cells; /* number of cells that the walls close; a wall that closes another cell is
+                * rejected */
     double point[SECTION_MAX_POINTS][2]; /* (y, z) [m] */
     struct {
         int from, to;
@@ -88,14 +91,14 @@ typedef struct section_spec {
     double width, height; /* rectangle: along z and along y [m] */
     double shear_factor[2]; /* rectangle: k for Qy and Qz; 0: 5/6 from the thickness terms; both 0:
                                also the shear due to warping */
-    int sheet_warping; /* rectangle: Iw = w^3 t^3/144 (same) and It = exact Saint-Venant series in
-                          either case */
+    int sheet_warping; /* rectangle: Iw = w^3 t^3/144 (same). It is the exact Saint-Venant series in
+                        * either case */
     double expansion;  /* [1/K] */
     double diameter,
         wall_thickness; /* tube: outer diameter; wall_thickness of half of it: a solid bar [m] */
     section constants;  /* SECTION_CONSTANTS: used as given; D or F is required. SECTION_MATRICES:
                            stiffness and mass; no material */
-    /* These replace computed values; NAN: keep the computed value. An Ip that is not given is Iy +
+    /* These replace computed values; NAN: keep the computed value. If Ip is not given, it is Iy +
      * Iz. */
     struct {
 #define SECTION_MEMBER(name) double name;
@@ -112,42 +115,42 @@ section_spec section_spec_rectangle(double young, double shear_modulus, double w
                                     double height);
 /* Returns a section whose constants are zero; the caller sets them. */
 section_spec section_spec_constants(double young, double shear_modulus);
-/* Returns an open section with walls + 1 points (y, z) [m]; ends[i]: the points of wall i; NULL: a
- * chain of walls. */
+/* Returns an open section with walls + 1 points (y, z) [m]. ends[i]: indices of the two points of
+ * wall i; NULL: the walls form a chain. */
 section_spec section_spec_walls(double young, double shear_modulus, int walls,
                                 const double point[][2], const int ends[][2],
                                 const double thickness[]);
 
-/* STATUS_REFUSED, with the cause (wall 2, the sum of ..., D's eigenvalue): zero or negative
- * dimensions, too many cells, disconnected walls, unused points, D not positive definite, G or E
- * not positive, NaN. */
+/* Computes the constants. Returns STATUS_REFUSED with the cause if dimensions are zero or negative,
+ * if there are too many cells, disconnected walls or unused points, if D is not positive definite,
+ * if G or E is not positive, or if a value is NaN. */
 status section_compute(const section_spec *spec, section *out, fault *f);
 
-/* Sections given by matrices. With the strains of the Simo-Reissner beam along the line of the
+/* Sections given by matrices. For the strains of the Simo-Reissner beam along the line of the
  * member,
  *   (N, Qy, Qz, Mx, My, Mz) = C (gx, gy, gz, kx, ky, kz),
- * and with the velocity of the line and the angular velocity in section axes v = (vx, vy, vz, wx,
- * wy, wz) the kinetic energy 1/2 v . M v per length (Hodges, Nonlinear Composite Beam Theory, 2006,
- * chapters 4 and 5). Row-major.
+ * and for the velocity of the line and the angular velocity in section axes, v = (vx, vy, vz, wx,
+ * wy, wz), the kinetic energy per length is 1/2 v . M v (Hodges, Nonlinear Composite Beam Theory,
+ * 2006, chapters 4 and 5). Row-major.
  *
- * Other constants are derived for orders of magnitude and for formulations that use constants only:
- * with E = G = 1 Pa, A = C_11, Iy = C_55, Iz = C_66, It = C_44, shear rigidities C_22 and C_33; no
- * warping, and the centroid is on the line. */
+ * Other constants are derived for orders of magnitude and for formulations that use constants only.
+ * With E = G = 1 Pa, they are A = C_11, Iy = C_55, Iz = C_66 and It = C_44, with shear rigidities
+ * C_22 and C_33. There is no warping, and the centroid is on the line. */
 
 /* Largest asymmetry of measured or printed matrices, relative to the diagonal. */
 #define SECTION_MATRICES_SYMMETRIC 1e-6
 
-/* Fills a zeroed section. REFUSED: C not symmetric or not positive definite; M not that of a slice:
- * mass m, centre (0, cy, cz), a moment of inertia about the centre that is not negative, M = [m 1,
- * -m c~; m c~, J]. Deviations within SECTION_MATRICES_SYMMETRIC are corrected. */
+/* Fills a zeroed section. REFUSED: C is not symmetric or not positive definite, or M is not that of
+ * a slice, M = [m 1, -m c~; m c~, J] with mass m, centre c = (0, cy, cz) and nonnegative moments of
+ * inertia about the centre. Deviations within SECTION_MATRICES_SYMMETRIC are corrected. */
 status section_matrices(const section_spec *spec, section *out, fault *f);
 
-/* Do the matrices contain more than constants can represent? Off-diagonal entries of C; where
- * inertia matters, off-diagonal entries of M, and moments of inertia that differ from those of a
+/* Returns 1 if the matrices contain more than constants can represent: off-diagonal entries of C
+ * or, if inertia is 1, off-diagonal entries of M and moments of inertia that differ from those of a
  * section of one material (rotary 1), or any moment of inertia except Jxx (rotary 0). */
 int section_matrices_couple(const section *c, int inertia, int rotary);
 
-/* Computes the centre of mass [m]; (0, 0, 0) without mass. */
+/* Computes the centre of mass [m]; it is (0, 0, 0) without mass. */
 void section_matrices_centre(const section *c, double centre[3]);
 
 /* Tapered members: the dimensions of the section change linearly from one description to another of
@@ -156,15 +159,16 @@ void section_matrices_centre(const section *c, double centre[3]);
  * Every cross-section is that of a prismatic member with its centroid on the line of the member.
  * Shear stresses due to the taper are neglected, as usual in beam theory. */
 
-/* Is a taper between the two descriptions possible? REFUSED: they have different forms (a
- * rectangle, differently connected walls, D for one and F for the other ...). For sections with
- * warping also: the shear centre moves, walls leave their planes, or closed cells differ; the
- * sectorial coordinate of a fibre would then change along the member and couple warping with
- * torsion, which prismatic elements cannot represent. ends: constants of both descriptions. */
+/* Checks that a taper between the two descriptions is possible. REFUSED: the descriptions have
+ * different forms (a rectangle and walls, differently connected walls, D for one and F for the
+ * other ...). Sections with warping are also rejected if the shear centre moves, walls leave their
+ * planes, or closed cells differ: the sectorial coordinate of a fibre would then change along the
+ * member and couple warping with torsion, which prismatic elements cannot represent. ends:
+ * constants of both descriptions. */
 status section_taper_check(const section_spec *p, const section_spec *q,
                            const section *const ends[2], fault *f);
 
-/* Computes the description at x in [0, 1] from p to q. */
+/* Interpolates the description at x, from p at x = 0 to q at x = 1. */
 void section_taper_at(const section_spec *p, const section_spec *q, double x, section_spec *out);
 
 #ifdef __cplusplus

@@ -1,12 +1,12 @@
-/* Stresses at points of a section from the resultants on it.
+/* Stresses at points of a section, computed from its resultants.
  *
- * Included are: along the fibres, N/A - Mz y/Iz + My z/Iy - B omega/Iw and, with the Wagner torque,
- * the additional stress of a fibre at the distance rho from the shear centre due to twist, relative
- * to the section as a whole; normal to the fibres, Saint-Venant torsion (rectangles by the exact
- * series, walls G t kappa at their surfaces, cells their Bredt flow, tubes G R kappa), the flow of
- * Qy, Qz and of the restrained warping in walls, and in rectangles the parabolas 3/2 Q/A and
- * similar ones for warping. Not included are: concentrations at corners, fillets and ends,
- * transverse shear of tubes, and stresses across a wall. */
+ * The normal stress along the fibres includes N/A - Mz y/Iz + My z/Iy - B omega/Iw and, with the
+ * Wagner torque, the additional stress due to twist of a fibre at the distance rho from the shear
+ * centre, relative to the section as a whole. The shear stress includes Saint-Venant torsion
+ * (rectangles by the exact series, walls G t kappa at their surfaces, cells their Bredt flow, tubes
+ * G R kappa), the flow of Qy, Qz and of the restrained warping in walls, and in rectangles the
+ * parabolas 3/2 Q/A and similar ones for warping. The stresses do not include concentrations at
+ * corners, fillets and ends, the transverse shear of tubes, or stresses across a wall. */
 #ifndef BEAMWORK_SECTION_STRESS_H
 #define BEAMWORK_SECTION_STRESS_H
 
@@ -18,8 +18,8 @@ enum { STRESS_MAX_POINTS = 12 * SECTION_MAX_WALLS };
 typedef struct stress_point {
     double y, z;         /* from the centroid, principal axes [m] */
     double omega;        /* warping function, u_x = -omega a [m^2] */
-    double across[4][2]; /* shear stress in y and z per Qy, Qz [1/m^2], M_w [1/m^3] and per G kappa
-                            [m] */
+    double across[4][2]; /* shear stress in y and z per unit Qy and Qz [1/m^2], M_w [1/m^3] and G
+                          * kappa [m] */
 } stress_point;
 
 typedef struct stress_points {
@@ -29,7 +29,7 @@ typedef struct stress_points {
     stress_point point[STRESS_MAX_POINTS];
 } stress_points;
 
-/* Resultants on a section, principal axes, moments about the centroid. */
+/* Resultants on a section in principal axes; moments are about the centroid. */
 typedef struct stress_resultants {
     double N, Qy, Qz, My, Mz, bimoment;
     double warping; /* torque due to restrained warping M_w [N m] */
@@ -43,12 +43,13 @@ typedef enum stress_measure {
     STRESS_NORMAL_MIN
 } stress_measure;
 
-/* Rectangle: corners, midpoints of sides, centre. Wall: ends, middle, and points where y, z or
- * omega is zero (where the flow is largest), on both surfaces. constants: computed from the
- * description. REFUSED: a section given by constants, which has no points. */
+/* Computes the stress points. Rectangle: corners, midpoints of sides, and centre. Wall: ends,
+ * middle, and points where y, z or omega is zero (where the shear flow is largest), on both
+ * surfaces. constants: computed from the description. REFUSED: a section given by constants, which
+ * has no points. */
 status stress_points_of(const section_spec *, const section *constants, stress_points *, fault *);
 
-/* Returns the largest von Mises stress, or the largest or smallest normal stress, over all points
+/* Returns the largest von Mises stress or the largest or smallest normal stress of all points
  * [Pa]. */
 double stress_of(const stress_points *, const stress_resultants *, stress_measure);
 

@@ -1,7 +1,7 @@
 /* Connection of straight thin walls: a spanning tree of their mid-lines, and the walls that close
  * cells.
  *
- * Equilibrium leaves a flow undetermined that is constant around each cell and zero elsewhere;
+ * Equilibrium does not determine a flow that is constant around each cell and zero elsewhere;
  * compatibility of the warping, oint flow/t ds = given, determines it (Bredt 1896; Vlasov,
  * Thin-walled elastic beams, 1961, chapter 4). */
 #ifndef BEAMWORK_SECTION_WALLS_H
@@ -9,24 +9,25 @@
 
 #include "elements/section/section.h"
 
-/* Root: point 0. The first walls - cells entries form the tree, from the root outwards; each of the
- * others closes a cell. */
+/* The root is point 0. The first walls - cells entries form the tree, from the root outwards; each
+ * of the other entries closes a cell. */
 typedef struct section_tree {
-    int wall[SECTION_MAX_WALLS]; /* wall of an entry */
-    int near[SECTION_MAX_WALLS],
-        far[SECTION_MAX_WALLS]; /* its point closer to the root, and the other point */
+    int wall[SECTION_MAX_WALLS];                         /* wall of an entry */
+    int near[SECTION_MAX_WALLS], far[SECTION_MAX_WALLS]; /* the end of this wall that is closer to
+                                                          * the root, and the other end */
     int cells;
     /* [cell][wall]: 1 if the cell contains the wall in the direction from `from` to `to`, -1 in the
      * opposite direction, 0 not at all */
     signed char round[SECTION_MAX_WALLS][SECTION_MAX_WALLS];
 } section_tree;
 
-/* REFUSED: a wall that closes more cells than the section has, too few cells, disconnected walls,
- * an unused point. */
+/* Builds the tree. REFUSED: the walls close more or fewer cells than the section has, walls are
+ * disconnected, or a point is unused. */
 status tree_grow(const section_spec *s, section_tree *t, fault *f);
 
-/* Computes flow[walls], from `from` to `to`: constant around each cell, with oint flow/t ds = oint
- * d(jump), where jump[walls] is the contribution of a wall. Zero in an open section. */
+/* Computes flow[walls], positive from `from` to `to`. The flow is constant around each cell, with
+ * oint flow/t ds = oint d(jump), where jump[w] is the contribution of wall w. It is zero in an open
+ * section. */
 void tree_flow(const section_spec *s, const section_tree *t, const double jump[], double flow[]);
 
 double tree_wall_length(const section_spec *s, int w); /* [m] */
@@ -34,8 +35,8 @@ double tree_wall_length(const section_spec *s, int w); /* [m] */
 /* Shear flow of a thin-walled section, from equilibrium starting at the free ends and, around
  * cells, from compatibility.
  *
- * For normal stress that is linear in y, z and omega along the member, q = -sum over i of Q_i
- * S_i/I_i with the first moments S of y, z and omega (J Eq. 27), Q = (Qy, Qz, Mw), I = (Iz, Iy,
+ * For normal stress that is linear in y, z and omega along the member, q = - sum over i of Q_i
+ * S_i/I_i, with the first moments S of y, z and omega (J Eq. 27), Q = (Qy, Qz, Mw) and I = (Iz, Iy,
  * Iw). */
 
 enum { FLOW_GAUSS = 3 }; /* exact for the polynomials of degree five that occur */
@@ -46,8 +47,8 @@ typedef struct flow_rule {
 
 flow_rule flow_rule_of_three(void);
 
-/* Returns the value at x in [0, 1] of a function that is linear along the wall, from its values at
- * the points. */
+/* Returns the value at x in [0, 1] of a function that is linear along wall w. value: its values at
+ * the points of the section. */
 double flow_along(const section_spec *s, int w, const double value[], double x);
 
 /* Directions of a wall: t along it, n = (tz, -ty) normal to it. */
@@ -71,14 +72,15 @@ void flow_first_moments(const section_spec *s, const section_tree *t, const doub
 double flow_moment(const section_spec *s, const section_tree *t, const double *value[3],
                    const flow_moments q[], int k, int i, double x);
 
-/* Adds int S_i S_j/t ds, plus the share across the thickness about the shear centre `pole`, to sum.
+/* Adds int S_i S_j/t ds, plus the contribution across the thickness about the shear centre `pole`,
+ * to sum.
  * value: y, z and omega at the points. */
 void flow_compliance(const section_spec *s, const section_tree *t, const double *value[3],
                      const double pole[2], double sum[9]);
 
 /* Sections of straight thin walls: one of the ways to fill a section. */
 
-/* Mid-lines in principal axes about the centroid, values at the points. */
+/* Mid-lines in principal axes about the centroid: values at the points. */
 typedef struct walls_lines {
     section_tree tree;
     double y[SECTION_MAX_POINTS], z[SECTION_MAX_POINTS]; /* [m] */
@@ -88,21 +90,22 @@ typedef struct walls_lines {
     double pole[2];                 /* the shear centre [m] */
 } walls_lines;
 
-/* Returns the angle of the principal y axis [rad], the smaller of the two; 0 if every axis is
- * principal. */
+/* Returns the angle of the principal y axis [rad]: the smaller of the two possible angles, or 0 if
+ * every axis is principal. */
 double section_principal_angle(double Iyy, double Izz, double Iyz);
 
-/* Computes the constants of a zeroed section, except shear and moments of higher order; REFUSED as
- * for section_walls. */
+/* Computes the constants of a zeroed section, except those of shear and moments of higher order.
+ * REFUSED in the cases of section_walls. */
 status walls_lines_of(const section_spec *spec, walls_lines *lines, section *out, fault *f);
 
-/* Adds geometry and the shear compliance F to a zeroed section; ignores the material. REFUSED:
+/* Adds the geometric constants and the shear compliance F to a zeroed section, without the
+ * material. REFUSED:
  * closed cell, disconnected wall, unused point, non-positive dimensions, walls on one line. */
 status section_walls(const section_spec *spec, section *out, fault *f);
 
-/* Returns int omega r^2 dA relative to the square root of int omega^2 dA int r^4 dA. It measures a
- * coupling of bimoment and twist that distinguishes the directions of twist; no element includes
- * it. 0 for symmetric sections, and for sections without walls. */
+/* Returns int omega r^2 dA relative to the square root of int omega^2 dA int r^4 dA. This ratio
+ * measures a coupling of bimoment and twist that differs between the two directions of twist; no
+ * element includes it. It is 0 for symmetric sections and for sections without walls. */
 double walls_one_sided(const section_spec *spec);
 
 #endif

@@ -7,7 +7,7 @@
 
 /* Forces in units of EI/l0^2, moments of EI/l0, bimoments of EI, lengths of l0. */
 typedef struct beam_constants {
-    double energy; /* unit of energy EI/l0 [J], EI the smaller one */
+    double energy; /* unit of energy EI/l0 [J], with the smaller EI */
     double EA, EIy, EIz, GJ, EIw;
     double F[9];   /* shear flexibility F/G: (g_y, g_z, g_w) = F (Q_y, Q_z, M_w); zero: rigid */
     double ys, zs; /* shear centre */
@@ -42,7 +42,7 @@ status beam_coupled_of(const section *profile, double l0, double EI, beam_consta
  * number of a failing pivot. */
 int beam_coupled_inverse(int n, const double A[], double inverse[]);
 
-/* Reports that a matrix of an element of that length [m] could not be inverted. */
+/* Reports that a matrix of an element of this length [m] could not be inverted. */
 status beam_coupled_too_stiff(double length, fault *f);
 
 #endif

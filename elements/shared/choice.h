@@ -6,11 +6,12 @@
 
 /* Numbers in user input. */
 
-/* Reads the number at the start of `text`; *end: after it. Returns 0 if there is none, or if it is
- * outside the range of a double: infinite, or below 2.2e-308, where digits would be lost. */
+/* Reads the number at the start of `text` and sets *end to the character after it. Returns 1, or 0
+ * if there is no number or if it is outside the range of a double: infinite, or below 2.2e-308,
+ * where digits would be lost. */
 int number_read(const char *text, const char **end, double *out);
 
-/* Words of a list "a|b|c", and the nearest one to a misspelt word. */
+/* Words of a list "a|b|c", and the candidate nearest to a misspelt word. */
 
 /* Returns the index of `word` in "a|b|c", or -1. */
 int choice_index(const char *choices, const char *word);

@@ -1,7 +1,7 @@
 /* Several elements of one kind at once, one in each lane (elements/math/real.h).
  *
  * A family implements its strains and stresses with node_real, strain_real and stress_real, in
- * headers of static functions. With LANES 1, these are the types of element.h; the functions for a
+ * headers of static functions. If LANES is 1, these are the types of element.h; the functions for a
  * single element include the headers in this form. A file lanes.c defines LANES as LANES_TOGETHER
  * before it includes them, and implements strain_many and stress_many by the functions below; the
  * Makefile compiles it twice. */
@@ -21,7 +21,7 @@ typedef stress_output stress_real;
 
 #else
 
-/* As in element.h. */
+/* Like node_state of element.h, in lanes. */
 typedef struct node_real {
     real r[3], u[3], R[9], a;
 } node_real;
@@ -40,11 +40,11 @@ enum { LANES_INNER = 24, LANES_MEMORY = 600 };
 /* Sizes of a family. */
 typedef struct lanes_sizes {
     int nodes, strains, inner, memory;
-    int relative; /* 1: two nodes whose positions enter only by their difference, so that J and H of
-                     one are minus those of the other, bit for bit */
+    int relative; /* 1: two nodes, of whose positions only the difference matters, so that J and H
+                   * of one node are minus those of the other, bit for bit */
 } lanes_sizes;
 
-/* Returns the number of consecutive elements of one kind, at most LANES. */
+/* Returns the number of elements of the same kind at the start of data[count], at most LANES. */
 static inline int lanes_run(int count, const element_data *const data[])
 {
     int run = 1;
@@ -53,7 +53,7 @@ static inline int lanes_run(int count, const element_data *const data[])
     return run;
 }
 
-/* Copies arrays of one lane each into lanes, and back. */
+/* Copy arrays of one lane each into lanes, and back. */
 static inline void lanes_gather(int n, const double *const from[LANES], real to[])
 {
     for (int i = 0; i < n; i++) {
@@ -82,7 +82,7 @@ typedef real_truth lanes_stress(const element_data *, const real e[], const real
     for (int lane = 0; lane < LANES; lane++)                                                       \
         to[lane] = (run) ? (of) : (unused);
 
-/* Fills unused lanes with the last element of a run. */
+/* Returns the element of the run for a lane: the last one for unused lanes. */
 static inline int lanes_of(int lane, int run)
 {
     return lane < run ? lane : run - 1;
@@ -108,7 +108,7 @@ lanes_gather_arrays(int n, int run, const double *const in[], real to[])
     lanes_gather(n, from, to);
 }
 
-/* Evaluates a run of one kind. */
+/* Evaluates the strains of a run of elements of one kind. */
 static inline __attribute__((always_inline)) void
 lanes_strain_run(lanes_sizes n, lanes_strain *strain, int run, const element_data *data,
                  const node_state x[], strain_output out[])
@@ -144,8 +144,8 @@ lanes_strain_run(lanes_sizes n, lanes_strain *strain, int run, const element_dat
     }
 }
 
-/* As above for stresses, with e[run] and inner[run]. Elements that cannot be evaluated write
- * nothing and return `failure`. */
+/* Evaluates the stresses of a run, with e[run] and inner[run]. Elements that cannot be evaluated
+ * write nothing and return `failure`. */
 static inline __attribute__((always_inline)) void
 lanes_stress_run(lanes_sizes n, lanes_stress *stress, status failure, int run,
                  const element_data *data, const double *const e[], const double *const inner[],
@@ -214,8 +214,8 @@ lanes_stress_many(lanes_sizes n, lanes_stress *stress, status failure, int count
     }
 }
 
-/* Mixed equations of several elements of one kind at once, from strains and stresses in lanes; the
- * sums have the order of harness/newton. */
+/* Mixed equations of several elements of one kind at once, from strains and stresses in lanes. Sums
+ * are formed in the order of harness/newton. */
 
 /* Values computed in lanes. */
 typedef struct lanes_equations {
@@ -252,9 +252,9 @@ lanes_equations_force(int strains, int columns, const real J[], const real s[], 
             out[j] += s[i] * J[i * columns + j];
 }
 
-/* K += J^T C J. For two nodes whose positions enter only by their difference, the entries of the
- * first node's position are minus those of the second, except in the block of both, so that K is as
- * symmetric as H. */
+/* K += J^T C J. If only the difference of the positions of two nodes matters, the entries for the
+ * first position are set to minus those for the second, with the sign of their common block
+ * unchanged, so that K is as symmetric as H. */
 static inline __attribute__((always_inline)) void lanes_equations_stiffness(lanes_sizes n,
                                                                             lanes_equations *q)
 {

@@ -1,4 +1,4 @@
-/* Masses of an element: attached to vectors of its coordinates, and lumped at nodes. */
+/* Masses of an element: attached to vectors that depend on its coordinates, or lumped at nodes. */
 #ifndef BEAMWORK_SHARED_MASSES_H
 #define BEAMWORK_SHARED_MASSES_H
 
@@ -16,16 +16,18 @@ typedef struct moving_vector {
     const double *T; /* [3 x columns] dy/dx, row-major */
 } moving_vector;
 
-/* Zeroes the requested outputs; n coordinates. */
+/* Zeroes the requested outputs of an element with n coordinates. */
 void moving_clear(int n, inertia_output *out);
-/* Adds a mass, without the second derivatives of y, which the caller adds: moving_stiffness -= F .
- * d2y/dx2, where F[3] is the centrifugal force, or zero. Only the upper half of M, N and G is set
- * until moving_complete. */
+/* Adds a mass and sets F[3] to its centrifugal force, or zero. The caller adds the terms of the
+ * second derivatives of y: moving_stiffness -= F . d2y/dx2. Only the upper halves of M, N and G are
+ * set until moving_complete. */
 void moving_add(const moving_vector *v, const element_rotating_frame *frame, int n,
                 inertia_output *out, double F[3]);
-/* Copies the upper halves to the lower ones; call once, after everything has been added. */
+/* Completes the lower halves from the upper ones (G with a minus sign). Call it once, after
+ * everything has been added. */
 void moving_complete(int n, inertia_output *out);
-/* Returns the matrix to which second derivatives of y are added; NULL: not requested. */
+/* Returns the matrix to which the terms of the second derivatives of y are added, or NULL if it is
+ * not requested. */
 static inline double *moving_stiffness(const element_rotating_frame *frame,
                                        const inertia_output *out)
 {
@@ -46,29 +48,30 @@ typedef struct lumped_mass {
     double mass;      /* [kg] */
     double rotary[3]; /* Ip, Iy, Iz about the columns of R [kg m^2] */
     double warping;   /* [kg m^4] */
-    int turns;   /* 1: rotary inertia; 0: a twist has inertia, but no effect of a rotating frame */
+    int turns;   /* 1: rotary inertia; 0: only the twist has inertia, without effects of a rotating
+                  * frame */
     int vectors; /* for a section given by matrices: number of vectors that represent its whole
-                    inertia; 0: none. Otherwise the other members are not used */
+                    inertia; 0: none. If it is not 0, the members above are not used */
     double vector[LUMPED_VECTORS][3],
-        carried[LUMPED_VECTORS]; /* fixed to R, with their masses: the first is the centre of mass
-                                    [m], the others have length 1 or root 2 */
+        carried[LUMPED_VECTORS]; /* vectors fixed to R, with their masses: the first is the centre
+                                  * of mass [m], the others have length 1 or sqrt(2) */
 } lumped_mass;
 
-/* Returns the lumped mass of `length` [m] of beam. For a section given by matrices, all their
- * entries are used. For others, without FEATURE_ROTARY_INERTIA, only translations and the polar
- * moment for the twist are included. */
+/* Returns the lumped mass of `length` [m] of beam. For a section given by matrices, all entries of
+ * the mass matrix are used. For other sections without FEATURE_ROTARY_INERTIA, only translations
+ * and the twist (polar moment of inertia) have inertia. */
 lumped_mass lumped_of(const section *c, unsigned features, double length);
 
-/* Adds `share` of the mass at a node whose coordinates begin at `at` of n; call moving_complete at
- * the end. */
+/* Adds `share` of the mass at a node whose coordinates begin at `at` among n. Call moving_complete
+ * at the end. */
 void lumped_add(const lumped_mass *l, double share, const node_state *x,
                 const element_rotating_frame *frame, int at, int n, inertia_output *out);
 
-/* Returns the shares of the nodes of an element: one half for two nodes, Simpson's weights for
- * three. */
+/* Returns the shares of the nodes of an element: one half each for two nodes, the weights of
+ * Simpson's rule for three. */
 const double *lumped_shares(int nodes);
 
-/* Computes the inertia of an element whose mass is lumped at its nodes with these shares. */
+/* Computes the inertia of an element whose mass is lumped at its nodes with the given shares. */
 status lumped_element(const lumped_mass *whole, int nodes, const double share[],
                       const node_state x[], const element_rotating_frame *frame,
                       inertia_output *out);

@@ -1,5 +1,5 @@
-/* Parameters set by the user: those of a case (--set NAME=VALUE) and options of a formulation (-f
- * name:NAME=VALUE) are entries of such tables, in the order of their values. */
+/* Tables of parameters that the user can set: the parameters of a case (--set NAME=VALUE) and the
+ * options of a formulation (-f name:NAME=VALUE). Values are stored in the order of the entries. */
 #ifndef BEAMWORK_PARAMETER_H
 #define BEAMWORK_PARAMETER_H
 
@@ -7,7 +7,7 @@
 extern "C" {
 #endif
 
-/* An entry. */
+/* An entry of a table. */
 typedef struct parameter_type {
     const char *name;    /* NULL ends the table */
     const char *unit;    /* SI; "1" for a plain number, "" for a choice */
@@ -17,15 +17,15 @@ typedef struct parameter_type {
     const char *summary; /* one line */
 } parameter_type;
 
-/* Consecutive tables, so that common entries are defined once; NULL after the last if there are
- * fewer. */
+/* Largest number of consecutive tables; several tables allow common entries to be defined once.
+ * NULL follows the last table if there are fewer. */
 enum { PARAMETER_PARTS = 5 };
 
 /* Returns the number of entries of all parts. */
 int parameter_count(const parameter_type *const part[PARAMETER_PARTS]);
-/* Returns NULL after the last one. */
+/* Returns entry i of all parts, or NULL after the last one. */
 const parameter_type *parameter_at(const parameter_type *const part[PARAMETER_PARTS], int i);
-/* Returns -1 if there is no entry of that name. */
+/* Returns the index of the entry with this name, or -1. */
 int parameter_index(const parameter_type *const part[PARAMETER_PARTS], const char *name);
 void parameter_defaults(const parameter_type *const part[PARAMETER_PARTS], double value[]);
 /* Returns the number of choices; 0: the parameter is a number. */

@@ -39,7 +39,7 @@ fault_set(fault *f, status s, const char *format, ...);
 
 /* Not defined in C++, where other headers may use the name. */
 #ifndef __cplusplus
-/* Returns from the function if a call failed; for functions that have nothing to free. */
+/* Returns from the calling function if the call failed; for functions that have nothing to free. */
 #define TRY(call)                                                                                  \
     do {                                                                                           \
         const status try_ = (call);                                                                \

@@ -1,10 +1,11 @@
-/* First and second derivatives of the local coordinates, with respect to eleven rates along a path
- * of constant velocity and constant spatial spin: in frame axes the velocity v of q relative to p,
- * the spins P and Q of the nodes, and the rates of the two warping amplitudes.
+/* First and second derivatives of the local coordinates with respect to eleven rates, along a path
+ * of constant velocity and constant spatial spin. The rates are, in frame axes, the velocity v of q
+ * relative to p and the spins P and Q of the nodes, and the rates of the two warping amplitudes.
  *
  * With w_F the spin of the frame, a vector fixed in space has the rate a x w_F in frame axes. The
  * chord gives w_F,y = -v_z/l and w_F,z = v_y/l; the condition that p does not twist relative to the
- * frame gives w_F,x. Only nonzero entries are stored; their positions are the same in all states.
+ * frame gives w_F,x. Only nonzero derivatives are stored; their positions are the same in all
+ * states.
  */
 #ifndef BEAMWORK_SHEET_DEFORMATION_H
 #define BEAMWORK_SHEET_DEFORMATION_H
@@ -28,13 +29,14 @@ enum { SHEET_RATE_MIXED = 5 };
 static const int sheet_rates_mixed[SHEET_RATE_MIXED] = {
     SHEET_RATE_V + 1, SHEET_RATE_P, SHEET_RATE_P + 2, SHEET_RATE_Q, SHEET_RATE_Q + 2};
 
-/* dq/dt as rows over the rates. */
+/* The nonzero entries of dq/d(rates). */
 typedef struct sheet_rates {
     real inverse, lean;            /* 1/l and tan(yp)/l: parts of w_F */
     real across[SHEET_RATE_MIXED]; /* cos(yq) w_x - sin(yq) w_z, w = Q - w_F */
     real px[SHEET_RATE_MIXED], zq[SHEET_RATE_MIXED];
-    real yq[SHEET_RATE_MIXED]; /* in addition to v_z/l and Q_y */
-    real zp_v, zp_p;           /* over v_y and P_z; u is v_x, yp is P_y + v_z/l */
+    real yq[SHEET_RATE_MIXED]; /* besides v_z/l and Q_y */
+    real zp_v, zp_p;           /* with respect to v_y and P_z. The rate of u is v_x, that of yp is
+                                * P_y + v_z/l */
 } sheet_rates;
 
 static inline void sheet_rates_of(const sheet_local_state *s, sheet_rates *out)
@@ -54,7 +56,7 @@ static inline void sheet_rates_of(const sheet_local_state *s, sheet_rates *out)
     }
 }
 
-/* a[11] = e[8] dq/d(rates). */
+/* Computes a[11] = e[8] dq/d(rates). */
 static inline void sheet_rates_chain(const sheet_rates *r, const real e[SHEET_LOCAL_COORDINATES],
                                      real a[SHEET_RATES])
 {
@@ -73,13 +75,14 @@ static inline void sheet_rates_chain(const sheet_rates *r, const real e[SHEET_LO
     a[SHEET_RATE_WQ] = e[SHEET_LOCAL_WQ];
 }
 
-/* Are these blocks of a form in v, P, Q used? Those on and below the diagonal are. */
+/* Returns 1 if block (i, j) of a form in v, P, Q is used: a block on or below the diagonal. */
 static inline int sheet_rates_used(int i, int j)
 {
     return j / 3 <= i / 3;
 }
 
-/* H[11 x 11] = R^T Q R in the used blocks, Q[8 x 8] symmetric, without u. */
+/* Computes H[11 x 11] = R^T Q R in the used blocks, where R = dq/d(rates); Q[8 x 8] is symmetric
+ * and zero for u. */
 static inline void sheet_rates_congruence(const sheet_rates *r, const real Q[],
                                           real H[SHEET_RATES * SHEET_RATES])
 {
@@ -106,8 +109,8 @@ static inline void sheet_rates_congruence(const sheet_rates *r, const real Q[],
     memcpy(H + SHEET_RATES * SHEET_RATE_WP, QR[SHEET_LOCAL_WP], 2 * sizeof QR[0]);
 }
 
-/* Computes the weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2, from those of
- * dw/dt and d(bend)/dt, bend = P_z - w_F,z. */
+/* Computes the weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2, from the
+ * weights of dw/dt and d(bend)/dt, where bend = P_z - w_F,z. */
 static inline void sheet_rates_weights(const sheet_local_state *s,
                                        const real t[SHEET_LOCAL_COORDINATES],
                                        const real relative[3], real bend, real g[SHEET_RATE_TURNS])
@@ -123,8 +126,9 @@ static inline void sheet_rates_weights(const sheet_local_state *s,
         g[SHEET_RATE_Q + i] = relative[i];
 }
 
-/* A = sum of w_F,i and row i of g x a for a = v, P, Q: vectors rotate with the frame, g . (a x w_F)
- * = w_F . (g x a), and lengths change: d(1/l)/dt = -v_x/l^2 in v_y/l and v_z/l. */
+/* Computes A, the sum of the products of w_F,i and row i of g x a for a = v, P, Q. It represents
+ * the rotation of vectors with the frame, g . (a x w_F) = w_F . (g x a), and the change of length
+ * in v_y/l and v_z/l, d(1/l)/dt = -v_x/l^2. */
 static inline void sheet_rates_turn(const sheet_local_state *s, const sheet_rates *r,
                                     const real g[SHEET_RATE_TURNS],
                                     real A[SHEET_RATE_TURNS][SHEET_RATE_TURNS])
@@ -145,7 +149,7 @@ static inline void sheet_rates_turn(const sheet_local_state *s, const sheet_rate
     A[SHEET_RATE_V][SHEET_RATE_V + 2] = -(g[SHEET_RATE_V + 2] / s->l);
 }
 
-/* H[11 x 11] += sum_k t_k d2q_k/dt2 as a symmetric form in the rates, in the used blocks. */
+/* Adds sum_k t_k d2q_k/dt2, a symmetric form in the rates, to the used blocks of H[11 x 11]. */
 static inline void sheet_rates_add_second(const sheet_local_state *s, const sheet_rates *r,
                                           const real t[SHEET_LOCAL_COORDINATES],
                                           real H[SHEET_RATES * SHEET_RATES])
@@ -185,7 +189,7 @@ static inline void sheet_rates_add_second(const sheet_local_state *s, const shee
                 H[SHEET_RATES * i + j] += (A[i][j] + A[j][i]) / 2;
 }
 
-/* Transforms from rates to the coordinates of the nodes: a row of J[14] = a[11] d(rates)/dx. */
+/* Computes a row of J[14] = a[11] d(rates)/dx, with respect to the coordinates of the nodes. */
 static inline void sheet_rates_nodal_row(const sheet_local_state *s, const real a[SHEET_RATES],
                                          real row[SHEET_LOCAL_NODAL])
 {
@@ -209,13 +213,13 @@ static inline void sheet_rates_put(int row, int column, int negative, const real
                     negative ? -B[3 * i + j] : B[3 * i + j];
 }
 
-/* K[14 x 14] = the form H[11 x 11] in the coordinates of the nodes. */
+/* Transforms the form H[11 x 11] to the coordinates of the nodes: K[14 x 14]. */
 static inline void sheet_rates_nodal_form(const sheet_local_state *s,
                                           const real H[SHEET_RATES * SHEET_RATES],
                                           real K[SHEET_LOCAL_NODAL * SHEET_LOCAL_NODAL])
 {
     static const int place[3] = {
-        7, 3, 10}; /* positions of v, P, Q; v also enters as minus the motion of p */
+        7, 3, 10}; /* positions of v, P, Q; the position of p contributes with the opposite sign */
     for (int a = 0; a < 3; a++)
         for (int b = 0; b <= a; b++) {
             real block[9], half[9], turned[9];
@@ -241,11 +245,11 @@ static inline void sheet_rates_nodal_form(const sheet_local_state *s,
     }
 }
 
-/* The deformation function of a table of strains, with its derivatives, for one element or several
- * in lanes: with E = de/dq, R = dq/d(rates) and T the rates of the nodes' coordinates, J = E R T
+/* The deformation function of a table of strains with its derivatives, for one element or several
+ * in lanes. With E = de/dq, R = dq/d(rates) and T the rates of the nodes' coordinates, J = E R T
  * and sum s_i d2e_i/dx2 = T^T [R^T (sum s_i Q_i) R + sum_k t_k q_k''] T, t = E^T s. */
 
-/* E[8 x 8] = de/dq at q, e[8]. */
+/* Computes E[8 x 8] = de/dq and the strains e[8] at q. */
 static inline void sheet_deformation_gradient(const sheet_strains_table *m,
                                               const real q[SHEET_LOCAL_COORDINATES],
                                               real e[SHEET_STRAINS],
@@ -271,7 +275,7 @@ static inline void sheet_deformation_gradient(const sheet_strains_table *m,
     }
 }
 
-/* Q = sum s_i Q_i. */
+/* Computes Q = sum s_i Q_i. */
 static inline void sheet_deformation_weighted(const sheet_strains_table *m,
                                               const real s[SHEET_STRAINS], real Q[])
 {

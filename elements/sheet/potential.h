@@ -11,7 +11,8 @@
 
 enum { SHEET_STRESSES = 6 };
 
-/* c v_a v_b in A_ij (i >= j, and in A_ji), in b_i or in P0; v_0 = 1, v_(1+k) = x_k, a <= b. */
+/* A term c v_a v_b, a <= b, of A_ij (i >= j, and of A_ji), of b_i or of P0, with v_0 = 1 and
+ * v_(1+k) = x_k. */
 typedef struct sheet_potential_term {
     double c;
     int i, j, a, b;
@@ -21,35 +22,36 @@ enum { SHEET_TERMS_A = 96, SHEET_TERMS_B = 64, SHEET_TERMS_P0 = 12 };
 
 typedef struct sheet_potential {
     int terms_A, terms_b, terms_P0;
-    /* Terms are ordered by degree in x; these are the first linear and the first quadratic
-     * terms. */
+    /* Terms are ordered by degree in x; these are the indices of the first linear and the first
+     * quadratic terms. */
     int linear_A, quadratic_A, linear_b, quadratic_b, linear_P0, quadratic_P0;
     sheet_potential_term A[SHEET_TERMS_A], b[SHEET_TERMS_B], P0[SHEET_TERMS_P0];
 } sheet_potential;
 
-/* printed: u_y in M_x with the sign of N Eq. 49 as printed. Rejects a section without torsional
+/* Computes the coefficients. printed: 1 uses u_y in M_x with the sign of N Eq. 49 as printed.
+ * Rejects a section without torsional
  * stiffness. */
 status sheet_coefficients_prepare(const element_request *request, int printed, sheet_potential *out,
                                   fault *f);
 
-/* Computes P[1], its gradient[8] and Hessian[8 x 8] at x; may be NULL. SINGULAR: A is not positive
- * definite there. */
+/* Computes P[1], its gradient[8] and Hessian[8 x 8] at x; each may be NULL. SINGULAR: A is not
+ * positive definite at x. */
 status sheet_potential_evaluate(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
                                 double *P, double *gradient, double *hessian);
 
-/* T[8 x 8] = derivative of the Hessian at x in the direction dx. */
+/* Computes T[8 x 8], the derivative of the Hessian at x in the direction dx. */
 status sheet_potential_third(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
                              const double dx[SHEET_LOCAL_COORDINATES],
                              double T[SHEET_LOCAL_COORDINATES * SHEET_LOCAL_COORDINATES]);
 
-/* The potential at its stationary stresses with two derivatives, for one element or several in
- * lanes. As products of v = (1, x) it is a sum over a few nonzero terms, which are the same in all
- * states. */
+/* The potential at its stationary stresses with first and second derivatives, for one element or
+ * several in lanes. It is a sum over a few nonzero terms, which are products of components of v =
+ * (1, x) and the same in all states. */
 
 enum { SHEET_STATIONARY_V = 1 + SHEET_LOCAL_COORDINATES };
 
-/* Values at one x: v = (1, x), Cholesky factor of A, s = A^-1 b, W_i,a = d(b_i - (A s)_i)/dv_a at
- * fixed s; index 0 is not a variable and is not used. */
+/* Values at one x: v = (1, x), the Cholesky factor of A, s = A^-1 b, and W_i,a = d(b_i - (A
+ * s)_i)/dv_a at fixed s. Column a = 0 is not used, because v_0 is not a variable. */
 typedef struct sheet_stationary {
     real v[SHEET_STATIONARY_V], L[SHEET_STRESSES * SHEET_STRESSES], b[SHEET_STRESSES],
         s[SHEET_STRESSES], W[SHEET_STRESSES][SHEET_STATIONARY_V];
@@ -103,7 +105,7 @@ static inline real_truth sheet_stationary_solve(const sheet_potential *p,
     return good;
 }
 
-/* g_a += 1/2 s.W_a */
+/* Adds 1/2 s.W_a to g_a. */
 static inline void sheet_stationary_add_half_work(const sheet_stationary *at,
                                                   real g[SHEET_STATIONARY_V])
 {
@@ -114,9 +116,10 @@ static inline void sheet_stationary_add_half_work(const sheet_stationary *at,
     }
 }
 
-/* Adds the terms of P at fixed stresses: g += d(P0 + b.s - s^T A s/2)/dv, h += its second
- * derivatives with row <= column; W completed. s.b,a - s^T A,a s/2 is the mean of s.W_a before and
- * after A,a s is subtracted from W. Index 0 is not a variable; its entries are not used. */
+/* Adds the derivatives of P at fixed stresses: d(P0 + b.s - s^T A s/2)/dv to g, and the second
+ * derivatives with row <= column to h. Completes W. s.b,a - s^T A,a s/2 is the mean of s.W_a before
+ * and after A,a s is subtracted from W. Entries with index 0 are not used, because v_0 is not a
+ * variable. */
 static inline void sheet_stationary_add_explicit(const sheet_potential *p, sheet_stationary *at,
                                                  real g[SHEET_STATIONARY_V], real h[])
 {
@@ -152,7 +155,7 @@ static inline void sheet_stationary_add_explicit(const sheet_potential *p, sheet
     sheet_stationary_add_half_work(at, g);
 }
 
-/* Computes the rows of L^-1 W, whose products are W^T A^-1 W. */
+/* Replaces W by L^-1 W, so that W^T A^-1 W is a product of its columns. */
 static inline void sheet_stationary_forward(sheet_stationary *at)
 {
     for (int i = 0; i < SHEET_STRESSES; i++)
@@ -210,14 +213,14 @@ static inline real_truth sheet_stationary_evaluate(const sheet_potential *p,
 }
 
 /* The stress function of the third-order elements in the generalized strains, for one element or
- * several in lanes: N Eqs. 58-65, x = scale e + 1/2 e^T X e inverts the deformation function to
- * second order. Only u and the angles about y have terms in X: u products of e5 and e6, the angles
- * products of one of these and e2, e7 or e8. */
+ * several in lanes (N Eqs. 58-65). x = scale e + 1/2 e^T X e inverts the deformation function to
+ * second order. Only u and the angles about y have terms in X: for u, products of e5 and e6; for
+ * the angles, products of e5 or e6 with e2, e7 or e8. */
 
 enum { SHEET_INVERSE_CURVED = 3, SHEET_INVERSE_BENT = 2, SHEET_INVERSE_TWISTED = 3 };
 
 /* Local coordinates with a quadratic inverse (N Eqs. 58, 60, 61), and the strains in their
- * products, numbered from 0. */
+ * quadratic terms, numbered from 0. */
 static const int sheet_inverse_curved[SHEET_INVERSE_CURVED] = {SHEET_LOCAL_U, SHEET_LOCAL_YP,
                                                                SHEET_LOCAL_YQ},
                  sheet_inverse_bent[SHEET_INVERSE_BENT] = {4, 5},
@@ -229,7 +232,7 @@ typedef struct sheet_inverse_data {
     double bending; /* L^2/EIz [1/N] */
     double scale[SHEET_STRAINS];
     double X[SHEET_INVERSE_CURVED][SHEET_STRAINS * SHEET_STRAINS];
-    /* Potential and stress of N Eq. 52 in the stress-free element, which are subtracted. */
+    /* Potential and stress of the stress-free element by N Eq. 52, which are subtracted. */
     double rest_energy, rest_stress[SHEET_STRAINS]; /* [J], [N] */
 } sheet_inverse_data;
 
@@ -276,7 +279,7 @@ static inline void sheet_inverse_point(const sheet_inverse_data *d, const real e
             x[sheet_inverse_curved[r]] += row[r][angle_strains[k]] * whole[angle_strains[k]] / 2;
 }
 
-/* a (dx/de) in place, a[8]. */
+/* Replaces a[8] by a (dx/de). */
 static inline void sheet_inverse_multiply(const sheet_inverse_data *d,
                                           real row[SHEET_INVERSE_CURVED][SHEET_STRAINS],
                                           real a[SHEET_STRAINS])
@@ -294,7 +297,7 @@ static inline void sheet_inverse_multiply(const sheet_inverse_data *d,
     }
 }
 
-/* C = (dx/de)^T h (dx/de) + sum_k g_k d2x_k/de2, h symmetric. */
+/* Computes C = (dx/de)^T h (dx/de) + sum_k g_k d2x_k/de2, with h symmetric. */
 static inline void sheet_inverse_second(const sheet_inverse_data *d,
                                         real row[SHEET_INVERSE_CURVED][SHEET_STRAINS],
                                         const real g[SHEET_STRAINS], const real h[], real C[])

@@ -1,5 +1,5 @@
-/* Sheet flexures: local coordinates, strains, stiffness, torsion and Wagner torque, the common
- * base, second-order and third-order elements. */
+/* Sheet flexures: local coordinates, strains, stiffness, torsion, Wagner torque, and the common
+ * base of the second-order and third-order elements. */
 #ifndef BEAMWORK_SHEET_SHEET_H
 #define BEAMWORK_SHEET_SHEET_H
 
@@ -12,14 +12,16 @@
 /* Local coordinates of a two-node beam that is simply supported in its own frame (N Eqs. 12, 40,
  * 42).
  *
- * The frame F = (n, j, k): n from p to q, j normal to n and to the z axis of p, k = n x j. In it
- * the nodes' triads are F^T R^p = Ry(yp) Rz(zp) and F^T R^q = Ry(yq) Rz(zq) Rx(px).
+ * In the frame F = (n, j, k), n points from p to q, j is normal to n and to the z axis of p, and k
+ * = n x j. In this frame, the triads of the nodes are F^T R^p = Ry(yp) Rz(zp) and F^T R^q = Ry(yq)
+ * Rz(zq) Rx(px).
  *
  * Derivatives are taken with respect to eleven rates along a path of constant velocity and constant
- * spatial spin: in frame axes the velocity v of q relative to p, the spins P and Q of the nodes,
- * and the rates of the two warping amplitudes. */
+ * spatial spin: the velocity v of q relative to p and the spins P and Q of the nodes, all in frame
+ * axes, and the rates of the two warping amplitudes. */
 
-/* u elongation [m]; angles [rad] of N, x twist, y and z bending; W warping amplitudes [rad/m] */
+/* u: elongation [m]; angles [rad] of N: x for twist, y and z for bending; W: warping amplitudes
+ * [rad/m] */
 enum {
     SHEET_LOCAL_U,
     SHEET_LOCAL_PX,
@@ -83,7 +85,7 @@ static inline void sheet_local_of(double chord, const node_real x[2], sheet_loca
 /* The linear solution between the nodes as linear functionals of the local coordinates (N Eqs.
  * 14-19). */
 
-/* Each row[8]: value = row . q.  Primes are d/ds. */
+/* Each functional is a row[8], with value = row . q. Primes denote d/ds. */
 typedef struct sheet_fields {
     double uy[SHEET_LOCAL_COORDINATES], duy[SHEET_LOCAL_COORDINATES],
         duz[SHEET_LOCAL_COORDINATES]; /* u_y [m], u_y', u_z' */
@@ -93,18 +95,18 @@ typedef struct sheet_fields {
     double phi_z[SHEET_LOCAL_COORDINATES], dphi_z[SHEET_LOCAL_COORDINATES];
 } sheet_fields;
 
-/* Returns 1 if phi_x is cubic (N Eq. 19), 0 if it is linear because there is no warping or no
- * amplitude is requested. */
+/* Returns 1 if phi_x is cubic (N Eq. 19), or 0 if it is linear because Iw = 0 or warping is not
+ * requested. */
 int sheet_fields_warp(const element_request *request);
 
 /* Computes the fields at s = x l0. Phi_y, Phi_z: N Eq. 18; warp: see sheet_fields_warp. */
 sheet_fields sheet_fields_at(double l0, double x, double Phi_y, double Phi_z, int warp);
 
-/* Deformation functions of N's elements: eight generalized strains, quadratic in the local
- * coordinates, e_i = (Lambda q)_i + 1/2 q^T Q_i q (N Eq. 37), minus those of the stress-free
- * element, whose nodes are on an arc of constant torsion and curvature, with initial elongation and
- * shear. (With the linear initial stresses of N Eq. 52 that element is not stress-free:
- * reference/ERRATA.md.) */
+/* Deformation functions of the elements of N: eight generalized strains that are quadratic in the
+ * local coordinates, e_i = (Lambda q)_i + 1/2 q^T Q_i q (N Eq. 37), minus the values of the
+ * stress-free element. The nodes of that element are on an arc of constant torsion and curvature,
+ * with initial elongation and shear. (With the linear initial stresses of N Eq. 52, the element
+ * would not be stress-free: reference/ERRATA.md.) */
 
 enum {
     SHEET_STRAINS = 8,
@@ -125,9 +127,10 @@ typedef struct sheet_strains_table {
     } term[SHEET_STRAINS_TERMS];
 } sheet_strains_table;
 
-/* Prepares the strains. Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both
- * 0: N Eq. 37, without shear deformation; the values of the section: consistent with shear (derived
- * here). Features: warping, trapeze. */
+/* Prepares the strains. Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18). If
+ * both are 0, the strains are those of N Eq. 37, without shear deformation. If they are the values
+ * of the section, the strains are consistent with shear (derived here). The features warping and
+ * trapeze of the request are used. */
 status sheet_strains_prepare(const element_request *request, double Phi_y, double Phi_z,
                              sheet_strains_table *out, fault *f);
 
@@ -144,7 +147,7 @@ void sheet_strains_evaluate(const sheet_strains_table *table, const node_state x
 double sheet_elastic_phi_y(const section *c, double l0);
 double sheet_elastic_phi_z(const section *c, double l0);
 
-/* S[8 x 8] [N/m]. */
+/* Computes S[8 x 8] [N/m]. */
 void sheet_elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z,
                              double S[SHEET_STRAINS * SHEET_STRAINS]);
 
@@ -155,8 +158,9 @@ void sheet_elastic_stiffness(const section *c, double l0, double Phi_y, double P
  * rates Wp, Wq of the ends without torque are kappa = Wp h_p + Wq h_q, h_q = sinh(lambda
  * x)/sinh(lambda), h_p(x) = h_q(1 - x).
  *
- * Integrated by parts, the Hellinger-Reissner potential of N Eq. 44 needs the bimoment only in the
- * integrals below, in which nothing cancels, neither for lambda -> 0 nor for lambda -> inf. */
+ * After integration by parts, the bimoment appears in the Hellinger-Reissner potential of N Eq. 44
+ * only in the integrals below, which are free of cancellation for lambda -> 0 and for lambda ->
+ * inf. */
 
 enum { SHEET_TORSION_DEGREE = 3, SHEET_TORSION_MODES = 5 };
 enum { SHEET_TORSION_PX, SHEET_TORSION_WP, SHEET_TORSION_WQ, SHEET_TORSION_TWISTS };
@@ -171,13 +175,13 @@ typedef struct sheet_torsion_integrals {
         other; /* products of h_p with itself and with h_q: int (lambda^2 h h + h' h') dx */
 } sheet_torsion_integrals;
 
-/* Torque modes t_k(x) = sum_i t[k][i] x^i, integers. lambda INFINITY: no warping, the twist of
- * phi_x is uniform. */
+/* Computes the integrals for the torque modes t_k(x) = sum_i t[k][i] x^i with integer coefficients.
+ * lambda INFINITY: there is no warping, and the twist rate is uniform. */
 void sheet_torsion_integrate(double lambda,
                              const double t[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1],
                              sheet_torsion_integrals *out);
 
-/* Wagner torque: the energy int E c kx^4 ds of a twisted wide section (N Eqs. 45, 46), kx as N
+/* Wagner torque: the energy int E c kx^4 ds of a twisted wide section (N Eqs. 45, 46), kx from N
  * Eq. 26. */
 
 enum { SHEET_WAGNER_POINTS = 5, SHEET_WAGNER_STRAINS = 3 }; /* degree 8: exact */
@@ -188,10 +192,12 @@ typedef struct sheet_wagner_term {
     double rate[SHEET_WAGNER_POINTS][SHEET_WAGNER_STRAINS]; /* kx per e2, e7, e8 [1/m^2] */
 } sheet_wagner_term;
 
-/* Inactive without FEATURE_WAGNER_TORQUE; rejects a combination with initial torsion. */
+/* Prepares the term, which is zero without FEATURE_WAGNER_TORQUE. Rejects its combination with
+ * initial torsion. */
 status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *out, fault *f);
 
-/* Adds to energy[1], sigma[8], C[8 x 8] (each may be NULL), for one element or several in lanes. */
+/* Adds the Wagner torque to energy[1], sigma[8] and C[8 x 8] (each may be NULL), for one element or
+ * several in lanes. */
 static inline void sheet_wagner_add(const sheet_wagner_term *w, const real e[SHEET_STRAINS],
                                     real *energy, real *sigma, real *C)
 {
@@ -239,7 +245,8 @@ sheet_lanes_equations sheet_lanes_third_equations_plain, sheet_lanes_third_equat
 
 typedef enum sheet_base_shear {
     SHEET_BASE_PRINTED,   /* N Eq. 37: strains without shear */
-    SHEET_BASE_CONSISTENT /* the same integrals of the whole linear solution (derived here) */
+    SHEET_BASE_CONSISTENT /* the same integrals of the complete linear solution, including shear
+                           * (derived here) */
 } sheet_base_shear;
 
 typedef struct sheet_base_data {
@@ -261,7 +268,7 @@ enum {
 status sheet_base_prepare(const element_request *request, sheet_base_shear shear,
                           sheet_base_data *out, fault *f);
 
-/* Members of element_type; the data begin with sheet_base_data. */
+/* Members of element_type for data that begin with sheet_base_data. */
 void sheet_base_strain(const element_data *d, const node_state x[], strain_output *out);
 void sheet_base_strain_many(int count, const element_data *const data[], const node_state x[],
                             strain_output out[]);
@@ -294,18 +301,18 @@ void sheet_second_equations_many(int count, const element_data *const data[], co
                                  const double *const e[], const double *const inner[],
                                  const double *const s[], equations_output out[], status outcome[]);
 
-/* In an element_type. */
+/* Members of an element_type. */
 #define SHEET_SECOND_TYPE                                                                          \
     SHEET_BASE_TYPE, .limits = SHEET_BASE_LIMITS, .data_size = sheet_second_data_size,             \
         .stress = sheet_second_stress, .stress_many = sheet_second_stress_many,                    \
         .equations_many = sheet_second_equations_many
 
-/* Third-order elements of N section 3: the deformation function of the second-order one, and a
- * stress function from the Hellinger-Reissner potential P = P0 + 1/2 b^T A^-1 b, whose coefficients
- * are integrated once per section and length. */
+/* Third-order elements of N section 3. The deformation function is that of the second-order
+ * element; the stress function follows from the Hellinger-Reissner potential P = P0 + 1/2 b^T A^-1
+ * b, whose coefficients are integrated once per section and length. */
 
 size_t sheet_third_data_size(const element_request *request);
-/* printed: 1 uses the sign of u_y as printed in N Eq. 49. */
+/* Prepares an element. printed: 1 uses the sign of u_y as printed in N Eq. 49. */
 status sheet_third_prepare(const element_request *request, int printed, element_data *out,
                            fault *f);
 status sheet_third_stress(const element_data *d, const double e[], const double inner[],
@@ -318,7 +325,7 @@ void sheet_third_equations_many(int count, const element_data *const data[], con
 void sheet_third_geometric(const element_data *d, const double sigma[], double G[]);
 double sheet_third_tension(const element_data *d, const double sigma[]);
 
-/* In an element_type. */
+/* Members of an element_type. */
 #define SHEET_THIRD_TYPE                                                                           \
     SHEET_BASE_TYPE, SHEET_BASE_WITHOUT_SHEAR,                                                     \
         .limits = SHEET_BASE_LIMITS | LIMIT_FLAT_ARC | LIMIT_TENSION, .lacks = LACKS_SHEAR_Y,      \
