@@ -197,10 +197,13 @@ static int is_fed_back(const scene_load *l)
     return l->feedback.node != SCENE_NONE && acts && scene_load_acts(l);
 }
 
-/* Does a load have feedback? Damped modes have no row of their own: they use it. */
+/* Does a load have feedback? Damped modes have no column of their own, but about an instant: they
+ * use it. */
 static int has_feedback(const scene *s, int analysis, char *who, int size)
 {
-    return !s->analysis[analysis].damped && load_that(s, analysis, is_fed_back, who, size);
+    const scene_analysis *a = &s->analysis[analysis];
+    return (!a->damped || !isnan(scene_instant_of(s, analysis))) && !a->open_loops &&
+           load_that(s, analysis, is_fed_back, who, size);
 }
 
 LOAD(staying, along_path_factor(l, 0) != 0)

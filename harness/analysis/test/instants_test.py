@@ -193,6 +193,17 @@ class Instants(ProgramTest):
         scene = (BEAD % {"time": 0.1}).replace("mass: 0.5, hold: [rx", "mass: 0.5, hold: [uy, rx")
         self.assertIn("replace 'axes_of'", self.solved(scene, status=1))
 
+    def test_feedback(self):
+        """Loops are not closed about instants: refused by name, unless they are left open."""
+        scene = (PENDULUM % {"integrator": "radau", "time": 0.31, "start": ""}).replace(
+            "on: bob}}", "on: bob}, servo: {moment: [0, 0, 1], on: pin, feedback: "
+            "{node: pin, component: rz, proportional: 3, derivative: 1}}}")
+        opened = scene.replace("damped: yes}", "damped: yes, loops: open}")
+        self.assertIn("modal about an instant", self.solved(scene, status=1))
+        self.assertIn("harmonic about an instant", self.solved(opened, status=1))
+        found = self.solved(opened.replace("[0.1, 0.3]}", "[0.1, 0.3], loops: open}"))
+        self.near((found["f"] * 2 * math.pi)**2, 9.81 / 1.5 * math.cos(math.pi / 2 + found["angle"]))
+
 
 if __name__ == "__main__":
     unittest.main()

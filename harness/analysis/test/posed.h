@@ -380,6 +380,7 @@ static void respond(scene *s, const char *name, int analysis, int node, int comp
                                  .driver = SCENE_NONE,
                                  .reference = SCENE_NONE,
                                  .unbalanced = SCENE_NONE,
+                                 .spinning = SCENE_RX,
                                  .part = part};
     const char *unit = along < SCENE_RX ? "m/N" : "rad/(N m)";
     scene_set_at(scene_add_quantity(s, name, unit, analysis, scene_response_to(what)), at);
