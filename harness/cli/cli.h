@@ -14,14 +14,15 @@
 
 /* Verbs, their options, and command lines. A verb has an array of its own options, groups of
  * options shared with other verbs, and its own request struct. Each group is declared with its
- * topic: case_input, named, spread. */
+ * topic (case_input, named, spread). */
 
 /* Largest number of arguments of a verb or of values of a repeated option, and of options in total.
  */
 enum { COMMAND_MOST_WORDS = 64, COMMAND_MOST_GIVEN = 512 };
 
 typedef struct verb_option verb_option;
-/* Stores the value in the member. REFUSED: says why the value is invalid and what is expected. */
+/* Stores the value in the member. REFUSED: the message says why the value is invalid and what is
+ * expected. */
 typedef status option_reader(const verb_option *, void *member, const char *value, fault *f);
 
 enum {
@@ -35,16 +36,17 @@ enum {
     OPTION_VERDICT = 64 /* affects verdicts but not cells */
 };
 
-/* Member that an option sets: int for a switch (1) or a number, text_list for an option that may be
- * repeated, otherwise const char *. */
+/* An option and the member that it sets: int for a switch (1) or a number, text_list for an option
+ * that may be repeated, otherwise const char *. */
 struct verb_option {
     const char *name;
-    char letter;                 /* 0: none */
-    const char *argument, *help; /* argument NULL: a switch; "[N]": an optional argument */
+    char letter;                 /* 0: no letter */
+    const char *argument, *help; /* argument NULL: a switch; "[N]": the argument is optional */
     size_t member;               /* offset in the group, or in the request of the verb */
     unsigned traits;
-    long least, most;    /* range of an integer, or number of values; 0: text, COMMAND_MOST_WORDS */
-    option_reader *read; /* NULL: the default described above */
+    long least, most;    /* range of an integer, or number of values; most 0: no range, and
+                            COMMAND_MOST_WORDS values */
+    option_reader *read; /* NULL: the default reader, described above */
 };
 
 /* Headings of the help. */
@@ -55,7 +57,7 @@ typedef struct experiment_type experiment_type; /* harness/experiments/experimen
 
 typedef struct given_option {
     const verb_option *option;
-    const char *value; /* NULL: a switch, or no value was given */
+    const char *value; /* NULL: a switch, or an option without its optional value */
 } given_option;
 
 /* A command line, with options in the order given. */
@@ -64,14 +66,14 @@ typedef struct command_line {
                                         options of other verbs */
     const char *argument[COMMAND_MOST_WORDS];
     int arguments;
-    given_option given[COMMAND_MOST_GIVEN + 1]; /* with room for the --scene of an example */
+    given_option given[COMMAND_MOST_GIVEN + 1]; /* includes room for the --scene of an example */
     int givens;
 } command_line;
 
 /* Options that several verbs share. Function pointers may be NULL. */
 typedef struct option_group {
     const verb_option *options;                 /* ends with name NULL */
-    void (*begin)(void *group, command_line *); /* sets defaults other than zero */
+    void (*begin)(void *group, command_line *); /* sets defaults that are not zero */
     status (*end)(void *group, command_line *,
                   fault *f); /* called when all options have been read */
     void (*close)(void *group);
@@ -82,12 +84,12 @@ typedef struct verb_group {
     size_t member; /* offset of the group in the request */
 } verb_group;
 
-/* A group of the request of a verb. Each verb defines IN(at): ".member = offsetof(..., at)". */
+/* A group in the request of a verb. Each verb defines IN(at): ".member = offsetof(..., at)". */
 #define SHARED(name, at) {&options_##name, IN(at)}
 
 struct verb {
     const char *name;
-    const char *arguments;        /* "OLD [NEW]": at most two; "CASE...": any number */
+    const char *arguments;        /* such as "OLD [NEW]": at most two; "CASE...": any number */
     const char *summary;          /* one line */
     const char *about, *examples; /* examples: one per line */
     const verb_group *shared;     /* ends with group NULL */
@@ -101,31 +103,32 @@ struct verb {
         *experiment; /* experiment whose records are written to the results file; NULL: none */
 };
 
-/* Option number i of a verb, in the order of its help; NULL after the last. at: receives the offset
- * of its group in the request; may be NULL. */
+/* Returns option number i of a verb, in the order of its help; NULL after the last one. *at: offset
+ * of its group in the request; at may be NULL. */
 const verb_option *verb_option_at(const verb *, int i, size_t *at);
-/* Name of an option in version 0.2; NULL if it has not changed. */
+/* Returns the name of an option in version 0.2; NULL if it has not changed. */
 const char *verb_former_name(const verb_option *);
 /* Finds the option in a word: "--name=VALUE" by its full name, a former name or a unique
- * abbreviation; "-xyVALUE" by the first letter that takes a value, otherwise the last letter.
- * *value: NULL: the word contains no value. Returns NULL if the letter at *value is not an option,
- * or if *begun options match the abbreviation. */
+ * abbreviation; "-xyVALUE" by the first letter that takes a value, otherwise by the last letter.
+ * *value: the value in the word, or NULL. *begun: number of options that match. Returns NULL if
+ * that number is not 1; after an unknown letter, *value points to this letter. */
 const verb_option *verb_word(const verb *, const char *word, const char **value, int *begun);
-/* Does the letter belong to the option, also in previous versions? */
+/* Returns 1 if the letter selects the option in this or an earlier version. */
 int verb_is_letter(const verb_option *, char letter);
 const verb_option *verb_letter(const verb *, char letter, size_t *at);
 /* help and usage; added to each verb */
 extern const verb_option verb_help[];
-/* 1: the option's value is optional. */
+/* Returns 1 if the option's value is optional. */
 int verb_optional(const verb_option *);
-/* Finds a verb by name; NULL: none. */
+/* Finds a verb by name; returns NULL if there is none. */
 const verb *verb_find(const verb *const *verbs, const char *name);
-/* Largest number of arguments. */
+/* Returns the largest number of arguments. */
 int verb_most_arguments(const char *arguments);
 
-/* Last value given for the option, "" for a switch; NULL: not given. */
+/* Returns the last value given for the option, "" for a switch; NULL: the option was not given. */
 const char *given_value(const command_line *, const char *name);
-/* Next given option, from *i on, with one of the traits; advances *i. NULL: none. */
+/* Returns the next given option, from *i on, that has one of the traits, and advances *i. NULL:
+ * none. */
 const given_option *given_next(const command_line *, unsigned traits, int *i);
 
 /* Values of an option that may be repeated. */
@@ -134,11 +137,12 @@ typedef struct text_list {
     const char *text[COMMAND_MOST_WORDS];
 } text_list;
 
-/* Stores a value. value NULL: a switch, or an omitted optional value (the largest number). */
+/* Stores a value. value NULL: the option is a switch, or its optional value was omitted (the
+ * largest number is stored). */
 status option_take(const verb_option *, void *member, const char *value, fault *f);
-option_reader option_error; /* double; one error: "1%" or "0.01" */
-/* Reads relative errors between 0 and 1, "1%,0.1%" or "0.01", into level[most]; *count: their
- * number. */
+option_reader option_error; /* double; one relative error, "1%" or "0.01" */
+/* Reads relative errors between 0 and 1, "1%,0.1%" or "0.01", into level[most], and their number
+ * into *count. */
 status errors_parse(const char *text, int most, double level[], int *count, fault *f);
 
 extern const option_group options_output;  /* const char *: -o FILE, text */
@@ -164,7 +168,7 @@ extern const option_group options_reports;
 /* Options for the solution that do not change its results. */
 typedef struct solver_options {
     int keep_all;
-    int threads; /* threads of the loop over elements; 0: one */
+    int threads; /* number of threads of the loop over elements; 0: one */
 } solver_options;
 extern const option_group options_solver;
 
@@ -177,14 +181,15 @@ typedef struct truths_options {
 extern const option_group options_truths;     /* --truths FILE */
 extern const option_group options_own_truths; /* also accepts FILE.csv */
 
-/* Path of the packed reference values: --truths, or the default (harness/study/study.h). */
+/* Returns the path of the packed reference values: --truths, or the default
+ * (harness/study/study.h). */
 const char *own_tables_packed(const truths_options *);
-/* Adds the reference values of --truths FILE.csv; only: for one case; NULL: for all. run: the cases
- * of the run, NULL-terminated. REFUSED: reports the first error as file:line:column, and the number
- * of errors. */
+/* Adds the reference values of --truths FILE.csv; only: the case for which values are added; NULL:
+ * all cases. run: the cases of the run, NULL-terminated. REFUSED: reports the first error as
+ * file:line:column, and the number of errors. */
 status own_tables_truths(const truths_options *, const case_type *const run[],
                          const case_type *only, truths *t, fault *f);
-/* Adds the rules of tables. If there is such a table, verdicts of new formulations affect the exit
+/* Adds the rules of tables. If a table is given, verdicts of new formulations affect the exit
  * status. */
 status own_tables_findings(const text_list *tables, const case_type *const run[], truths *t,
                            fault *f);
@@ -195,7 +200,7 @@ typedef struct case_options {
     text_list set;                         /* NAME=VALUE */
     double parameter[CASE_MAX_PARAMETERS]; /* ... set by case_input_find */
     scene_file *scene;                     /* contents of scene_path */
-    int refusal;                           /* exit status without a case */
+    int refusal;                           /* exit status after an error */
     command_line *line;
 } case_options;
 extern const option_group options_case;  /* --scene, --set */
@@ -210,11 +215,11 @@ const case_type *case_input_find(case_options *);
 const case_type *case_input_scene(case_options *);
 /* Reads one scene file; returns EXIT_AS_EXPECTED, or an exit status after error messages. */
 int case_input_read(const command_line *, const char *path, scene_file **out);
-/* Reference values of the run: stored ones, or for a scene file its own at the parameters of the
- * request. */
+/* Reads the reference values of the run: the stored ones or, for a scene file, its own values at
+ * the parameters of the request. */
 status case_input_truths(const case_options *, const truths_options *, truths *t, fault *f);
-/* Prints one line on stderr if the numbers of a scene file suggest other units; NULL: does nothing.
- */
+/* Prints one line on stderr if the numbers of a scene file suggest other units. file NULL: does
+ * nothing. */
 void case_input_tell_units(const scene_file *, const double parameter[]);
 /* Prints one line on stderr that names the default analysis if the scene file has none. */
 void case_input_tell_analysis(const case_options *, const scene *s);
@@ -237,8 +242,8 @@ typedef struct scenes {
 } scenes;
 
 /* Reads everything that --scene names: files, and every *.yaml in a folder in the order of names.
- * type is NULL-terminated. Returns EXIT_AS_EXPECTED, or an exit status after error messages; two
- * cases with the same name are an error. */
+ * Returns EXIT_AS_EXPECTED, or an exit status after error messages; two cases with the same name
+ * are an error. */
 int scenes_read(const command_line *, const scenes_options *, scenes *out);
 void scenes_free(scenes *);
 /* Reads the built-in reference values if those cases are requested, the list of known deviations,
@@ -253,10 +258,11 @@ enum {
     EXIT_REFUSED = 2,
     EXIT_NOTHING = 3,
     EXIT_FAULT = 4,
-    EXIT_INTERRUPTED = 5 /* also if parts are missing */
+    EXIT_INTERRUPTED = 5 /* also the exit status if parts are missing */
 };
 
-/* request: verb->request bytes. Prints errors and ends the program with EXIT_REFUSED. */
+/* Parses a command line. request: verb->request bytes. Prints errors and ends the program with
+ * EXIT_REFUSED. */
 void command_parse(const verb *, const verb *const *verbs, int count, char **arguments,
                    command_line *line, void *request);
 /* Parses the command line, runs the verb and returns the exit status. arguments[0]: the verb. */
@@ -271,7 +277,8 @@ void help_write(FILE *to, const verb *v);
 /* Checks that every output can be written, and that all outputs and inputs are different files.
  * whole_file: -o is HDF5. truths_path: NULL if no reference values are read. */
 status files_check(const command_line *, int whole_file, const char *truths_path, fault *f);
-/* As files_check; stored: -o is a results file, which may contain results of other experiments. */
+/* Like files_check. stored: -o is a results file, which may contain results of other
+ * experiments. */
 status files_check_results(const command_line *, int stored, const char *truths_path, fault *f);
 /* Called for a file, for every *.yaml in a folder in the order of names, and for files named by
  * exec:COMMAND. */
@@ -280,45 +287,47 @@ status files_named(const char *input, file_visit *visit, const void *context, fa
 
 /* Error messages of the program, and its exit status. */
 
-/* Call at the end of the program. Returns the exit status, or EXIT_FAULT if standard output could
- * not be written. */
+/* Must be called at the end of the program. Returns the exit status, or EXIT_FAULT if standard
+ * output could not be written. */
 int message_finish(int code);
-/* Prints one line on stderr and returns the exit status for a status. */
+/* Prints one line on stderr and returns the exit status that corresponds to a status. */
 int message_fail(status s, const char *text);
-/* Prints the line and ends the program with EXIT_REFUSED. */
+/* Prints one line on stderr and ends the program with EXIT_REFUSED. */
 _Noreturn void message_refuse(const char *text);
-/* Returns EXIT_AS_EXPECTED, or prints the error and returns its exit status. */
+/* Returns EXIT_AS_EXPECTED if the status is OK; otherwise prints the error and returns its exit
+ * status. */
 int message_exit(status s, const fault *f);
 
-/* Handles abnormal ends: signals, crashes, libraries that call exit(). */
+/* Handles abnormal termination: signals, crashes, libraries that call exit(). */
 /* Protects against a formulation that is loaded into this process: if it crashes or exceeds
  * `seconds` (0: no limit), the program ends with one line that names it. Does nothing for built-in
  * formulations. */
 void guard_formulation(const formulation *chosen, int seconds);
-/* Call once, before any file is opened. Closed standard streams are opened on /dev/null without
- * write permission, so that no other file takes their place. Signals that end the program (SIGTERM,
- * SIGHUP, SIGINT) and crashes first delete unfinished output files. A crash, or a call of exit() by
- * a library or an element, is reported in one line. */
+/* Must be called once, before any file is opened. Closed standard streams are opened on /dev/null
+ * without write permission, so that no other file takes their place. Signals that end the program
+ * (SIGTERM, SIGHUP, SIGINT) and crashes first delete unfinished output files. A crash, or a call of
+ * exit() by a library or an element, is reported in one line. */
 void ending_begin(void);
 
 /* Runs `beamwork VERB ...`, `beamwork help [VERB]`, --help and --version; returns the exit status.
- * arguments[0] is the program. */
+ * arguments[0] is the name of the program. */
 int verb_table_run(int count, char **arguments);
 
-/* Word being completed: `before` stays unchanged, `begun` is to be completed. */
+/* Word that is being completed: `before` stays unchanged, `begun` is completed. */
 typedef struct offer {
     FILE *to;
     const char *before;
-    int length; /* of before */
+    int length; /* length of `before` */
     const char *begun;
 } offer;
 
 /* Prints "WORD<tab>SUMMARY" if the text begins with `begun`; WORD is `before` followed by the text.
- * After a WORD ending in '=' or ':' completion continues; the shell completes ":files" and
- * ":folders". */
+ * Completion continues after a WORD that ends in '=' or ':'. The shell itself completes ":files"
+ * and ":folders". */
 void offer_text(const offer *o, const char *text, const char *summary);
 
-/* words: words after the verb up to the cursor; the last one, possibly empty, is completed. */
+/* Writes the completions. words: the words after the verb up to the cursor; the last one, which may
+ * be empty, is completed. */
 void completion_write(FILE *to, const verb *v, int count, char *const *word);
 
 /* Formulations of a command line: those named by -f and those loaded by --element, which may come
@@ -330,12 +339,13 @@ typedef struct chosen_formulations {
     text_list element, named; /* values of --element and -f */
     formulation formulation[COMMAND_MAX_FORMULATIONS];
     int formulations;
-    int time_limit; /* [s] limit of a cell, and of the first answer of a process; 0: none */
+    int time_limit; /* [s] time limit of a cell, and of the first answer of a process; 0: no limit
+                     */
 } chosen_formulations;
 extern const option_group options_formulations; /* -f, --element */
 extern const option_group options_element;      /* --element alone */
 extern const option_group
-    options_time_limit; /* must follow one of the groups above in the same member */
+    options_time_limit; /* this group must follow one of the two above, in the same member */
 
 /* Returns 1 if every formulation was requested by name; 0 if all were requested, or none. */
 int named_alone(const chosen_formulations *);
@@ -353,13 +363,13 @@ typedef struct defaults {
 } defaults;
 
 /* Chooses a missing -f and -n for one cell of the case at its parameters. note: one line for each
- * choice and its reason; "" if both were given. why: call solution_choice_free in any case; may be
- * NULL. REFUSED: no formulation supports what the case requires, or --error is not a valid number.
- */
+ * choice and its reason; "" if both were given. why: may be NULL; otherwise solution_choice_free
+ * must be called in any case. REFUSED: no formulation supports what the case requires, or --error
+ * is not a valid number. */
 status defaults_fill(const defaults *, char note[DEFAULTS_NOTE], solution_choice *why, fault *f);
-/* As defaults_fill, for -f only. */
+/* Like defaults_fill, but chooses only a missing -f. */
 status defaults_formulation(const defaults *, char note[DEFAULTS_NOTE], fault *f);
-/* Request with the first formulation and mesh given, if any. */
+/* Returns the request with the first formulation and the first mesh given, if any. */
 solution_request defaults_request(const defaults *);
 
 #endif

@@ -11,15 +11,16 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Cells as bytes of a batch, and the part that must be equal when they are computed again. */
+/* Cells as the bytes of a batch, and the part of these bytes that must be equal when the cells are
+ * computed again. */
 
-/* Writes the cells of a series, and the scatter of its finest mesh and its times if measured.
- */
+/* Writes the cells of a series, and the scatter of its finest mesh and its times if they were
+ * measured. The reproducible part is added to the digest. */
 status cells_write(FILE *to, const sweep *s, int series, digest *content, fault *f);
 status cells_read(FILE *from, sweep *s, int series, fault *f);
 /* Resets the series to its planned state, without results. */
 void cells_forget(series *one);
-/* Removes the series without keep[seriess] = 1; their cells count as unfinished. */
+/* Removes the series without keep[seriess] = 1; the cells of these series count as unfinished. */
 void cells_keep(sweep *s, const char keep[]);
 
 /* bench --against: alternates one cell with another formulation, or with the same cell in another
@@ -34,10 +35,11 @@ typedef struct bench_options {
     const char *select, *output, *format, *error, *against;
     int jobs;
     int dense;    /* 1: also times the dense reference */
-    int slowdown; /* percentage of its time that is added to every run of the other cell */
+    int slowdown; /* slowdown: percentage of its time that is added to every run of the other cell
+                   */
 } bench_options;
 
-/* Returns the exit status. */
+/* Compares the two cells and returns the exit status. */
 int contest_run(bench_options *r);
 
 enum { CONTESTANT_ARGUMENTS = 12 + 2 * CASE_MAX_PARAMETERS };
@@ -46,17 +48,17 @@ typedef struct contestant {
     char name[FORMULATION_KEY + 512];
     cell_request request;
     const char *program;                        /* NULL: in this process */
-    const char *argument[CONTESTANT_ARGUMENTS]; /* arguments of the program, NULL-terminated */
-    char elements[16];                          /* text of one argument */
+    const char *argument[CONTESTANT_ARGUMENTS]; /* arguments for the program, NULL-terminated */
+    char elements[16];                          /* text of the argument of -n */
     int repeats;                                /* number of solutions in a lap */
-    double slowdown;                            /* fraction of its time added to every lap */
+    double slowdown; /* fraction of the time of a lap that is added to it */
     int counts;
     const schema_field
-        *counted[SCHEMA_MOST_FIELDS]; /* fields with the size and the work of a cell */
+        *counted[SCHEMA_MOST_FIELDS]; /* fields for the size and the work of a cell */
     double count[SCHEMA_MOST_FIELDS];
 } contestant;
 
-/* Defaults for a missing -f or -n. */
+/* Returns the request for defaults where -f or -n is missing. */
 defaults contestant_defaults(bench_options *r, const case_type *type);
 /* Prepares a cell of the scene; keeps a pointer to the scene. */
 void contestant_here(contestant *, const bench_options *r, const scene *s,
@@ -64,13 +66,14 @@ void contestant_here(contestant *, const bench_options *r, const scene *s,
 /* Prepares the cell of the request for another program. The structure contains pointers to itself
  * and must not be copied. */
 void contestant_elsewhere(contestant *, const bench_options *r, const char *program);
-/* Runs both in alternation on one processor for a few seconds, and compares the counts of work. */
+/* Runs both cells in alternation on one processor for a few seconds, and compares their counts of
+ * work. */
 status contestant_compete(contestant *a, contestant *b, contest_clock *out, fault *f);
-/* Prints both times, the faster one, and the difference of work; the second function returns JSON,
- * which the caller owns. */
+/* Print both times, the faster one, and the difference of work; the second function returns them as
+ * JSON, which the caller owns. */
 void contestant_show(const contestant *a, const contestant *b, const contest_clock *v);
 json_t *contestant_json(const contestant *a, const contestant *b, const contest_clock *v);
-/* Prints a line for each whose times are not ranked, with the reason. */
+/* Prints a line for each cell whose times are not ranked, with the reason. */
 void contestant_unranked(const contestant *a, const contestant *b);
 
 /* Pages of the manual, generated from the tables of the program. */
@@ -94,55 +97,56 @@ typedef struct results_record {
     const record_type *type;
 } results_record;
 
-/* Table number i, including those of verbs; type NULL after the last one. */
+/* Returns table number i, including those of verbs; its type is NULL after the last one. */
 results_record results_record_at(const verb *const *verbs, int i);
 extern const char *const results_about[]; /* paragraphs, NULL-terminated */
-/* Type ("text *", "int", ...), displayed unit, and meaning with the possible words. */
+/* Type ("text *", "int", ...), displayed unit, and meaning including the possible words. */
 typedef struct results_field {
     const char *kind, *unit;
     char text[1000];
 } results_field;
 results_field results_field_of(const schema_field *f);
 
-/* beamwork(1). */
+/* Writes beamwork(1). */
 void manual_write_program(FILE *to, const manual_program *p);
-/* beamwork-VERB(1). */
+/* Writes beamwork-VERB(1). */
 void manual_write_verb(FILE *to, const verb *v);
-/* beamwork-scene-file(5): the keys of scene files. */
+/* Writes beamwork-scene-file(5), the keys of scene files. */
 void manual_write_scene(FILE *to);
-/* beamwork-results(5): the contents of result files. */
+/* Writes beamwork-results(5), the contents of result files. */
 void manual_write_results(FILE *to, const verb *const *verbs);
 
-/* Pages in mdoc(7). Text is escaped so that no formatter interprets it. */
-/* Running text: lines with its words unchanged, so that hyphens, quotes and '^' can be copied. */
+/* Pages in mdoc(7). The text is escaped so that no formatter interprets it. */
+/* Writes running text: lines with its words unchanged, so that hyphens, quotes and '^' can be
+ * copied. */
 void roff_text(FILE *to, const char *text);
-/* "See also": names with their sections, as in "beamwork 1 beamwork-scene 5". */
+/* Reference to other pages: names with their sections, as in "beamwork 1 beamwork-scene 5". */
 typedef struct roff_reference {
     const char *name;
     int section;
 } roff_reference;
 void roff_see(FILE *to, const roff_reference list[], int count);
 
-/* Work of a verb that is computed as a shard, or read from batches. */
+/* Work of a verb that is computed as a shard, or whose results are read from batches. */
 
 /* Outcome of the work. */
 typedef struct spread_end {
     int ended; /* 1: there are no results to evaluate, and ... */
     int code;  /* ... code is the exit status */
     int batches;
-    char *taken;         /* [batches] read by a merge; spread_free releases it */
+    char *taken;         /* [batches] read by a merge; released by spread_free */
     char processor[128]; /* processor on which the batches were computed; empty: not merged */
 } spread_end;
 
 typedef struct shard_options {
     const command_line *line;
     int jobs;
-    const char *shard, *into; /* K/N of the work; folder of the batches */
-    text_list from;           /* folders with batches, which are read instead of computing */
+    const char *shard, *into; /* K/N of the work; folder for the batches */
+    text_list from;           /* folders with batches that are read instead of computing */
     int partial;              /* 1: missing cells are omitted */
     int quiet;
 } shard_options;
-extern const option_group options_shards; /* all except jobs and quiet */
+extern const option_group options_shards; /* all options except jobs and quiet */
 
 /* Returns 1 if --into, --shard or --from was given. REFUSED: an invalid combination. */
 status spread_asked(const shard_options *, int *asked, fault *f);
@@ -154,23 +158,24 @@ enum { IDENTITY_TEXT = 2000 };
 
 typedef struct identity_texts {
     char build[400], request[IDENTITY_TEXT], plan[DIGEST_TEXT];
-    char *origin; /* JSON; identity_free releases it */
+    char *origin; /* origin as JSON, released by identity_free */
 } identity_texts;
 
-/* Version, commit, and digest of the program; the command line as text; a digest of every file that
- * results depend on, to which the plan is added later. FAULT: a file cannot be read. */
+/* Collects the version, commit and digest of the program, the command line as text, and a digest of
+ * every file on which results depend; the plan is added to this digest later. FAULT: a file cannot
+ * be read. */
 status identity_make(const command_line *, identity_texts *out, digest *plan, fault *f);
-/* Adds points, formulations and meshes. */
+/* Adds the points, formulations and meshes of a sweep to the digest. */
 void identity_add_sweep(digest *plan, const sweep *s);
-/* Sets the identity of a work; the texts must outlive it. Nothing may be added to the plan
+/* Sets the identity of a work. The texts must outlive it, and nothing may be added to the plan
  * afterwards. */
 void identity_set(identity_texts *texts, const digest *plan, shard_work *w);
 void identity_free(identity_texts *);
 
-/* `verify` as a shard, or from batches. */
+/* Computes `verify` as a shard, or reads it from batches. */
 
-/* Computes a shard of a planned sweep, or reads the cells of --from; with --partial missing cells
- * are removed and counted as unfinished. A batch contains consecutive series, with the cells that
+/* Computes a shard of a planned sweep, or reads the cells of --from; with --partial, missing cells
+ * are removed and counted as unfinished. A batch contains consecutive series and the cells that
  * measure their scatter. */
 status verification_work_run(const shard_options *, const sweep_request *, truths *, sweep *,
                              spread_end *, fault *);

@@ -9,7 +9,7 @@
 /* Sparse matrices in compressed columns, and their direct factorisation.
  *
  * A symmetric matrix stores only its upper triangle (row <= column), any other matrix all entries.
- * With by_numbers = 1 a matrix stored in full is factored as symmetric if its values are symmetric.
+ * If by_numbers is 1, a matrix stored in full is factored as symmetric if its values are symmetric.
  * The pattern does not change; values are added by position, so that assembly needs no search. */
 
 typedef struct sparse {
@@ -20,18 +20,19 @@ typedef struct sparse {
     int by_numbers; /* 1: stored in full, and factored as symmetric if its values are */
 } sparse;
 
-/* The second matrix shares the pattern (column, row) of the first and owns only its values. */
+/* Allocates a matrix that shares the pattern (column, row) of the first and owns only its
+ * values. */
 status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f);
 void sparse_free_values(sparse *a);
 void sparse_zero(sparse *a);
 /* Copies the leading rows and columns of `whole`. */
 void sparse_copy_leading(const sparse *whole, sparse *leading);
-/* Entry (j, j); 0 if none is stored. */
+/* Returns entry (j, j); 0 if none is stored. */
 double sparse_diagonal(const sparse *a, int j);
 void sparse_mul(const sparse *a, const double x[], double y[]);            /* y = A x */
 void sparse_mul_transposed(const sparse *a, const double x[], double y[]); /* y = A^T x */
-/* Change of x^T A y if all terms are rounded in the same direction; A is symmetric, or skew with
- * its upper triangle stored. */
+/* Returns the change of x^T A y if all terms are rounded in the same direction. A is symmetric, or
+ * skew with its upper triangle stored. */
 double sparse_rounding(const sparse *a, const double x[], const double y[]);
 
 /* Upper triangle of a matrix stored in full, and a test for symmetry. */
@@ -39,44 +40,46 @@ typedef struct by_numbers by_numbers;
 
 status by_numbers_alloc(const sparse *pattern, by_numbers **out, fault *f);
 void by_numbers_free(by_numbers *);
-/* Copies the upper triangle of `a`. Returns its largest |a_ij - a_ji|/sqrt|a_ii a_jj|; INFINITY if
- * that is NaN. */
+/* Copies the upper triangle of `a`. Returns the largest |a_ij - a_ji|/sqrt|a_ii a_jj| of `a`;
+ * INFINITY if that is NaN. */
 double by_numbers_take(by_numbers *, const sparse *a);
 const sparse *by_numbers_upper(const by_numbers *);
 
 typedef struct matrix_factor matrix_factor;
 
 typedef struct factor_counts {
-    long entries;        /* nonzeros of the factors */
+    long entries;        /* number of nonzeros of the factors */
     double flops;        /* of one numeric factorisation */
-    long factorisations; /* numeric factorisations so far */
-    int negative_pivots; /* symmetric only; else -1 */
-    double asymmetry;    /* of a matrix with by_numbers: largest |a_ij - a_ji|/sqrt|a_ii a_jj| */
-    int determinant;     /* its sign */
-    double condition;    /* cheap estimate max|d|/min|d| */
+    long factorisations; /* number of numeric factorisations so far */
+    int negative_pivots; /* of a symmetric matrix; otherwise -1 */
+    double asymmetry; /* of a matrix with by_numbers: its largest |a_ij - a_ji|/sqrt|a_ii a_jj| */
+    int determinant;  /* sign of the determinant */
+    double condition; /* cheap estimate of the condition number, max|d|/min|d| */
 } factor_counts;
 
 /* Largest asymmetry at which a matrix with by_numbers is factored as symmetric. */
 #define FACTOR_SYMMETRIC_WITHIN 1e-11
-/* Symbolic analysis with a fill-reducing order (AMD), done once. Symmetric: LDL^T without pivoting,
- * whose signs give the inertia; unsymmetric: KLU. With by_numbers: LDL^T of the upper triangle,
- * bitwise as for a matrix that stores only that, or KLU. */
+/* Symbolic analysis with a fill-reducing order (AMD), done once. A symmetric matrix is factored as
+ * LDL^T without pivoting, whose signs give the inertia; an unsymmetric one by KLU. A matrix with
+ * by_numbers is factored either as LDL^T of its upper triangle, bitwise as a matrix that stores
+ * only this triangle, or by KLU. */
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f);
-/* For a matrix with the same pattern as `of`. A symmetric matrix uses the order of `of`, which must
- * outlive it; the two must not be factored at the same time. */
+/* Like factor_alloc for a matrix with the same pattern as `of`. A symmetric matrix uses the order
+ * of `of`, which must outlive it; the two must not be factored at the same time. */
 status factor_alloc_like(const matrix_factor *of, const sparse *pattern, matrix_factor **out,
                          fault *f);
 void factor_free(matrix_factor *fa);
-/* SINGULAR if a pivot is zero or not finite, or if growth has destroyed the digits. */
+/* SINGULAR: a pivot is zero or not finite, or the growth of the factors has destroyed all
+ * digits. */
 status factor_numeric(matrix_factor *fa, const sparse *a, fault *f);
 /* Returns 1 if the last values were factored as symmetric. */
 int factor_is_symmetric(const matrix_factor *fa);
-/* The factored upper triangle of a matrix with by_numbers, or NULL. The factor owns it. */
+/* Returns the factored upper triangle of a matrix with by_numbers, or NULL. The factor owns it. */
 const sparse *factor_upper(const matrix_factor *fa);
-void factor_solve(matrix_factor *fa, double x[]); /* in place */
+void factor_solve(matrix_factor *fa, double x[]); /* solves A x = b in place */
 /* Solves for `columns` right-hand sides, `stride` numbers apart. */
 void factor_solve_many(matrix_factor *fa, int columns, int stride, double x[]);
-void factor_solve_transposed(matrix_factor *fa, double x[]); /* A^T x = b */
+void factor_solve_transposed(matrix_factor *fa, double x[]); /* solves A^T x = b in place */
 factor_counts factor_count(const matrix_factor *fa);
 
 /* A solver that another module provides. */
@@ -89,18 +92,19 @@ typedef struct factor_operator {
 /* Makes a factor from an operator, which it then owns: factor_solve, factor_solve_transposed and
  * factor_count call the operator, and no matrix is factored. */
 status factor_of(const factor_operator *, matrix_factor **out, fault *f);
-/* 1-norm condition number of the factored matrix a, with rows and columns scaled by the root of its
- * diagonal. Hager's estimate: a lower bound within a small factor. NAN: out of memory. */
+/* Returns an estimate of the 1-norm condition number of the factored matrix a, with rows and
+ * columns scaled by the square root of its diagonal. Hager's estimate is a lower bound, correct
+ * within a small factor. NAN: out of memory. */
 double factor_condition(matrix_factor *fa, const sparse *a);
 
 /* A few eigenpairs of A x = mu K x with K symmetric positive definite and A symmetric, which may be
  * indefinite or singular.
  *
- * Buckling: A = -G, mu = 1/lambda.  Vibration: A = M, mu = 1/omega^2 (a structure without supports:
- * K + shift M in place of K). Small problems are solved densely (LAPACK), large ones by the Lanczos
- * method in the inner product of K (ARPACK).  Each mu is the quotient of two quadratic forms, which
- * the caller can evaluate more accurately than the matrices give them. The inertia of K - A/s
- * proves that no eigenvalue is missing, repeated ones included. */
+ * Buckling: A = -G, mu = 1/lambda. Vibration: A = M, mu = 1/omega^2 (for a structure without
+ * supports, K + shift M replaces K). Small problems are solved densely (LAPACK), large ones by the
+ * Lanczos method in the inner product of K (ARPACK). Each mu is the quotient of two quadratic
+ * forms, which the caller can evaluate more accurately than the matrices give them. The inertia of
+ * K - A/s proves that no eigenvalue is missing, repeated ones included. */
 
 /* Relative error above which a value has no significant digits. */
 #define EIGEN_LARGEST_ERROR 1e-2
@@ -110,12 +114,12 @@ typedef void eigen_product(void *context, const double x[], double y[]);
 
 typedef struct eigen_problem {
     const sparse *K, *A;             /* same pattern */
-    matrix_factor *K_factor;         /* factor_numeric done */
+    matrix_factor *K_factor;         /* after factor_numeric */
     double sign;                     /* +1: A; -1: -A */
     int largest;                     /* number of most positive mu requested */
     int smallest;                    /* number of most negative mu requested */
-    eigen_form *K_energy, *A_energy; /* x^T K x and x^T A x (A without the sign), [K's unit]; NULL:
-                                        computed from the matrix */
+    eigen_form *K_energy, *A_energy; /* x^T K x and x^T A x (A without the sign), in the unit of K;
+                                        NULL: computed from the matrix */
     eigen_form *K_rounding,
         *A_rounding; /* estimated rounding errors of the two forms; NULL: negligible */
     eigen_product
@@ -125,24 +129,23 @@ typedef struct eigen_problem {
 } eigen_problem;
 
 typedef struct eigen_side {
-    int count;    /* number found; less than requested if no more exist, or for the reason below */
-    double *mu;   /* [count] largest magnitude first */
-    double *mode; /* [count x n] x^T K x = 1 */
+    int count;        /* number found; less than requested if no more exist, or for `reason` */
+    double *mu;       /* [count] largest magnitude first */
+    double *mode;     /* [count x n] x^T K x = 1 */
     double *residual; /* [count] an eigenvalue lies within residual |mu| of mu */
-    double *error; /* [count] estimate: |mu| is off by error |mu|, which is at most about residual^2
-                      |mu| */
+    double *error; /* [count] estimated relative error of mu, which is at most about residual^2 */
     int rounding;  /* number of candidates that were rejected as round-off of A */
-    status status; /* NOT_CONVERGED: the iteration ended before all requested ones were proved
+    status status; /* NOT_CONVERGED: the iteration ended before all requested values were proved
                       complete ... */
-    char reason[FAULT_TEXT]; /* ... and the reason; the values found are still the first of their
-                                side */
+    char reason[FAULT_TEXT]; /* ... for this reason; the values found are still the first ones of
+                                their side */
 } eigen_side;
 
 typedef struct eigen_result {
     int n;
     eigen_side positive, negative;
     long solutions, factorisations;
-    double dense_operations; /* n^3 of each dense solution */
+    double dense_operations; /* sum of n^3 over the dense solutions */
 } eigen_result;
 
 /* REFUSED: K is not positive definite. NOT_CONVERGED: one of the sides did not converge; the values
@@ -155,21 +158,22 @@ void eigen_free(eigen_result *r);
 
 /* Clocks. */
 
-/* Wall-clock time [s] from an arbitrary origin. */
+/* Returns the wall-clock time [s] from an arbitrary origin. */
 double clock_wall_seconds(void);
-/* Processor time [s] of this thread; the load of other programs does not affect it. */
+/* Returns the processor time [s] of this thread, which does not depend on the load of other
+ * programs. */
 double clock_processor_seconds(void);
 
 /* Small motions x exp(lambda t) in a frame that rotates at a constant rate: (lambda^2 M + lambda G
  * + K) x = 0, K and M symmetric, G skew.
  *
- * With K positive definite every lambda = i omega is imaginary, whatever G is (Kelvin, Tait):
- * projected on a real basis the problem is Hermitian, mu [x; y] = [-i G, R^T; R, 0] [x; y] with mu
- * = 1/omega, M = R^T R and K the identity.  The basis starts with the modes for G = 0 and is
- * extended by K^-1 times the residuals. The inertia counts the frequencies and proves that none is
- * missing. If K is indefinite, or nearly singular as at a critical speed, K + shift M replaces it
- * in the basis and the general projected problem is solved. A growing mode then has a lambda with
- * positive real part; numerics_impl.h explains what the count proves in this case.
+ * If K is positive definite, every lambda = i omega is imaginary, whatever G is (Kelvin, Tait).
+ * Projected on a real basis, the problem is then Hermitian: mu [x; y] = [-i G, R^T; R, 0] [x; y]
+ * with mu = 1/omega, M = R^T R and K the identity matrix. The basis starts with the modes for G = 0
+ * and is extended by K^-1 times the residuals. The inertia counts the frequencies and proves that
+ * none is missing. If K is indefinite, or nearly singular as at a critical speed, K + shift M
+ * replaces it in the basis and the general projected problem is solved. A growing mode then has a
+ * lambda with positive real part; numerics_impl.h explains what the count proves in this case.
  *
  * Massless coordinates have no frequency. Coordinates with very little mass (frequencies above some
  * 1e4 times those of the heavy parts) may end the search before all wanted modes are found.
@@ -178,45 +182,47 @@ double clock_processor_seconds(void);
  * use K_product, which keeps these digits; the factors of the matrix only improve the vectors. */
 
 typedef struct gyroscopic_problem {
-    const sparse *K, *M, *G; /* same symmetric pattern; G stores its upper triangle */
+    const sparse *K, *M, *G; /* same symmetric pattern for K and M; G stores its upper triangle */
     matrix_factor *K_factor; /* after factor_numeric; its values are replaced if K is indefinite */
     int wanted;              /* number of lowest modes requested */
     eigen_product
         *K_product; /* y = K x, more accurate than the matrix product; NULL: not available */
-    eigen_form *K_rounding; /* rounding error of x^T K x; NULL: from the matrix */
-    void *context;          /* of both */
+    eigen_form *K_rounding; /* rounding error of x^T K x; NULL: estimated from the matrix */
+    void *context;          /* passed to both functions */
 } gyroscopic_problem;
 
 typedef struct gyroscopic_result {
-    int n, count;      /* count: less than requested if no more exist */
+    int n, count;      /* count: fewer than requested if no more exist */
     double *frequency; /* [count] lambda = growth + i frequency [1/s], ascending by magnitude */
     double *growth;    /* [count] zero if K is positive definite */
-    double *error;     /* [count] estimate: lambda is off by error |lambda| */
+    double *error;     /* [count] estimated error of lambda, relative to |lambda| */
     double *mode;      /* [count x n] real or imaginary part of the motion, whichever is larger */
-    int negative;      /* negative eigenvalues of K, and ... */
-    int unproven;      /* ... how many of them no mode accounts for: that many growing modes, or
-                          frequencies of negative energy, are missing */
+    int negative;      /* number of negative eigenvalues of K, and ... */
+    int unproven; /* ... how many of them no mode accounts for: that many growing modes, or modes
+                     whose energy is negative, are missing */
     long solutions, factorisations;
-    double dense_operations; /* n^3 of each dense solution */
+    double dense_operations; /* sum of n^3 over the dense solutions */
 } gyroscopic_result;
 
 status gyroscopic_solve(const gyroscopic_problem *, gyroscopic_result *, fault *);
 void gyroscopic_free(gyroscopic_result *);
 
-/* Checks the available memory before a problem is solved, because some systems promise memory that
- * they do not have and then end this program, or others, without a message. Also growing lists. */
+/* Checks the available memory before a problem is solved. Some systems grant memory that they do
+ * not have and then end this program, or others, without a message. This section also contains
+ * growing lists. */
 
-/* REFUSED: `what` needs more memory than the machine has. bytes: lower bound of the need. */
+/* REFUSED: `what` needs more memory than the machine has. bytes: lower bound of the memory
+ * needed. */
 status memory_check(double bytes, const char *what, const char *remedy, fault *f);
 /* Appends a copy of `entry` (`size` bytes) to *list, the address of its pointer; free it with
- * free(). FAULT: "out of memory for WHAT". */
+ * free(). FAULT: "out of memory for WHAT"; WHAT is the text `what`. */
 status memory_append(void *list, int *count, const void *entry, size_t size, const char *what,
                      fault *f);
 
-/* Processor time of a solution, split into the parts of a Newton iteration and the rest. When
- * several threads share the elements, it is that of the leading thread, including its waiting time.
- * The clock is read only on request and only inside an iteration. The time of reading it, 0.4 us
- * each, belongs to no part. */
+/* Processor time of a solution, split into the parts of a Newton iteration and the rest. If several
+ * threads share the elements, this is the time of the leading thread, including the time for which
+ * it waits. The clock is read only on request and only inside an iteration. The time of the
+ * readings themselves, 0.4 us each, belongs to no part. */
 
 typedef enum newton_phase {
     PHASE_ELEMENTS,
@@ -235,7 +241,7 @@ typedef struct phases {
     double seconds[PHASES]; /* [s] */
 } phases;
 
-/* Sets all parts to zero and measures the duration of a reading: the shortest of a few. */
+/* Sets all parts to zero and measures the duration of a reading, the shortest of several. */
 static inline void phases_want(phases *p, int wanted)
 {
     enum { FEW = 50 };
@@ -270,7 +276,7 @@ static inline void phases_stop(phases *p)
     p->running = 0;
 }
 
-/* Sets all parts so that they add up to `whole` [s] minus the duration of the readings. */
+/* Computes all parts so that they add up to `whole` [s] minus the duration of the readings. */
 static inline void phases_of_whole(const phases *p, double whole, double part[PHASES])
 {
     part[PHASE_REST] = whole - (double)p->readings * p->reading;
@@ -303,19 +309,19 @@ enum { TEAM_MOST = 16, TEAM_SLOTS = 8 };
 status team_alloc(int threads, thread_team **out,
                   fault *f); /* the caller counts as one thread; threads <= 1: *out = NULL */
 void team_free(thread_team *t);
-/* Runs `work` over [0, count) on all threads; t NULL: on the caller alone. Returns when everything
- * is done. */
+/* Runs `work` over [0, count) on all threads; t NULL: on the calling thread alone. Returns when
+ * everything is done. */
 void team_run(thread_team *t, int count, team_work *work, void *context);
-/* Any free thread fills pieces [0, pieces), a few ahead; the caller uses them in order and also
- * fills. The slots fit into the cache, and sums keep their order. slot: below TEAM_SLOTS; 0 if t is
- * NULL. */
+/* Any free thread fills the next of the pieces [0, pieces), at most a few ahead. The caller uses
+ * the pieces in order, and also fills pieces. The slots fit into the cache, and sums keep their
+ * order. slot: less than TEAM_SLOTS; 0 if t is NULL. */
 void team_relay(thread_team *t, int pieces, team_fill *fill, team_take *take, void *context);
 
 /* Matrices as lists of entries, to be stored and written. */
 
 typedef enum matrix_kind { MATRIX_GENERAL, MATRIX_SYMMETRIC, MATRIX_SKEW } matrix_kind;
 
-/* Nonzero entries. For symmetric and skew kinds only those on and below the diagonal. */
+/* Nonzero entries. Symmetric and skew kinds have only those on and below the diagonal. */
 typedef struct triplets {
     matrix_kind kind;
     int rows, columns, entries;
@@ -323,24 +329,25 @@ typedef struct triplets {
     double *value;     /* [entries] */
 } triplets;
 
-/* Entries of a. skew = 1: a stores the upper triangle of a skew matrix. */
+/* Sets *out to the entries of a. skew = 1: a stores the upper triangle of a skew matrix. */
 status triplets_of(const sparse *a, int skew, triplets *out, fault *);
-/* Drops all rows and columns except the leading n. */
+/* Removes all rows and columns except the leading n. */
 void triplets_lead(triplets *, int n);
 /* Takes the entries from a dense matrix [columns x rows], column by column. */
 status triplets_of_columns(int rows, int columns, const double value[], triplets *out, fault *);
-/* y[rows] = A x */
+/* Computes y[rows] = A x. */
 void triplets_mul(const triplets *A, const double x[], double y[]);
 void triplets_free(triplets *);
 
 /* Linear models with inputs u and outputs y, dense and row by row:
  *   M q'' + C q' + K q = B u,  y = L0 q + L1 q' + L2 q'' + D u.
- * The last coordinates are prescribed motions, whose accelerations are inputs: their rows of M and
- * B are those of the identity, and all other rows of theirs are zero. */
+ * The last coordinates are prescribed motions, whose accelerations are inputs. Their rows of M and
+ * B are those of the identity matrix; their rows of K and C are zero. */
 typedef struct second_order {
-    int n, motions; /* number of coordinates without motions, and of motions */
+    int n, motions; /* number of coordinates other than prescribed motions; number of these */
     int inputs, outputs;
-    int *motion_of;    /* [inputs] motion whose acceleration the input is; -1: a force */
+    int *motion_of; /* [inputs] prescribed motion whose acceleration is this input; -1: the input is
+                       a force */
     double *K, *C, *M; /* [(n + motions)^2] */
     double *B;         /* [(n + motions) x inputs] */
     double *L[3], *D;  /* [outputs x (n + motions)], [outputs x inputs] */
@@ -350,39 +357,40 @@ status second_order_alloc(int n, int motions, int inputs, int outputs, second_or
 void second_order_free(second_order *);
 
 /* Reduced model q = T x (T [(n + motions) x (columns + motions)], which the caller frees in any
- * case): static shapes of the interface coordinates (edge[n] 1) and the first modes with these
- * fixed. Without an interface: modes and the static shapes of forces. REFUSED: the structure is
- * free then. */
+ * case): T consists of the static shapes of the interface coordinates (edge[n] 1) and the first
+ * modes with these fixed. Without an interface, T consists of modes and the static shapes of
+ * forces; this is REFUSED if the structure is free. */
 status second_order_reduce(const second_order *, const char edge[], int modes, second_order *out,
                            double **T, fault *);
-/* Undamped natural frequencies with the motions at rest, [n]; NAN: none. */
+/* Computes the undamped natural frequencies [Hz] with the prescribed motions at rest, [n]; NAN:
+ * none. */
 status second_order_frequencies(const second_order *, double hertz[], fault *);
-/* Transfer functions from u to y at a circular frequency: out[outputs x inputs x 2], real and
- * imaginary parts. */
+/* Computes the transfer functions from u to y at a circular frequency: out[outputs x inputs x 2],
+ * real and imaginary parts. */
 status second_order_transfer(const second_order *, double w, double out[], fault *);
 
 /* x' = A x + B u, y = C x + D u, dense and row by row. */
 typedef struct state_space {
-    int states, eliminated; /* coordinates without mass and damping */
-    int improper;           /* output without a state space; -1: none */
+    int states, eliminated; /* eliminated: number of coordinates without mass and damping */
+    int improper;           /* output that cannot be written as a state space; -1: none */
     double *A, *B, *C, *D;
 } state_space;
 
-/* REFUSED: an output, the masses or the stiffnesses do not allow one; the caller frees *out in any
- * case. */
+/* REFUSED: an output, the masses or the stiffnesses do not allow a state space. The caller frees
+ * *out in any case. */
 status state_space_of(const second_order *, state_space *out, fault *);
 void state_space_free(state_space *);
 
-/* The factor proportional (r - y) + derivative (r' - y') + integral (integral of r - y), multiplied
- * by `times`, is added to an input. y: output `measured`; y': output `rate` (only with a derivative
- * gain). */
+/* A feedback loop: proportional (r - y) + derivative (r' - y') + integral (integral of r - y),
+ * multiplied by `times`, is added to an input. y: output `measured`; y': output `rate` (only with a
+ * derivative gain). */
 typedef struct state_space_loop {
     int input, measured, rate;
     int reference; /* input that becomes the rate of r and must have no other effect */
     double times, proportional, derivative, integral;
 } state_space_loop;
 
-/* Closes loops; keeps the first outputs. */
+/* Closes the loops; keeps the first `outputs` outputs. */
 status state_space_close(state_space *, int inputs, int outputs, int loops,
                          const state_space_loop[], fault *);
 

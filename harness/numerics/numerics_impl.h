@@ -11,60 +11,60 @@
 
 typedef struct candidates {
     const eigen_problem *problem;
-    double sign; /* s: sign of the problem, reversed for the most negative values */
+    double sign; /* s: sign of the problem, reversed when the most negative values are sought */
     int n, count, room;
     double *mu;          /* [room] descending */
     double *matrix_mu;   /* [room] the Rayleigh quotient of the assembled matrices, including their
                             rounding errors */
-    double *noise;       /* [room] change of matrix_mu due to rounding of the sums */
+    double *noise;       /* [room] change of matrix_mu due to rounding of its sums */
     double *stiffness;   /* [room] x^T K x as evaluated by the caller */
     double *x;           /* [room x n] normalised so that x^T K x = 1 with the matrix */
     double *work, *form; /* [n] each */
     int refinements;     /* number of refinements of every solution */
-    double *correction;  /* [n] during refined solutions, else NULL */
-    sparse shifted;      /* K - s A/mu; values are filled when first needed */
+    double *correction;  /* [n] during refined solutions, otherwise NULL */
+    sparse shifted;      /* K - s A/mu; its values are set when first needed */
     matrix_factor *shifted_factor;
 } candidates;
 
 status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f);
 void candidates_free(candidates *p);
-/* Lower estimate of the largest |mu| by a few powers of K^-1 A. Returns 0 if A contains only
+/* Returns a lower estimate of the largest |mu|, from a few powers of K^-1 A; 0 if A contains only
  * rounding errors. */
 double candidates_scale(candidates *p, long *solutions);
 /* Returns 1 if rounding alone can make x^T A x as large as `energy`. */
 int candidates_is_rounding(const candidates *p, double energy, const double x[]);
-/* Largest relative change of x^T K x caused by the assembly of K, over the first `count`
- * candidates. */
+/* Returns the largest relative change of x^T K x caused by the assembly of K, over the first
+ * `count` candidates. */
 double candidates_departure(const candidates *p, int count);
-/* From now on K^-1 A x uses K_product, with iterative refinement until the present departure is
- * reduced by a factor of 1e-6. */
+/* Makes all later solutions K^-1 A x use K_product, with iterative refinement until the present
+ * departure is reduced by a factor of 1e-6. */
 status candidates_refine(candidates *p, int count, fault *f);
-/* Threshold below which values are rounding errors of the largest value `scale`: n^(3/2) of them
- * add up in a slender structure of n unknowns. */
+/* Returns the threshold below which values are rounding errors of the largest value `scale`. In a
+ * slender structure with n unknowns, n^(3/2) rounding errors add up. */
 double candidates_least(int n, double scale);
-/* Adds the vectors x[count x n], of any norm; drops those with mu <= least. */
+/* Adds the vectors x[count x n], of any norm; omits those with mu <= least. */
 status candidates_add(candidates *p, int count, const double x[], double least, fault *f);
-/* As candidates_add for allocated vectors, which the candidates then own. */
+/* Like candidates_add for allocated vectors, which the candidates then own. */
 status candidates_take(candidates *p, int count, double *x, double least, fault *f);
-/* K times each candidate, [count x n]; the caller frees it. NULL: out of memory. */
+/* Returns K times each candidate, [count x n], which the caller frees; NULL: out of memory. */
 double *candidates_products(const candidates *p);
-/* Residual of candidate i and estimated error of its mu, both relative to mu. Takes one solution.
- */
+/* Computes the residual of candidate i and the estimated error of its mu, both relative to mu. This
+ * takes one solution. */
 void candidates_judge(candidates *p, int i, double *residual, double *error);
 
 /* Proof that no eigenvalue is missing among candidates. */
 
-/* Number of eigenvalues missing among the candidates, of those that lie clearly above the one of
- * rank `wanted` (counted from 1). Requires wanted <= count. NOT_CONVERGED if the inertia counts
- * fewer than were found, or cannot be computed. */
+/* Sets *missing to the number of eigenvalues that are missing among the candidates and that lie
+ * clearly above the candidate of rank `wanted` (counted from 1). Requires wanted <= count.
+ * NOT_CONVERGED if the inertia counts fewer than were found, or cannot be computed. */
 status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_result *work,
                                 fault *f);
 /* Frees the memory used for counting if it is large; the next count allocates it again. */
 void candidates_count_rest(candidates *p);
-/* Counts the eigenvalues larger than s > 0. */
+/* Sets *above to the number of eigenvalues larger than s > 0. */
 status candidates_count_above(candidates *p, double s, int *above, eigen_result *work, fault *f);
 
-/* Eigenvectors of small problems: all of them, by LAPACK. */
+/* Computes all eigenvectors of a small problem by LAPACK. */
 
 /* Growing real basis V of a quadratic eigenvalue problem, orthonormal in K + shift M, with the
  * projected matrices. */
@@ -72,33 +72,34 @@ status candidates_count_above(candidates *p, double s, int *above, eigen_result 
 typedef struct subspace {
     eigen_product *S; /* y = S x, S = K + shift M, positive definite */
     void *context;
-    const sparse *M, *G; /* symmetric pattern; G stores its upper triangle */
+    const sparse *M, *G; /* M: symmetric pattern; G stores its upper triangle */
     int n, count, room;
-    double *V, *SV, *MV, *GV; /* [room x n] the basis and its products */
+    double *V, *SV, *MV, *GV; /* [room x n] the basis and its products with S, M and G */
     double *Mp, *Gp;          /* [room x room] V^T M V, V^T G V */
 } subspace;
 
 status subspace_alloc(subspace *b, eigen_product *S, void *context, const sparse *M,
                       const sparse *G, int room, fault *f);
 void subspace_free(subspace *b);
-/* Adds the component of x that is orthogonal to the basis. Returns 1 if there was one and the basis
- * was not full. */
+/* Adds the component of x that is orthogonal to the basis. Returns 1 if this component is not zero
+ * and the basis was not full. */
 int subspace_add(subspace *b, const double x[]);
 
 /* Approximate eigenpairs of (lambda^2 M + lambda G + K) x = 0 in a subspace: dense problems of
  * twice its size (LAPACK). */
 
 typedef struct ritz {
-    int room, count, size; /* number of pairs requested and found; size of the basis at that time */
+    int room, count,
+        size; /* largest number of pairs; number found; size of the basis at that time */
     double complex *lambda; /* [room] ascending by magnitude; one of each set lambda, -lambda, conj
                                lambda, -conj lambda */
     double complex
         *c; /* [room x basis room] coefficients of x in the basis, normalised to length 1 */
-    double complex *left; /* left eigenvectors w^H (lambda^2 M + lambda G + K) = 0 likewise; for S =
-                             K they equal x */
+    double complex *left; /* likewise for the left eigenvectors, w^H (lambda^2 M + lambda G + K) =
+                             0; for S = K they equal x */
 } ritz;
 
-/* Relative size of a real part of lambda that counts as round-off. */
+/* Relative real part of lambda up to which it counts as round-off. */
 static const double ritz_imaginary = 1e-7;
 
 status ritz_alloc(ritz *r, int room, const subspace *b, fault *f);
@@ -111,11 +112,11 @@ status ritz_general(const subspace *b, double shift, ritz *r, fault *f);
 
 /* Accuracy of a mode found in a subspace.
  *
- * With w^H (lambda^2 M + lambda G + K) = 0, a change d of K moves lambda by w^H d x/(w^H (2 lambda
- * M + G) x), and lambda w^H (2 lambda M + G) x = w^H (lambda^2 M - K) x. For an oscillation w = x,
- * and the error of the vector enters as its square: r^H S^-1 r of the residual r, divided by the
- * distance to other frequencies. If two frequencies coincide, this is unbounded; the square root of
- * the change is bounded. */
+ * If w^H (lambda^2 M + lambda G + K) = 0, a change d of K changes lambda by w^H d x/(w^H (2 lambda
+ * M + G) x), and lambda w^H (2 lambda M + G) x = w^H (lambda^2 M - K) x. For an oscillation, w = x,
+ * and the error of the vector enters as its square: r^H S^-1 r with the residual r, divided by the
+ * distance to other frequencies. If two frequencies coincide, this quotient is unbounded, but the
+ * square root of the change is bounded. */
 
 typedef struct motion_estimate {
     const gyroscopic_problem *p;
@@ -123,19 +124,20 @@ typedef struct motion_estimate {
     matrix_factor *S_factor; /* ... and its factored matrix */
     const ritz *pairs;
     double shift;
-    int found;    /* number of pairs that are returned; they come first */
+    int found;    /* number of pairs that are returned, which come first */
     double *work; /* [11 n] */
     long solutions;
 } motion_estimate;
 
 status estimate_alloc(int n, motion_estimate *, fault *);
 void estimate_free(motion_estimate *);
-/* Pair i, x = re + i im. For an oscillation *lambda is improved by the quotient of quadratic forms
- * k - omega^2 m + omega g = 0, whose error is the square of the vector's. grows = 1: the mode is
- * not an oscillation. *error: estimated error of lambda relative to |lambda|. */
+/* Estimates the error of pair i, x = re + i im. For an oscillation, *lambda is improved by solving
+ * the quadratic forms k - omega^2 m + omega g = 0; the error of this solution is of the order of
+ * the square of the error of x. grows = 1: the mode is not an oscillation. *error: estimated error
+ * of lambda relative to |lambda|. */
 void estimate_pair(motion_estimate *, int i, const double re[], const double im[], int grows,
                    double complex *lambda, double *error);
-/* y = K x */
+/* Computes y = K x, with K_product if it is available. */
 void estimate_stiffness(const gyroscopic_problem *, const double x[], double y[]);
 
 /* LDL^T of a sparse symmetric matrix without pivoting (SuiteSparse AMD and LDL): the signs of D are
@@ -149,8 +151,8 @@ status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, fac
  * workspace. `of` must outlive it; only one of the two may be factored at a time. */
 status factor_symmetric_alloc_like(const factor_symmetric *of, factor_symmetric **out, fault *f);
 void factor_symmetric_free(factor_symmetric *fs);
-/* OK or SINGULAR; allocates nothing. *weakest: the unknown whose pivot lost most digits; *ratio:
- * its pivot divided by the size of the terms that sum to it. */
+/* Returns OK or SINGULAR; allocates nothing. *weakest: the unknown whose pivot has lost the most
+ * digits; *ratio: this pivot divided by the size of the terms whose sum it is. */
 status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts,
                                 int *weakest, double *ratio);
 /* Solves in place for `columns` right-hand sides, `stride` numbers apart. */
@@ -165,8 +167,8 @@ void factor_unsymmetric_free(factor_unsymmetric *fu);
 void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[]);
 void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[]);
 
-/* Number of frequencies below a given one: the negative eigenvalues of the Hermitian K - omega^2 M
- * + i omega G with K positive definite. */
+/* Number of frequencies below a given one: the number of negative eigenvalues of the Hermitian
+ * matrix K - omega^2 M + i omega G with K positive definite. */
 
 /* SINGULAR if omega is too close to a frequency. */
 status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, double omega, int *below,
@@ -174,24 +176,25 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
 
 /* Proves, from the negative eigenvalues of K, that no mode about an unstable state is missing.
  *
- * (lambda^2 M + lambda G + K) x = 0 with M positive.  Each negative eigenvalue of K belongs to a
- * mode: negative(K) = real + 2 complex + 2 opposed  counts the growing lambda > 0, the lambda = a +
- * i b with a, b > 0, and the frequencies whose energy x^H (K + omega^2 M) x is negative (T.
- * Kapitula, P. Kevrekidis, B. Sandstede, Physica D 195 (2004) 263-282).  If the modes found add up
- * to this number, none is missing. The number of negative eigenvalues of K - omega^2 M + i omega G
- * is then that of K, plus one for each frequency of positive energy below omega, minus one for each
- * opposed frequency. */
+ * (lambda^2 M + lambda G + K) x = 0 with M positive. Each negative eigenvalue of K belongs to a
+ * mode, so that negative(K) = real + 2 complex + 2 opposed where the three numbers count the real
+ * lambda > 0, the pairs the lambda = a + i b with a, b > 0, and the frequencies whose energy x^H (K
+ * + omega^2 M) x is negative (T. Kapitula, P. Kevrekidis, B. Sandstede, Physica D 195 (2004)
+ * 263-282). If the modes found add up to this number, none is missing. The number of negative
+ * eigenvalues of K - omega^2 M + i omega G is then that of K, plus one for each frequency of
+ * positive energy below omega, minus one for each opposed frequency. */
 
 typedef struct gyroscopic_index {
-    int negative; /* negative eigenvalues of K that the modes account for */
-    int crossed;  /* frequencies of positive energy minus those of negative energy */
+    int negative; /* number of negative eigenvalues of K that the modes account for */
+    int crossed;  /* number of frequencies of positive energy minus number of those of negative
+                     energy */
 } gyroscopic_index;
 
-/* Does mode i grow? The energy of a growing mode is zero, that of an oscillation is not; a real
- * part of an oscillation is rounding. If two frequencies coincide, neither test applies, and they
- * count as oscillations. */
+/* Returns 1 if mode i grows. The energy of a growing mode is zero, that of an oscillation is not; a
+ * real part of an oscillation is round-off. If two frequencies coincide, neither test applies, and
+ * the modes count as oscillations. */
 int gyroscopic_index_grows(const ritz *, const subspace *, double shift, int i);
-/* Index of the first `count` pairs found with S = K + shift M. */
+/* Computes the index from the first `count` pairs found with S = K + shift M. */
 gyroscopic_index gyroscopic_index_of(const ritz *, const subspace *, double shift, int count);
 
 /* Implicitly restarted Lanczos (ARPACK) for the algebraically largest eigenvalues of s A x = mu K
@@ -200,39 +203,39 @@ gyroscopic_index gyroscopic_index_of(const ritz *, const subspace *, double shif
 typedef struct lanczos_problem {
     const sparse *K, *A;
     matrix_factor *K_factor;
-    double sign;      /* s */
+    double sign;      /* sign s of the problem */
     int known;        /* number of eigenvectors that are removed from the problem ... */
     const double *X;  /* ... [known x n], K-orthonormal */
-    const double *KX; /* [known x n] K times each */
+    const double *KX; /* [known x n] K times each of them */
 } lanczos_problem;
 
 /* Computes `wanted` <= n - known - 1 eigenvalues mu[wanted] in descending order with K-orthonormal
- * vectors (*x)[wanted x n], which the caller frees. If the iteration ends early, *found of them, at
- * least one, have converged. */
+ * vectors (*x)[wanted x n], which the caller frees. *found: number of values that have converged,
+ * at least one; it is less than `wanted` if the iteration ends early. */
 status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
                        long *solutions, fault *f);
 
 /* Improves candidates whose soft motions lost digits in the assembly of K. */
 
 /* Replaces the candidates by Ritz vectors of K^-1 A times them, with refined solutions
- * (candidates_refine). Components outside their span shrink by the ratio of their mu to that of the
- * candidate. Takes one refined solution per candidate. */
+ * (candidates_refine). Components outside the span of the candidates shrink by the ratio of their
+ * mu to that of the candidate. This takes one refined solution per candidate. */
 status polish(candidates *p, long *solutions, fault *f);
 
-/* Values of L and D in P A P^T = L D L^T, row by row. Consecutive rows with equal columns are
- * computed together, one in each lane. Consecutive columns of equal pattern are subtracted
- * together. The terms of every number are summed in the order of the columns, so that all numbers
- * agree bitwise with those of SuiteSparse's ldl_numeric. */
+/* Computes the values of L and D in P A P^T = L D L^T, row by row. Consecutive rows that have
+ * entries in the same columns are computed together, one in each lane. Consecutive columns of equal
+ * pattern are subtracted together. The terms of every number are summed in the order of the
+ * columns, so that all numbers agree bitwise with those of SuiteSparse's ldl_numeric. */
 
 enum { TRIANGULAR_LANES = 4, TRIANGULAR_RUN = 7 };
 
-/* A run of columns of L that rows share. */
+/* A run of consecutive columns of L in which the same rows have entries. */
 typedef struct triangular_run {
-    int first, count; /* 1 .. TRIANGULAR_RUN */
+    int first, count; /* count: 1 .. TRIANGULAR_RUN */
 } triangular_run;
 
 typedef struct triangular_rows {
-    int groups; /* of 1 .. TRIANGULAR_LANES rows */
+    int groups; /* number of groups, each of 1 .. TRIANGULAR_LANES rows */
     const int *first_of_group,
         *run_of_group; /* [groups + 1] first row of each group; [groups + 1] its first run */
     const triangular_run *run; /* [run_of_group[groups]] in the order of summation */
@@ -248,14 +251,14 @@ typedef struct triangular_rows {
                      call */
 } triangular_rows;
 
-/* Column of an entry of P A P^T, from its position. */
+/* Returns the column of an entry of P A P^T from its position. */
 static inline int triangular_column_of(int place)
 {
     return place / TRIANGULAR_LANES;
 }
 
-/* Returns 0 if a pivot is zero; the rows from there on are not computed. The second function is
- * for processors with AVX2: elements/math/real.h. */
+/* Returns 0 if a pivot is zero; this row and the rows after it are then not computed. The second
+ * function is for processors with AVX2: elements/math/real.h. */
 int triangular_rows_factor_plain(const triangular_rows *, const double a[]);
 int triangular_rows_factor_avx2(const triangular_rows *, const double a[]);
 
@@ -267,7 +270,7 @@ typedef struct triangular_pattern {
     const int *column, *row; /* upper triangle of the matrix: [n + 1], [column[n]] */
     const int *parent;       /* [n] elimination tree, -1: a root */
     const int *begin;        /* [n + 1] of L */
-    int *mark, *path;        /* [n] work space */
+    int *mark, *path;        /* [n] workspace */
 } triangular_pattern;
 
 typedef struct triangular_groups {
@@ -297,13 +300,14 @@ typedef struct triangular_factors {
     const int *order;        /* [n] order[k] is the unknown at position k */
     const int *begin, *row;  /* L: [n + 1], [begin[n]] ascending in each column */
     const double *value, *D; /* L: [begin[n]]; [n] */
-    int runs; /* all columns: each but the last of a run includes the next column ... */
-    const triangular_run *run; /* ... and the rows of that */
+    int runs; /* runs of all columns: each column except the last of a run has one more entry, in
+                 the next column ... */
+    const triangular_run *run; /* ... and otherwise the rows of that column */
 } triangular_factors;
 
-/* Solves in place. x: `columns` right-hand sides [n], `stride` numbers apart; work:
- * [TRIANGULAR_TOGETHER n]. The second function is for processors with AVX2: elements/math/real.h.
- */
+/* Solves in place. x: `columns` right-hand sides of length n, `stride` numbers apart; work:
+ * [TRIANGULAR_TOGETHER n]. The second function is for processors with AVX2:
+ * elements/math/real.h. */
 void triangular_solve_plain(const triangular_factors *, int columns, int stride, double x[],
                             double work[]);
 void triangular_solve_avx2(const triangular_factors *, int columns, int stride, double x[],

@@ -1,9 +1,9 @@
 /* records/: result files and other formats of results, comparison of runs.
  *
- * Sections, in this order: assumptions; stored runs; comparison; csv; schema; lines of CSV;
- * digest; positions of records; followed modes; gather; json; junit; paths; output; HDF5 files;
- * kept (one file for all experiments); markdown; output folders; reach; rows; hash; store;
- * system folder; columns. */
+ * Sections, in this order: assumptions; stored runs; comparison; csv; schema; lines of CSV; digest;
+ * positions of records; followed modes; gather; JSON; JUnit; paths; output; HDF5 files; kept (one
+ * file for all experiments); markdown; output folders; reach; rows; hash; store; system folder;
+ * columns. */
 #ifndef BEAMWORK_RECORDS_H
 #define BEAMWORK_RECORDS_H
 
@@ -35,19 +35,19 @@ enum { ASSUMPTION_TEXT = 320 };
 typedef struct assumption {
     assumption_kind kind;
     int section;                /* index of the section in the scene */
-    char physics[100];          /* "shear, warping": words of `omit`; "": none */
-    char text[ASSUMPTION_TEXT]; /* the assumption, with the name of the section */
+    char physics[100];          /* words of `omit`, such as "shear, warping"; "": none */
+    char text[ASSUMPTION_TEXT]; /* the assumption, including the name of the section */
 } assumption;
 
-const char *assumptions_kind(int kind); /* "not known" */
-/* Fetches assumption number `index` of the point; returns 0 if there is none. */
+const char *assumptions_kind(int kind); /* Returns the name of a kind, such as "not known". */
+/* Sets *out to assumption number `index` of the point; returns 0 if there is none. */
 int assumptions_at(const sweep_point *p, int index, assumption *out);
-/* All assumptions as "kind: text", separated by semicolons; if the text is too small, it ends with
- * the number of the remaining ones. */
+/* Writes all assumptions as "kind: text", separated by semicolons. If the text is too small, it
+ * ends with the number of the remaining ones. */
 void assumptions_words(const sweep_point *p, size_t size, char out[]);
 
 /* Results of a stored run: errors and work of each cell, and a summary of each series of meshes.
- * Read from results.h5, or from the short table of its series, which is small enough to be
+ * They are read from results.h5, or from the short table of its series, which is small enough to be
  * committed. */
 
 typedef enum results_work {
@@ -65,11 +65,11 @@ enum { RESULTS_STATUS = 16, RESULTS_MOST_ELEMENTS = 10000000 };
 
 typedef struct result_value {
     char quantity[SCENE_NAME];
-    double value,
-        near_zero; /* [unit of the quantity]; NAN: none; values below near_zero count as zero */
-    double error;  /* relative to the reference value; NAN: no reference value */
-    double
-        limit; /* limit of the series, stored with its finest mesh at a default point; NAN: none */
+    double value, near_zero; /* [unit of the quantity]; value NAN: there is none; values below
+                                near_zero count as zero */
+    double error;            /* relative to the reference value; NAN: no reference value */
+    double limit; /* limit of the series, stored with its finest mesh at a default point; NAN: there
+                     is none */
 } result_value;
 
 typedef struct result_cell {
@@ -89,10 +89,10 @@ typedef struct result_mesh {
 
 typedef struct result_limit {
     char quantity[SCENE_NAME];
-    double value, near_zero; /* as for a value; near_zero 0: not known */
+    double value, near_zero; /* as in result_value; near_zero 0: unknown */
 } result_limit;
 
-/* Largest |error| of one mesh. elements 0: no value has an error. */
+/* Largest |error| on one mesh. elements 0: no value has an error. */
 typedef struct result_error {
     double size;
     int elements;
@@ -105,16 +105,16 @@ typedef struct result_series {
     int meshes, limits;
     result_mesh *mesh;        /* [meshes] ascending by elements */
     long work[RESULTS_WORKS]; /* sums over the meshes */
-    int errors;               /* number of values with an error, on all meshes */
+    int errors;               /* number of values with an error, over all meshes */
     double decades; /* sum of log10(|error| + RESULTS_FLOOR) over these values: it changes with
                        every error */
     result_error least,
-        largest;         /* least: on the mesh with the smallest error; largest: on all meshes */
+        largest; /* smallest: error on the mesh with the smallest error; largest: over all meshes */
     result_limit *limit; /* [limits] at a default point, in the order of the point's quantities */
 } result_series;
 
-/* Selection of a run: series outside it are not missing, because they were not requested. NULL: no
- * selection. */
+/* Selection of a run. Series outside the selection are not missing, because they were not
+ * requested. NULL: no selection. */
 typedef struct results_part {
     char *select;               /* expression of harness/formulations/formulations.h */
     char *cases, *formulations; /* one per line */
@@ -131,11 +131,11 @@ typedef struct stored_results {
     result_series *series; /* ascending by name */
 } stored_results;
 
-/* Reads HDF5 or a table, distinguished by the first bytes. FAULT: missing, truncated, foreign or
- * damaged, or a sweep. */
+/* Reads HDF5 or a table, distinguished by the first bytes. FAULT: the file is missing, truncated,
+ * foreign or damaged, or is a sweep. */
 status results_read(const char *path, stored_results *out, fault *f);
-/* As results_read for an experiment: "verify", "bench", or "sweep", which has no series; NULL: the
- * first of these in the file. */
+/* Like results_read for the results of an experiment: "verify", "bench", or "sweep", which has no
+ * series; NULL: the first of these in the file. */
 status results_read_any(const char *path, const char *experiment, stored_results *out, fault *f);
 void results_free(stored_results *r);
 
@@ -151,8 +151,8 @@ typedef struct comparison_limits {
     double error; /* threshold for the relative change of an error */
     double floor; /* largest change of a value, relative to its reference value, that counts as
                      round-off */
-    double work; /* threshold for the relative change of a count of one mesh; for a series, relative
-                    to the mean of its meshes */
+    double work; /* threshold for the relative change of a count of one mesh; for a series: relative
+                    to the mean over its meshes */
 } comparison_limits;
 /* Default limits. */
 extern const comparison_limits comparison_limits_default;
@@ -182,20 +182,22 @@ typedef struct comparison {
                     are not compared */
 } comparison;
 
-/* Reads any of "error=0.01,floor=1e-8,work=0.02". REFUSED names the invalid entry. */
+/* Reads any of the entries in "error=0.01,floor=1e-8,work=0.02". REFUSED: the message names the
+ * invalid entry. */
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f);
 /* Writes one line for each difference. Series outside the selection of one run, and series of new
- * formulations in one run only, are counted but not written. Names that do not match `select`
- * (study.h; NULL: all) are skipped. */
+ * formulations in one run only, are counted but not written. Series whose names do not match
+ * `select` (study.h; NULL: all) are skipped. */
 void comparison_run(FILE *to, const stored_results *before, const stored_results *after,
                     const comparison_limits *limits, const char *select, comparison *out);
 int comparison_differs(const comparison *c);
 
-/* Results for spreadsheets: one row per value in full precision; empty where there is no value. */
+/* Results for spreadsheets: one row per value, in full precision. Cells without a value are
+ * empty. */
 
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);
-/* Table of a benchmark: a row for every cell and evaluated quantity. */
+/* Writes the table of a benchmark, with a row for every cell and evaluated quantity. */
 void csv_timing(FILE *to, const sweep *s, const judgement *j);
 
 /* One schema for all records: a table of fields for each kind of record. HDF5, JSON, CSV and
@@ -206,8 +208,8 @@ enum { SCHEMA_VERSION = 3, SCHEMA_OLDEST = 2, SCHEMA_MOST_FIELDS = 96, FIELD_ROO
 /* Unit of a number whose unit is given by the field `unit` of the same record. */
 #define OWN_UNIT "unit"
 
-/* Role of a field that identifies the subject of the record. KEY_AROUND: only needed where the
- * context does not identify it (CSV, lists in JSON). */
+/* Role of a field that identifies the subject of the record. KEY_AROUND: the field is needed only
+ * where the context does not identify the subject (CSV, lists in JSON). */
 enum { KEY = 1, KEY_AROUND = 2 };
 
 typedef enum field_kind {
@@ -220,7 +222,7 @@ typedef enum field_kind {
     FIELD_KINDS
 } field_kind;
 
-/* A record with its context; members that do not apply are NULL (numbers: 0). */
+/* A record with its context. Members that do not apply are NULL or 0. */
 typedef struct subject {
     const sweep *sweep;
     const sweep_point *point;
@@ -231,7 +233,7 @@ typedef struct subject {
                 */
     int group; /* step of an iteration; first point of a curve */
     const verdict *verdict;
-    const truth *truth, *model_truth; /* reference values of a quantity */
+    const truth *truth, *model_truth; /* reference values of the quantity */
     const void *owner;                /* record that contains this one */
 } subject;
 
@@ -244,13 +246,13 @@ typedef enum field_base {
     BASE_SERIES,
     BASE_FORMULATION, /* element_type */
     BASE_CELL,
-    BASE_QUANTITY, /* scene_quantity with that index */
+    BASE_QUANTITY, /* scene_quantity number `index` */
     BASE_TRUTH,
     BASE_MODEL_TRUTH
 } field_base;
 
 typedef struct schema_field schema_field;
-/* The kind determines which member is set. */
+/* The kind of the field determines which member is set. */
 typedef struct field_value {
     const schema_field *of;
     long whole;            /* for INT, LONG, FLAG, ENUM */
@@ -263,7 +265,7 @@ typedef struct field_value {
 typedef void field_getter(const subject *s, field_value *out);
 
 struct schema_field {
-    const char *name, *unit; /* "1": dimensionless number; "": not a number */
+    const char *name, *unit; /* unit "1": dimensionless number; "": not a number */
     field_kind kind;
     const char *summary;
     field_base base; /* object to which the offset refers; NULL: there is no value */
@@ -278,39 +280,40 @@ struct schema_field {
 
 /* Value of a member of the record. */
 #define AT(type, member) .offset = offsetof(type, member)
-/* Value of a member of the context; the second macro: a text stored as a pointer. */
+/* Value of a member of the context. The second macro is for a text that is stored as a pointer. */
 #define OF(place, type, member)      .base = BASE_##place, .offset = offsetof(type, member)
 #define TEXT_OF(place, type, member) OF(place, type, member), .address = 1
 
-/* Tables end with a field without name. */
+/* Tables end with a field without a name. */
 enum { RECORD_PARTS = 5 };
 typedef struct record_type {
-    const char *name, *table, *summary;     /* name of the table in HDF5 and of lists in JSON */
-    const schema_field *part[RECORD_PARTS]; /* field tables, in order; NULL-terminated */
+    const char *name, *table, *summary; /* table: name of the table in HDF5 and of lists in JSON */
+    const schema_field *part[RECORD_PARTS]; /* field tables in order, NULL-terminated */
 } record_type;
 
-/* Records of a series of meshes, one mesh, its results and how they were found, its times, and its
- * evaluation. */
+/* The kinds of records: a series of meshes, one mesh, its results and how they were found, its
+ * times, its evaluation, and others. */
 extern const record_type record_point, record_series, record_cell, record_quantity, record_curve,
     record_step, record_iteration, record_event, record_motion, record_matrix, record_timing,
     record_verdict, record_agreement, record_coverage, record_import, record_scene,
     record_parameter, record_meaning, record_assumption;
-extern const record_type *const record_types[]; /* all of them; NULL-terminated */
-extern const record_type record_truth;          /* reference values of a quantity, in JSON only */
-extern const record_type record_declaration;    /* declarations of a whole run, in HDF5 only */
+extern const record_type
+    *const record_types[];                   /* all kinds except the two below, NULL-terminated */
+extern const record_type record_truth;       /* reference values of a quantity, in JSON only */
+extern const record_type record_declaration; /* declarations of a whole run, in HDF5 only */
 
-/* Pointers to the fields whose key is at most `keys`, in order; returns their number. */
+/* Sets out to the fields whose key is at most `keys`, in order, and returns their number. */
 int schema_fields(const record_type *type, int keys, const schema_field *out[SCHEMA_MOST_FIELDS]);
 void schema_read(const subject *s, const schema_field *which, field_value *out);
 const char *schema_kind_name(field_kind kind);
-/* For getters: sets a text that may be NULL, or a number. */
+/* For getters: set a text, which may be NULL, or a number. */
 void schema_set_text(field_value *out, const char *text);
 void schema_set_number(field_value *out, double number);
 
-/* Records as lines of CSV: full precision, empty where there is no value. */
+/* Records as lines of CSV, in full precision. Cells without a value are empty. */
 
-/* A line consists of several records, each with one subject. Of fields with the same name only the
- * first is written. Matrices are omitted. */
+/* A line consists of several records, each with its own subject. If several fields have the same
+ * name, only the first is written. Matrices are omitted. */
 typedef struct csv_part {
     const record_type *type;
     subject s;
@@ -334,7 +337,7 @@ void digest_add(digest *, const void *data, size_t size);
 void digest_add_text(
     digest *,
     const char *text); /* includes the terminating zero, so that "ab", "c" differs from "a", "bc" */
-/* Equal numbers give equal digests: -0 as 0, and all NaN alike. */
+/* Equal numbers give equal digests: -0 counts as 0, and all NaN are alike. */
 void digest_add_number(digest *, double value);
 /* Writes the digits; further data may then be added to the digest. */
 void digest_text(const digest *, char out[DIGEST_TEXT]);
@@ -343,24 +346,24 @@ int digest_add_file(digest *, const char *path);
 
 /* Identity of a record: the first fields of the tables of fields_*.c, and shared helpers. */
 
-extern const schema_field keys_of_point[];  /* case, parameter point */
-extern const schema_field keys_of_series[]; /* its parameters, formulation */
-extern const schema_field key_of_mesh[];    /* elements of each member */
+extern const schema_field keys_of_point[];  /* case and parameter point */
+extern const schema_field keys_of_series[]; /* parameters of the point, and formulation */
+extern const schema_field key_of_mesh[];    /* number of elements of each member */
 
 enum { STATUSES = STATUS_NO_VALUE + 1 };
-/* ENUM fields: their words. */
+/* ENUM fields: the words of their values. */
 const char *fields_keys_word_of_status(int status);
 const char *fields_keys_word_of_moments(int convention);
 
-/* The quantity with index s->index. */
+/* Returns the quantity with index s->index. */
 const scene_quantity *fields_keys_quantity(const subject *s);
 const cell_result *fields_keys_cell(const subject *s);
 
-/* Modes followed over a parameter, as CSV and JSON. */
+/* Modes followed over a parameter, written as CSV and JSON. */
 
-/* A row for each value and mode. */
+/* Writes a row for each value and mode. */
 void follow_record_csv(FILE *to, const char *parameter, const follow_curves *);
-/* Columns of each mode, crossings and veerings. */
+/* Writes the columns of each mode, the crossings and the veerings. */
 status follow_record_json(FILE *to, const char *parameter, const follow_curves *, fault *);
 
 /* Lists of records of one kind, in the order of the series. */
@@ -373,8 +376,8 @@ typedef struct subjects {
     int bad;           /* 1: out of memory */
 } subjects;
 
-/* Reference values with which quantities are compared: those of the verdicts, or the stored values
- * if nothing was evaluated. Both may be NULL. */
+/* Reference values with which quantities are compared: those used for the verdicts, or the stored
+ * values if nothing was evaluated. Both may be NULL. */
 typedef struct gathering {
     const sweep *sweep;
     const judgement *judged;
@@ -391,19 +394,19 @@ subject gather_verdict(const gathering *g, const verdict *v);
 subject gather_agreement(const gathering *g, const agreement *a);
 subject gather_coverage(const gathering *g, const coverage *c, int left_out);
 void gather_add(subjects *list, const subject *one);
-/* Copies a record; the copy exists as long as the list. NULL: out of memory. */
+/* Copies a record; the copy lasts as long as the list. Returns NULL if out of memory. */
 const void *gather_keep(subjects *list, const void *record, size_t size);
 void gather_free(subjects *list);
 
 /* JSON of one solution and of a verification (jansson). */
 
-/* Writes and frees root. FAULT: root is NULL (out of memory), or cannot be written. */
+/* Writes and frees root. FAULT: root is NULL (out of memory), or it cannot be written. */
 status json_finish(json_t *root, FILE *to, fault *f);
 
 /* Adds the physics that the scene of a point omits ("omitted"), and the assumptions on its sections
  * ("assumptions"). */
 void json_add_physics(json_t *root, const sweep_point *p);
-/* Solution of one cell of a one-point sweep; t may be NULL. */
+/* Writes the solution of one cell of a one-point sweep; t may be NULL. */
 status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f);
 /* Verdicts as text, collected while others are still being computed. */
 typedef struct json_part {
@@ -415,27 +418,28 @@ typedef struct json_part {
 
 /* The structure must not move until it is freed. */
 void json_part_begin(json_part *);
-/* Adds the verdicts since the last call. */
+/* Adds the verdicts found since the last call. */
 void json_part_add(json_part *, const sweep *s, const judgement *j);
 void json_part_free(json_part *);
-/* part: verdicts already converted; NULL: none. */
+/* Writes the verdicts of a verification. part: verdicts that were already converted; NULL: none. */
 status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e,
                            json_part *part, fault *f);
 
 /* JSON of a convergence study: values, limits, orders. */
 
-/* Every quantity of every series over its meshes, with limit, order and verdict; and the
+/* Writes every quantity of every series over its meshes, with limit, order and verdict, and the
  * formulations whose error is within the level in every quantity. */
 status json_convergence_write(FILE *to, const sweep *s, const truths *t, double level, fault *f);
 
 /* Records as JSON objects, field by field. */
 
-/* keys: KEY_AROUND if the context does not identify the record; 0 if it does. */
+/* keys: KEY_AROUND if the context does not identify the record, otherwise 0. */
 json_t *json_record(const record_type *type, const subject *s, int keys);
 void json_record_add(json_t *list, const record_type *type, const subject *s, int keys);
 json_t *json_record_type(const record_type *type); /* describes the fields of a record */
 
-/* Verdicts for continuous integration: JUnit XML, values and tolerances as properties. */
+/* Writes verdicts for continuous integration as JUnit XML, with values and tolerances as
+ * properties. */
 
 void junit_write(FILE *to, const sweep *s, const judgement *j);
 
@@ -443,8 +447,7 @@ void junit_write(FILE *to, const sweep *s, const judgement *j);
 
 typedef enum place_kind {
     PLACE_FREE,   /* does not exist, but its folder does */
-    PLACE_FILE,   /* a pipe or a device, or the file to which standard output or error is redirected
-                   */
+    PLACE_FILE,   /* an existing regular file */
     PLACE_STREAM, /* a pipe or a device, or the file that standard output or error goes to */
     PLACE_FOLDER
 } place_kind;
@@ -453,7 +456,7 @@ typedef struct file_place {
     place_kind kind;
     int descriptor;      /* 1, 2: standard output or error of this process; -1: none */
     int shared;          /* 1: a character device, to which several may write */
-    char path[PATH_MAX]; /* with links resolved; for a stream, as given */
+    char path[PATH_MAX]; /* with links resolved; a stream keeps the given path */
     dev_t device;        /* of the file; for a free path, of its folder */
     ino_t inode;
     mode_t mode; /* permissions of the existing file */
@@ -461,9 +464,11 @@ typedef struct file_place {
     gid_t group;
 } file_place;
 
-/* REFUSED: an empty path. FAULT: the path is too long, or its folder does not exist. */
+/* Finds the target of a path. REFUSED: the path is empty. FAULT: the path is too long, or its
+ * folder does not exist. */
 status place_find(const char *path, file_place *out, fault *f);
-/* Are they the same file, by device and inode? Free paths: the same name in the same folder. */
+/* Returns 1 if the two are the same file, by device and inode; if the paths are free, by the same
+ * name in the same folder. */
 int place_same(const file_place *a, const file_place *b);
 /* Returns the part of a path after its folder. */
 const char *place_leaf(const char *path);
@@ -477,28 +482,29 @@ typedef enum output_form { OUTPUT_TEXT, OUTPUT_WHOLE_FILE } output_form;
 typedef struct output {
     FILE *stream;
     file_place to;
-    char temporary[PATH_MAX]; /* empty: written directly */
+    char temporary[PATH_MAX]; /* temporary file; empty: the target is written directly */
 } output;
 
-/* 1: the file name has an HDF5 extension. */
+/* Returns 1 if the file name has an HDF5 extension. */
 int output_is_hdf5(const char *path);
-/* Opens a text file; path NULL: standard output. */
+/* Opens a text file. path NULL: standard output. */
 status output_open(const char *path, output *out, fault *f);
 status output_open_whole(const char *path, output *out, fault *f);
-/* Flushes and renames; reports every error of writing. After a failure no file remains. */
+/* Flushes and renames the file; reports every write error. After a failure no file remains. */
 status output_close(output *out, fault *f);
-/* Closes the output if it was written; otherwise discards it. */
+/* Closes the output if `written` is OK; otherwise discards it. */
 status output_finish(output *out, status written, fault *f);
 /* Flushes standard output. FAULT: it could not be written. */
 status output_flush(fault *f);
 /* Checks an output before any computation. REFUSED: an invalid name, or a target that cannot take
- * this form. FAULT: it cannot be written. *where: its location, for comparison with others. */
+ * this form. FAULT: it cannot be written. *where: its location, for comparison with other
+ * outputs. */
 status output_try(const char *path, output_form form, file_place *where, fault *f);
 /* Deletes incomplete temporary files and folders of this process; may be called by a signal
  * handler. */
 void output_abandon(void);
-/* Name of the partial result of an interrupted run: "results.partial.h5" for "results.h5". A stream
- * keeps its name. */
+/* Sets `partial` to the name for the partial result of an interrupted run, such as
+ * "results.partial.h5" for "results.h5". A stream keeps its name. */
 status output_partial(const char *path, char partial[PATH_MAX], fault *f);
 
 /* Writes an HDF5 file that appears complete or not at all: it is built in memory or under a
@@ -512,14 +518,13 @@ typedef struct record_file {
 } record_file;
 
 status record_open(record_file *r, fault *f);
-/* Builds the file on disk, for data larger than memory. REFUSED, FAULT: the file cannot be written
- * there.
- */
+/* Begins a file that is built on disk, for data larger than memory. REFUSED, FAULT: the file cannot
+ * be written there. */
 status record_open_beside(record_file *r, const char *path, fault *f);
-/* Writes the file to `path` (NULL: nothing; on disk: the path given at opening) and frees its
- * memory. */
+/* Writes the file and frees its memory. path NULL: writes nothing. A file built on disk is written
+ * to the path given when it was opened. */
 status record_close(record_file *r, const char *path, fault *f);
-/* Frees the memory without writing; returns the given outcome. */
+/* Frees the memory without writing; returns `outcome`. */
 status record_drop(record_file *r, status outcome);
 
 /* Attributes. */
@@ -536,7 +541,7 @@ hid_t record_array(record_file *r, hid_t at, const char *name, hid_t type, int r
  */
 hid_t record_values(record_file *r, hid_t at, const char *name, int rank, const hsize_t size[],
                     const double value[], const char *unit);
-/* Fixed-length UTF-8 type; the caller closes it with H5Tclose. */
+/* Returns a fixed-length UTF-8 type; the caller closes it with H5Tclose. */
 hid_t record_text_type(size_t length);
 /* Creates a data set row[count] of the given type; the caller closes it with H5Dclose. */
 hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int count,
@@ -552,14 +557,15 @@ hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int c
  * another experiment is added to such a file, its root becomes the group. */
 #define KEPT_SWEEP_MARK "beamwork_sweep"
 
-/* Group for the output of an experiment; name NULL: the root. The caller closes it with H5Gclose.
- */
+/* Creates the group for the output of an experiment; name NULL: the root. The caller closes it with
+ * H5Gclose. */
 hid_t kept_group(record_file *r, const char *name);
-/* As record_close, but keeps the other experiments in the file at `path`. After FAULT the file is
- * unchanged. */
+/* Like record_close, but keeps the other experiments in the file at `path`. After a FAULT the file
+ * is unchanged. */
 status kept_close(record_file *r, const char *name, const char *path, fault *f);
 /* Must be called before the computation. REFUSED: the existing HDF5 file is damaged or contains no
- * results and would be lost, or another program has locked it. FAULT: it cannot be locked. */
+ * results, so that its contents would be lost, or another program has locked it. FAULT: the file
+ * cannot be locked. */
 status kept_check(const char *path, fault *f);
 
 /* Summary of a verification as Markdown, for the description of a pull request. */
@@ -575,31 +581,34 @@ typedef struct output_folder {
     char temporary[PATH_MAX];
 } output_folder;
 
-/* Can the folder be created? Sets *where. REFUSED: the path exists and is not an empty folder.
- * FAULT: it cannot be written. */
+/* Checks whether the folder can be created, and sets *where. REFUSED: the path exists and is not an
+ * empty folder. FAULT: the folder cannot be written. */
 status output_folder_try(const char *path, file_place *where, fault *f);
 status output_folder_open(const char *path, output_folder *out, fault *f);
-/* Creates a file in the folder, "K.mtx" or "state/K.mtx", with the output of `write` for `what`. */
+/* Creates a file in the folder, such as "K.mtx" or "state/K.mtx", with the output of `write` for
+ * `what`. */
 status output_folder_file(const output_folder *, const char *name,
                           void (*write)(FILE *, const void *what), const void *what, fault *f);
-/* Renames the folder if everything was written; otherwise removes it. */
+/* Renames the folder if `written` is OK; otherwise removes it. */
 status output_folder_finish(output_folder *, status written, fault *f);
 
-/* Conclusion of a convergence table: which formulation, with how many elements. */
+/* Conclusion of a convergence table: the formulations that reach an error, and with how many
+ * elements. */
 
-#define REACH_LINE_LEVEL 0.01 /* where none is requested */
+#define REACH_LINE_LEVEL 0.01 /* level if none is requested */
 
-/* "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2 (0.4 ms): costs tie;
- * beamw n = 8 (2 ms)": in the order of study.h, with the cost of their counted work. The
- * formulations with a defect and those not within the level follow. "in 5 of 6 quantities (without
- * a reference: frequency_1)" is added if some have neither a reference value nor an agreement;
- * curves do not count. Refers to the first point. One line. */
+/* Writes one line such as "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2
+ * (0.4 ms): costs tie; beamw n = 8 (2 ms)". The order is that of study.h, and the times are the
+ * costs of the counted work. Formulations with a defect and those not within the level come last.
+ * "in 5 of 6 quantities (without a reference: frequency_1)" is added if some quantities have
+ * neither a reference value nor an agreement; curves are not counted. The line refers to the first
+ * point. */
 void reach_line_write(FILE *to, const sweep *s, const truths *t, double level);
-/* Writes one line with the difference of passing formulations from a solid, plate or shell; no line
- * if it is not known. */
+/* Writes one line with the difference of the passing formulations from a solid, plate or shell; no
+ * line if the difference is unknown. */
 void reach_model_write(FILE *to, const sweep *s, const truths *t, double level);
 
-/* As record_rows_of_type, for records that the context does not identify. */
+/* Like record_rows_of_type, for records that the context does not identify. */
 void record_rows_alone(record_file *r, hid_t at, const record_type *type, int count,
                        const subject row[]);
 /* Writes a record as attributes. */
@@ -613,9 +622,9 @@ typedef struct results_hash {
     long values;            /* number of hashed numbers and texts */
 } results_hash;
 
-/* Hashes every data set in the order of names, row by row; for results.h5 and any other file of
- * beamwork. Omits tables `timings`, data sets named `seconds...`, and attributes. FAULT: not a file
- * of beamwork. */
+/* Hashes every data set in the order of names, row by row; for results.h5 and any other beamwork
+ * file. Omits the tables `timings`, data sets named `seconds...`, and attributes. FAULT: the file
+ * is not a beamwork file. */
 status results_hash_of(const char *path, results_hash *out, fault *f);
 
 /* results.h5: all results of a sweep, for the reports. Below /cases/CASE there is a table for each
@@ -626,56 +635,57 @@ status results_hash_of(const char *path, results_hash *out, fault *f);
 typedef struct store {
     record_file file;
     hid_t root, cases;
-    const char *experiment; /* experiment whose group is written; NULL: the root */
+    const char *experiment; /* experiment whose group is written; NULL: the root is written */
     const sweep *sweep;
     const judgement *judged;
 } store;
 
 /* The arguments must exist as long as the file is open. */
 status store_open(const char *experiment, const sweep *s, const judgement *j, store *out, fault *f);
-/* Adds a case, all of whose series have been evaluated. */
+/* Adds a case; all its series must have been evaluated. */
 void store_case(store *, const case_type *);
 /* Adds the remaining cases and the description of the run. The file is written under a temporary
- * name and renamed: FAULT leaves no file. path NULL: nothing is written. */
+ * name and renamed: after a FAULT no file remains. path NULL: nothing is written. */
 status store_close(store *, const char *path, const environment *e, fault *f);
 
-/* Written under a temporary name and renamed: FAULT leaves no file. */
+/* Writes the whole file under a temporary name and renames it; after a FAULT no file remains. */
 status store_write(const char *path, const char *experiment, const sweep *s, const judgement *j,
                    const environment *e, fault *f);
-/* Writes the first cell of a sweep in the same way, without verdicts, and with its shapes also for
- * VTK. */
+/* Writes the first cell of a sweep in the same way, without verdicts; its shapes are also written
+ * for VTK. */
 status store_write_solution(const char *path, const sweep *s, const environment *e, fault *f);
 
-/* Attributes of a group with program, commit and time. */
+/* Writes the program, commit and time as attributes of a group. */
 void store_environment(record_file *r, hid_t at, const environment *e);
 
 /* A folder with the matrices of small motions about the states of a solution:
  *   dofs.csv meaning of each row, loads.csv meaning of each column of B, states.csv meaning of each
  * folder STATE/      K.mtx, M.mtx, where the axes turn G.mtx, where there are loads B.mtx */
 
-/* title: of the solution, one line, for the comments of the matrices. The folder appears complete
- * or not at all. */
+/* title: one line that describes the solution, for the comments of the matrices. The folder appears
+ * complete or not at all. */
 status system_folder_write(const char *path, const char *title, const scene *,
                            const system_matrices *, fault *);
 
-/* Reads columns of an HDF5 table into rows of the caller. All contents of the file are checked. */
+/* Reads columns of an HDF5 table into rows of the caller. The contents of the file are checked. */
 
-/* Reads into a member of the row: INT, LONG, DOUBLE, FLAG (a signed char), or a text of at most
- * room - 1 bytes (an ENUM is stored as its word). */
+/* A column is read into a member of the row: INT, LONG, DOUBLE, FLAG (a signed char), or a text of
+ * at most room - 1 bytes (an ENUM is stored as its word). */
 typedef struct table_column {
     const char *name;
     field_kind kind;
     size_t offset, room; /* room: size of a text */
 } table_column;
 
-/* Returns the number of rows of `size` bytes, which the caller frees. -1: the table or a column of
- * that kind is missing, or out of memory. */
+/* Reads the table, whose rows have `size` bytes and which the caller frees, and returns the number
+ * of rows. Returns -1 if the table or a column of that kind is missing, or if out of memory. */
 int table_reader_rows(hid_t at, const char *name, int columns, const table_column column[],
                       size_t size, void **rows);
 
-/* Text attribute of fixed length; returns 0 if it is missing, too long or of another type. */
+/* Reads a text attribute of fixed length; returns 0 if it is missing, too long or of another
+ * type. */
 int table_reader_attribute_text(hid_t at, const char *name, char *text, size_t size);
-/* Integer from a scalar attribute; returns 0 if it is missing or of another type. */
+/* Reads an integer from a scalar attribute; returns 0 if it is missing or of another type. */
 int table_reader_attribute_count(hid_t at, const char *name, long *out);
 
 #endif

@@ -9,13 +9,14 @@
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"
 
-/* A relative error in percent, in 12 columns with a leading blank; a dash if there is none. */
+/* Prints a relative error in percent, in 12 columns with a leading blank; a dash if there is
+ * none. */
 void table_percent(FILE *to, double error);
 /* Prints a value with the digits that its uncertainty allows (harness/study/study.h). */
 void table_known(FILE *to, int width, double value, double uncertainty);
 /* Prints a value with the given number of digits. */
 void table_digits(FILE *to, int width, double value, int digits);
-/* "case: parameters", with the parameters that differ from their defaults. */
+/* Prints "case: parameters", with the parameters that differ from their defaults. */
 void table_point(FILE *to, const sweep_point *p);
 
 /* Lowest cost for an error, by counted work, with the times of a benchmark. */
@@ -35,12 +36,12 @@ void table_curves_errors(FILE *to, const sweep *s);
 
 /* Stability of the states of paths, as far as their tangents show it. */
 
-/* Word for a step: "yes", "no", "held" (by gyroscopic forces), "?". */
+/* Returns the word for a step: "yes", "no", "held" (by gyroscopic forces), "?". */
 const char *table_stability_word(step_stability);
 /* Prints a line for each path that is not stable everywhere; returns the number of lines. */
 int table_stability_paths(FILE *to, const scene *s, const solve_result *r);
-/* Prints a paragraph for each formulation with unstable states: on which meshes, and which meshes
- * failed. */
+/* Prints a paragraph for each formulation with unstable states: the meshes on which they occur, and
+ * the meshes that failed. */
 void table_stability_meshes(FILE *to, const sweep *s);
 
 /* table_path.c */
