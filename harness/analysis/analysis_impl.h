@@ -111,6 +111,7 @@ typedef struct unsymmetric_result {
     double *split; /* [count] imaginary part of s^2 relative to its size; 1: divergence */
     double *error; /* [count] estimate of the rounding error, relative to |s| */
     double *mode;  /* [count x n] real */
+    int lost;      /* number of slow poles of integrals that are unknown, of error INFINITY */
     long solutions;
 } unsymmetric_result;
 
@@ -119,6 +120,9 @@ static const double unsymmetric_same = 1e-6;
 
 status unsymmetric_solve(const unsymmetric_problem *, unsymmetric_result *, fault *);
 void unsymmetric_free(unsymmetric_result *);
+/* Improves a pole *s of K, M, C (same pattern) and its mode[n], which is real. *error: relative to
+ * |s|; INFINITY: no convergence, or too many coordinates. */
+status refine_pole(const sparse of[], double complex *s, double mode[], double *error, fault *);
 
 /* Small motions and stability about states with an unsymmetric tangent (follower loads, moments
  * about fixed axes). Stability is lost by divergence, where the tangent is singular, or by flutter,

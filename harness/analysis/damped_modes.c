@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
 #include "elements/math/scalar.h"
 #include "harness/model/model.h"
 
@@ -15,6 +16,17 @@ enum { ALL_STATES = 400 };
 static status no_memory(fault *f)
 {
     return fault_set(f, STATUS_FAULT, "out of memory for damped modes");
+}
+
+static const char *const one_each =
+    "; each integral gain must move what it measures, and no two the same motion";
+
+static int integrals_of(const vibration *v)
+{
+    int count = 0;
+    for (int i = 0; i < v->loops; i++)
+        count += v->loop[i].integrates;
+    return count;
 }
 
 static double diagonal(const sparse *a, int j)
@@ -35,16 +47,42 @@ static double highest(const unsymmetric_problem *p)
     return sqrt(square);
 }
 
+/* Estimate of the slowest frequency of the structure, whose measured motions integrals hold at 0,
+ * from K^-1 M; x, y [n]. */
+static double slowest(const unsymmetric_problem *p, double x[], double y[])
+{
+    enum { PASSES = 5 };
+    const int n = p->K->n;
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        x[i] = 1 + 0.1 * (i % 7);
+    for (int pass = 0; pass <= PASSES; pass++) {
+        sparse_mul(p->M, x, y);
+        const double size = sqrt(fabs(dense_dot(n, x, y)));
+        if (pass > 0)
+            most = size;
+        for (int i = 0; i < n && size > 0; i++)
+            y[i] /= size;
+        memcpy(x, y, (size_t)n * sizeof *x);
+        factor_solve(p->K_factor, x);
+    }
+    return most > 0 ? fmin(highest(p), 1 / sqrt(most)) : highest(p);
+}
+
 static double size_of(const unsymmetric_result *r, int i)
 {
     return hypot(r->growth[i], r->frequency[i]);
 }
 
+/* The shift relative to the slowest mode. */
+static const double small = 1e-3;
+
 /* Does the slow pole of an integral hide other modes in round-off? */
 static int hides(const unsymmetric_problem *p, const unsymmetric_result *r)
 {
-    const double digits = 1e-10, bearable = 1e-6;
-    int hidden = r->count == 0 || size_of(r, 0) < digits * highest(p);
+    const double digits = 1e-10, some = 1e-7, bearable = 1e-6;
+    int hidden = r->count == 0 || size_of(r, 0) < digits * highest(p) ||
+                 size_of(r, 0) < some * size_of(r, r->count - 1);
     for (int i = 0; i < r->count; i++)
         hidden |= !(r->error[i] <= bearable);
     return hidden;
@@ -63,43 +101,81 @@ static void shift_by(sparse closed[], const double own[], double shift)
 /* The shift is a small part of the slowest mode after the poles of integrals. A first shift finds
  * that mode. */
 static status solve_shifted(vibration *v, unsymmetric_problem *p, int integrals, sparse closed[],
-                            const double own[], unsymmetric_result *r, fault *f)
+                            const double own[], double first, unsymmetric_result *r, fault *f)
 {
-    const double small = 1e-3, before = p->shift;
-    for (double shift = before + small * highest(p); shift > 0;) {
-        shift_by(closed, own, shift - before);
+    for (double shift = first; shift > 0;) {
+        shift_by(closed, own, shift);
         p->shift = shift;
         TRY(factor_numeric(p->K_factor, p->K, f));
         v->c->run->counters.factorisations++;
         unsymmetric_free(r);
         TRY(unsymmetric_solve(p, r, f));
         const double other = r->count > integrals ? size_of(r, integrals) : 0;
-        shift = shift > 10 * small * other && small * other > before ? small * other : 0;
+        shift = shift > 10 * small * other ? small * other : 0;
     }
     return STATUS_OK;
 }
 
+/* Are two results one pole, not a double one? */
+static int is_same(const unsymmetric_result *r, int i, int k)
+{
+    const double same = 1e-6, *a = r->mode + (size_t)i * (size_t)r->n,
+                 *b = r->mode + (size_t)k * (size_t)r->n;
+    const double part = fabs(dense_dot(r->n, a, b)),
+                 size = sqrt(dense_dot(r->n, a, a) * dense_dot(r->n, b, b));
+    return hypot(r->growth[k] - r->growth[i], r->frequency[k] - r->frequency[i]) <
+               same * size_of(r, i) &&
+           part > (1 - same) * size;
+}
+
+/* Refines the poles that the shift of the solution rounds. closed: without the shift. */
+static status refine_slow(const sparse closed[], double shift, unsymmetric_result *r, fault *f)
+{
+    const double slow = 1e-2 * shift;
+    for (int i = 0; i < r->count && size_of(r, i) < slow; i++) {
+        const int is_real = r->frequency[i] == 0;
+        double complex s = r->growth[i] + I * r->frequency[i];
+        double *mode = r->mode + (size_t)i * (size_t)r->n;
+        TRY(refine_pole(closed, &s, mode, &r->error[i], f));
+        if (is_real != (cimag(s) == 0) || cabs(s) >= slow)
+            r->error[i] = INFINITY;
+        r->frequency[i] = fabs(cimag(s));
+        r->growth[i] = fabs(creal(s)) > 10 * r->error[i] * cabs(s) ? creal(s) : 0;
+        for (int k = 0; k < i; k++)
+            if (is_same(r, i, k))
+                r->error[k] = r->error[i] = INFINITY;
+    }
+    for (int i = 0; i < r->count && size_of(r, i) < slow; i++)
+        r->lost += !(r->error[i] < INFINITY);
+    return STATUS_OK;
+}
+
 /* Finds the modes of the matrices with closed loops. If a slow pole hides other modes, the matrices
- * are shifted. */
+ * are shifted meanwhile. */
 static status solve_closed(vibration *v, unsymmetric_problem *p, sparse closed[],
                            unsymmetric_result *r, fault *f)
 {
-    int integrals = 0;
-    for (int i = 0; i < v->loops; i++)
-        integrals += v->loop[i].integrates;
+    const int integrals = integrals_of(v);
     const status first = unsymmetric_solve(p, r, f);
     if (first == STATUS_FAULT || integrals == 0 || (first == STATUS_OK && !hides(p, r)))
         return first;
     const size_t entries = (size_t)p->K->column[p->K->n];
-    double *own = malloc((2 * entries + 1) * sizeof *own);
+    const size_t n = (size_t)p->K->n;
+    double *own = malloc((2 * entries + 2 * n + 1) * sizeof *own);
     if (own == NULL)
         return no_memory(f);
     memcpy(own, closed[0].value, entries * sizeof *own);
     memcpy(own + entries, closed[2].value, entries * sizeof *own);
     p->wanted += integrals;
-    const status outcome = solve_shifted(v, p, integrals, closed, own, r, f);
+    const double from = small * slowest(p, own + 2 * entries, own + 2 * entries + n);
+    status outcome = solve_shifted(v, p, integrals, closed, own, from, r, f);
+    memcpy(closed[0].value, own, entries * sizeof *own);
+    memcpy(closed[2].value, own + entries, entries * sizeof *own);
     free(own);
-    return outcome;
+    if (outcome == STATUS_OK)
+        outcome = refine_slow(closed, p->shift, r, f);
+    v->c->run->counters.factorisations++;
+    return outcome == STATUS_OK ? factor_numeric(p->K_factor, p->K, f) : outcome;
 }
 
 static status take_frequencies(const harmonic_modes *m, int *count, double **hertz, fault *f)
@@ -120,7 +196,6 @@ static status find_damped_of(vibration *v, const sparse *const of[], sparse clos
 {
     enum { FIRST = 16 };
     const int states = 2 * of[0]->n, all = v->loops > 0 && states <= ALL_STATES;
-    double shift = 0;
     fault why = {""};
     for (int wanted = all ? states : FIRST, enough = 0; !enough; wanted *= 4) {
         unsymmetric_problem p = {.K = of[0],
@@ -132,11 +207,9 @@ static status find_damped_of(vibration *v, const sparse *const of[], sparse clos
                                  .K_factor = factor,
                                  .wanted = wanted,
                                  .estimate = v->loops > 0,
-                                 .decaying = v->damped || v->loops > 0,
-                                 .shift = shift};
+                                 .decaying = v->damped || v->loops > 0};
         unsymmetric_free(r);
         const status found = solve_closed(v, &p, closed, r, &why);
-        shift = p.shift;
         v->c->run->counters.solutions += r->solutions;
         if (found == STATUS_FAULT)
             return fault_set(f, found, "%s", why.text);
@@ -175,7 +248,8 @@ static status find_damped(vibration *v, harmonic_modes *m, double below, unsymme
             outcome = fault_set(f, STATUS_REFUSED,
                                 "whether the loop of feedback is stable is not known, because one "
                                 "motion has no stiffness: support it by a soft spring, or give "
-                                "feedback a proportional gain");
+                                "feedback a proportional gain%s",
+                                integrals_of(v) > 0 ? one_each : "");
     }
     loops_release(closed);
     return outcome;
@@ -221,7 +295,12 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
     if (v->loops == 0 && ((!circulates && v->about == NULL) || s->analysis[v->analysis].by_modes))
         return STATUS_OK;
     m = calloc(1, sizeof *m);
-    const status outcome = m != NULL ? find_damped(v, m, below, &r, f) : no_memory(f);
+    status outcome = m != NULL ? find_damped(v, m, below, &r, f) : no_memory(f);
+    if (outcome == STATUS_OK && r.lost > 0)
+        outcome = fault_set(f, STATUS_NOT_CONVERGED,
+                            "whether the loop of feedback is stable is not known, because a slow "
+                            "mode is lost in round-off: use larger integral gains, or none, or "
+                            "fewer elements");
     for (int i = 0; i < r.count; i++)
         if (grows(v, &r, i) &&
             (v->about == NULL || hypot(r.growth[i], r.frequency[i]) <= 2 * PI * below))
@@ -323,8 +402,9 @@ static status find_modes_with(vibration *v, const sparse *const of[], matrix_fac
     if (factored == STATUS_SINGULAR)
         return fault_set(f, STATUS_REFUSED,
                          "damped modes require stiffness in every direction, but the structure "
-                         "can move freely in one: hold it, or support it by a soft spring%s",
-                         closed != NULL ? ", or give feedback a proportional gain" : "");
+                         "can move freely in one: hold it, or support it by a soft spring%s%s",
+                         closed != NULL ? ", or give feedback a proportional gain" : "",
+                         integrals_of(v) > 0 ? one_each : "");
     if (factored != STATUS_OK)
         return fault_set(f, factored, "%s", why.text);
     unsymmetric_problem p = {.K = of[0],
@@ -386,6 +466,12 @@ static status find_modes(vibration *v, unsymmetric_result *r, fault *f)
     return find_modes_with(v, of, v->factor, NULL, r, f);
 }
 
+static void advise(outcome_side *to)
+{
+    const size_t used = strlen(to->reason);
+    snprintf(to->reason + used, sizeof to->reason - used, ", or larger integral gains");
+}
+
 status damped_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     vibration v = {.c = c, .analysis = analysis};
@@ -396,6 +482,8 @@ status damped_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
         note_growth(&v, &r, out);
         out->positive.growth = r.growth;
         flutter_take(&r, &out->positive);
+        if (v.loops > 0 && out->positive.status == STATUS_NOT_CONVERGED)
+            advise(&out->positive);
         snprintf(out->meaning, sizeof out->meaning, "%s%s%s", v.damped ? "damped" : "",
                  v.damped && v.loops > 0 ? ", " : "", v.loops > 0 ? "loop closed" : "");
         if (v.about != NULL)

@@ -158,6 +158,26 @@ static void find_second(unsymmetric_solver *s, double from[], double to[])
     s->second = size > 0 ? sqrt(size) : 1;
 }
 
+/* Scales integrals z, with C z' = -K x, between the forces that they cause and their change in
+ * `second`; rate: work space. */
+static void scale_integrals(unsymmetric_solver *s, double rate[])
+{
+    const sparse *K = s->p->K, *C = s->p->C;
+    memset(rate, 0, (size_t)s->n * sizeof *rate);
+    for (int j = 0; j < s->n && !K->symmetric; j++)
+        for (int k = K->column[j]; k < K->column[j + 1]; k++)
+            if (K->row[k] != j)
+                rate[K->row[k]] = fmax(rate[K->row[k]], fabs(K->value[k]) / s->scale[j]);
+    for (int i = 0; i < s->n && !K->symmetric; i++) {
+        const double own = diagonal(C, i);
+        if (rate[i] > 0 && own > 0 && diagonal(s->p->M, i) == 0 &&
+            diagonal(K, i) <= (1 + nothing) * s->p->shift * own) {
+            const double by_rate = own / (rate[i] * s->second);
+            s->scale[i] = fmax(s->scale[i], sqrt(by_rate * s->scale[i]));
+        }
+    }
+}
+
 static status pairs(unsymmetric_solver *s, int transposed, arnoldi_result *out, fault *f)
 {
     const int damped = s->p->C != NULL, wanted = (damped ? 2 : 1) * s->p->wanted;
@@ -362,8 +382,10 @@ static void take(unsymmetric_solver *s, int i, double error, const growth_estima
         at = with_inside(s, i, at, e);
     if (stays_real)
         at = creal(at);
-    const int damped = s->p->C != NULL, second = !damped && cimag(theta) < 0, k = r->count;
-    if (s->p->decaying && fabs(cimag(at)) <= fmin(10 * error, nothing) * cabs(at))
+    const int damped = s->p->C != NULL, k = r->count,
+              doubled = s->p->decaying && fabs(cimag(at)) <= fmin(10 * error, nothing) * cabs(at),
+              second = (!damped || doubled) && cimag(theta) < 0;
+    if (doubled)
         at = creal(at); /* two equal real eigenvalues, which round-off makes a pair */
     const double complex square = at * at;
     const double same = damped ? 10 * error : fmax(unsymmetric_same, 20 * error);
@@ -441,6 +463,8 @@ status unsymmetric_solve(const unsymmetric_problem *p, unsymmetric_result *r, fa
         measure(&s);
         if (p->C != NULL && s.n > 0)
             find_second(&s, s.y + n, s.y + 2 * n);
+        if (p->C != NULL)
+            scale_integrals(&s, s.y);
         outcome = pairs(&s, 0, &s.right, f);
         if (outcome == STATUS_OK && p->shift > 0)
             sort(&s);
