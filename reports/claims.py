@@ -17,7 +17,7 @@ from reports.verdicts import OWN_LIMITS
 def peers_figure(site, ours, others, name):
     """Draws errors against unknowns and time. `ours`: [(key, meshes)], others: {program: [data.Mesh]}."""
     chart = Chart(2, (470, 260))
-    labels = ("unknowns", "time of the solution [ms]; open marks: taken elsewhere")
+    labels = ("unknowns", "time of the solution [ms]; open marks: measured elsewhere")
     for quantity in ("C_xx", "C_zz"):
         row = [chart.panel("", labels[0], f"relative error of {quantity}", whole=True)]
         row.append(chart.panel("", labels[1], like=row[0]))
@@ -82,8 +82,8 @@ def column_section(site, case):
     return [("Convergence to a wrong limit, as predicted",
              f'<figure><div class="figure" tabindex="0">{image.inline(COLUMN_ALT)}</div>'
              '<figcaption>J Table 2, printed constants: '
-             'the printed second-order modes do not see shear. The limit that follows from the '
-             'printed formulas was derived by itself (dashed); the program meets it, and it is not '
+             'the printed second-order modes exclude shear deformation. The limit that follows from the '
+             'printed formulas was derived independently (dashed). The program converges to it, not to '
              'the exact load, to which the consistent modes converge.</figcaption></figure>')]
 
 

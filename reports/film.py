@@ -89,8 +89,8 @@ def page(path, wanted=None):
                          view.angles, MOST)
     scripts = "\n".join(f"<script>\n{(ASSETS / n).read_text(encoding='utf-8')}</script>"
                         for n in SCRIPTS)
-    held = ("Drag it, or use the arrow keys, to turn it; + and - change its size; Space plays and "
-            "pauses; comma and full stop go to the frame before and after; &lt; and &gt; change "
+    held = ("Drag it, or use the arrow keys, to rotate the view; + and - zoom; Space plays and "
+            "pauses; comma and full stop show the previous and the next frame; &lt; and &gt; change "
             "the speed. Pale: undeformed.")
     return PAGE.format(title=escape(name), name=escape(name), words=escape(words_of(summary, s)),
                        style=(ASSETS / "style.css").read_text(encoding="utf-8"), look=LOOK,

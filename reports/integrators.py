@@ -325,7 +325,7 @@ def doubt(problem, way):
     if ladder is not None and ladder.verdict == "low order":
         return f"its error falls with order {ladder.order:.1f}, not {ladder.nominal:g}"
     if problem.uncertainty > abs(way.run.error):
-        return f"the reference itself may be off by {problem.uncertainty:.0e}"
+        return f"the uncertainty of the reference is {problem.uncertainty:.0e}"
     return ""
 
 

@@ -48,20 +48,20 @@ def trust(problems, noise):
             for found in (integrators.answer(p, level, noise) for level in integrators.LEVELS)
             if found.best]
     if not best:
-        return "No run comes within these errors."
+        return "No run meets these errors."
     doubted = [(p, way, integrators.doubt(p, way)) for p, way in best]
     doubted = [row for row in doubted if row[2]]
     if doubted:
         p, way, words = doubted[0]
-        return (f"{len(doubted)} of these {len(best)} answers are to be taken with care, as stands "
-                f"with them: {way.scheme} in {p.name}: {words}.")
+        return (f"{len(doubted)} of these {len(best)} answers need care; each answer gives "
+                f"the reason: {way.scheme} in {p.name}: {words}.")
     found = [p.ladder(way.scheme) for p, way in best]
     passed = sum(one is not None and one.verdict == "pass" for one in found)
     unread = len(best) - passed
-    told = (f"; of {passed} the order of the scheme is confirmed, of {unread} it cannot be read"
+    told = (f"; the order of the scheme is confirmed for {passed} and undetermined for {unread}"
             if unread else ", and the order of the scheme is confirmed")
     return (f"These {len(best)} answers are verified: errors are measured on the same mesh "
-            f"against a reference that is closer than they are{told}.")
+            f"against a more accurate reference{told}.")
 
 
 def first(problems, noise):
@@ -196,7 +196,7 @@ def profile(site, problems, level):
         return None
     at = integrators.FACTORS
     chart = Chart(1, PROFILE)
-    panel = chart.panel(xlabel="factor to the least cost of all", ylabel="share of problems")
+    panel = chart.panel(xlabel="cost relative to the lowest cost", ylabel="share of problems")
     panel.x = factors(at[-1])
     panel.y = Fixed(False, (0, 1), [(i / 5, f"{20 * i} %") for i in range(6)])
     for i, (scheme, shares) in enumerate(curves.items()):

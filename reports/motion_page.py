@@ -173,7 +173,7 @@ def sentence(motion, how):
     drift = float(np.abs(motion.drift).max())
     name = scheme(how)
     tolerance = float(how.get("tolerance", 0))  # YAML reads 1e-05 as a string
-    by = f" with a tolerance of {tolerance:g} a step" if tolerance else ""
+    by = f" with a tolerance of {tolerance:g} per step" if tolerance else ""
     return (f"{name[0].upper()}{name[1:]}{by} takes {words_of_steps(motion)}{tries} to "
             f"{motion.time[-1]:.4g} s, {motion.columns['iterations'][1:].mean():.1f} iterations "
             f"each; energy drifts by at most {drift:.0e} of its largest "
@@ -197,7 +197,7 @@ def spread(motions):
         return ""
     drifts = [float(np.abs(m.drift).max()) for m in motions]
     counts = [float(m.columns["iterations"][1:].mean()) for m in motions]
-    return (f"Of all {len(motions)} formulations energy drifts by "
+    return (f"In all {len(motions)} formulations energy drifts by "
             f"{between(drifts, '{:.0e}')}, and a step takes {between(counts, '{:.1f}')} iterations.")
 
 

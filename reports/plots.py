@@ -121,7 +121,7 @@ def marks_of(site, point, series, quantity, meshes, errors="errors"):
                "verdict")
     rows = [(m.n, m.values.get(quantity), float(f"{getattr(m, errors)[quantity]:.3g}"),
              float(f"{m.seconds:.3g}"), m.free, v.verdict if v else None) for m in meshes]
-    title = quantity if errors == "errors" else f"{quantity}, error of the model"
+    title = quantity if errors == "errors" else f"{quantity}, model error"
     return site.points(series.key, columns, rows, title)
 
 

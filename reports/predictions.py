@@ -52,6 +52,6 @@ def section(site, case):
     if not points:
         return []
     about = Markup(
-        "<p>The closed-form solution is one element's potential, solved by hand: a prediction with an error of its own, which judges nothing. "
-        "Errors against the exact beam, beside those of the coarsest mesh of each formulation.</p>")
+        "<p>The closed-form solution is the potential of one element, solved by hand. It has its own error and is not used for verdicts. "
+        "Its errors against the exact beam are shown next to those of the coarsest mesh of each formulation.</p>")
     return [("Analytic prediction", about + Markup("").join(table(p) for p in points))]

@@ -111,8 +111,8 @@ class Compared:
 # Profiles as figures, and as a table for other programs.
 
 XLABELS = {
-    ("cost", True): "factor to the least cost of all",
-    ("unknowns", True): "factor to the fewest unknowns of all",
+    ("cost", True): "cost relative to the lowest cost",
+    ("unknowns", True): "unknowns relative to the fewest unknowns",
     ("cost", False): "cost, by the cheapest run",
     ("unknowns", False): "unknowns, by the smallest model",
 }

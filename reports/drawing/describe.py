@@ -17,10 +17,10 @@ def support(scene, node):
     held = held_of(scene, node)
     words = ["all held"] if len(held) == 6 else [f"{', '.join(held)} held"] if held else []
     if node.fork is not None:
-        words.append("in a fork (no turn about the section's own axis)")
+        words.append("on a fork support (no rotation about the section's own axis)")
     words += [f"{motion} drives {component}" for component, motion in node.driven.items()
               if component not in held]
-    words += [f"turn about {place(t.axis)} {'free' if t.angle == 'free' else 'by ' + t.angle}"
+    words += [f"rotation about {place(t.axis)} {'free' if t.angle == 'free' else 'by ' + t.angle}"
               for t in node.turns if t.angle != "held"]
     words += [f"rotation vector ({', '.join(node.vector)})"] if node.vector else []
     return f"{node.name} {place(node.position)}: {'; '.join(words)}" if words else ""
@@ -36,9 +36,9 @@ def load(one):
     kind = one.kind.replace("_", " ")
     said = f"{kind} {loads.size(one)} {axis(one)}on {one.on}"
     said += extent(one.within)
-    said += f", {place(one.at)} m beside it" if one.at.any() else ""
+    said += f", offset by {place(one.at)} m" if one.at.any() else ""
     said += ", in the member's axes" if one.member_axes else ""
-    said += ", turns with it" if one.follower else ""
+    said += ", rotates with it" if one.follower else ""
     said += ", lumped at its nodes" if one.lumped else ""
     return said + ("" if one.grows else ", constant")
 

@@ -81,7 +81,7 @@ class Page(ProgramTest):
         self.assertEqual(self.page.count("<figure"), 2)
 
     def test_broken_is_told(self):
-        self.assertIn("It is broken by geometrically_exact.", " ".join(self.page.split()))
+        self.assertIn("It is violated by geometrically_exact.", " ".join(self.page.split()))
         self.assertIn("J: &lt;i&gt; is wrong", self.page)
 
     def test_names_are_escaped(self):
@@ -194,7 +194,7 @@ class Drawn(ProgramTest):
 
     def test_profiles(self):
         page = self.page("profiles.html")
-        self.assertIn("whose costs rank nothing", page)
+        self.assertIn("whose costs cannot be ranked", page)
 
     def test_results_without_costs(self):
         """For files written before work had costs, no best formulation is given, with the reason."""

@@ -78,10 +78,10 @@ class Drawings(unittest.TestCase):
             self.assertEqual(marks.count(load.name), 1, load.name)
         plt.close(figure)
         said = dict(describe.describe(one))["Loads"]
-        for words in ("force 2 N along +y on leaf at 25 % of it, (0, 0, 0.001) m beside it",
-                      "moment 1 N m about +y on leaf at 33.33 % of it, in the member's axes, turns with it",
-                      "distributed 1 N/m along +y on leaf from 25 % to 75 % of it, (0, 0, 0.001) m beside it",
-                      "distributed (0, 0, 0) to (0, 3, 0) N/m on leaf, turns with it",
+        for words in ("force 2 N along +y on leaf at 25 % of it, offset by (0, 0, 0.001) m",
+                      "moment 1 N m about +y on leaf at 33.33 % of it, in the member's axes, rotates with it",
+                      "distributed 1 N/m along +y on leaf from 25 % to 75 % of it, offset by (0, 0, 0.001) m",
+                      "distributed (0, 0, 0) to (0, 3, 0) N/m on leaf, rotates with it",
                       "distributed 1 N/m along +y on leaf, lumped at its nodes"):
             self.assertIn(words, said)
         part, ramp, same = (self.arrows(one, name) for name in ("part", "ramp", "same"))

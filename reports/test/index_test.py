@@ -85,10 +85,10 @@ class Small(ProgramTest):
         run("verify", "--scene", scene, "-f", "collocation", "-f", "beamw_consistent", "-o", results)
         self.assertEqual(report(results, site).returncode, 0)
         page = self.whole((site / "index.html").read_text(encoding="utf-8"))
-        self.assertIn("No quantity of these results has a reference value", page)
-        self.assertIn("what formulations agree on", page)
+        self.assertIn("No quantity in these results has a reference value", page)
+        self.assertIn("limits on which formulations agree", page)
         self.assertNotIn("<figure>", page)
-        self.assertIn("No quantity of these results has one", self.whole(
+        self.assertIn("No quantity in these results has both", self.whole(
             (site / "profiles.html").read_text(encoding="utf-8")))
 
     def test_one_mesh(self):

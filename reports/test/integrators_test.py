@@ -147,7 +147,7 @@ class Words(unittest.TestCase):
             if row["integrator"] == "radau":
                 row.update(order=1.0, verdict="low order")
         text = integrators_page.first(problems(found), 1.0)
-        self.assertIn("3 of these 3 answers are to be taken with care", text)
+        self.assertIn("3 of these 3 answers need care", text)
         self.assertRegex(text, r"order 1\.0, not 5")
 
     def test_nothing(self):

@@ -38,7 +38,7 @@ class Words(unittest.TestCase):
     def test_sentence(self):
         """The numbers in the sentence are those of the rows."""
         text = motion_page.sentence(motion(), {"integrator": "radau", "tolerance": "1e-06"})
-        self.assertIn("Radau with a tolerance of 1e-06 a step takes 400 steps of 0.005 s to 2 s",
+        self.assertIn("Radau with a tolerance of 1e-06 per step takes 400 steps of 0.005 s to 2 s",
                       text)
         self.assertIn("3.0 iterations each; energy drifts by at most 1e-05 of its largest value.", text)
 
@@ -56,7 +56,7 @@ class Words(unittest.TestCase):
 
     def test_spread(self):
         self.assertEqual(motion_page.spread([motion()]), "")
-        self.assertIn("Of all 2 formulations energy drifts by 1e-05 to 1e-03",
+        self.assertIn("In all 2 formulations energy drifts by 1e-05 to 1e-03",
                       motion_page.spread([motion(), motion(drift=1e-3)]))
 
 

@@ -47,11 +47,11 @@ class Pages(ProgramTest):
     def test_answer_on_top(self):
         page = self.page((WIDTH, ANGLE))
         said = text_of(page)
-        for words in ("made_up.yaml: over which range is each formulation within 1 %?",
+        for words in ("made_up.yaml: over what range is each formulation within 1 %?",
                       "collocation with 2 elements is within 1 % everywhere: all 100 points.",
                       "beamw with 1 element is within 1 % where width ≤ 5 m: all 50 points there, "
                       "50 % of all.",
-                      "sheet_third is within 1 % in no range worth naming: at no point with up to "
+                      "sheet_third is within 1 % in no range large enough to report: at no point with up to "
                       "8 elements.",
                       "beamw at 50 % of the points, collocation at 50 % of the points",
                       "100 points (width: 1 to 10 m, 10 values; angle: 0 to 0.9 rad, 10 values), "
@@ -106,10 +106,10 @@ class Pages(ProgramTest):
                       "-f beamw -n 8",
                       "not converged", "limit of the meshes of all: 80",
                       "20 points, chiefly where width ≥ 9 m; nothing is judged there",
-                      "80 points worse than 1 %", "A limit is where the meshes", "angle from 0.7 rad to 0.9 rad",
+                      "80 points worse than 1 %", "A limit is the value to which the meshes", "angle from 0.7 rad to 0.9 rad",
                       "20 of 100 points have no reference value"):
             self.assertIn(words, said)
-        worst = said[said.index("Worst points"):said.index("What errors are against")]
+        worst = said[said.index("Worst points"):said.index("References of the errors")]
         self.assertLess(worst.index("not converged"), worst.index("25 %"))
 
     def test_what_a_file_says_is_text(self):
@@ -128,12 +128,12 @@ class Pages(ProgramTest):
     def test_nothing_to_measure_by(self):
         for axes in ((WIDTH,), (WIDTH, ANGLE), (WIDTH, ANGLE, SHAPE)):
             said = text_of(self.page(axes, kind=lambda at: np.full(len(at), 4)))
-            self.assertIn("within 1 % in no range worth naming: nothing to measure it by", said)
-            self.assertIn("No point has anything to measure by", said)
+            self.assertIn("within 1 % in no range large enough to report: nothing to measure it by", said)
+            self.assertIn("No point has a reference value or a limit", said)
             self.assertNotIn("Lowest cost</h2>", said)
 
     def test_truths_here_limits_there(self):
-        said, axes = "elsewhere against limits of meshes", (WIDTH, ANGLE)
+        said, axes = "elsewhere against limits of mesh sequences", (WIDTH, ANGLE)
         truth, limit = 0, 2
         for kind, found in ((lambda at: np.where(at[:, 0] < 0.5, truth, limit), self.assertIn),
                             (lambda at: np.full(len(at), limit), self.assertNotIn),
@@ -155,7 +155,7 @@ class Pages(ProgramTest):
         self.assertEqual(report(path, self.folder / "site").returncode, 0)
         said = text_of((self.folder / "site" / "index.html").read_text(encoding="utf-8"))
         self.assertIn("by counted work: collocation at 100 % of the points.", said)
-        self.assertIn("in no order: beamw.", said)
+        self.assertIn("not ranked: beamw.", said)
 
     def test_beside_results(self):
         """A sweep has its own page, in the bar, and a sentence on the first page."""
@@ -345,7 +345,7 @@ class Genuine(ProgramTest):
                                      (key, quantity, n))
         self.assertEqual(report(path, site).returncode, 0)
         page = text_of((site / "index.html").read_text(encoding="utf-8"))
-        self.assertIn("elastica: over which range is each formulation within 1 %?", page)
+        self.assertIn("elastica: over what range is each formulation within 1 %?", page)
         scene = re.search(r"beamwork solve --scene (\S+\.yaml) -f (\S+) -n (\d+)", page)
         self.answered("solve", "--scene", scene[1], "-f", scene[2], "-n", scene[3])
 
