@@ -23,8 +23,9 @@ struct element_data {
 };
 
 static const parameter_type options[] = {
-    [OPTION_STAGES] = {"stages", "", 2, 0, 0, "3|4|5|6|7|8",
-                       "Gauss points inside an element: order twice their number in statics"},
+    [OPTION_STAGES] =
+        {"stages", "", 2, 0, 0, "3|4|5|6|7|8",
+         "number of Gauss points inside an element; the order in statics is twice this number"},
     {0},
 };
 

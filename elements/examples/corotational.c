@@ -13,10 +13,7 @@
 
 #include "elements/element.h"
 
-enum {
-    N = 12,
-    NODES = 2 * NODE_COORDINATES
-}; /* (u, phi) of both nodes; coordinates of element.h */
+enum { N = 12, NODES = 2 * NODE_COORDINATES }; /* (u, phi) of both nodes; as in element.h */
 
 struct element_data {
     double length, axial; /* [m], E A / l [N/m] */

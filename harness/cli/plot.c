@@ -302,7 +302,9 @@ static int answer(const command_line *l, void *request)
     if (type == NULL)
         return r->of.refusal;
     if (r->meshes.count > 1)
-        return message_fail(STATUS_REFUSED, "plot takes one -n and any number of -f");
+        return message_fail(
+            STATUS_REFUSED,
+            "plot accepts only one number of elements (-n), but any number of formulations (-f)");
     snprintf(path, sizeof path, "%s%s", r->output != NULL ? r->output : type->name,
              r->output != NULL ? "" : ".png");
     FILE *solutions = tmpfile();

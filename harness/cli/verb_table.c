@@ -61,7 +61,7 @@ static const manual_row statuses[] = {
 };
 static const manual_program about = {
     .verbs = verbs,
-    .summary = "verification and benchmark of three-dimensional beam finite elements",
+    .summary = "verification and benchmarking of three-dimensional beam finite elements",
     .question =
         "Which formulation, with how many elements, reaches my tolerance at the lowest cost, and "
         "what is its verdict?",

@@ -67,7 +67,7 @@ static status check_member(const scene *s, int member, fault *f)
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (scene_is_founded(m))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: foundations cannot be written with solids; remove it",
+                         "%s: a foundation cannot be written with solids; remove it",
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (scene_is_beside(m, 0) || scene_is_beside(m, 1))
         return fault_set(f, STATUS_REFUSED,
@@ -179,12 +179,12 @@ status carried_check(const scene *s, fault *f)
             "springs cannot be written with solids; remove them, or replace them by members");
     if (s->constraints > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: constraints cannot be written with solids; make the nodes one body "
+                         "%s: a constraint cannot be written with solids; make the nodes one body "
                          "by part_of, or remove it",
                          scene_called(s, SCENE_CONSTRAINTS, 0).text);
     if (s->imperfections > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: imperfections cannot be written with solids; remove it",
+                         "%s: an imperfection cannot be written with solids; remove it",
                          scene_called(s, SCENE_IMPERFECTIONS, 0).text);
     for (int i = 0; i < s->members; i++)
         TRY(check_member(s, i, f));

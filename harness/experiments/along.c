@@ -327,7 +327,8 @@ static void check_taken(const specimen *s, claims *c)
                          scale = sqrt(fabs(K[a * (X + 1)] * K[b * (X + 1)]));
             claims_departs(derives,
                            fabs(K[a * X + b] - change / (ua * ub)) / fmax(scale, size * l * l),
-                           "along: the derivative of force %d in coordinate %d is %.6g, but "
+                           "along: the derivative of force %d with respect to coordinate %d is "
+                           "%.6g, but finite "
                            "differences give %.6g%s",
                            a + 1, b + 1, K[a * X + b], change / (ua * ub), s->words);
         }

@@ -42,10 +42,11 @@ static void compare_J(const specimen *s, int strain, int c, double given, double
 {
     char where[SPECIMEN_WORDS];
     const double unit = chart_unit(c, s->request.length);
-    claims_departs(
-        one, size > 0 ? fabs(given - found) / size : fabs(given - found),
-        "J: the derivative of strain %d in coordinate %d (%s) is %.6g, but differences give %.6g%s",
-        strain + 1, c + 1, specimen_coordinate(c, where), given / unit, found / unit, s->words);
+    claims_departs(one, size > 0 ? fabs(given - found) / size : fabs(given - found),
+                   "J: the derivative of strain %d with respect to coordinate %d (%s) is %.6g, but "
+                   "finite differences give %.6g%s",
+                   strain + 1, c + 1, specimen_coordinate(c, where), given / unit, found / unit,
+                   s->words);
 }
 
 /* Compares strain by strain: [strains x n] times units. */
@@ -83,13 +84,13 @@ static void compare_H(const specimen *s, int strain, const double H[], const dou
             const double found =
                 (change[a][strain * n + b] * ub + change[b][strain * n + a] * ua) / 2;
             const double given = H[a * n + b] * ua * ub;
-            claims_departs(
-                one, claims_share(fabs(given - found), size),
-                "H: the second derivative of strain %d in coordinates %d and %d (%s, %s) "
-                "is %.6g, differences of J give %.6g: a relative difference of %.1e%s",
-                strain + 1, a + 1, b + 1, specimen_coordinate(a, first),
-                specimen_coordinate(b, other), H[a * n + b], found / (ua * ub),
-                claims_share(fabs(given - found), size), s->words);
+            claims_departs(one, claims_share(fabs(given - found), size),
+                           "H: the second derivative of strain %d with respect to coordinates %d "
+                           "and %d (%s, %s) "
+                           "is %.6g, differences of J give %.6g: a relative difference of %.1e%s",
+                           strain + 1, a + 1, b + 1, specimen_coordinate(a, first),
+                           specimen_coordinate(b, other), H[a * n + b], found / (ua * ub),
+                           claims_share(fabs(given - found), size), s->words);
         }
 }
 

@@ -67,7 +67,8 @@ static void check_gradient(const energy_place *at, const double sigma[], const d
         const double size =
             fmax(fabs(sigma[i]), size_of(s, C, i, i) * moved_by * s->request.length);
         claims_departs(one, outcome == 0 ? claims_share(fabs(sigma[i] - found), size) : NAN,
-                       "stress: sigma %d is %.6g, but the derivative of the energy in strain %d is "
+                       "stress: sigma %d is %.6g, but the derivative of the energy with respect to "
+                       "strain %d is "
                        "%.6g: one of them is wrong%s",
                        i + 1, sigma[i], i + 1, found, s->words);
     }
@@ -86,7 +87,8 @@ static void check_stiffness(const energy_place *at, const double C[], claims *c)
             const double size = size_of(s, C, i, j), found = column[i] / unit_of(s);
             claims_departs(derives,
                            outcome == 0 ? claims_share(fabs(C[i * m + j] - found), size) : NAN,
-                           "C: the derivative of sigma %d in strain %d is %.6g, but differences of "
+                           "C: the derivative of sigma %d with respect to strain %d is %.6g, but "
+                           "finite differences of "
                            "the stress give %.6g%s",
                            i + 1, j + 1, C[i * m + j], found, s->words);
             claims_departs(

@@ -218,7 +218,8 @@ static void one_way(const way *w, claims *c, specimens_check *check)
     claims_asks(claims_open(c, "prepare", 0), outcome == STATUS_OK || (refused && !w->usual),
                 "prepare: rejects an element%s (%s): %s; support it, or reject it with a reason "
                 "and do not declare the feature",
-                s.words[0] != '\0' ? s.words + 1 : " of a rectangle with all declared features",
+                s.words[0] != '\0' ? s.words + 1
+                                   : " with a rectangular section and all declared features",
                 status_name(outcome), f.text[0] != '\0' ? f.text : "no reason is given");
     if (outcome == STATUS_OK && gives_answers(&s, c))
         check(&s, c);
@@ -359,12 +360,12 @@ static void check_stiffness(const specimen_place *at, const double K[], claim *o
                          uj = chart_unit(j, s->request.length);
             const double given = (K[i * n + j] + K[j * n + i]) / 2 * ui * uj,
                          found = (column[j][i] * ui + column[i][j] * uj) / 2;
-            claims_departs(one, claims_share(fabs(given - found), size),
-                           "K: the derivative of the force in coordinate %d (%s) along coordinate "
-                           "%d (%s) is %.6g, but differences of F give %.6g%s",
-                           i + 1, specimen_coordinate(i, first), j + 1,
-                           specimen_coordinate(j, other), given / (ui * uj), found / (ui * uj),
-                           s->words);
+            claims_departs(
+                one, claims_share(fabs(given - found), size),
+                "K: the derivative of the force in coordinate %d (%s) with respect to coordinate "
+                "%d (%s) is %.6g, but differences of F give %.6g%s",
+                i + 1, specimen_coordinate(i, first), j + 1, specimen_coordinate(j, other),
+                given / (ui * uj), found / (ui * uj), s->words);
         }
 }
 

@@ -49,7 +49,7 @@ typedef struct handshake_reading {
 
 static status refuse(const handshake_reading *r, const char *key, const char *what)
 {
-    return fault_set(r->f, STATUS_REFUSED, "%.100s: '%.40s' of its first line: %.120s", r->who, key,
+    return fault_set(r->f, STATUS_REFUSED, "%.100s: '%.40s' in its first line: %.120s", r->who, key,
                      what);
 }
 
@@ -61,7 +61,8 @@ static status text_of(const handshake_reading *r, const char *key, const char **
         return refuse(r, key, "give one line of text");
     for (const char *c = text; *c != '\0'; c++)
         if ((unsigned char)*c < ' ')
-            return refuse(r, key, "give one line of text, without tabulators and the like");
+            return refuse(r, key,
+                          "give one line of text, without tabs or other control characters");
     *out = strdup(text);
     return *out != NULL ? STATUS_OK : fault_set(r->f, STATUS_FAULT, "out of memory");
 }
@@ -71,7 +72,8 @@ static status name_of(const handshake_reading *r, const char **out)
     TRY(text_of(r, "name", out));
     const size_t length = strlen(*out);
     if (length > 60 || strspn(*out, "abcdefghijklmnopqrstuvwxyz0123456789_") != length)
-        return refuse(r, "name", "give a word of small letters, digits and _, at most 60");
+        return refuse(r, "name",
+                      "give a word of at most 60 lowercase letters, digits and underscores");
     return STATUS_OK;
 }
 
@@ -94,8 +96,8 @@ static status no_such_word(const handshake_reading *r, const char *key, const wo
         at += (size_t)snprintf(words + at, sizeof words - at, "%s%s", at > 0 ? ", " : "",
                                known->word);
     return fault_set(r->f, STATUS_REFUSED,
-                     "%.60s: '%s' of its first line has no word '%.40s'; give %s", r->who, key,
-                     word != NULL ? word : "that is not text", words);
+                     "%.60s: '%s' in its first line contains the unknown word '%.40s'; give %s",
+                     r->who, key, word != NULL ? word : "that is not text", words);
 }
 
 /* Combined bits of a list of words; known NULL: the words in feature.h. */
@@ -351,7 +353,8 @@ static status read_number(const char *who, const json_t *one, parameter_type *ou
 static status read_one(const char *who, const json_t *one, parameter_type *out, fault *f)
 {
     if (!is_word(json_string_value(json_object_get(one, "name"))))
-        return options_refuse(who, "", "its 'name' is a word of small letters, digits and _", f);
+        return options_refuse(
+            who, "", "its 'name' must be a word of lowercase letters, digits and underscores", f);
     out->name = copy_or(json_object_get(one, "name"), "");
     out->summary = copy_or(json_object_get(one, "summary"), "");
     if (out->name == NULL || out->summary == NULL)

@@ -28,8 +28,7 @@ static status check(const char *path, const element_type *t, fault *f)
 {
     const char *why = NULL;
     if (!is_name(t->name) || strlen(t->name) > 60)
-        why = "its .name is not a word of small letters, digits and _; use one of at most 60 "
-              "characters";
+        why = "its .name must be a word of at most 60 lowercase letters, digits and underscores";
     else if (t->summary == NULL || t->source == NULL || t->family == NULL)
         why = "give it .summary, .source and .family";
     else if (t->prepare == NULL || t->data_size == NULL)

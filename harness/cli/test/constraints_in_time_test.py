@@ -207,10 +207,10 @@ quantities:
 """
         path.write_text(text.replace("BESIDE", ", mass: 1, centre: [0, 0.1, 0]"))
         done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
-        self.assertIn("constrained translations of a node that rotates with a mass beside it (node c)", done.stdout + done.stderr)
+        self.assertIn("constrained translations of a node that rotates with an eccentric mass (node c)", done.stdout + done.stderr)
         path.write_text(text.replace("BESIDE", ""))
         done = run("export", "--to", "calculix", "--scene", path, "-o", self.folder / "deck.inp")
-        self.assertIn("constraints cannot be written with solids", done.stdout + done.stderr)
+        self.assertIn("a constraint cannot be written with solids", done.stdout + done.stderr)
         gear = GEAR.replace("WHO", "d").replace("OTHER", "b").replace("RATIO", "-2").replace("TORQUE", "40").replace("AXES ", "")
         path.write_text(gear[:gear.index("analyses")] + """analyses: {T: {motion: {stations: [0.01], integrator: conserving, step: 0.001}}}
 quantities: {t: {displacement: {analysis: T, node: b, component: rz}}}

@@ -13,7 +13,7 @@ ENTRY = "    if (out->e == NULL)"  # the beginning of the example's strain
 FAULTS = {
     "energy": (
         ("e[i] * e[i] / 2;", "e[i] * e[i];"),
-        "stress: sigma 1 is", "the derivative of the energy in strain 1"),
+        "stress: sigma 1 is", "the derivative of the energy with respect to strain 1"),
     "stiffness": (
         ("= d->stiffness[i];\n", "= 2 * d->stiffness[i];\n"),
         "C: the derivative of sigma", "differences of the stress give"),

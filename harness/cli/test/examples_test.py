@@ -210,7 +210,7 @@ class Planted(PluginTest):
     def test_sign_of_forces(self):
         """RHS in the place of F."""
         self.broken("corotational.c", ("F[i] = n * r[i]", "F[i] = -n * r[i]"),
-                    "displacement along x of node 1", "the energy's derivative is")
+                    "displacement along x of node 1", "the derivative of the energy is")
 
     def test_sign_in_the_tangent(self):
         self.broken("corotational.c", ("spin(-1, F + b", "spin(1, F + b"), "differences of F give")
@@ -221,7 +221,7 @@ class Planted(PluginTest):
 
     def test_rotations_in_the_wrong_axes(self):
         self.broken("corotational.c", ("- S[k][i]) / 2", "- S[k][3 * (i % 3) + i / 3]) / 2"),
-                    "rotation about z of node 2", "the energy's derivative is")
+                    "rotation about z of node 2", "the derivative of the energy is")
 
     def test_energy_that_turning_changes(self):
         self.broken("ancf.c", ("(size - 1) * (size - 1)", "(first[0] - 1) * (first[0] - 1)"),

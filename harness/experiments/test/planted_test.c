@@ -248,16 +248,19 @@ static int one_order_less(const double options[])
 
 static void derivatives(void)
 {
-    PLANT(strain, sign_in_J, "derivatives", "J: the derivative of strain 3 in coordinate 2",
+    PLANT(strain, sign_in_J, "derivatives",
+          "J: the derivative of strain 3 with respect to coordinate 2",
           "displacement along y of node 1");
-    PLANT(strain, percent_in_J, "derivatives", "J: the derivative of strain 4 in coordinate 11",
+    PLANT(strain, percent_in_J, "derivatives",
+          "J: the derivative of strain 4 with respect to coordinate 11",
           "rotation about x of node 2");
     PLANT(strain, nodes_exchanged, "derivatives", "J: the derivative of strain", "differences");
     PLANT(strain, no_H, "derivatives", "H: the second derivative of strain", "is 0, differences");
-    PLANT(strain, term_of_H, "derivatives", "in coordinates 5 and 5",
+    PLANT(strain, term_of_H, "derivatives", "with respect to coordinates 5 and 5",
           "rotation about y of node 1, rotation about y of node 1");
     PLANT(stress, half_energy, "energy", "stress: sigma", "but the derivative of the energy");
-    PLANT(stress, softer, "energy", "C: the derivative of sigma 1 in strain 1", "differences");
+    PLANT(stress, softer, "energy", "C: the derivative of sigma 1 with respect to strain 1",
+          "differences");
     PLANT(stress, unsymmetric, "energy", "C: entry 2, 1", "symmetric");
     PLANT(stress, stressed_at_rest, "energy", "stress: sigma 1 of the undeformed element", "N");
     PLANT(stress, gives_up, "energy", "stress: strains of a few hundredths", "'singular'");

@@ -120,7 +120,7 @@ class OwnMass(Speaker):
 
     def test_first_line(self):
         for word, told in (("'yes'", "give vibration or motion"), ("1", "give vibration or motion")):
-            self.refuse(self.speaker(first=f"said['inertia'] = {word}"), "'inertia' of its first line", told)
+            self.refuse(self.speaker(first=f"said['inertia'] = {word}"), "'inertia' in its first line", told)
         self.refuse(self.speaker(first="said.update(inertia='motion', offers=['shear'])"), "it requires mass")
         self.refuse(self.speaker(first="said.update(inertia='motion', nodes=3)"), "motion is for two nodes")
 

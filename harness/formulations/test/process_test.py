@@ -72,7 +72,7 @@ class Energy(ProgramTest):
         self.assertIn("chord: law other, times 1.5", done.stderr)
 
     def test_times_are_told(self):
-        self.assertIn("of the times: what the process", " ".join(self.solve().stdout.split()))
+        self.assertIn("of the times: the time that the process", " ".join(self.solve().stdout.split()))
 
 
 class Example(BesideC):
@@ -230,7 +230,7 @@ class InPython(ProgramTest):
             "    if kind.length > 0.4:\n        longer.add(id(kind))\n"
             "    if kind.length > 0.4 and len(longer) > 1:\n        raise ValueError('too long')\n"
             "    chord = (")
-        self.assertIn("refused when it is prepared again: formulation timoshenko_py: ValueError: too "
+        self.assertIn("rejects the same element when it is prepared again: formulation timoshenko_py: ValueError: too "
                       "long (mine.py:", out)
         self.assertNotIn("crashed", out)
 
@@ -390,7 +390,7 @@ class Mistakes(OctaveTest):
         self.told(1, ["NaN or Inf"], ("c = cos(", "c = NaN * cos("))
 
     def test_unknown_word(self):
-        self.told(2, ["'limitz' of its first line"], ("'limits'", "'limitz'"))
+        self.told(2, ["'limitz' in its first line"], ("'limits'", "'limitz'"))
 
     def test_printed(self):
         """Output printed during an answer is shown and does no harm."""

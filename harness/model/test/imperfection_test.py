@@ -236,7 +236,7 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
 
     def test_modes_refused(self):
         """Missing modes, equal modes, a direction that does not distinguish them, and input decks are rejected."""
-        for shape, words in (("mode_of: shape, amplitude: 1e-3", "is one of 2 with the same value; give its direction"),
+        for shape, words in (("mode_of: shape, amplitude: 1e-3", "is one of 2 modes with the same value; give its direction"),
                              ("mode_of: shape, amplitude: 1e-3, direction: [0, 1, 1], which: 999", "there is no mode 999"),
                              ("mode_of: shape, amplitude: 1e-3, direction: [1, 0, 0]", "direction")):
             text = column("[0, 0]").replace("omit:", f"imperfections: {{crook: {{{shape}}}}}\nomit:") + pushed(
@@ -244,7 +244,7 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
             done = run("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 4)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(words, done.stdout + done.stderr)
-        self.refused(2, "imperfections cannot be written with solids", "export", "--scene", self.scene(text),
+        self.refused(2, "an imperfection cannot be written with solids", "export", "--scene", self.scene(text),
                      "--to", "calculix", "-o", self.folder / "deck")
 
     def test_refused(self):
