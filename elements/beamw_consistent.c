@@ -1,7 +1,8 @@
-/* BEAMW corrected: stiffness with the whole of D, strains that represent uniform shear of any size
- * (elements/beamw/screw.h), and modified modes from the strains of the Simo-Reissner beam over the
- * full linear solution (elements/beamw/condensed.c). Bending, shear and warping inside the element
- * are internal modes, condensed in equilibrium (elements/beamw/condensed.c). */
+/* Corrected BEAMW: stiffness with the full matrix D, strains that represent uniform shear of any
+ * size (elements/beamw/screw.h), and modified modes from the strains of the Simo-Reissner beam over
+ * the full linear solution (elements/beamw/condensed.c). Bending, shear and warping inside the
+ * element are internal modes, which are in equilibrium and condensed (elements/beamw/condensed.c).
+ */
 #include "elements/beamw/screw.h"
 #include "elements/beamw/variants.h"
 

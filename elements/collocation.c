@@ -1,7 +1,7 @@
 /* The geometrically exact beam with warping solved inside the element by Gauss collocation, with
  * exact equilibrium of forces (elements/collocation/collocation.h). The variables of the stages are
- * inner unknowns of the element, which the mixed Newton iteration of the structure solves together
- * with the others. */
+ * inner unknowns of the element. The mixed Newton iteration of the structure solves for them
+ * together with all other unknowns. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -18,7 +18,7 @@ struct element_data {
     exact_stages stages;
     exact_along along;
     field_mass mass;
-    int prestressed; /* 1: prestress exists */
+    int prestressed; /* 1: the derivatives for the prestress have been computed */
     double prestress[OUTER][OUTER * OUTER];
 };
 
@@ -34,9 +34,10 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
-/* Returns the orders. Statics: also under dead forces along members; 4 at large rotations under
- * other loads along members. Frequencies: field/field.h. Linear buckling: the inner unknowns are
- * those of the stress-free element (elements/collocation/prestress.c). */
+/* Returns the orders of convergence. The order in statics also holds under dead forces along
+ * members; under other loads along members it is 4 at large rotations. For frequencies see
+ * field/field.h. In linear buckling, the inner unknowns are those of the stress-free element
+ * (elements/collocation/prestress.c). */
 static element_order order(element_analysis analysis, const double value[])
 {
     const int collocated = 2 * stage_count(value);
@@ -51,8 +52,8 @@ static int inner_count(const double value[])
     return 3 * stage_count(value);
 }
 
-/* Returns the size of the corrections of the unknowns and their derivatives with respect to the
- * strains. */
+/* Returns the number of values stored for the update: the corrections of the unknowns and their
+ * derivatives with respect to the strains. */
 static int memory_count(const double value[])
 {
     return inner_count(value) * (1 + OUTER);
@@ -144,7 +145,7 @@ static void geometric(const element_data *data, const double sigma[], double G[]
 {
     double own[OUTER][OUTER * OUTER];
     memset(G, 0, OUTER * OUTER * sizeof *G);
-    if (!data->prestressed) /* prestress was not requested at preparation */
+    if (!data->prestressed) /* the prestress was not requested at preparation */
         exact_prestress_derivatives(&data->stages, own);
     for (int k = 0; k < OUTER; k++) {
         const double *Q = data->prestressed ? data->prestress[k] : own[k];
@@ -154,8 +155,8 @@ static void geometric(const element_data *data, const double sigma[], double G[]
     }
 }
 
-/* Returns the force to which changes of forces are relative. A force that is stiffness times
- * elongation has a corresponding rounding error; if that exceeds 1e-9 of the unit of bending
+/* Returns the force by which changes of force are divided. A force equal to a stiffness times an
+ * elongation has a proportional rounding error. If this error exceeds 1e-9 of the unit of bending
  * forces, it must not prevent convergence. */
 static double force_scale(const beam_constants *c)
 {
@@ -174,8 +175,8 @@ static double update(const element_data *data, const double de[], const double m
             change -= memory[i * (OUTER + 1) + j] * de[j] / s->line.l0;
         inner[i] += change;
         if (i < 3)
-            force =
-                fmax(force, fabs(inner[i])); /* because forces are relative and rotations are not */
+            force = fmax(force, fabs(inner[i])); /* because forces are divided by a scale, but
+                                                  * rotations are not */
         largest = larger(largest, fabs(change) / (i < 3 ? force : 1));
     }
     return largest;

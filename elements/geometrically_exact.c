@@ -9,10 +9,10 @@
 
 enum { OPTION_NODES };
 
-/* Transverse compliance of an element in a plane; an axial force N is too large for the element if
- * N times this compliance reaches 1. Contributions: the shear flexibility of the section [1/N], a
- * property of the beam, and the bending flexibility that is treated as shear, l^2/12EI or l^2/60EI
- * (exact.h), a property of the mesh. */
+/* Transverse compliance of an element in a plane. An axial force N is too large for the element if
+ * N times this compliance reaches 1. The compliance is the sum of the shear flexibility of the
+ * section [1/N], a property of the beam, and of the bending flexibility that is treated as shear,
+ * l^2/12EI or l^2/60EI (exact.h), a property of the mesh. */
 typedef struct across {
     double shear, bending;
 } across;

@@ -12,7 +12,8 @@ const element_type element_sheet_second_consistent = {
     .summary = "second-order sheet-flexure element that includes shear in its deformation function",
     .source = "N Eqs. 7, 13-17, 33-36; reference/ERRATA.md, N 37",
     SHEET_SECOND_TYPE,
-    .offers = SHEET_BASE_OFFERS | FEATURE_HARINGX, /* Simo-Reissner: the section's rotation */
+    .offers = SHEET_BASE_OFFERS | FEATURE_HARINGX, /* Simo-Reissner: axial force acts on the
+                                                    * rotation of the section */
     .shear_theories = SHEAR_HARINGX,
     .prepare = prepare,
 };

@@ -8,16 +8,18 @@
 #include "elements/math/scalar.h"
 
 /* The complementary energy of B odd about the middle, B = b sinh(lambda (x - 1/2))/sinh(lambda/2),
- * is 1/2 [(T - M)^2 l/(G It) + l (Q, M) f (Q, M) + M^2 l (1/(G It) + f_ww) excess], M the mean of
- * M_w: with bending, shear and warping in series as for cubic functions, and the warping stiffness
- * E Iw lambda^2/(l excess). For even B it is the energy at the ends, B a. No expression here
+ * is 1/2 [(T - M)^2 l/(G It) + l (Q, M) f (Q, M) + M^2 l (1/(G It) + f_ww) excess], where M is the
+ * mean of M_w. Bending, shear and warping are in series as for cubic functions, with the warping
+ * stiffness E Iw lambda^2/(l excess). For even B, the energy follows from the products B a at the
+ * ends. No expression here
  * overflows or cancels for any lambda > 0. */
 
 enum { CUBIC_POINTS = 4, PANEL_POINTS = 16, LAYER_PANELS = 4 };
-/* Lambda times the width of a panel: 16 points integrate this to within e^-20. */
+/* Largest lambda times the width of a panel, for which 16 points integrate with an error below
+ * e^-20. */
 static const double panel_decay = 10;
 
-/* sinh h - h. */
+/* Returns sinh h - h. */
 static double sinh_excess(double h)
 {
     if (fabs(h) > 1)
@@ -88,7 +90,7 @@ beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x)
     return s;
 }
 
-/* Computes the panels of an element; returns their number. */
+/* Computes the edges of the panels of an element. Returns the number of panels. */
 static int panels_of(const beamw_twist *t, double edge[2 * LAYER_PANELS + 2])
 {
     int panels = 1;
@@ -146,7 +148,7 @@ static void antisymmetric_functionals(const section *c, double l, beamw_stiffnes
     f->A[7] = -0.5;
 }
 
-/* Bending part of h: hg = M h. */
+/* Computes M, which gives the bending part of h: hg = M h. */
 static void split(const section *c, double l, beamw_stiffness_shear kind, const double stiffness[3],
                   double M[9])
 {
@@ -184,8 +186,8 @@ static void series(const section *c, double l, beamw_stiffness_shear kind,
         for (int j = 0; j < 3; j++) {
             if (kind != BEAMW_STIFFNESS_DIAGONAL)
                 K[3 * i + j] = (stiffness[i] * M[3 * i + j] + stiffness[j] * M[3 * j + i]) / 2;
-            else if (i == j) /* J App. A: bending and shear in series, Saint-Venant torsion of the
-                                flexible field */
+            else if (i == j) /* J App. A: bending and shear in series, plus Saint-Venant torsion of
+                              * the field with shear */
                 K[4 * i] = bend[i] * M[4 * i] + (i == W ? torsion * M[4 * i] * M[4 * i] : 0);
             else
                 K[3 * i + j] =

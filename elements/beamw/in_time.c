@@ -1,8 +1,8 @@
-/* Masses at quadrature points, on vectors of the section, y = lin(r + R a) + sum m_k (nu_k . e)
- * (inertia.c), m_k the mean of the nodes' unit vectors:
+/* Masses at quadrature points, attached to vectors of the section, y = lin(r + R a) + sum m_k (nu_k
+ * . e) (inertia.c), where m_k is the mean of the unit vectors of the nodes:
  *   y'' = lin(r'') + sum over nodes A f + sum over k (2 m_k' (nu_k . e)' + m_k (nu_k . e)''),
  *   f = part R a + sum over k (nu_k . e)/2 n_k,   A = w'~ + w~ w~,   e'' = J x'' + x'.H x',
- * where f is fixed to a node that rotates with w. */
+ * where f is fixed to a node with the angular velocity w. */
 #include "elements/beamw/fields.h"
 
 #include <string.h>
@@ -26,10 +26,12 @@ typedef struct moving_line {
     const node_state *x;
     inertia_output *out;
     const double *w[NODES];   /* angular velocities */
-    double A[NODES][9];       /* for a vector fixed to a node: f'' = A f */
+    double A[NODES][9];       /* for a vector f fixed to a node without angular acceleration, f'' =
+                               * A f */
     double n[NODES][AXES][3]; /* unit vectors */
     double m[AXES][3], m_rate[AXES][3];
-    double e[MODES], rate[MODES], second[MODES]; /* modes and both derivatives */
+    double e[MODES], rate[MODES], second[MODES]; /* modes and their first and second time
+                                                  * derivatives */
     double J[MODES * N], slope[MODES * N];
     row wide_J[MODES], wide_slope[MODES];
     row M[N], C[N], K[N];
@@ -112,14 +114,14 @@ static void set_modes(moving_line *c)
 /* A mass at a quadrature point. */
 typedef struct line_point {
     double mass, part[NODES], shift; /* shift 1: a position, 0: a vector fixed to the section */
-    int axes, axis[AXES];            /* those m_k for which the point has functionals */
+    int axes, axis[AXES];            /* the m_k for which the point has functionals */
     double nu[AXES][MODES], value[AXES], rate[AXES];
-    double f[NODES][3]; /* fixed to the nodes */
+    double f[NODES][3]; /* vectors fixed to the nodes */
     double F[3];        /* mass times acceleration */
 } line_point;
 
-/* Sets the functionals of the vector a in the axes of the section, rotated by chi, and of a
- * position with nu. */
+/* Sets the functionals of a vector a that is fixed to the section and rotated by chi; those of a
+ * position also include nu. */
 static void set_functionals(const moving_line *c, int g, const double a[3], line_point *p)
 {
     static const int other[AXES][2] = {{1, 2}, {2, 0}, {0, 1}},
@@ -143,7 +145,7 @@ static void set_point(const moving_line *c, int g, double mass, const double a[3
                       line_point *p)
 {
     const double *acceleration = place ? c->out->acceleration : NULL;
-    p->mass = 2 * c->d->weight[g] * mass; /* given for half of the element */
+    p->mass = 2 * c->d->weight[g] * mass; /* the mass is that of half of the element */
     p->part[0] = 1 - c->d->at[g];
     p->part[1] = c->d->at[g];
     p->shift = place;
@@ -232,7 +234,7 @@ static void narrow(const row A[N], double *out)
             out[N * i + j] += A[i].of[j];
 }
 
-/* dy/dx; dy''/dx' */
+/* Adds dy/dx and dy''/dx'. */
 static void add_gradients(moving_line *c, const line_point *p)
 {
     const inertia_output *out = c->out;
@@ -274,7 +276,7 @@ static void add_gradients(moving_line *c, const line_point *p)
         add_product(p->mass, T, places_of, c->K);
 }
 
-/* Adds F . d2f/dtheta2 in the exponential chart. */
+/* Adds F . d2f/dtheta2 in the exponential chart, where f is fixed to a node. */
 static void add_chart(const double F[3], const double f[3], double B[9])
 {
     add_crossed(0.5, F, f, B);
@@ -315,8 +317,7 @@ static void add_curvature(moving_line *c)
         c->out->K[i] += H[i];
 }
 
-/* Adds the moment of inertia about n_X, for a component w . n_X that is linear between the
- * nodes. */
+/* Adds the moment of inertia about n_X, with the component w . n_X linear between the nodes. */
 static void add_twist(moving_line *c, double polar)
 {
     inertia_output *out = c->out;

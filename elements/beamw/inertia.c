@@ -10,14 +10,14 @@
 /* Moving vectors of the consistent mass at the quadrature points. */
 
 enum { N = 14, RP = 0, TP = 3, AP = 6, RQ = 7, TQ = 10, AQ = 13 };
-enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* the last: warping amplitude */
+enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* PSI: warping amplitude */
 
 /* State of the element, and sums over the points for the second derivatives. */
 typedef struct beamw_inertia_state {
     double vector[2][3][3]; /* node, direction: unit vectors */
     double mean[3][3];      /* m_k */
     double e[8], J[8 * N];
-    double s[8];       /* F . m_k of the functionals: stresses conjugate to the strains */
+    double s[8];       /* sums of F . m_k times the functionals, conjugate to the strains */
     double turn[6][8]; /* derivatives d(F . m_k)/dtheta at p and q */
     const node_state *x;
     const element_rotating_frame *frame;
@@ -33,7 +33,7 @@ typedef struct beamw_inertia_values {
 
 enum { POSITION = -1, NOTHING = -2, TERMS = 2 };
 
-/* y = lin(a vector of the nodes) + sum sign m_k field. */
+/* A vector y = lin(a vector of the nodes) + sum of sign m_k field. */
 typedef struct beamw_inertia_vector {
     int director; /* unit vector, or one of the above */
     int terms;
@@ -43,8 +43,8 @@ typedef struct beamw_inertia_vector {
     } term[TERMS];
 } beamw_inertia_vector;
 
-/* Computes the nonzero entries of the gradients of the strains: all modes except twist depend on
- * the position of q relative to p, and two of the four bending modes rotate with each node. */
+/* Computes the gradient of f . e from the nonzero entries of J: all modes except twist depend on
+ * the position of q relative to p, and each node rotates two of the four bending modes. */
 static void gradient_of(const double J[8 * N], const double f[8], double out[N])
 {
     for (int i = 0; i < 3; i++) {
@@ -94,7 +94,7 @@ static void beamw_inertia_gradient(const beamw_inertia_state *c, const beamw_ine
     }
 }
 
-/* Computes the position in the frame, and the vectors fixed to the nodes with their weights. */
+/* Computes y relative to the frame, and the vectors fixed to each node times their weights. */
 static void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inertia_values *at,
                                 const beamw_inertia_vector *y, double r[3], double fixed[2][3])
 {
@@ -119,7 +119,7 @@ static void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inerti
     }
 }
 
-/* Functionals of the strains for the consistent mass: see inertia.c. */
+/* Functionals of the strains for the consistent mass; see the end of this file. */
 
 enum { BEAMW_CUBIC_POINTS = 4 };
 
@@ -175,14 +175,15 @@ void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_ki
  *   theta_z = v_s' - g_y,  theta_y = -(w_s' - g_z),  a = phi' - g_w,
  *
  * written as interpolated nodal values plus functionals of the strains: v_c = lin(v) + nu_y . e and
- * so on. In the deformed state the functionals are along the mean m_k of the nodes' unit vectors
- * (derived here),
+ * so on. In the deformed state, the functionals are along m_k, the mean of the unit vectors of the
+ * nodes (derived here):
  *
  *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),
  *   n_y = lin(n_y) + m_z (chi_x . e) - m_x (chi_z . e), ...
  *
- * and the displacement of warping a m_x, which are linear in e and in vectors fixed to the nodes:
- * their first two derivatives are exact, and so are the quantities derived from the kinetic energy.
+ * and the warping displacement is along m_x, with the amplitude a. These vectors are linear in e
+ * and in vectors fixed to the nodes. Therefore their first and second derivatives are exact, and so
+ * are the quantities derived from the kinetic energy.
  * The error of the centrifugal force due to second-order terms of the fields is of order l^4. */
 
 static const beamw_inertia_vector position = {POSITION, 2, {{1, NU_Y, 1}, {2, NU_Z, 1}}},
@@ -226,7 +227,7 @@ static void add_interpolated(beamw_inertia_state *c, const beamw_inertia_values 
     gather_curvature(c, F, at, y);
 }
 
-/* Adds a twist whose rate has a mass; a rotating frame has no effect on it. */
+/* Adds the inertia of the twist rate about the axis, on which a rotating frame has no effect. */
 static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *at, double mass)
 {
     double row[N];
@@ -240,7 +241,7 @@ static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *
             c->out->M[N * i + j] += mass * row[i] * row[j];
 }
 
-/* y += size times a vector of the field; likewise for T. */
+/* Adds size times a vector of the field to y, and size times its gradient to T. */
 static void add_part(const beamw_inertia_state *c, const beamw_inertia_values *at,
                      const beamw_inertia_vector *part, double size, moving_vector *y,
                      double T[3 * N], double fixed[2][3])
@@ -309,8 +310,8 @@ static void add_point(beamw_inertia_state *c, const beamw_spread *d, int g)
         add_interpolated(c, &at, &warping, weight * d->lumped.warping);
 }
 
-/* N -= sum F . d2y/dx2: products of rotations with the gradients of the strains, and the second
- * derivatives of the strains. */
+/* Subtracts sum F . d2y/dx2 from N: the products of rotations with the gradients of the strains,
+ * and the second derivatives of the strains. */
 static void add_curvature(const beamw_spread *d, const beamw_inertia_state *c)
 {
     static const int row[6] = {TP, TP + 1, TP + 2, TQ, TQ + 1, TQ + 2};

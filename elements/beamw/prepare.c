@@ -44,7 +44,8 @@ static status length_of(const element_request *request, fault *f)
     return STATUS_OK;
 }
 
-/* Mass, uniform torsion, sizes. */
+/* Completes the data: mass, uniform torsion, and list of nonzero terms. REFUSED: the stiffness
+ * overflows. */
 static status finish(const element_request *request, const beamw_stiffness_fields *fields,
                      element_data *out, fault *f)
 {

@@ -9,7 +9,7 @@
 
 enum { POINTS = ELEMENT_ALONG_POINTS, FINE = 20, X = 2 * NODE_COORDINATES, TURN = 3 };
 
-/* Points of the load, weights, and denominators of Lagrange's polynomials. */
+/* Points of the load, their weights, and the denominators of the Lagrange polynomials. */
 typedef struct load_points {
     double x[POINTS], weight[POINTS], scale[POINTS];
 } load_points;
@@ -25,7 +25,7 @@ static void points_of(load_points *p)
     }
 }
 
-/* out += factor times Lagrange's polynomials at x. */
+/* Adds factor times the Lagrange polynomials at x to `out`. */
 static void add_lagrange(const load_points *p, double x, double factor, double out[POINTS])
 {
     double before[POINTS], after = factor;
@@ -38,7 +38,8 @@ static void add_lagrange(const load_points *p, double x, double factor, double o
     }
 }
 
-/* Computes int_x^1 minus half of int_0^1 of the polynomials. */
+/* Computes the integrals of the polynomials from x to 1, minus half of their integrals from 0 to
+ * 1. */
 static void weights_at(const load_points *p, double x, double out[POINTS])
 {
     for (int j = 0; j < POINTS; j++)
@@ -58,8 +59,8 @@ static void undeformed_axis(const element_request *request, double x, double out
     rotation_apply(q, strained, out);
 }
 
-/* Computes corrections for a curved line; on a straight line the stages integrate a linear load
- * exactly. */
+/* Computes the corrections for a curved line. On a straight line, the stages integrate a linear
+ * load exactly. */
 static void missed_of(const element_request *request, const exact_stages *s, const load_points *p,
                       double own[EXACT_STAGES_MAX][POINTS], exact_along *out)
 {
@@ -132,7 +133,8 @@ void exact_along_frame_of(const exact_stages *s, const exact_along *a, const nod
     }
 }
 
-/* moment += moment of the potential M : G due to a rotation of G in its axes. */
+/* Adds the derivative of the potential M : G with respect to a rotation of G in its axes to
+ * `moment`. */
 static void add_moment(const double M[9], const double G[9], double moment[3])
 {
     double A[9] = {0};
@@ -180,8 +182,9 @@ static void quadratic_of(const double M[9], double B[4][4])
     B[2][3] = B[3][2] = M[5] + M[7];
 }
 
-/* H = second derivative of M : G with respect to rotations of the nodes in the exponential chart:
- * of the quotient Q . B Q/Q . Q, with d2Q = -1/8 |theta|^2 q_k for each node. */
+/* Computes H, the second derivative of M : G with respect to rotations of the nodes in the
+ * exponential chart. M : G is the quotient Q . B Q/Q . Q, with d2Q = -1/8 |theta|^2 q_k for each
+ * node. */
 static void second_of(const exact_along_frame *at, const double M[9], double H[X * X])
 {
     double B[4][4], Bu[4], value = 0, dQ[6][4], along[6], across[6], own[2] = {0};
@@ -240,7 +243,7 @@ void exact_along_finish(const exact_stages *s, const exact_along *a, const exact
         second_of(at, M, out->H);
 }
 
-/* Eliminates the unknowns; returns 0, or the number of a failing pivot. */
+/* Eliminates the unknowns. Returns 0, or the number of a failing pivot. */
 static int eliminate(int stages, exact_collocated *w)
 {
     exact_blocks_eliminate(stages, stages + 4, stages + 1, w->A, w->V, w->d);
@@ -260,7 +263,8 @@ status exact_along_linear(const exact_stages *s, const exact_along *a, const nod
     exact_collocated_load load;
     memcpy(rest + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof(double));
     exact_along_frame_of(s, a, x, out->force, &at);
-    /* first for the size of the force and, for stiffnesses, then for the rotation */
+    /* first with respect to the size of the force, then, if stiffnesses are requested, to the
+     * rotation */
     for (int pass = 0; pass < (out->H != NULL ? 2 : 1); pass++) {
         memset(&load, 0, sizeof load);
         for (int k = 0; k < s->stages; k++)
@@ -310,7 +314,7 @@ status exact_along_rate(const exact_stages *s, const exact_along *a, const node_
         e[i] = out->e[i] / l0;
     exact_along_frame_of(s, a, x, out->force, &at);
     exact_along_frame_of(s, a, x, out->rate, &more);
-    for (int pass = 0; pass < 2; pass++) { /* with two of the rotations, then with the third */
+    for (int pass = 0; pass < 2; pass++) { /* for two of the rotations, then for the third */
         for (int k = 0; k < s->stages; k++) {
             memcpy(load.force[k], at.xi[k], sizeof load.force[k]);
             exact_along_column(at.xi[k], turned);

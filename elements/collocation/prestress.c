@@ -1,10 +1,10 @@
-/* The linear state under sigma gives force, moments and warping torques at the points. With these
- * and the undeformed geometry, the Hessian of the potential is a quadratic polynomial of the
- * prestress. Its linear part is the geometric stiffness; the quadratic part belongs to strains of
- * the prestressed state, which linear buckling neglects. The inner unknowns depend on the strains
- * as in the stress-free element: the error of a critical load is of fourth order in the length of
- * an element, and of second order with shear flexibility (c_column: 0.052, 0.0033, 0.00021 % rigid
- * in shear; 1.26, 0.31, 0.078 % otherwise; n = 4, 8, 16). */
+/* The linear state under sigma determines the force, moments and warping torques at the points.
+ * With these stresses and the undeformed geometry, the Hessian of the potential is a quadratic
+ * polynomial of the prestress. Its linear part is the geometric stiffness; its quadratic part is
+ * due to strains of the prestressed state, which linear buckling neglects. The inner unknowns
+ * depend on the strains as in the stress-free element. The error of a critical load is therefore of
+ * fourth order in the length of an element, or of second order with shear flexibility (c_column
+ * with n = 4, 8, 16: 0.052, 0.0033, 0.00021 % if rigid in shear; otherwise 1.26, 0.31, 0.078 %). */
 #include "elements/collocation/collocation.h"
 
 #include <string.h>
@@ -38,14 +38,14 @@ static void linear_states(const exact_stages *s, double change[], double Z[])
         change[(m + i) * OUTER + i] = 1;
     if (!s->c.warping)
         for (int i = n - 2; i < n; i++)
-            hessian[i * (n + 1)] = 1; /* no amplitudes */
+            hessian[i * (n + 1)] = 1; /* there are no amplitudes */
     dense_lu(n, hessian, pivot);
     dense_lu_solve(n, OUTER, hessian, pivot, change);
 }
 
-/* Computes, at point i of the undeformed element: M times the change of (kappa, N) due to that of
- * the variables (for N the change itself, for terms that it stiffens in torsion), and the change of
- * the argument of the warping energy. */
+/* At point i of the undeformed element, computes M times the change of (kappa, N) due to a change
+ * of the variables (for N, the change itself is used in the terms that N stiffens in torsion).
+ * Returns the change of the argument of the warping energy. */
 static double moments(const exact_stages *s, int i, const exact_stage *p,
                       const exact_stage_material *M, const double change[], const double force[3],
                       double moment[3], double N[3])

@@ -1,5 +1,5 @@
 /* A thin beam of the absolute nodal coordinate formulation, given by its energy; forces and
- * stiffness are computed by differences.
+ * stiffness are computed by finite differences.
  *
  * As in that formulation, the line r(x) is a cubic with positions and slopes r' of two nodes
  * (Gerstmayr and Shabana, Nonlinear Dyn. 45 (2006)); its energy follows from the stretch |r'| - 1
@@ -20,7 +20,10 @@
 
 #include "elements/element.h"
 
-enum { POINTS = 3 }; /* Gauss points: one for each possible stretch; two slopes, a chord */
+enum {
+    POINTS = 3
+}; /* Gauss points: as many as there are independent stretches (two slopes and a
+    * chord) */
 static const double abscissa[POINTS] = {0.11270166537925831, 0.5, 0.88729833462074169};
 static const double weight[POINTS] = {5. / 18, 8. / 18, 5. / 18};
 
@@ -61,12 +64,12 @@ static void axis(const double R[9], int i, double a[3])
         a[k] = R[3 * k + i];
 }
 
-/* Chord per length, directions of the slopes, and their lengths. */
+/* Chord per length, and directions and lengths of the slopes. */
 typedef struct line {
     double chord[3], direction[2][3], slope[2];
 } line;
 
-/* r' and l r'' at x = s l. */
+/* Computes r' and l r'' at x = s l. */
 static void derivatives(const line *c, double s, double first[3], double second[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -76,8 +79,8 @@ static void derivatives(const line *c, double s, double first[3], double second[
     }
 }
 
-/* Makes Newton's correction of the lengths of the slopes, which minimises the energy of the
- * stretch; returns its size. */
+/* Makes one step of Newton's method for the lengths of the slopes that minimise the energy of the
+ * stretch. Returns the size of the step. */
 static double correct(line *c)
 {
     double g[2] = {0}, H[2][2] = {{0}};
@@ -104,8 +107,8 @@ static double correct(line *c)
     return fabs(change[0]) + fabs(change[1]);
 }
 
-/* Computes y, the y axis of triad R after the smallest rotation to t; returns its rate of rotation
- * about t as t changes by dt. */
+/* Computes y, the y axis of triad R after the smallest rotation to t. Returns the rate of rotation
+ * of y about t as t changes by dt. */
 static double carried(const double R[9], const double t[3], const double dt[3], double y[3])
 {
     double x[3], about[3];
@@ -133,7 +136,7 @@ static double density(const element_data *d, const node_state x[], const line *c
     cross(t, y[0], other);
     const double angle = atan2(dot(other, y[1]), dot(y[0], y[1]));
     const double twist = (1 - s) * turns[0] + s * turns[1] + angle / d->length;
-    for (int i = 0; i < 3; i++) /* axes of the section, rotated by their fraction of the angle */
+    for (int i = 0; i < 3; i++) /* axes of the section, rotated by a fraction of the angle */
         section_y[i] = cos(s * angle) * y[0][i] + sin(s * angle) * other[i];
     cross(t, section_y, section_z);
     cross(t, dt, curvature);
@@ -153,7 +156,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
         c.slope[k] = 1;
     }
     int rounds = 0;
-    while (correct(&c) > 1e-10) /* Newton's method then doubles the number of digits */
+    while (correct(&c) > 1e-10) /* a step of Newton's method doubles the number of correct digits */
         if (++rounds == 20)
             return STATUS_NOT_CONVERGED;
     *out->energy = 0;

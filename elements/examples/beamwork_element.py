@@ -36,7 +36,7 @@ SECTION = ("young shear_modulus density A Iy Iz It Iw ys zs Ip wagner_y wagner_z
 FUNCTIONS = ("prepare", "strain", "stress", "force", "mass")
 KEYS = ("name summary source family offers gives strains nodes order limits shear_theories "
         "inertia options").split()
-TINY, STEP = 1e-20, 2e-3  # of complex steps and of differences of their results
+TINY, STEP = 1e-20, 2e-3  # sizes of complex steps, and of finite differences of their results
 
 
 class Refused(Exception):
@@ -44,7 +44,7 @@ class Refused(Exception):
 
 
 def checked(value, name, count, each, why, numbers="biuf"):
-    """Returns the answer of a function as an array[count, *each] (count 0: [*each]), or Refused."""
+    """Returns the result of a function as an array[count, *each] (count 0: [*each]); raises Refused if it has another shape or type."""
     def words(shape):
         all_of = ["N" if count and (i, v) == (0, count) else str(v) for i, v in enumerate(shape)]
         return f"({', '.join(all_of)})" if shape else "one number"
@@ -64,17 +64,17 @@ def checked(value, name, count, each, why, numbers="biuf"):
 
 
 def cross_matrix(v):
-    """[..., 3] -> [..., 3, 3]: cross_matrix(v) @ w = v x w."""
+    """Returns the matrices [..., 3, 3] of vectors v[..., 3] with cross_matrix(v) @ w = v x w."""
     return np.cross(v[..., None, :], np.eye(3), axisa=-1, axisb=-1, axisc=-2)
 
 
 def sinc(x):
-    """Returns sin(x)/x, also for complex steps."""
+    """Returns sin(x)/x; x may be complex."""
     return np.sin(x) / np.where(x == 0, 1, x) + (x == 0)
 
 
 def rotation_vector(T):
-    """Returns the rotation vectors, shorter than pi, of rotation matrices [..., 3, 3]; works with complex steps."""
+    """Returns the rotation vectors, shorter than pi, of rotation matrices T[..., 3, 3]; T may be complex."""
     axis = np.stack([T[..., 2, 1] - T[..., 1, 2], T[..., 0, 2] - T[..., 2, 0],
                      T[..., 1, 0] - T[..., 0, 1]], -1) / 2
     c, s = (np.trace(T, axis1=-2, axis2=-1) - 1) / 2, np.sqrt((axis * axis).sum(-1))
@@ -86,7 +86,7 @@ def rotation_vector(T):
 
 @functools.lru_cache
 def steps(n, second):
-    """Returns the increments of all coordinates [P, n, 7] (real, imaginary) from which derivatives are taken."""
+    """Returns the real and imaginary increments [P, n, 7] of the coordinates for the P evaluations from which derivatives are computed."""
     one = np.eye(7 * n)
     if not second:
         return np.zeros((7 * n, n, 7)), one.reshape(-1, n, 7)
@@ -103,7 +103,7 @@ def steps(n, second):
 
 def moved(kind, x, real, imag):
     """Returns the states r, u, R, a [N P, n, ...] of elements x[N, n, 16] after P increments [P, n, 7]."""
-    unit = kind.length ** np.array([1, 1, 1, 0, 0, 0, -1])  # increments as numbers of order one
+    unit = kind.length ** np.array([1, 1, 1, 0, 0, 0, -1])  # units that make the increments of order one
     move, (psi, e) = (real + 1j * TINY * imag) * unit, (real[..., 3:6], imag[..., 3:6])
     t, spin = np.linalg.norm(psi, axis=-1)[..., None, None] / np.pi, cross_matrix(psi)
     turn = np.eye(3) + spin * np.sinc(t) + spin @ spin * np.sinc(t / 2)**2 / 2
@@ -130,7 +130,7 @@ def derivatives(kind, strain, x, s):
 
 
 def is_analytic(kind, strain, x):
-    """Do complex steps of strain or mass agree with differences near an element x[1, n, 16]?"""
+    """Returns whether complex steps of strain or mass agree with finite differences near an element x[1, n, 16]."""
     n = x.shape[1]
     away = np.sin(np.arange(1, 7 * n + 1)).reshape(1, n, 7) / 20
     state = [v.real for v in moved(kind, x, away, 0 * away)]
@@ -144,7 +144,7 @@ def is_analytic(kind, strain, x):
 
 
 def described(body, said):
-    """Returns a kind of elements from the body of a request to prepare it, and its number."""
+    """Returns the number of a kind of elements, and the kind, from the body of the request to prepare it."""
     (number, bits, _), rest = np.frombuffer(body, "<i8", 3), np.frombuffer(body, "<f8", offset=24)
     kind, at = SimpleNamespace(length=rest[0], curvature=rest[1:4], strain=rest[4:7]), 7
     kind.section = SimpleNamespace()
@@ -158,7 +158,7 @@ def described(body, said):
 
 
 def three(name, found, mask, parts, N, c, why):
-    """Returns the requested ones of energy[N], a vector [N, c] and a matrix [N, c, c]."""
+    """Returns those of energy[N], a vector [N, c] and a matrix [N, c, c] that the mask requests."""
     if not isinstance(found, (tuple, list)) or len(found) != 3:
         raise Refused(f"{name} must return three values: energy, {parts[0]}, {parts[1]}")
     all_three = [None if v is None and not mask >> i & 1 else
@@ -168,10 +168,10 @@ def three(name, found, mask, parts, N, c, why):
 
 
 def turning(kind, M, x, frame):
-    """Returns potential, force, N, G of elements x[N, n, 16] in a rotating frame (omega, centre)."""
+    """Returns potential, force, N and G of elements x[N, n, 16] in a rotating frame (omega, centre)."""
     N, n, c = len(x), x.shape[1], 7 * x.shape[1]
 
-    def momentum(kind, r, *state):  # M v and v M v for the velocity of the frame
+    def momentum(kind, r, *state):  # M v and v M v for the velocity v due to the rotation of the frame
         v = np.zeros((len(r), n, 7), r.dtype)
         v[..., :3], v[..., 3:6] = np.cross(frame[0], r - frame[1]), frame[0]
         p = np.einsum("nij,nj->ni", M(kind, r, *state), v.reshape(-1, c))
@@ -187,7 +187,7 @@ def turning(kind, M, x, frame):
 
 
 def in_time(kind, M, x, rate, acceleration, tangents):
-    """Returns taken, C, K of elements x[N, n, 16]: Lagrange's equations of the energy x' M x'/2."""
+    """Returns taken, C and K of elements x[N, n, 16], from Lagrange's equations for the energy x' M x'/2."""
     N, c = rate.shape
 
     def momentum(*at):
@@ -215,12 +215,12 @@ def in_time(kind, M, x, rate, acceleration, tangents):
 
 
 def states(x):
-    """Returns r, u, R, a of elements x[N, n, 16]."""
+    """Returns the positions r, displacements u, rotations R and amplitudes a of elements x[N, n, 16]."""
     return x[..., 0:3], x[..., 3:6], x[..., 6:15].reshape(*x.shape[:2], 3, 3), x[..., 15]
 
 
 def inertia(mask, kind, x, body, functions):
-    """Returns the inertia, as the mask requests it, of elements x[N, n, 16] with a frame and rates, body[N, ...]."""
+    """Returns the inertia outputs that the mask requests for elements x[N, n, 16]; body[N, ...] contains the frame and the rates."""
     N, c = len(x), 7 * x.shape[1]
 
     def mass(kind, *state):
@@ -248,7 +248,7 @@ def inertia(mask, kind, x, body, functions):
 
 
 def answers(what, mask, kind, body, said, functions):
-    """Returns the arrays that a mask requests, for elements of one kind, body[N, ...] as in the request."""
+    """Returns the arrays that the mask requests for elements of one kind; body[N, ...] is that of the request."""
     N, n, m = len(body), said.get("nodes", 2), said.get("strains", 0)
     if what == 3:
         found = functions["stress"](kind, body)
@@ -277,7 +277,7 @@ def answers(what, mask, kind, body, said, functions):
 
 
 def prepared(body, kinds, said, functions):
-    """Returns the body of an answer to a request to prepare a kind."""
+    """Returns the body of the answer to a request to prepare a kind."""
     number, kind = described(body, said)
     kinds[number], C = kind, functions["prepare"](kind)
     if "force" not in functions and C is None and "stress" not in functions:
@@ -287,7 +287,7 @@ def prepared(body, kinds, said, functions):
 
 
 def answer(what, mask, count, body, kinds, said, functions):
-    """Returns the body of an answer."""
+    """Returns the body of the answer to any request."""
     if what == 1:
         return prepared(body, kinds, said, functions)
     numbers, rest = np.frombuffer(body, "<i8", count), np.frombuffer(body, "<f8", offset=8 * count)
@@ -295,7 +295,7 @@ def answer(what, mask, count, body, kinds, said, functions):
     ends = {2: [16 * n], 4: [16 * n], 5: np.cumsum(
         [16 * n, 6 * (mask >> 8 & 1), 7 * n * (mask >> 9 & 1), 7 * n * (mask >> 10 & 1)])}
     parts = np.split(rest, ends.get(what, []))
-    if what == 5:  # one frame for all
+    if what == 5:  # one frame for all elements
         parts[1] = np.tile(parts[1], count)
     each = np.hstack([part.reshape(count, -1) for part in parts if part.size])
     out = None
@@ -309,7 +309,7 @@ def answer(what, mask, count, body, kinds, said, functions):
 
 
 def told(error):
-    """Returns one line for the user: what happened, and the last line in the author's files."""
+    """Returns one line for the user with the error and the last line of the author's code that was reached."""
     if isinstance(error, Refused):
         return str(error)
     own = [f for f in traceback.extract_tb(error.__traceback__)
@@ -319,7 +319,7 @@ def told(error):
 
 
 def taken(functions, words):
-    """Returns the functions by their names, and the keys of the first line; exits at an unknown word."""
+    """Returns the functions by name and the keys of the first line; exits with an error if a word is unknown."""
     functions, said = dict(zip(FUNCTIONS, functions)), {}
     for word, value in words.items():
         if word in KEYS:
@@ -338,8 +338,8 @@ def taken(functions, words):
 
 
 def serve(*functions, **words):
-    """Answers until beamwork has no more requests: serve(prepare, strain, stress, force=..., ...), words: keys of the
-    protocol's first line; functions that are not needed may be omitted."""
+    """Answers requests until beamwork sends no more. Example: serve(prepare, strain, stress, family="..."). words: keys of the protocol's
+    first line. Functions that are not needed may be omitted."""
     (functions, said), kinds = taken(functions, words), {}
     requests, to = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # print goes to standard error
@@ -349,7 +349,7 @@ def serve(*functions, **words):
         what, mask, count, size = (int(v) for v in np.frombuffer(head, "<i8", offset=8))
         body = requests.read(size)
         try:
-            with np.errstate(all="ignore"):  # states with NaN or Inf occur, too
+            with np.errstate(all="ignore"):  # states with NaN or Inf also occur
                 arrays, outcome = answer(what, mask, count, body, kinds, said, functions), 0
             out = b"".join(np.asarray(v, "<f8").tobytes() for v in arrays)
         except (Exception, SystemExit) as error:  # pylint: disable=broad-except

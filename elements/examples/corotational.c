@@ -2,7 +2,7 @@
  * element of a finite element program: the linear beam in axes that follow the element.
  *   axes: x along the chord, y in the plane of the chord and the mean of the nodes' y axes (Battini
  *     and Pacoste, Comput. Methods Appl. Mech. Engrg. 191 (2002));
- *   rotations of the nodes in them: the sines, t = axis sin(angle) (Crisfield, ibid. 81 (1990));
+ *   rotations of the nodes relative to these axes: measured by the sine, t = axis sin(angle) (Crisfield, ibid. 81 (1990));
  *   stiffness: the complete derivative, with the names of its parts from Felippa and Haugen, ibid.
  *     194 (2005)
  *
@@ -77,7 +77,8 @@ static status force(const element_data *d, const node_state x[], force_output *o
         y[i] = (x[0].R[3 * i + 1] + x[1].R[3 * i + 1]) / 2;
         square += E[i] * E[i];
         change +=
-            du * (2 * E[i] - du); /* change of the square: the elongation without cancellation */
+            du * (2 * E[i] - du); /* change of the square of the length, which gives the elongation
+                                   * without cancellation */
     }
     cross(E, y, E + 6);
     const double ln = sqrt(square), n = d->axial * change / (ln + d->length);
@@ -87,10 +88,11 @@ static status force(const element_data *d, const node_state x[], force_output *o
         E[6 + i] /= height;
     }
     cross(E + 6, E, E + 3);
-    if (!(height > 0)) /* y along the chord */
+    if (!(height > 0)) /* the mean y axis is along the chord */
         return STATUS_SINGULAR;
 
-    /* From here on in the element axes: S = E R, t of both nodes, their moments M. */
+    /* All following vectors are in the element axes: S = E R and t of both nodes, and the moments M
+     * on them. */
     double S[2][9] = {{0}}, t[6], M[6] = {0}, energy = n * n / d->axial / 2;
     for (int k = 0; k < 2; k++) {
         add(3, 3, 3, 0, E, x[k].R, S[k]);
@@ -103,8 +105,8 @@ static status force(const element_data *d, const node_state x[], force_output *o
     for (int i = 0; i < 6; i++)
         energy += M[i] * t[i] / 2;
 
-    /* d ln = r d; the axes rotate by omega = W d, about x as the mean y axis (q1, q2, 0) does, and
-     * relative to them the nodes rotate by P d = phi - omega. */
+    /* d ln = r d. The axes rotate by omega = W d, whose x component follows from the mean y axis
+     * (q1, q2, 0). The nodes rotate by P d = phi - omega relative to the axes. */
     const double q1 = (S[0][1] + S[1][1]) / 2, q2 = (S[0][4] + S[1][4]) / 2, s = q1 / q2;
     double r[N] = {-1, 0, 0, 0, 0, 0, 1}, W[3 * N] = {0}, P[6 * N], D[6 * N] = {0};
     for (int k = 0; k < 2; k++) {
@@ -156,7 +158,8 @@ static status force(const element_data *d, const node_state x[], force_output *o
         row[4 * N] += torque * (dq[k][j] - S[k][1] * d2 / q2) / (2 * q2);
     }
 
-    double T[N * NODES] = {0}, KT[N * NODES] = {0}; /* to global axes; warping is inactive */
+    double T[N * NODES] = {0}, KT[N * NODES] = {0}; /* transformation to global axes; warping is
+                                                     * inactive */
     for (int i = 0; i < 36; i++)
         T[i / 3 * NODES + i / 9 * 3 + i / 18 + i % 3] = E[i % 9];
     if (out->energy != NULL)

@@ -9,7 +9,7 @@ from timoshenko import prepare, strain
 
 
 def mass(kind, r, _u, R, _a):
-    """Returns M[N, 14, 14] for r[N, 2, 3] and R[N, 2, 3, 3]; also for complex steps."""
+    """Returns M[N, 14, 14] for r[N, 2, 3] and R[N, 2, 3, 3], which may be complex."""
     c, l = kind.section, kind.length
     M = np.zeros((len(r), 2, 7, 2, 7), R.dtype)
     line = np.einsum("pq,ij->piqj", [[2, 1], [1, 2]], np.eye(3))

@@ -1,6 +1,6 @@
 /* A shear-deformable beam with two nodes in one file: strains uniform along the element [m],
  *   d = Rm^T (rq - rp) - (l, 0, 0), with Rm halfway from Rp to Rq, and l log(Rp^T Rq).
- * Their derivatives are computed by differences.
+ * Their derivatives are computed by finite differences.
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK timoshenko.c -o timoshenko.so
  *   beamwork converge tapered_cantilever --element ./timoshenko.so -f all */
 #include <math.h>
@@ -64,7 +64,7 @@ static void between(const double R[9], const double S[9], double psi[3])
 
 static void strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    double chord[3], psi[3], p[3], q[3]; /* the chord in the axes of both nodes */
+    double chord[3], psi[3], p[3], q[3]; /* p, q: the chord in the axes of both nodes */
     if (out->e == NULL)
         return;
     for (int i = 0; i < 3; i++)
@@ -72,7 +72,8 @@ static void strain(const element_data *d, const node_state x[], strain_output *o
     between(x[0].R, x[1].R, psi);
     transposed(x[0].R, chord, p);
     transposed(x[1].R, chord, q);
-    /* Normal to psi, their mean is the axis in the middle times c; along psi, all are equal. */
+    /* Normal to psi, the mean of p and q is the chord in the middle axes times c; along psi, all
+     * three are equal. */
     const double square = psi[0] * psi[0] + psi[1] * psi[1] + psi[2] * psi[2];
     const double c = cos(sqrt(square) / 2), k = square > 0 ? (1 - 1 / c) / square : 0;
     const double along = psi[0] * p[0] + psi[1] * p[1] + psi[2] * p[2];

@@ -11,7 +11,7 @@ from beamwork_element import rotation_vector, serve, sinc
 def prepare(kind):
     """Returns the element's stiffness C [N/m]: sigma = C e."""
     c, l = kind.section, kind.length
-    # Transverse flexibility: shear if requested, and the bending that a uniform curvature lacks.
+    # Transverse flexibility: that of shear, if requested, and that of the bending which a uniform curvature does not represent.
     shear = l / c.shear_modulus if "shear" in kind.features else 0
     across_y = shear * c.F[0] + l**3 / (12 * c.young * c.Iz)
     across_z = shear * c.F[4] + l**3 / (12 * c.young * c.Iy)
@@ -20,10 +20,10 @@ def prepare(kind):
 
 
 def strain(kind, r, _u, R, _a):
-    """Returns e[N, 6] for r[N, 2, 3] and R[N, 2, 3, 3]; also for complex steps."""
+    """Returns e[N, 6] for r[N, 2, 3] and R[N, 2, 3, 3], which may be complex."""
     chord = (r[:, 1] - r[:, 0])[:, None, None, :] @ R  # in the axes of both nodes
     psi = rotation_vector(R[:, 0].swapaxes(1, 2) @ R[:, 1])
-    # Normal to psi, their mean is the axis in the middle, shortened by c; along psi, all are equal.
+    # Normal to psi, the mean of both is the chord in the middle axes, shortened by c; along psi, all three are equal.
     angle = np.sqrt((psi * psi).sum(1))[:, None]
     c, along = np.cos(angle / 2), (psi * chord[:, 0, 0]).sum(1)[:, None]
     e = (chord[:, 0, 0] + chord[:, 1, 0]) / (2 * c) - sinc(angle / 4)**2 / (8 * c) * along * psi

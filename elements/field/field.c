@@ -90,7 +90,7 @@ void field_at(const displacement_field *f, double x, field_rows *out)
     out->lean[1] = -2 * lean;
 }
 
-/* a = kx - (f (Q, Mw))_w, where Mw is that of the twist (beamw/fields.h). */
+/* The amplitude is a = kx - (f (Q, Mw))_w, where Mw belongs to the twist (beamw/fields.h). */
 void field_warping_at(const displacement_field *f, double x, double psi[FIELD_MODES])
 {
     const beamw_stiffness_fields *s = &f->linear;
@@ -118,9 +118,12 @@ int field_points(const displacement_field *f, double from, double to, double x[F
     return beamw_twist_points(&f->twist, from, to, x, weight);
 }
 
-enum { PSI = FIELD_FUNCTIONALS }; /* warping amplitude, after the others */
-/* Exact for the square of a cubic; for hyperbolic twist, within 1e-9 up to a length of ten boundary
- * layers. */
+enum {
+    PSI = FIELD_FUNCTIONALS
+}; /* position of the warping amplitude, after the other
+    * functionals */
+/* Numbers of points. The first is exact for the square of a cubic; the second integrates hyperbolic
+ * twist within 1e-9 up to a length of ten boundary layers. */
 enum { CUBIC_POINTS = 4, HYPERBOLIC_POINTS = BEAMW_GAUSS };
 
 static void prepare_two(const element_request *request, beamw_spread *out)

@@ -1,9 +1,9 @@
-/* Computes B of field.h. Resultants about the centroid: with forces q, moments mu and bimoments b
- * per length
+/* Computes B of field.h. With forces q, moments mu and bimoments b per length, the resultants about
+ * the centroid obey
  *   N' = -q_x,  Qy' = -q_y,  Qz' = -q_z,  Mx' = -mu_x,  My' = Qz - mu_y,  Mz' = -Qy - mu_z,
  *   Mw = -W' - b,
- * and C is the compliance due to EA, EIy, EIz, GIt (torque about the shear centre minus Mw), EIw
- * (W) and shear (Qy, Qz, Mw) (J App. A). */
+ * and C is the compliance of EA, EIy, EIz, GIt (for the torque about the shear centre minus Mw),
+ * EIw (for W) and shear (for Qy, Qz, Mw) (J App. A). */
 #include <math.h>
 #include <string.h>
 
@@ -14,9 +14,14 @@
 
 enum { N = FIELD_INNER };
 enum { NX, QY, QZ, MX, MY, MZ, W, MW, RESULTANTS };
-enum { DEGREE = 6, ENDS = 6, MOST = ENDS + DEGREE + 1 + 2 }; /* degree of resultants without load */
-enum { POINTS = 8 };                                         /* if nothing is hyperbolic */
-enum { LOADS = 7 };                                          /* q, mu, b */
+enum {
+    DEGREE = 6,
+    ENDS = 6,
+    MOST = ENDS + DEGREE + 1 + 2
+};                   /* degree of the resultants without
+                      * load */
+enum { POINTS = 8 }; /* if no resultant is hyperbolic */
+enum { LOADS = 7 };  /* q, mu, b */
 
 typedef struct inside {
     const displacement_field *f;
@@ -24,7 +29,7 @@ typedef struct inside {
     double shear[9];               /* [1/N ...] of (Qy, Qz, Mw) */
     double inertia[LOADS];         /* [kg/m, kg m, kg m^3] */
     double modes[FIELD_MODES * N]; /* e of v */
-    int warps, count;              /* of MOST */
+    int warps, count;              /* count: number of columns in use, at most MOST */
 } inside;
 
 /* Computes the displacements of the centroid, rotations and warping [7 x N] at a point. */
@@ -71,7 +76,7 @@ static void loaded_at(const inside *i, double x, double s[RESULTANTS][N])
         s[MW][j] = -i->inertia[LOADS - 1] * y[LOADS - 1][j];
 }
 
-/* Computes s[RESULTANTS x MOST] of forces at the ends and of bimoments. */
+/* Computes s[RESULTANTS x MOST] due to forces and bimoments at the ends. */
 static void free_at(const inside *i, double x, double s[RESULTANTS][MOST])
 {
     const double l = i->f->l0, y = 2 * x - 1, lambda = i->f->twist.lambda;
@@ -91,7 +96,8 @@ static void free_at(const inside *i, double x, double s[RESULTANTS][MOST])
     }
 }
 
-/* Computes the deformations [RESULTANTS x columns] due to resultants, stored `columns` apart. */
+/* Computes the deformations [RESULTANTS x columns] due to the resultants s; rows are `columns`
+ * apart. */
 static void deform(const inside *i, int columns, const double *s, double *out)
 {
     const section *c = i->c;
@@ -115,7 +121,7 @@ static void deform(const inside *i, int columns, const double *s, double *out)
     }
 }
 
-/* Does one of the matrices of the section have an off-diagonal entry? */
+/* Returns 1 if one of the matrices of the section has a nonzero off-diagonal entry. */
 static int is_coupled(const section *c)
 {
     int coupled = 0;
@@ -154,7 +160,8 @@ static int prepare(const element_request *r, const displacement_field *f, const 
     return 1;
 }
 
-/* gram[count x count] += weight s_r^T C s_r, and so on. */
+/* Adds weight s_r^T C s_r to gram[count x count], and likewise the products with s_p to `mixed` and
+ * B. */
 static void gather(const inside *i, double x, double weight, double gram[MOST * MOST],
                    double mixed[MOST * N], double B[N * N])
 {

@@ -1,6 +1,7 @@
 /* Virtual work of loads on the field, with derivatives. A vector y of the field is
  *   y = sum part_n v_n + sum m_k (functional . e),
- * linear in e and in vectors v fixed to the nodes, whose first two derivatives are exact. */
+ * which is linear in e and in vectors v fixed to the nodes; their first and second derivatives are
+ * exact. */
 #include <math.h>
 #include <string.h>
 
@@ -15,7 +16,8 @@ enum {
     TERMS = 2
 };
 
-/* y = part of director (or of the positions of the nodes) and sum sign m_k functional. */
+/* A vector y: the interpolated director (or position) of the nodes plus the sum of sign m_k
+ * functional. */
 typedef struct field_vector {
     int director; /* NONE: a position */
     struct {
@@ -37,8 +39,9 @@ typedef struct pulled {
     double vector[ELEMENT_MAX_NODES][3][3], mean[3][3]; /* unit vectors; m_k */
     double e[FIELD_MODES], J[FIELD_MODES * MOST];
     double s[FIELD_MODES];          /* generalised forces conjugate to e */
-    double turn[2][3][FIELD_MODES]; /* its derivative with respect to rotations of p and q ... */
-    double moment_turn[2][3][FIELD_MODES]; /* ... and that of moments */
+    double turn[2][3][FIELD_MODES]; /* derivative of s with respect to rotations of p and q due to
+                                     * forces ... */
+    double moment_turn[2][3][FIELD_MODES]; /* ... and due to moments */
     double *forces, *K;
 } pulled;
 
@@ -47,7 +50,7 @@ static double amplitude(const pulled *p, const field_rows *at, int functional)
     return dense_dot(FIELD_MODES, at->functional[functional], p->e);
 }
 
-/* fixed[node]: the part of y that rotates with each node. */
+/* Computes fixed[node], the part of y that rotates with each node. */
 static void fixed_of(const pulled *p, const field_rows *at, const field_vector *y,
                      double fixed[ELEMENT_MAX_NODES][3])
 {
@@ -65,7 +68,7 @@ static void fixed_of(const pulled *p, const field_rows *at, const field_vector *
     }
 }
 
-/* T[3 x n] = dy/dx */
+/* Computes T[3 x n] = dy/dx. */
 static void gradient_of(const pulled *p, const field_rows *at, const field_vector *y,
                         double fixed[ELEMENT_MAX_NODES][3], double T[3 * MOST])
 {
@@ -85,7 +88,8 @@ static void gradient_of(const pulled *p, const field_rows *at, const field_vecto
     }
 }
 
-/* turn[node] += (n_k x F) functional/2: change of F . m_k due to rotations of the nodes. */
+/* Adds (n_k x F) functional/2, the change of F . m_k due to the rotation of each node, to
+ * turn[node]. */
 static void add_mean_turn(const pulled *p, int k, double scale, const double F[3],
                           const double functional[FIELD_MODES], double turn[2][3][FIELD_MODES])
 {
@@ -122,7 +126,7 @@ static void add_force(pulled *p, const field_rows *at, const field_vector *y,
     }
 }
 
-/* The unit vector along a director of the field. */
+/* A unit vector along a director of the field. */
 typedef struct unit {
     const field_vector *of;
     double fixed[ELEMENT_MAX_NODES][3], v[3], length;
@@ -142,7 +146,7 @@ static void unit_of(const pulled *p, const field_rows *at, int k, unit *out)
         out->v[i] /= out->length;
 }
 
-/* Its derivative. */
+/* Computes T[3 x n], the derivative of the unit vector. */
 static void unit_gradient(const pulled *p, const field_rows *at, unit *u, double T[3 * MOST])
 {
     gradient_of(p, at, u->of, u->fixed, T);
@@ -155,7 +159,7 @@ static void unit_gradient(const pulled *p, const field_rows *at, unit *u, double
     }
 }
 
-/* F on size times a unit vector: with n the director, v = n/|n| and P = 1 - v v^T
+/* Adds a force F on size times a unit vector. With n the director, v = n/|n| and P = 1 - v v^T,
  *   F . d2v = (P F/|n|) . d2n - (1/|n|^2) [(v . dn)(P F . dn) + (P F . dn)(v . dn) + (F . v) dn . P
  * dn] */
 static void add_force_on_unit(pulled *p, const field_rows *at, unit *u, double size,
@@ -182,7 +186,7 @@ static void add_force_on_unit(pulled *p, const field_rows *at, unit *u, double s
         }
 }
 
-/* T[3 x n]: the increment of the section's rotation. */
+/* Computes T[3 x n], which gives the rotation increment of the section. */
 static void rotation_gradient_of(const pulled *p, const field_rows *at, double T[3 * MOST])
 {
     static const int functional[3] = {FIELD_CHI_X, FIELD_CHI_Y, FIELD_CHI_Z};
@@ -199,8 +203,8 @@ static void rotation_gradient_of(const pulled *p, const field_rows *at, double T
     }
 }
 
-/* Adds a moment M in global axes: shares of the nodes, which have no potential, and the rotation of
- * the section due to the functionals. */
+/* Adds a moment M in global axes: the shares of the nodes, which have no potential, and the
+ * contribution of the functionals to the rotation of the section. */
 static void add_moment(pulled *p, const field_rows *at, const double M[3])
 {
     static const int functional[3] = {FIELD_CHI_X, FIELD_CHI_Y, FIELD_CHI_Z};
@@ -225,7 +229,7 @@ static void add_moment(pulled *p, const field_rows *at, const double M[3])
     }
 }
 
-/* K -= T^T Q for loads that rotate with the section. */
+/* Subtracts T^T Q from K for loads that rotate with the section. */
 static void subtract_following(pulled *p, const double T[3 * MOST], const double Q[3 * MOST])
 {
     for (int i = 0; i < p->n; i++)
@@ -234,8 +238,8 @@ static void subtract_following(pulled *p, const double T[3 * MOST], const double
                 p->K[i * p->n + j] -= T[k * p->n + i] * Q[k * p->n + j];
 }
 
-/* Computes a vector v, given in the axes of the section at the point, in global axes (out), and its
- * gradient Q = dv/dx. */
+/* Transforms a vector v from the axes of the section at the point to global axes (out) and computes
+ * the gradient of the result, Q = dv/dx. */
 static void follow(const pulled *p, const field_rows *at, unit axis[3], const double v[3],
                    double out[3], double Q[3 * MOST])
 {
@@ -290,7 +294,7 @@ static void add_one(pulled *p, const field_rows *at, const field_load *load)
             add_force_on_unit(p, at, &axis[k], load->arm[k], F);
 }
 
-/* Adds the sums conjugate to e. */
+/* Adds the contributions of the sums conjugate to e to the forces and to K. */
 static void add_functionals(pulled *p, const node_state x[])
 {
     double H[2 * NODE_COORDINATES * 2 * NODE_COORDINATES];

@@ -9,7 +9,7 @@
 
 enum { ALL = 6 };
 
-/* F += 1/12 A^T Fkk A with A (N, Q, M) = (0, Qz, -Qy), the slope of the moment. */
+/* Adds 1/12 A^T Fkk A to F, where A (N, Q, M) = (0, Qz, -Qy) is the slope of the moment. */
 static void add_linear_moment(double F[36])
 {
     static const int shear[] = {2, 1}, moment[] = {4, 5};
@@ -58,7 +58,7 @@ static void add_product(exact_fields *f, double k, int i, int j)
     f->energy[j * f->all + i] += k;
 }
 
-/* Computes a and a' at x as rows on (strains, bubbles). */
+/* Computes a and a' at x as row vectors that multiply (strains, bubbles). */
 static void amplitude(const exact_fields *f, double x, double a[EXACT_FIELDS_MAX_FREE],
                       double da[EXACT_FIELDS_MAX_FREE])
 {
@@ -76,7 +76,7 @@ static void amplitude(const exact_fields *f, double x, double a[EXACT_FIELDS_MAX
         a[6 * f->points + k] = L[k];
         da[6 * f->points + k] = dL[k];
     }
-    /* prod (x - x_k) times Legendre's polynomials 1, 2 x - 1 */
+    /* prod (x - x_k) times the Legendre polynomials 1 and 2 x - 1 */
     const double factor[2] = {1, 2 * x - 1}, rate[2] = {0, 2};
     for (int j = 0; j < f->warping_bubbles; j++) {
         a[f->strains + j] = bubble * factor[j];
@@ -107,11 +107,11 @@ static void twist_fields(exact_fields *f)
             }
 }
 
-/* Adds -1/2 w/(k EI) (Q -+ M')^2: the flexibility due to the part of the moment beyond the
- * polynomial of the points, with its slope M' */
+/* Adds -1/2 w/(k EI) (Q -+ M')^2: the flexibility due to the part of the moment that the polynomial
+ * through the points, with its slope M', does not represent. */
 static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, double flexibility)
 {
-    double row[EXACT_FIELDS_MAX_ALL] = {0}; /* on Q, M of the points */
+    double row[EXACT_FIELDS_MAX_ALL] = {0}; /* multiplies Q and M of the points */
     row[f->free + EXACT_FIELDS_STRESSES * g + Q] = 1;
     if (f->points == 2)
         for (int h = 0; h < 2; h++)
@@ -122,8 +122,8 @@ static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, 
             f->energy[i * f->all + j] -= f->w[g] * flexibility * row[i] * row[j];
 }
 
-/* Adds stress times strain minus half of stress times flexibility at one point; shear forces act at
- * the shear centre. */
+/* Adds stress times strain minus the complementary energy at one point. Shear forces act at the
+ * shear centre. */
 static void energy_of_point(const beam_constants *c, exact_fields *f, int g)
 {
     const int e = 6 * g, Q = f->free + EXACT_FIELDS_STRESSES * g;
@@ -138,7 +138,7 @@ static void energy_of_point(const beam_constants *c, exact_fields *f, int g)
             if (f->warping_bubbles > 0 || (i < 2 && j < 2))
                 f->energy[(Q + i) * f->all + Q + j] -= w * c->F[3 * i + j];
     if (f->warping_bubbles == 0)
-        f->energy[(Q + 2) * (f->all + 1)] = -1; /* no bimoment, therefore no warping torque */
+        f->energy[(Q + 2) * (f->all + 1)] = -1; /* without a bimoment, there is no warping torque */
     else
         add_product(f, w, Q + 2, e + 3);
     if (f->warping_bubbles > 0)
@@ -246,7 +246,8 @@ static void condense_twist(const exact_fields *f, const double X[], exact_stiffn
                                        out->twist[i][j] * out->twist[i][k];
 }
 
-/* Condenses r of point g, which has three entries as a vector of strains. */
+/* Computes S r of every point and the products r . S r of two points; r has three entries among the
+ * strains. */
 static void condense_modified(exact_stiffness *out)
 {
     const int n = out->strains;

@@ -40,7 +40,7 @@ void exact_measure_angle(double t, double m[3])
     m[2] = (-1 / ((1 + t) * (1 + t)) - 3 * m[1]) / (2 * t);
 }
 
-/* Computes R^T r' and rotation measures at the points, for nodes on the stress-free arc. */
+/* Computes R^T r' and the rotation measures at the points, for nodes on the stress-free arc. */
 static void observe_rest(exact_strain_line *line, const double rotation_vector[3],
                          const double e[3], const double at[],
                          double rest[EXACT_STRAIN_MAX_POINTS][6])

@@ -8,8 +8,8 @@
 
 enum {
     STAGES = EXACT_WARPING_MAX_STAGES,
-    POLYNOMIALS = 20, /* resolve layers up to lambda = SHORT to rounding, because the energy
-                         contains the square of the amplitude's error */
+    POLYNOMIALS = 20, /* they resolve layers up to lambda_short to rounding, because the energy
+                       * contains the square of the error of the amplitude */
     BUBBLES = POLYNOMIALS,
     FUNCTIONS = BUBBLES + 2, /* 1 - x and x come first */
     INTERVALS = 9,
@@ -24,7 +24,8 @@ typedef struct basis {
     double lambda;
 } basis;
 
-/* Computes functions and slopes at x, given its distances from both ends: accurate near both. */
+/* Computes the functions and their slopes at x. x and `rest`, the distances from both ends, are
+ * both given for accuracy near both ends. */
 static void functions_at(const basis *b, double x, double rest, double value[], double slope[])
 {
     value[0] = rest;
@@ -50,15 +51,15 @@ static void functions_at(const basis *b, double x, double rest, double value[], 
     slope[k + 1] = l * q - 1 + far;
 }
 
-/* Computes points that integrate smooth functions and layers of thickness 1/lambda at both ends.
- * rest: 1 - x. */
+/* Computes quadrature points for smooth functions and for layers of thickness 1/lambda at both
+ * ends. rest: 1 - x. */
 static void graded_points(double lambda, double x[], double rest[], double w[])
 {
     const double step[] = {0, 1, 4, 12, 40}, thickness = fmin(1 / lambda, 0.01);
     double at[INTERVALS + 1], gauss[ORDER], weight[ORDER];
     for (int i = 0; i <= INTERVALS / 2; i++) {
         at[i] = step[i] * thickness;
-        at[INTERVALS - i] = at[i]; /* from the other end */
+        at[INTERVALS - i] = at[i]; /* measured from the other end */
     }
     quadrature_points(ORDER, gauss, weight);
     for (int i = 0; i < INTERVALS; i++)
@@ -72,8 +73,8 @@ static void graded_points(double lambda, double x[], double rest[], double w[])
         }
 }
 
-/* Mean[stages][functions]: P of every function at the stages; K: twice the energy of slopes and of
- * the parts outside the range of P. */
+/* Computes mean[stages][functions], which is P of every function at the stages, and K, which is
+ * twice the energy of the slopes and of the parts outside the range of P. */
 static void integrate(const beam_constants *c, const basis *b, int stages, const double x[],
                       const double w[], double mean[STAGES * FUNCTIONS],
                       double K[FUNCTIONS * FUNCTIONS])
@@ -114,8 +115,8 @@ void exact_warping_energy(const beam_constants *c, int stages, const double x[],
         A[SIZE * SIZE] = {0}, X[SIZE * EXACT_WARPING_MAX] = {0};
     int pivot[SIZE];
     integrate(c, &b, stages, x, w, mean, K);
-    /* Unknowns: bubbles and w T, T the warping torque at the stages: 1/2 a K a + T w (kappa - P a)
-     * - 1/2 flexibility w T^2. */
+    /* The unknowns are the bubbles and w T, where T is the warping torque at the stages. The energy
+     * is 1/2 a K a + T w (kappa - P a) - 1/2 flexibility w T^2. */
     for (int i = 0; i < b.bubbles; i++) {
         for (int j = 0; j < b.bubbles; j++)
             A[i * size + j] = K[(i + 2) * n + j + 2];
@@ -134,7 +135,7 @@ void exact_warping_energy(const beam_constants *c, int stages, const double x[],
     dense_lu(size, A, pivot); /* cannot be singular: K is positive definite on the bubbles, which
                                  outnumber the stages */
     dense_lu_solve(size, m, A, pivot, X);
-    /* The gradient with respect to z: w T at the stages, and K a - P^T w T at the ends. */
+    /* The gradient with respect to z is w T at the stages and K a - P^T w T at the ends. */
     memset(S, 0, EXACT_WARPING_MAX * EXACT_WARPING_MAX * sizeof *S);
     for (int j = 0; j < m; j++) {
         for (int i = 0; i < stages; i++)

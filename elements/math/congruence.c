@@ -6,7 +6,7 @@
 
 /* Rows are padded with zeros to whole vectors, and two rows are summed together, so that each
  * loaded factor is used for both. */
-#ifdef REAL_AVX2 /* numbers in a vector of the processor; wider ones are slow */
+#ifdef REAL_AVX2 /* numbers in a vector of the processor; wider vectors are slow */
 enum { WIDTH = 4 };
 #else
 enum { WIDTH = 2 };
@@ -14,7 +14,8 @@ enum { WIDTH = 2 };
 typedef double part __attribute__((vector_size(WIDTH * 8)));
 enum { PARTS = CONGRUENCE_WIDEST / WIDTH };
 
-/* Two rows of out[.. x blocks] += sum over l of c[l stride] row l of B[count x blocks]. */
+/* Adds the sum over l of c[l stride] times row l of B[count x blocks] to two rows of out[.. x
+ * blocks]. */
 static inline __attribute__((always_inline)) void
 two_rows(int count, int blocks, const double *c, int next, int stride, const part *B, part *out)
 {
@@ -47,7 +48,8 @@ static inline __attribute__((always_inline)) void one_row(int count, int blocks,
     }
 }
 
-/* out[rows x blocks] += sum over l of c[i next + l stride] row l of B. */
+/* Adds the sum over l of c[i next + l stride] times row l of B to each row i of out[rows x
+ * blocks]. */
 static inline __attribute__((always_inline)) void add_rows(int rows, int count, int blocks,
                                                            const double *c, int next, int stride,
                                                            const part *B, part *out)
@@ -59,7 +61,7 @@ static inline __attribute__((always_inline)) void add_rows(int rows, int count, 
         one_row(count, blocks, c + i * next, stride, B, out + i * blocks);
 }
 
-/* Copies A[rows x n] to rows of whole vectors, and back. */
+/* Copy A[rows x n] to rows of whole vectors, and back. */
 static inline __attribute__((always_inline)) void widen(int rows, int n, int blocks,
                                                         const double *A, part *out)
 {

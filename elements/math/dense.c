@@ -9,8 +9,9 @@
 
 enum { WIDEST = 14 };
 
-/* out += sum_l of c[l stride] times row l of rows, with row length n, in this order. If the width
- * is a compile-time constant, sums stay in registers. skip: rows with factor zero. */
+/* Adds the sum over l of c[l stride] times row l of rows (row length n) to out, in ascending l. If
+ * the width is a compile-time constant, sums stay in registers. skip: omit rows whose factor is
+ * zero. */
 static inline __attribute__((always_inline)) void add_block(int count, int width, double times,
                                                             int skip, const double *restrict c,
                                                             int stride, const double *restrict rows,
@@ -31,7 +32,7 @@ static inline __attribute__((always_inline)) void add_block(int count, int width
 }
 
 /* Returns the width of the next block if `left` columns remain: the largest compiled width that
- * fits; the compiled widths are those of the elements. */
+ * fits. The compiled widths are those of the elements. */
 static inline __attribute__((always_inline)) int width_of(int left)
 {
     static const int widths[] = {14, 8, 7, 3};
@@ -41,7 +42,7 @@ static inline __attribute__((always_inline)) int width_of(int left)
     return 1;
 }
 
-/* The same for whole rows. */
+/* Like add_block, for whole rows. */
 static inline __attribute__((always_inline)) void add_rows(int count, int n, double times, int skip,
                                                            const double *c, int stride,
                                                            const double *rows, double *out)

@@ -5,8 +5,8 @@
 
 #include "elements/math/dense.h"
 
-/* Finite rotations by unit quaternions. All formulas use the half-angle: sinc keeps the exponential
- * exact near 0, atan2 keeps the logarithm exact near 0 and near pi. */
+/* Finite rotations by unit quaternions. All formulas use half of the angle. sinc keeps the
+ * exponential accurate near 0; atan2 keeps the logarithm accurate near 0 and near pi. */
 
 void rotation_identity(double q[4])
 {
@@ -57,7 +57,7 @@ void rotation_matrix(const double q[4], double R[9])
 
 void rotation_from_matrix(const double R[9], double q[4])
 {
-    /* Shepperd's method: divide by the largest of the four components */
+    /* Shepperd's method divides by the largest of the four components. */
     const double trace = R[0] + R[4] + R[8];
     int largest = -1;
     double best = trace;
@@ -166,7 +166,8 @@ void offset_force(const double rho[3], double force[6])
         force[3 + i] += moment[i];
 }
 
-/* Rotation columns += translation columns times -rho~, then the same for rows: K <- A^T K A. */
+/* Adds the translation columns times -rho~ to the rotation columns, then likewise for rows, which
+ * gives A^T K A. */
 void offset_matrix(int n, int at, const double rho[3], const double force[3], double K[])
 {
     for (int i = 0; i < n; i++) {

@@ -9,7 +9,7 @@ enum { N = 6 };
 
 static const char *const stress[N] = {"N", "Qy", "Qz", "Mx", "My", "Mz"};
 
-/* Makes A symmetric; *asymmetry: increased to the asymmetry of A relative to its diagonal, if that
+/* Makes A symmetric. Increases *asymmetry to the asymmetry of A relative to its diagonal, if that
  * is larger. */
 static status make_symmetric(double A[36], const char *name, double *asymmetry, fault *f)
 {
@@ -61,7 +61,8 @@ void section_matrices_centre(const section *c, double centre[3])
     centre[2] = m > 0 ? M[4] / m : 0;
 }
 
-/* Is the moment about every axis non-negative? Checks all principal minors. */
+/* Returns 1 if the moment of inertia about every axis is nonnegative, which all principal minors
+ * show. */
 static int is_semidefinite(const double J[9])
 {
     const double small = 1e-9 * (J[0] + J[4] + J[8]);
@@ -80,8 +81,8 @@ static int is_semidefinite(const double J[9])
     return minors > 0 && determinant >= -small * pow(J[0] + J[4] + J[8], 2);
 }
 
-/* Computes the nearest mass matrix of a slice; returns 0 if it differs by more than measured or
- * printed values can. */
+/* Replaces M by the nearest mass matrix of a slice. Returns 0 if the difference is larger than that
+ * of measured or printed values. */
 static int make_slice(double M[36])
 {
     const double m = M[0] == M[7] && M[7] == M[14] ? M[0] : (M[0] + M[7] + M[14]) / 3,

@@ -1,4 +1,4 @@
-/* Section constants from walls, a rectangle or given numbers, checked before use. */
+/* Computes and checks section constants from walls, a rectangle, a tube or given numbers. */
 #include "elements/section/section.h"
 
 #include <math.h>
@@ -71,10 +71,11 @@ static double rectangle_torsion(double a, double b)
     return h * t * t * t / 3 * (1 - 192 / pow(PI, 5) * t / h * sum);
 }
 
-/* Returns int omega^2 dA [m^6] of Saint-Venant's warping function omega = y z + sum C_n sin(k_n y)
+/* Returns int omega^2 dA [m^6] for Saint-Venant's warping function omega = y z + sum C_n sin(k_n y)
  * sinh(k_n z), whose stress-free sides give C_n = -4 (-1)^n/(a k_n^3 cosh(k_n b)), k_n = (2 n + 1)
- * pi/2a, over the half sides a <= b (own integration). For a thin rectangle it is (w h)^3/144; for
- * a square 1/52 of that, where the three terms lose two digits. */
+ * pi/2a, over the half sides a <= b (integrated here). For a thin rectangle, the result is (w
+ * h)^3/144; for a square, it is 1/52 of that, and two digits are lost in the sum of the three
+ * terms. */
 static double rectangle_warping(double w, double h)
 {
     const double a = fmin(w, h) / 2, b = fmax(w, h) / 2;
@@ -105,7 +106,7 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     out->It = rectangle_torsion(w, h);
     out->Iw = rectangle_warping(w, h);
     /* 1/8 (int r^4 dA - Ip^2/A), int r^4 dA = wide^5 thin/80 + 2 wide^3 thin^3/144 + wide thin^5/80
-     * (own integration); N Eq. 46 has only the first term, for a thin rectangle */
+     * (integrated here); N Eq. 46 has only the first term, for a thin rectangle */
     out->wagner_torque = (pow(wide, 5) * thin + wide * pow(thin, 5)) / 1440;
     const int theory = s->shear_factor[0] > 0 || s->shear_factor[1] > 0;
     for (int i = 0; i < 2; i++)
@@ -117,7 +118,7 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the exact constants of a circular ring: its section remains plane in torsion (Iw = 0).
+/* Computes the exact constants of a circular ring, whose section remains plane in torsion (Iw = 0).
  * Shear stresses in bending follow Saint-Venant's theory without Poisson effect: 1/k = 7/6 + 10/3
  * m^2/(1 + m^2)^2, m = inner/outer radius (Renton, Int. J. Solids Struct. 28, 1991; Cowper 1966 at
  * nu = 0), 6/7 for a bar and 1/2 for a thin tube. */
@@ -142,7 +143,7 @@ static status tube(const section_spec *s, section *out, fault *f)
     return STATUS_OK;
 }
 
-/* D = F^-1 on the nonzero rows of F; zero rows and columns (rigid in shear) remain zero in both. */
+/* Computes D = F^-1, or F = D^-1, on the nonzero rows. Zero rows and columns remain zero. */
 static status invert_on_support(const double from[9], double to[9], const char *name, fault *f)
 {
     double scaled[9], scale[3];
@@ -259,7 +260,7 @@ static status check_constants(const section *c, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the constants of the shape, or takes given constants. */
+/* Computes the constants from the shape, or copies given constants. */
 static status constants_of(const section_spec *spec, section *out, fault *f)
 {
     switch (spec->kind) {
@@ -294,7 +295,7 @@ status section_compute(const section_spec *spec, section *out, fault *f)
     out->shear_modulus = spec->shear_modulus;
     out->density = spec->density;
     out->expansion = spec->expansion;
-    /* Computes D from F or F from D; both zero: rigid in shear. */
+    /* D from F, or F from D. If both are zero, the section is rigid in shear. */
     TRY(out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f)
                                          : invert_on_support(out->F, out->D, "F", f));
     TRY(apply_given(spec, out, f));

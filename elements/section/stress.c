@@ -18,8 +18,8 @@ static double long_side(double w)
     return 1 - 8 / (PI * PI) * sum;
 }
 
-/* Returns the shear stress at the middle of the short sides: the alternating sum of tanh/n^2, which
- * is Catalan's constant without tanh. */
+/* Returns the shear stress at the middle of the short sides, an alternating sum of tanh/n^2.
+ * Without tanh, the sum would be Catalan's constant. */
 static double short_side(double w)
 {
     const double catalan = 0.915965594177219015;
@@ -65,7 +65,8 @@ typedef struct wall_flow {
     flow_moments q[SECTION_MAX_WALLS];
 } wall_flow;
 
-/* Adds both surfaces of the wall of entry k at x in [0, 1] from its far to its near point. */
+/* Adds a point on each surface of the wall of entry k, at x in [0, 1] from its far to its near
+ * point. */
 static void wall_points(const wall_flow *of, int k, double x, stress_points *out)
 {
     const section_spec *s = of->spec;
@@ -100,7 +101,7 @@ static void wall_points(const wall_flow *of, int k, double x, stress_points *out
     }
 }
 
-/* Adds the fibre where the outer surfaces of two walls meet; there is no shear stress there. */
+/* Adds the fibre where the outer surfaces of two walls meet. The shear stress is zero there. */
 static void add_corner(const wall_flow *of, int at, stress_points *out)
 {
     const section_spec *s = of->spec;
@@ -121,8 +122,9 @@ static void add_corner(const wall_flow *of, int at, stress_points *out)
     out->point[out->count++] = p;
 }
 
-/* Completes an angle: its shear centre is where its walls meet, also with fillets. Given with an
- * area, it locates the centroid of the given constants, from which the stresses follow. */
+/* Completes the points of an angle section. Its shear centre is where its walls meet, even with
+ * fillets. If it is given with an area, it locates the centroid of the given constants, to which
+ * the stress points refer. */
 static void complete_angle(const wall_flow *of, stress_points *out)
 {
     const section_spec *s = of->spec;
@@ -183,7 +185,7 @@ status stress_points_of(const section_spec *spec, const section *constants, stre
                      "dimensions or walls, or request resultants");
 }
 
-/* Stresses at a fibre: along it, and in y and z across it. */
+/* Stresses at a fibre: normal stress, and shear stresses in y and z. */
 typedef struct stress {
     double along, y, z;
 } stress;

@@ -14,7 +14,8 @@ static int all_zero(const double v[9])
     return 1;
 }
 
-/* Names a number that is given (not NAN, not 0) for only one of the two. */
+/* Returns the name of a number that only one of the two descriptions gives (neither NAN nor 0), or
+ * NULL. */
 static const char *given_once(const section_spec *p, const section_spec *q)
 {
     const struct {
@@ -50,7 +51,7 @@ static status check_walls(const section_spec *p, const section_spec *q, fault *f
     return STATUS_OK;
 }
 
-/* Returns the distances [m] of the ends of a wall from its plane in the other section, both
+/* Returns the largest distance [m] of the ends of a wall from its plane in the other section, both
  * relative to their shear centres. */
 static double out_of_plane(const section_spec *p, const section_spec *q,
                            const section *const ends[2], int w)
@@ -74,8 +75,8 @@ static double out_of_plane(const section_spec *p, const section_spec *q,
     return most;
 }
 
-/* Returns whether sections with the same walls between the same points differ in thickness
- * (check_walls). */
+/* Returns 1 if two sections with the same numbers of walls and points (check_walls) differ in the
+ * thickness of a wall or the position of a point. */
 static int walls_change(const section_spec *p, const section_spec *q)
 {
     int change = 0;
@@ -86,7 +87,7 @@ static int walls_change(const section_spec *p, const section_spec *q)
     return change;
 }
 
-/* Checks that every fibre keeps its sectorial coordinate. */
+/* Checks that the sectorial coordinate of every fibre is constant along the member. */
 static status check_warping(const section_spec *p, const section_spec *q,
                             const section *const ends[2], fault *f)
 {

@@ -13,7 +13,7 @@ double tree_wall_length(const section_spec *s, int w)
     return hypot(q[0] - p[0], q[1] - p[1]);
 }
 
-/* Finds the entry of `t` that reaches each point; the walls that close cells follow these
+/* Finds the entry of `t` that reaches each point. The walls that close cells follow these
  * entries. */
 static status connect(const section_spec *s, section_tree *t, fault *f)
 {
@@ -146,9 +146,9 @@ double flow_moment(const section_spec *s, const section_tree *t, const double *v
            h * length * (x * value[i][far] + x * x / 2 * (value[i][near] - value[i][far]));
 }
 
-/* Processes walls from the free ends towards the root, so that the moments of everything beyond are
- * known. Cells are cut at the ends of the walls that close them; the flow across the cuts then
- * makes the warping continuous. */
+/* Processes walls from the free ends towards the root, so that the moments of all walls beyond a
+ * wall are known before it. Cells are cut at the ends of the walls that close them; a flow across
+ * the cuts makes the warping continuous. */
 void flow_first_moments(const section_spec *s, const section_tree *t, const double *value[3],
                         flow_moments q[])
 {
@@ -212,13 +212,13 @@ void flow_compliance(const section_spec *s, const section_tree *t, const double 
     }
 }
 
-/* Constants of a section of straight thin walls, open or with closed cells: sectorial coordinate,
- * shear centre. Every integrand along a wall is a polynomial of degree five at most, for which
- * three Gauss points are exact. */
+/* Constants of a section of straight thin walls, open or with closed cells, with its sectorial
+ * coordinate and shear centre. Every integrand along a wall is a polynomial of degree five at most,
+ * for which three Gauss points are exact. */
 
 enum { ROOT = 0 };
 
-/* Returns int f g dA over the mid-lines; f, g are given at the points. */
+/* Returns int f g dA over the mid-lines, from the values of f and g at the points. */
 static double product(const section_spec *s, const double f[], const double g[])
 {
     const flow_rule rule = flow_rule_of_three();
@@ -264,7 +264,7 @@ static double swept(const section_spec *s, int w, const double y[], const double
 }
 
 /* Computes the sectorial coordinate about a pole, with zero mean: omega = int (y dz - z dy) - int
- * psi/t ds, where psi is the flow of Saint-Venant torsion per G and unit twist. It is constant
+ * psi/t ds, where psi is the flow of Saint-Venant torsion per G and unit twist. psi is constant
  * around each cell, and zero without cells. */
 static void sectorial(const section_spec *s, const section_tree *t, const double y[],
                       const double z[], double yp, double zp, double area, const double psi[],
@@ -286,8 +286,8 @@ static void sectorial(const section_spec *s, const section_tree *t, const double
         omega[p] -= mean;
 }
 
-/* Returns the torsion of the cells: flow per G and unit twist [m^2], and contribution to It [m^4]
- * (Bredt). */
+/* Computes the flow psi of the cells in torsion, per G and unit twist [m^2]. Returns their
+ * contribution to It [m^4] (Bredt). */
 static double cell_torsion(const section_spec *s, const section_tree *t, const double y[],
                            const double z[], double psi[])
 {
@@ -334,10 +334,10 @@ static void wagner_constants(const section_spec *s, const double y[], const doub
     }
 }
 
-/* Returns 1/8 int q^2 dA, where q is the part of r^2 = y^2 + z^2 that shortening and bending do not
- * contain: r^2 - Ip/A - wagner_y/Iz y - wagner_z/Iy z. The position of the shear centre has no
- * influence, because rotation about another point only adds such strains. At the distance n across
- * a wall, it is q + q_n n + n^2. */
+/* Returns 1/8 int q^2 dA, where q is the part of r^2 = y^2 + z^2 that axial and bending strains do
+ * not represent: r^2 - Ip/A - wagner_y/Iz y - wagner_z/Iy z. The position of the shear centre has
+ * no influence, because rotation about another point only adds such strains. At the distance n
+ * across a wall, it is q + q_n n + n^2. */
 static double wagner_torque(const section_spec *s, const double y[], const double z[],
                             const section *c)
 {
@@ -444,7 +444,8 @@ status section_walls(const section_spec *s, section *out, fault *f)
     walls_lines lines;
     TRY(walls_lines_of(s, &lines, out, f));
     const double *y = lines.y, *z = lines.z, *omega = lines.omega;
-    /* walls that meet in one point do not warp along their mid-lines; Iw is then rounding */
+    /* walls that meet in one point do not warp along their mid-lines; Iw is then only rounding
+     * error */
     const int warps = out->Iw > 1e-24 * out->Ip * out->Ip / out->A;
     if (!warps)
         out->Iw = 0;

@@ -6,9 +6,9 @@
 
 /* Numbers in user input. */
 
-/* Reads the number at the start of `text` and sets *end to the character after it. Returns 1, or 0
- * if there is no number or if it is outside the range of a double: infinite, or below 2.2e-308,
- * where digits would be lost. */
+/* Reads the number at the start of `text` and sets *end to the character after it. Returns 1; 0 if
+ * a number is missing or outside the range of a double: infinite, or below 2.2e-308, where digits
+ * would be lost. */
 int number_read(const char *text, const char **end, double *out);
 
 /* Words of a list "a|b|c", and the candidate nearest to a misspelt word. */

@@ -16,7 +16,7 @@ status sheet_potential_evaluate(const sheet_potential *p, const double x[N], dou
     return sheet_stationary_evaluate(p, x, P, gradient, hessian) ? STATUS_OK : STATUS_SINGULAR;
 }
 
-/* With s_k = A^-1 W_k, W_k = b,k - A,k s, and d a direction:
+/* With s_k = A^-1 W_k, W_k = b,k - A,k s, and a direction d:
  * P,kld = s_d.(b,kl - A,kl s) + s_l.W_k,d + s_k.W_l,d - s_k^T A,d s_l, W_k,d = b,kd - A,kd s - A,k
  * s_d. */
 status sheet_potential_third(const sheet_potential *p, const double x[N], const double dx[N],
@@ -101,8 +101,8 @@ typedef struct sums {
     double A[SHEET_STRESSES][SHEET_STRESSES][V][V], b[SHEET_STRESSES][V][V], P0[V][V];
 } sums;
 
-/* M_x as modes of torque: M~x, and M~yn z_j times -+ u_y/L + u_y' (x - 1 or x), u_y = L [x (1-x)^2
- * zp - x^2 (1-x) zq]. */
+/* Modes of the torque M_x: M~x, and M~yn z_j times -+ u_y/L + u_y' (x - 1 or x), with u_y = L [x
+ * (1-x)^2 zp - x^2 (1-x) zq]. */
 static const struct {
     int stress, variable;
 } mode[SHEET_TORSION_MODES] = {{MX, ONE}, {MYP, ZP}, {MYP, ZQ}, {MYQ, ZP}, {MYQ, ZQ}};
@@ -111,7 +111,7 @@ static const double corrected_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE +
 static const double printed_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
     {1}, {-1, 6, -9, 4}, {0, 2, -6, 4}, {0, 2, -6, 4}, {0, 0, -3, 4}};
 
-/* Adds bending: fields of one point, with its weight. */
+/* Adds the contribution of bending at one point. f: the fields there; ds: its weight. */
 static void add_bending(const element_request *r, double x, double ds, const sheet_fields *f,
                         sums *out)
 {
@@ -171,8 +171,8 @@ static void add_torsion(const element_request *r,
     out->P0[ONE][WP] = out->P0[ONE][WQ] = -kx * EIw / L * (integral.same + integral.other);
 }
 
-/* If amplitudes are requested although there is no warping, they take the values Wp = Wq = px/L;
- * uses the energy of N Eq. 34 in W - px/L. */
+/* Adds the energy of N Eq. 34 in W - px/L. If amplitudes are requested although Iw = 0, this gives
+ * them the values Wp = Wq = px/L. */
 static void add_idle_amplitudes(const element_request *r, sums *out)
 {
     const double L = r->length, k = r->section->shear_modulus * r->section->It * L / 30;

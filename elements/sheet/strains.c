@@ -5,7 +5,7 @@
  * over the linear solution N Eqs. 14-19:
  *   e1 = int gx, e2 = L int kx, e3 = int [(L-s) ky - gz], e4 = int [s ky + gz], e5 = int [(L-s) kz
  * + gy], e6 = int [s kz - gy], e7 = L^2 Wp + L int phi_y' phi_z, e8 = L^2 Wq + L int phi_y' phi_z.
- * With Phi = 0 they are N Eq. 37 (the last term of its e1 has L^2 for L). */
+ * With Phi = 0, they are N Eq. 37 (where the last term of e1 is misprinted with L^2 for L). */
 #include "elements/sheet/sheet.h"
 
 #include <math.h>
@@ -17,8 +17,8 @@
 #include "elements/sheet/deformation.h"
 
 /* With the antisymmetric cubic c = x - 3x^2 + 2x^3 and the shear share r = Phi/(2 + 2 Phi):
- * a deflection v with end slopes a, b is l0 [a (x-2x^2+x^3) + b (-x^2+x^3) - r (a+b) c], the
- * rotation v' + r (a+b). */
+ * a deflection with end slopes a, b is v = l0 [a (x-2x^2+x^3) + b (-x^2+x^3) - r (a+b) c], and the
+ * rotation is v' + r (a+b). */
 static void bending(double l0, double x, double Phi, int at, double sign, double v[], double dv[],
                     double phi[], double dphi[])
 {
@@ -63,7 +63,7 @@ sheet_fields sheet_fields_at(double l0, double x, double Phi_y, double Phi_z, in
 
 enum { N = SHEET_LOCAL_COORDINATES, POINTS = 4 }; /* products of degree 7 at most: exact */
 
-/* Q += c (a b^T + b a^T): the quadratic c (a . q)(b . q). */
+/* Q += c (a b^T + b a^T), which adds the quadratic term c (a . q)(b . q). */
 static void add_product(double c, const double a[N], const double b[N], double Q[N * N])
 {
     for (int i = 0; i < N; i++)

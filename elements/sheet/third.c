@@ -19,7 +19,7 @@ static void partial_inverse(double L, int warp, sheet_inverse_data *d)
 {
     static const struct {
         int row, i, j; /* strains, numbered from 1 */
-        double c;      /* times 1/L for u, 1/L^2 for the angles */
+        double c;      /* to be multiplied by 1/L for u, and by 1/L^2 for the angles */
     } term[] = {{0, 5, 5, -2.0 / 30}, {0, 5, 6, -1.0 / 30}, {0, 6, 6, -2.0 / 30},
                 {1, 2, 5, 1.0 / 10},  {1, 2, 6, 2.0 / 10},  {1, 7, 5, 1.0 / 10},
                 {1, 8, 5, -1.0 / 30}, {1, 8, 6, -1.0 / 30}, {2, 2, 5, 2.0 / 10},
@@ -56,8 +56,8 @@ void sheet_third_equations_many(int count, const element_data *const data[], con
     REAL_CHOSEN(sheet_lanes_third_equations)(count, data, x, e, inner, s, out, outcome);
 }
 
-/* Sets the remainder of N Eq. 52 in the undeformed arc: energy and stresses at e = 0. REFUSED: the
- * initial curvature is too large. */
+/* Sets the energy and stresses of N Eq. 52 at e = 0, in the undeformed arc. REFUSED: the initial
+ * curvature is too large. */
 static status set_rest(const element_request *request, sheet_inverse_data *out, fault *f)
 {
     const double none[N] = {0};
@@ -92,10 +92,10 @@ status sheet_third_prepare(const element_request *request, int printed, element_
     return set_rest(request, out, f);
 }
 
-/* If the element is bent to u = psi (x - x^2) L, psi at one end and -psi at the other, M_z = M~z +
- * u F deviates from a linear moment along the element: with f = F L^2/EIz, the energy EIz/(2 L) (4
- * + f/3 - f^2/180) psi^2 is positive up to f = 30 + sqrt(1620).  The other bending shape, psi at
- * both ends, is positive up to f = 185. */
+/* If the element is bent to u = psi (x - x^2) L, with the slopes psi and -psi at its ends, M_z =
+ * M~z + u F is not linear along the element. With f = F L^2/EIz, the energy EIz/(2 L) (4 + f/3 -
+ * f^2/180) psi^2 is positive up to f = 30 + sqrt(1620). For the other bending shape, with psi at
+ * both ends, it is positive up to f = 185. */
 double sheet_third_tension(const element_data *data, const double sigma[])
 {
     const sheet_inverse_data *d = sheet_inverse_of(data);
@@ -103,8 +103,8 @@ double sheet_third_tension(const element_data *data, const double sigma[])
     return sigma[0] > 0 ? sqrt(sigma[0] * d->bending / most) : 0;
 }
 
-/* At e = 0, derivative along the strain v with stress sigma: x' = (dx/de) v, (dx/de)' = X v, C' by
- * the product rule. */
+/* Differentiates at e = 0 along the strain v that has the stress sigma: x' = (dx/de) v and (dx/de)'
+ * = X v. C' follows by the product rule. */
 void sheet_third_geometric(const element_data *data, const double sigma[], double G[])
 {
     const sheet_inverse_data *d = sheet_inverse_of(data);

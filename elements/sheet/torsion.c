@@ -6,11 +6,12 @@
 
 enum { COEFFICIENTS = SHEET_TORSION_DEGREE + 1, POINTS = 16, LOADS = SHEET_TORSION_MODES + 2 };
 
-/* Below this lambda, the closed form would lose digits as lambda^-4; above it, the kernel has
- * boundary layers that would require many quadrature points. */
+/* From this lambda on, the closed form is used. Below it, the closed form would lose digits as
+ * lambda^-4; above it, the kernel has boundary layers that would require many quadrature points. */
 static const double closed_from = 6;
 
-/* phi_x' per px/L, Wp, Wq (N Eq. 19), and h_p, h_q for lambda -> 0. */
+/* Coefficients of phi_x' per px/L, Wp and Wq (N Eq. 19); in `chord`, those of h_p and h_q for
+ * lambda -> 0. */
 static const double rate[SHEET_TORSION_TWISTS][COEFFICIENTS] = {{0, 6, -6}, {1, -4, 3}, {0, -2, 3}};
 static const double chord[2][COEFFICIENTS] = {{1, -1}, {0, 1}};
 
@@ -48,7 +49,8 @@ static double end_integral(double lambda, const double t[COEFFICIENTS], int end)
     return (lambda * (near * coth - far * csch) - (end == 1 ? slope : -slope)) / l2;
 }
 
-/* lambda^2 g = t + t''/lambda^2 minus its end values times h_p, h_q. */
+/* Uses the closed form: lambda^2 g = t + t''/lambda^2 minus the values of this sum at the ends
+ * times h_p and h_q. */
 static void closed(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIENTS],
                    sheet_torsion_integrals *out)
 {
@@ -68,8 +70,8 @@ static void closed(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIEN
 }
 
 /* Integrates with Green's function sinh(lambda y) sinh(lambda (1 - x))/(lambda sinh(lambda)), y <
- * x, over the triangle y = x z. It also gives the end functions: chord - h solves lambda^2 g - g''
- * = lambda^2 chord. */
+ * x, over the triangle y = x z. The same integrals give the end functions, because chord - h solves
+ * lambda^2 g - g'' = lambda^2 chord. */
 static void by_quadrature(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIENTS],
                           const double point[POINTS], const double weight[POINTS],
                           sheet_torsion_integrals *out)

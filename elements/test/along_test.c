@@ -1,5 +1,5 @@
-/* Loads along a collocation element inside its equilibrium: forces and tangent in any state, their
- * potential, and their linear part at rest. */
+/* Loads along a collocation element that are part of its equilibrium: forces and tangent in any
+ * state, their potential, and their linear part in the undeformed state. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ static section section_of(int matrices)
     static const double point[4][2] = {{0, 0}, {0.3, 0}, {0.3, 0.2}, {0.1, 0.25}},
                         thickness[3] = {0.03, 0.04, 0.03};
     section_spec spec = section_spec_walls(2e5, 8e4, 3, point, NULL, thickness);
-    if (!matrices) { /* with warping shear under shear forces */
+    if (!matrices) { /* shear forces cause warping shear */
         section c = sections_computed(&spec);
         c.F[2] = c.F[6] = 0.2 * sqrt(c.F[0] * c.F[8]);
         c.F[5] = c.F[7] = -0.1 * sqrt(c.F[4] * c.F[8]);
@@ -66,7 +66,7 @@ static along_subject subject_of(int stages, int matrices, const double curvature
     return s;
 }
 
-/* Places the nodes at rest, with the axes of the middle along the space axes. */
+/* Places the nodes in the undeformed state, with the middle axes along the global axes. */
 static void rest_nodes(const along_subject *s, node_state x[2])
 {
     const double along[3] = {1, 0, 0};
@@ -131,7 +131,8 @@ static double dot(int n, const double a[], const double b[])
     return dense_dot(n, a, b);
 }
 
-/* Sets a load that varies along the element, optionally also across it. */
+/* Sets an axial load that varies along the element and, if `across` is 1, a varying transverse
+ * load. */
 static void load_of(double size, int across, double q[3 * POINTS])
 {
     double point[POINTS], weight[POINTS];
@@ -147,7 +148,7 @@ static void state_of(const along_subject *s, double size, node_state x[2])
 {
     double d[N];
     rest_nodes(s, x);
-    for (int k = 0; k < 2; k++) { /* both rotate by one radian */
+    for (int k = 0; k < 2; k++) { /* both nodes rotate by one radian */
         const double turn[3] = {0.6, -0.5, 0.7};
         double r[3], q[4];
         rotation_exp(turn, q);
@@ -195,7 +196,7 @@ static void tangent(int stages, int matrices, const double curvature[3])
     free(s.data);
 }
 
-/* `along` returns derivatives with respect to the size of a part of the load. */
+/* Checks the derivatives with respect to the size of a part of the load that `along` returns. */
 static void rate(int stages)
 {
     static const double curved[3] = {0.4, -0.7, 0.9};
@@ -245,7 +246,8 @@ static void rate(int stages)
     free(s.data);
 }
 
-/* Computes the work along a closed path of node states, by Gauss points along each side. */
+/* The work along a closed path of node states is zero; it is integrated with Gauss points along
+ * each side. */
 static void closed_path(int stages, const double curvature[3])
 {
     enum { SIDES = 3, RULE = 12 };
@@ -281,8 +283,8 @@ static void closed_path(int stages, const double curvature[3])
     free(s.data);
 }
 
-/* In a rigid motion of a loaded element, the forces do the work of the load: the resultant and the
- * moment of all forces are those of q. */
+/* In a rigid motion of a loaded element, the forces do the work of the load: the resultant and
+ * moment of all forces equal those of q. */
 static void resultants(int stages, const double curvature[3])
 {
     const along_subject s = subject_of(stages, 0, curvature);
@@ -375,10 +377,10 @@ static void linear(int stages, int matrices, const double curvature[3], int acro
     free(s.data);
 }
 
-enum { MANY = 6 }; /* more than go together */
+enum { MANY = 6 }; /* more elements than are evaluated together */
 
-/* A call for many elements gives the bits of single calls, and nothing is written after the last
- * element. */
+/* A call for many elements gives bit-for-bit the results of single calls and writes nothing after
+ * the last element. */
 static void many(int stages, const double curvature[3])
 {
     const along_subject s = subject_of(stages, 0, curvature);

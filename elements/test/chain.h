@@ -1,6 +1,6 @@
 /* A straight cantilever of equal elements along x, solved with dense matrices: sufficient to
- * compare one formulation with numbers, independently of the harness. The root is clamped with
- * warping restrained. */
+ * compare one formulation with reference values, independently of the harness. The root is clamped
+ * with warping restrained. */
 #ifndef BEAMWORK_TEST_CHAIN_H
 #define BEAMWORK_TEST_CHAIN_H
 
@@ -26,8 +26,8 @@ typedef struct chain {
     section section;
     unsigned features;
     int elements, per_element, nodes, coordinates, strains;
-    int iterations; /* of the last solution */
-    int held[7];    /* of the tip; 1: keeps its prescribed position */
+    int iterations; /* number of iterations of the last solution */
+    int held[7];    /* coordinates of the tip; 1: prescribed */
     union {
         double align;
         unsigned char bytes[1 << 16];
@@ -40,7 +40,8 @@ typedef struct chain {
 
 enum { CHAIN_MOST = ELEMENT_MAX_COORDINATES };
 
-/* Returns 0, or -1 if the element rejects the request. */
+/* Prepares the elements and places the nodes. Returns 0, or -1 if the element rejects the
+ * request. */
 static int chain_start(chain *c, const element_type *type, const double option[], const section *s,
                        double length, int elements, unsigned features)
 {
@@ -105,7 +106,7 @@ static void chain_linearise(const chain *c, int i, chain_linearised *w, double K
     dense_add_transpose_mul(m, n, 1, w->J, w->sigma, force);
 }
 
-/* Assembles everything but the root's coordinates: K [n x n], residual force [n]. */
+/* Assembles K [n x n] and the residual force [n] of all coordinates except those of the root. */
 static void chain_assemble(const chain *c, chain_linearised *w, double *K, double *force,
                            int *failures)
 {
@@ -127,7 +128,7 @@ static void chain_assemble(const chain *c, chain_linearised *w, double *K, doubl
     }
     if (!(c->features & FEATURE_WARPING))
         for (int i = 6; i < n; i += 7)
-            K[i * (n + 1)] = 1; /* nothing warps */
+            K[i * (n + 1)] = 1; /* there is no warping */
 }
 
 static void chain_advance(chain *c, chain_linearised *w, const double dx[])
@@ -151,9 +152,9 @@ static void chain_advance(chain *c, chain_linearised *w, const double dx[])
     nodes_move(c->nodes - 1, 1, dx, c->x + 1);
 }
 
-/* Solves by the mixed Newton iteration (N section 4): fixed coordinates of the tip move by `step`
- * [7], a dead load [7] acts on the others (moment about fixed axes). Returns the size of the last
- * correction, INFINITY if an element or the tangent failed. */
+/* Solves by the mixed Newton iteration (N section 4). Prescribed coordinates of the tip move by
+ * `step` [7]; a dead load [7] acts on the others (its moments are about fixed axes). Returns the
+ * size of the last correction, or INFINITY if an element or the tangent failed. */
 static double chain_solve(chain *c, const double step[7], const double load[7])
 {
     const int n = NODE_COORDINATES * (c->nodes - 1), tip = n - NODE_COORDINATES;

@@ -52,8 +52,8 @@ static void start(pair_subject *s, const element_type *type, const section *c, d
     start_with(s, type, c, l0, features, "", 0);
 }
 
-/* Returns a sheet without warping shear, which N does not have: length 0.1 m, not slender enough in
- * either direction to hide Phi. */
+/* Returns a sheet without warping shear, which N does not include. With a length of 0.1 m, it is so
+ * stocky in both directions that Phi matters. */
 static section sheet(void)
 {
     section_spec spec = section_spec_rectangle(2e11, 7.7e10, 0.06, 0.02);
@@ -83,7 +83,7 @@ static void modified(const pair_subject *s, const node_state x[2], double ebar[S
     }
 }
 
-/* Sets local coordinates of size `small`, after a rotation of the whole element; the elongation is
+/* Sets local coordinates of size `small`, after a rotation of the whole element. The elongation is
  * of size small^2, as N assumes. */
 static void state(double l0, double small, int planar, node_state x[2])
 {
@@ -195,8 +195,8 @@ static void uniform_strains(double size)
         gsl_test_abs(e[k], expected[k], 1e-14 * l0, "uniform strains, turn %.2f: e%d", t, k + 1);
 }
 
-/* Pure bending by less than half a revolution involves only bending energy, so that any number of
- * elements rolls up exactly. */
+/* Pure bending of an element by less than half a revolution involves only bending energy, so that
+ * any number of elements rolls up exactly. */
 static void pure_bending(void)
 {
     const double l0 = 1.3, turn = 2.9;
@@ -239,8 +239,8 @@ static void derivatives(double size)
     gsl_test(!(found.second < 1e-10), "H at size %g (%.1e)", size, found.second);
 }
 
-/* Internal modes that follow the stress reduce the energy by terms of fourth order: sixteen times
- * less if the state is halved. */
+/* Internal modes that depend on the stress reduce the energy by terms of fourth order: halving the
+ * state divides the reduction by sixteen. */
 static void inside_follows(void)
 {
     const double l0 = 0.1;
@@ -269,8 +269,8 @@ static void inside_follows(void)
     }
 }
 
-/* Checks stiffness and stresses under so much compression that bending hardly contributes in the
- * internal modes: their Hessian is then factorised with pivots. */
+/* Checks stiffness and stresses under so much compression that the bending stiffness hardly
+ * contributes to the Hessian of the internal modes, which is then factorised with pivots. */
 static void inside_compressed(void)
 {
     static const double v[STRAINS] = {0.1, -0.7, 0.6, 0.5, -0.9, 0.4, 0.3, 0.8};
@@ -316,8 +316,9 @@ static void consistent_tests(void)
         derivatives(turns[i]);
 }
 
-/* Hyperbolic twist of beamw_consistent: one element is exact in linear theory for any coupling, and
- * its functions and points are accurate from zero Saint-Venant torsion to boundary layers. */
+/* Hyperbolic twist of beamw_consistent: one element is exact in linear theory for any coupling. Its
+ * twist functions and quadrature points are accurate from zero Saint-Venant torsion to thin
+ * boundary layers. */
 
 extern const element_type element_beamw_consistent;
 
@@ -331,7 +332,7 @@ static section unsymmetric(void)
     return sections_computed(&spec);
 }
 
-/* Computes K [14 x 14] of a straight element at rest. */
+/* Computes K [14 x 14] of a straight undeformed element. */
 static void linear_stiffness(const section *c, double l0, beamw_twist_kind torsion, double K[N * N])
 {
     pair_subject s;
@@ -348,8 +349,8 @@ static void linear_stiffness(const section *c, double l0, beamw_twist_kind torsi
 }
 
 /* Two halves with their common node eliminated equal the whole if and only if the linear solution
- * between the nodes is exact. Returns the largest difference, each coordinate scaled by the square
- * root of its stiffness. */
+ * between the nodes is exact. Returns the largest difference, with each coordinate scaled by the
+ * square root of its stiffness. */
 static double halves_against_whole(const section *c, double l0, beamw_twist_kind torsion)
 {
     enum { M = 7 };
@@ -398,9 +399,9 @@ static void hyperbolic_twist(void)
              "without Saint-Venant torsion both are");
 }
 
-/* Computes the linear stiffness at rest, K [14 x 14], and, along the nodes' displacement d [14],
- * the third-order energy 1/2 sum_i s_i (d . H_i d + e . Q_i e), e = J d, s = S e: the contribution
- * of a prestress of the same kind to the stiffness. */
+/* Returns, for the displacement d [14] of the nodes, the third-order energy 1/2 sum_i s_i (d . H_i
+ * d + e . Q_i e), e = J d, s = S e: the contribution of a prestress of the same kind to the
+ * stiffness. */
 static double third_order(const section *c, double l0, beamw_twist_kind torsion, unsigned features,
                           const double d[N])
 {
@@ -426,7 +427,8 @@ static double third_order(const section *c, double l0, beamw_twist_kind torsion,
     return energy;
 }
 
-/* Computes the middle node of two halves in linear equilibrium between displaced ends. */
+/* Computes the displacement of the middle node of two halves in linear equilibrium between
+ * displaced ends. */
 static void middle_of(const section *c, double l0, beamw_twist_kind torsion, const double p[7],
                       const double q[7], double out[7])
 {
@@ -447,7 +449,8 @@ static void middle_of(const section *c, double l0, beamw_twist_kind torsion, con
 
 /* Compares the third-order energy of two halves with that of the whole, relative to their sizes.
  * The difference is zero if and only if the geometric stiffness is integrated over the exact linear
- * solution, since the middle node, being in equilibrium, needs to follow only to first order. */
+ * solution. The middle node is in equilibrium, so that its displacement is needed only to first
+ * order. */
 static double third_order_apart(const section *c, double l0, beamw_twist_kind torsion,
                                 unsigned features, unsigned seed)
 {
@@ -464,7 +467,8 @@ static double third_order_apart(const section *c, double l0, beamw_twist_kind to
     return fabs(first + second - whole) / (fabs(first) + fabs(second) + fabs(whole));
 }
 
-/* Buckling under any prestress, with both shear theories and all couplings. */
+/* The geometric stiffness is exact for any prestress, with both shear theories and all
+ * couplings. */
 static void hyperbolic_twist_under_stress(void)
 {
     const section c = unsymmetric();
@@ -489,7 +493,8 @@ static void hyperbolic_twist_under_stress(void)
         }
 }
 
-/* Checks functions and points for every lambda: limits, means, squares in closed form. */
+/* Checks the functions and points for all magnitudes of lambda against limits, means and closed
+ * forms of their squares. */
 static void twist_functions(void)
 {
     section c = sheet();

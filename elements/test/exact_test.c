@@ -19,12 +19,12 @@ static section steel(double width, double height)
 {
     section_spec spec = section_spec_rectangle(200e9, 200e9 / 2.6, width, height);
     spec.given.Iw =
-        pow(width * height, 3) / 144; /* value for a thin rectangle, which the exact values use */
+        pow(width * height, 3) / 144; /* thin-rectangle value, as in the reference values */
     spec.shear_factor[0] = spec.shear_factor[1] = 13.0 / 15.3; /* 10 (1 + nu)/(12 + 11 nu) */
     return sections_computed(&spec);
 }
 
-/* Only the products matter. */
+/* Returns a section with these products of modulus and constant; only the products matter. */
 static section products(double EA, double GA, double GJ, double EI)
 {
     section c;
@@ -38,8 +38,8 @@ static section products(double EA, double GA, double GJ, double EI)
     return c;
 }
 
-/* Checks J and H of one element whose nodes rotate by up to `size` radians and differ by as
- * much. */
+/* Checks J and H of one element whose nodes have rotations and relative rotations of up to `size`
+ * radians. */
 static void derivatives(const element_type *type, const double option[], double size)
 {
     chain c;
@@ -64,8 +64,8 @@ static void derivatives(const element_type *type, const double option[], double 
     gsl_test(!(asymmetry < 1e-15), "%s: H is symmetric (%.1e)", type->name, asymmetry);
 }
 
-/* Solves the Simo-Reissner cantilever, L = 1, EI = 10, dead transverse force 10 at the tip: tip
- * displacement [2]. */
+/* Solves the Simo-Reissner cantilever with L = 1, EI = 10 and a dead transverse force of 10 at the
+ * tip. u[2]: displacement of the tip. */
 static void shear_elastica(const element_type *type, const double option[], double GA, int n,
                            double u[2])
 {
@@ -82,7 +82,7 @@ static void shear_elastica(const element_type *type, const double option[], doub
     u[1] = c.x[c.nodes - 1].u[1];
 }
 
-/* Checks the error of the last mesh, and the order from the last two. */
+/* Checks the error of the last mesh and the order of convergence from the last two meshes. */
 static void judge(const element_type *type, const char *what, const double value[2], double exact,
                   double error, double order)
 {
@@ -134,7 +134,8 @@ static void sheet_converges(const element_type *type, const double option[], int
     judge(type, "sheet C_zz", (const double[2]){coarse[1], fine[1]}, 2.620413704e-8, error, order);
 }
 
-/* Rolls a cantilever up to a full circle by an end moment; the tip returns to the root. */
+/* Rolls a cantilever up to a full circle by an end moment. Returns the distance of the tip from the
+ * root, which should be zero. */
 static double roll_up(const element_type *type, const double option[], int n)
 {
     chain c;
@@ -148,7 +149,8 @@ static double roll_up(const element_type *type, const double option[], int n)
     return hypot(c.x[c.nodes - 1].r[0], c.x[c.nodes - 1].r[1]);
 }
 
-/* Compares one element with the exact beam: errors of C_xx and C_zz. */
+/* Compares the errors of C_xx and C_zz of one element, relative to the exact beam, with their
+ * expected values. */
 static void one_element(const element_type *type, double stages, double deflection,
                         const double exact[2], const double error[2])
 {
@@ -208,13 +210,13 @@ static void exact_tests(void)
     collocation();
 }
 
-/* Compares one element with an independent prototype, and checks statements about one element that
- * are exact. */
+/* Compares one element with an independent prototype, and checks properties of one element that
+ * hold exactly. */
 
 extern const element_type element_beamw_first, element_beamw, element_beamw_vlasov,
     element_beamw_consistent;
 
-/* Returns the prototype's section; unit 1 = mm and kN. */
+/* Returns the section of the prototype. unit: 1 for mm and kN. */
 static section check_section(void)
 {
     static const double point[5][2] = {{0, 0}, {50, 0}, {50, 80}, {20, 80}, {50, 100}};
@@ -299,8 +301,8 @@ static void linear_stiffness(const element_type *type, const section *c, double 
 }
 
 /* Cantilever of one element under tip forces and moments, It = 0: the coupled stiffness is nodally
- * exact. Exact beam: bending (with torsion and warping) due to the stress resultants at the shear
- * centre, plus the constant shear strains F Q/G. */
+ * exact. In the exact beam, the resultants at the shear centre cause bending (with torsion and
+ * warping) and the constant shear strains F Q/G. */
 static void one_element_is_exact(void)
 {
     section c = check_section();
@@ -322,7 +324,7 @@ static void one_element_is_exact(void)
     element_beamw_consistent.prepare(&request, data, &f);
     element_beamw_consistent.strain(data, x, &(strain_output){.J = &L[0][0]});
     dense_add_congruence(8, 14, &L[0][0], S, K, work);
-    /* The root is clamped with warping restrained: the last seven coordinates remain. */
+    /* The root is clamped with warping restrained, so that the last seven coordinates are free. */
     double A[49], b[7] = {0, 1.3, -0.7, 40, 25, -60, 500};
     int pivot[7];
     for (int i = 0; i < 7; i++)
@@ -332,8 +334,8 @@ static void one_element_is_exact(void)
     const double Fy = b[1], Fz = b[2], Mx = b[3], My = b[4], Mz = b[5], B = b[6];
     gsl_test(dense_lu(7, A, pivot), "coupled stiffness of a cantilever is regular");
     dense_lu_solve(7, 1, A, pivot, b);
-    /* The torque about the shear centre is Mx + zs Fy - ys Fz, carried by warping alone: EIw a'' =
-     * -T and so on. */
+    /* The torque about the shear centre is Mx + zs Fy - ys Fz, which warping alone resists: EIw a''
+     * = -T and so on. */
     const double T = Mx + c.zs * Fy - c.ys * Fz, Q[3] = {Fy, Fz, T};
     double g[3];
     mat3_mul_vec(c.F, Q, g);

@@ -1,5 +1,6 @@
-/* Loads on the field between the nodes (elements/field): forces and derivatives in any state,
- * resultants and work in rigid and closed motions, and fixed-end forces of the uniform beam. */
+/* Loads on the displacement field between the nodes (elements/field): forces and derivatives in any
+ * state, resultants in rigid motions, work along closed paths, and fixed-end forces of the uniform
+ * beam. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -34,7 +35,7 @@ static void prepare(const section *c, int nodes, unsigned features, displacement
 
 static const unsigned shear = FEATURE_SHEAR, all = FEATURE_SHEAR | FEATURE_WARPING;
 
-/* Sets some loads of a kind at some positions. */
+/* Sets loads of one kind at several positions. */
 static void loads_of(const displacement_field *f, int kind, field_rows rows[LOADS],
                      field_load load[LOADS])
 {
@@ -67,8 +68,8 @@ static void forces_at(const displacement_field *f, int kind, const double d[], d
     field_add_loads(f, x, LOADS, rows, load, forces, K);
 }
 
-/* Compares K along one direction with fourth-order differences; moments at the nodes are in the
- * exponential chart: F_i has 1/2 M . (e_j x e_i) in addition to dF_i/dx_j. */
+/* Compares K along one direction with fourth-order finite differences. For moments M at the nodes,
+ * the exponential chart adds 1/2 M . (e_j x e_i) to dF_i/dx_j. */
 static void derivatives(const displacement_field *f, int kind, const char *name)
 {
     const int n = NODE_COORDINATES * f->nodes;
@@ -106,8 +107,8 @@ static void derivatives(const displacement_field *f, int kind, const char *name)
                  nodes_asymmetry(n, K));
 }
 
-/* In a state rotated as a whole, the sum of forces on the nodes equals that of the loads, and so
- * does the sum of moments. */
+/* In a state that is rotated as a whole, the forces on the nodes have the same resultant force and
+ * moment as the loads. */
 static void resultants(const displacement_field *f, int kind, const char *name)
 {
     double d[N], none[N] = {0}, F[N], force[3] = {0}, moment[3] = {0}, expected[2][3] = {{0}};
@@ -176,8 +177,8 @@ static void closed_path(const displacement_field *f, int kind, const char *name)
     for (int step = 0; step < STEPS; step++) {
         const double pi = acos(-1), t = 2 * pi * (step + 0.5) / STEPS, h = 2 * pi / STEPS;
         double at[N], F[N];
-        /* translations and warping follow a circle; rotations, whose increments do not add up, go
-         * back and forth about one axis per node */
+        /* Translations and warping follow a circle. Rotations go back and forth about one axis per
+         * node, because increments about different axes do not add up. */
         for (int i = 0; i < N; i++)
             at[i] = cos(t) * d[i] +
                     (i % NODE_COORDINATES >= 3 && i % NODE_COORDINATES < 6 ? 0 : sin(t) * more[i]);
@@ -259,8 +260,8 @@ static void field_tests(void)
     fixed_ends();
 }
 
-/* Contribution of the mass inside an element to its frequencies (elements/field/field.h): every
- * entry is compared with the exact dynamic stiffness of uniform beams. */
+/* Contribution of the mass inside an element to frequencies (elements/field/field.h). Every entry
+ * is compared with the exact dynamic stiffness of uniform beams. */
 
 static const double inner_l0 = 0.8;
 
@@ -270,8 +271,9 @@ static void add_inner(int i, int j, double value, double B[FIELD_INNER * FIELD_I
 }
 
 /* B of a uniform element is the coefficient of -omega^4 in the power series of its exact dynamic
- * stiffness: z = omega l sqrt(rho/E) in z cot(z), z/sin(z) for rods and shafts, z^4 = rho A omega^2
- * l^4/(E I) for Bernoulli's beam, (59 z^8/161700) E I/l^3 and so on. */
+ * stiffness: z cot(z) and z/sin(z) for rods and shafts, with z = omega l sqrt(rho/E) for a rod; (59
+ * z^8/161700) E I/l^3 and so on for the Euler-Bernoulli beam, with z^4 = rho A omega^2 l^4/(E
+ * I). */
 static void field_inner_tests(void)
 {
     const double A = 0.2, I[3] = {0.013, 0.007, 0.009}, density = 3, stiffness[2] = {A, 0.009},
@@ -314,8 +316,8 @@ static void field_inner_tests(void)
         }
 }
 
-/* Compares coefficients of the third-order potential with values to 120 digits, and checks the
- * limits of the stress functions. */
+/* Compares the coefficients of the third-order potential with values computed with 120 digits, and
+ * checks the limits of the stress functions. */
 
 extern const element_type element_sheet_second, element_sheet_third, element_sheet_third_printed;
 
@@ -329,7 +331,7 @@ enum {
     WQ = 1 + SHEET_LOCAL_WQ
 };
 
-/* Unit torques M, PP, PQ, QP, QQ: the stress and the variable by which it is multiplied. */
+/* For the unit torques M, PP, PQ, QP and QQ: the stress, and the variable that multiplies it. */
 static const int stress_of[MODES] = {MX, MYP, MYP, MYQ, MYQ},
                  variable_of[MODES] = {ONE, ZP, ZQ, ZP, ZQ};
 
@@ -412,8 +414,8 @@ static void coefficients(void)
              worst);
 }
 
-/* Without warping stiffness, the torque causes a twist rate t/GJ: the limit lambda -> inf,
- * approached like 1/lambda. */
+/* Without warping stiffness, the torque causes the twist rate t/GJ. This is the limit lambda ->
+ * inf, which is approached like 1/lambda. */
 static void uniform_torsion(void)
 {
     static const double torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
@@ -443,9 +445,9 @@ static void stiffness_at_rest(const element_type *type, const section *c, unsign
     free(d);
 }
 
-/* Undeformed, the third-order element equals the second-order one, with shear only in the width
- * direction, as in N Eq. 50, and except for the hyperbolic twist, which tends to the cubic one for
- * lambda -> 0. */
+/* In the undeformed state, the third-order element equals the second-order element with shear only
+ * in the width direction (N Eq. 50). The only difference is the hyperbolic twist, which tends to
+ * the cubic twist for lambda -> 0. */
 static void second_order_limit(void)
 {
     section c = {.young = 3.1,
@@ -466,7 +468,7 @@ static void second_order_limit(void)
                 printed ? &element_sheet_third_printed : &element_sheet_third;
             stiffness_at_rest(&element_sheet_second, &c, features, second);
             stiffness_at_rest(type, &c, features, third);
-            /* without amplitudes e7 = e8 = e2: only the sum of their stiffnesses counts */
+            /* without amplitudes, e7 = e8 = e2, and only the sum of their stiffnesses matters */
             if (!warping)
                 for (int pass = 0; pass < 2; pass++) {
                     double *C = pass == 0 ? second : third;
@@ -498,7 +500,7 @@ static void sheet_coefficients_tests(void)
     second_order_limit();
 }
 
-/* Fault lines: unchanged, or, if too long, with both ends kept. */
+/* Lines of faults are unchanged; lines that are too long retain both ends. */
 
 static void line_of(int length, int middle)
 {

@@ -1,4 +1,4 @@
-/* Functions shared by tests of elements: numbers, departures, sections, nodes. */
+/* Functions shared by tests of elements: random numbers, errors, sections, and nodes. */
 #ifndef BEAMWORK_TEST_KIT_H
 #define BEAMWORK_TEST_KIT_H
 
@@ -8,17 +8,17 @@
 #include "elements/element.h"
 #include "elements/section/section.h"
 
-/* Numbers of high entropy for tests: the same sequence for the same seed on every machine. */
+/* Pseudorandom numbers for tests. A seed gives the same sequence on every machine. */
 
 /* Returns 64 bits of splitmix64 (Steele, Lea, Flood, OOPSLA 2014); seeds may be small and
  * adjacent. */
 uint64_t random_bits(uint64_t *seed);
-/* Returns a number that is uniform in [-1, 1), a multiple of 2^-52. */
+/* Returns a number from a uniform distribution on [-1, 1), a multiple of 2^-52. */
 double random_number(uint64_t *seed);
-/* Returns one of 0 .. count - 1. */
+/* Returns an integer from 0 to count - 1. */
 int random_below(uint64_t *seed, int count);
 
-/* Returns the larger of two departures; NaN is the largest, which fmax would drop. */
+/* Returns the larger of two errors, or NaN if one of them is NaN, which fmax would ignore. */
 static inline double worst_of(double a, double b)
 {
     return isnan(a) || a > b ? a : b;
@@ -26,7 +26,8 @@ static inline double worst_of(double a, double b)
 
 /* Sections of tests. */
 
-/* Returns the constants of a valid section; otherwise the test fails and they are zero. */
+/* Returns the constants of a section. If the section is invalid, the test fails and the constants
+ * are zero. */
 section sections_computed(const section_spec *);
 /* Returns a section of this kind with the moduli of steel, E = 200 GPa and G = 80 GPa. */
 section_spec sections_steel(section_kind);
@@ -34,25 +35,27 @@ section_spec sections_steel(section_kind);
  * warp. */
 section_spec sections_of(double A, double Iy, double Iz, double It);
 
-/* Nodes of one element placed by a test, and derivatives of its strains by differences. Increments
- * d [7 nodes]: displacement [m], spatial rotation vector, warping amplitude [rad/m]. */
+/* Nodes of one element placed by a test, and derivatives of its strains by finite differences.
+ * Increments d [7 nodes]: displacement [m], spatial rotation vector, warping amplitude [rad/m]. */
 
 /* Places an undeformed straight element along x. */
 void nodes_straight(int nodes, double length, node_state x[]);
-/* Rotates R by the rotation vector about fixed axes, after its present rotation. */
+/* Rotates R by a rotation vector in fixed axes, in addition to its present rotation. */
 void nodes_turn(double R[9], const double turn[3]);
-/* Moves every node by `times` its part of d. */
+/* Moves every node by `times` its increments in d. */
 void nodes_move(int nodes, double times, const double d[], node_state x[]);
 /* Places the straight element, moved by d. */
 void nodes_place(int nodes, double length, const double d[], node_state x[]);
-/* Sets increments uniform in (-size/2, size/2) lengths, radians, 1/lengths. */
+/* Sets random increments that are uniform in (-size/2, size/2), in units of lengths, radians and
+ * 1/lengths. */
 void nodes_increments(int nodes, double length, double size, unsigned seed, double d[]);
 
 /* Compares J and H at x with central differences of fourth order of e and of J^T s along the path
  * that moves the nodes by d; s: any stresses [strains]. */
 typedef struct nodes_departure {
-    double first;     /* of J d, relative to its largest entry */
-    double second;    /* of H d, likewise: H in the exponential chart of x */
+    double first;     /* error of J d, relative to its largest entry */
+    double second;    /* error of H d, relative to its largest entry; H is in the exponential chart
+                       * of x */
     double asymmetry; /* of H */
 } nodes_departure;
 nodes_departure nodes_differences(const element_type *, const element_data *, int nodes,

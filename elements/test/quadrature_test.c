@@ -1,6 +1,6 @@
-/* The Gauss rule: points are the roots of Legendre's polynomials, and weights follow from their
- * slopes, to the last digit. Monomials are exact up to its degree. Threads and forked processes
- * that request tables simultaneously get the same ones. */
+/* The points of the Gauss rule are the roots of the Legendre polynomials, and its weights follow
+ * from their slopes, to the last digit. It integrates monomials up to its degree exactly. Threads
+ * and forked processes that request tables simultaneously get the same tables. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -17,8 +17,8 @@ typedef struct quadrature_rule {
     double x[MOST], w[MOST];
 } quadrature_rule;
 
-/* Returns the distance of points and weights from Newton's correction and from 2/((1 - z^2) P'^2),
- * in long double. */
+/* Checks, in long double, that Newton's correction of the points is zero and that the weights are
+ * 2/((1 - z^2) P'^2). */
 static void against_polynomial(int n, const quadrature_rule *r)
 {
     double apart = 0;
@@ -32,8 +32,9 @@ static void against_polynomial(int n, const quadrature_rule *r)
         }
         const long double slope = n * (z * p - before) / (z * z - 1), step = p / slope,
                           root = z - step, weight = 1 / ((1 - root * root) * slope * slope),
-                          change =
-                              2 * root / (1 - root * root) * step; /* of the slope, from the ODE */
+                          change = 2 * root / (1 - root * root) * step; /* correction of the slope,
+                                                                         * from Legendre's
+                                                                         * differential equation */
         apart = fmax(apart, fabs((double)(step / 2)));
         apart = fmax(apart, fabs((double)(r->w[i] / weight * (1 - 2 * change) - 1)));
     }
@@ -61,7 +62,7 @@ static void *ask(void *out)
     return NULL;
 }
 
-/* Requests tables simultaneously, before any other request. */
+/* Threads and processes request tables simultaneously, before any other request. */
 static void at_once(void)
 {
     static quadrature_rule r[THREADS + 1], forked;

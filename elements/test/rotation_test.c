@@ -1,5 +1,5 @@
-/* Rotations compared with their definition: matrices that rotate a plane, products, the shorter way
- * of the logarithm, angles near 0 and pi. */
+/* Compares rotations with their definition: rotation matrices, products, the logarithm of the
+ * shorter rotation, and angles near 0 and pi. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -15,8 +15,8 @@
 #include "elements/sheet/sheet.h"
 #include "elements/test/kit.h"
 
-/* Elements of two kinds in runs of any length, each in its own state: results of one call for many
- * elements and of single calls. */
+/* Elements of two kinds in runs of different lengths, each in its own state, for the comparison of
+ * one call for many elements with single calls. */
 
 enum { MANY = 11, S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES, INNER = 24 };
 
@@ -57,8 +57,8 @@ static element_data *batch_prepare(const element_type *type, const double option
     return d;
 }
 
-/* Sets up alternating kinds: runs of 5, 1, 3 and 2; one element is far outside the range that can
- * be evaluated. */
+/* Sets up alternating kinds: runs of 5, 1, 3 and 2; one element is in a state that cannot be
+ * evaluated. */
 static void batch_set_up(batch *b, unsigned features)
 {
     static const int kind_of[MANY] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1};
@@ -87,7 +87,7 @@ static void batch_free(batch *b)
     free(b->kind[1]);
 }
 
-/* The features with which batches are set up alternately. */
+/* Number of sets of features with which batches are set up in turn. */
 enum { BATCH_FEATURES = 3 };
 static unsigned batch_features(int turn)
 {
@@ -97,7 +97,7 @@ static unsigned batch_features(int turn)
                               all | FEATURE_WAGNER_TORQUE}[turn];
 }
 
-/* options: the first ones, of this number, are given. */
+/* Returns a batch. options: number of entries in option[]; further options have their defaults. */
 static batch batch_of(const element_type *type, const double option[], int options, int turn)
 {
     batch b = {.type = type, .name = type->name};
@@ -126,7 +126,7 @@ static void turn(double angle, double q[4])
     rotation_exp(phi, q);
 }
 
-/* Rodrigues: v cos + (axis x v) sin + axis (axis . v)(1 - cos). */
+/* Rodrigues' formula: v cos + (axis x v) sin + axis (axis . v)(1 - cos). */
 static void rodrigues(double angle, const double v[3], double out[3])
 {
     double across[3];
@@ -159,7 +159,7 @@ static void one_angle(double angle)
     gsl_test(!(largest_difference(4, again, q) < 4 * eps),
              "angle %g: the matrix gives the quaternion back, or its negative", angle);
 
-    /* The shorter way, for q and for -q, which are the same rotation. */
+    /* The logarithm is the shorter rotation, for q and for -q, which are the same rotation. */
     const double shorter = remainder(angle, 2 * PI);
     for (int i = 0; i < 3; i++)
         expected[i] = shorter * axis[i];
@@ -167,7 +167,7 @@ static void one_angle(double angle)
         minus[i] = -q[i];
     const double allowed = fabs(fabs(shorter) - PI) < 1e-15
                                ? 2 * PI + 1
-                               : 8 * eps; /* at pi, both ways are equally short */
+                               : 8 * eps; /* at pi, both rotations are equally short */
     rotation_log(q, phi);
     gsl_test(!(largest_difference(3, phi, expected) < allowed), "angle %g: its vector", angle);
     rotation_log(minus, phi);
@@ -245,13 +245,13 @@ static void rotation_tests(void)
 }
 
 /* Compares points along an arc of constant curvature with the integral of its tangent: transverse
- * deflections have all their digits, however flat or wound the arc is. */
+ * deflections are accurate to all digits, for any rotation of the arc. */
 
 enum { POINTS = 16 };
 
-/* Integrates r = int exp(turn s) e ds from 0 to x: r minus x e follows from the change of e by the
- * rotation, so that nothing cancels. The integrand is (sin w)/w t x e + (1 - cos w)/w^2 t x (t x
- * e), t = turn s. */
+/* Integrates r = int exp(turn s) e ds from 0 to x. r minus x e is the integral of the change of e
+ * by the rotation, so that there is no cancellation. The integrand is (sin w)/w t x e + (1 - cos
+ * w)/w^2 t x (t x e), where t = turn s and w = |t|. */
 static void integrate(const double turn[3], const double e[3], double x, double across[3])
 {
     double at[POINTS], weight[POINTS];
@@ -304,7 +304,7 @@ static void arc_tests(void)
             compare(angle[i], x[k]);
 }
 
-/* Newton's equations of many elements at once equal those of one at a time, with and without
+/* Newton's equations of many elements at once equal those of single elements, with and without
  * AVX2. */
 
 extern const element_type element_sheet_second, element_sheet_second_consistent,
@@ -316,7 +316,8 @@ typedef void equations_function(int count, const element_data *const data[], con
 
 static const struct {
     const element_type *type;
-    equations_function *equations; /* besides the one that the type chooses for the processor */
+    equations_function *equations; /* in addition to the function that the type selects for the
+                                    * processor */
 } family[] = {{&element_sheet_second, sheet_lanes_second_equations_plain},
               {&element_sheet_second_consistent, sheet_lanes_second_equations_plain},
               {&element_sheet_third, sheet_lanes_third_equations_plain},
@@ -328,7 +329,8 @@ typedef struct whole {
     status outcome;
 } whole;
 
-/* Computes the equations from the strains and stresses, with the sums of elements/math/dense.h. */
+/* Computes the equations of one element from strains and stresses, with the functions of
+ * elements/math/dense.h. */
 static void alone_of(const batch *b, int k, const double e[], int tangent, whole *out)
 {
     const int n = b->strains, columns = NODE_COORDINATES * b->nodes;
@@ -352,7 +354,8 @@ static void alone_of(const batch *b, int k, const double e[], int tangent, whole
         dense_add_congruence(n, columns, out->J, out->C, out->K, work);
 }
 
-/* Do the numbers differ? The sign of zero is ignored: that of an empty sum is arbitrary. */
+/* Returns 1 if the numbers differ. The sign of zero is ignored, because that of an empty sum is
+ * arbitrary. */
 static int differs(const whole *a, const whole *b)
 {
     const double *p = a->J, *q = b->J;
@@ -415,7 +418,7 @@ static void lanes_equations_tests(void)
         }
 }
 
-/* Strains and stresses of many elements at once have the same bits as one at a time, with and
+/* Strains and stresses of many elements at once are bit-for-bit those of single elements, with and
  * without AVX2. */
 
 extern const element_type element_beamw, element_beamw_vlasov, element_beamw_first,
@@ -429,12 +432,12 @@ typedef void strains_function(int count, const element_data *const data[], const
 typedef void stresses_function(int count, const element_data *const data[], const double *const e[],
                                const double *const inner[], stress_output out[], status outcome[]);
 
-/* Functions exported by a family in addition to those that its types choose for the processor. */
+/* Functions exported by a family in addition to those that its types select for the processor. */
 static const struct {
     const element_type *type;
     strains_function *strain;
     stresses_function *stress;
-    double option[3]; /* the first ones */
+    double option[3]; /* values of the first options */
 } lanes_family[] = {
     {&element_beamw, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},
     {&element_beamw_vlasov, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},

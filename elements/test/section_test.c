@@ -1,5 +1,5 @@
-/* Section constants for which two descriptions agree: a rectangle and a wall of its thickness, at
- * any angle; walls with their thickness and the area itself. */
+/* Compares section constants of two descriptions: a rectangle and a wall of its thickness, at any
+ * angle; walls with thickness terms and the area itself. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -35,8 +35,8 @@ static section rectangle(double width, double height, double ky, double kz)
     return sections_computed(&spec);
 }
 
-/* Without given factors, a wall has the shear and warping shear of the rectangle. Its long side is
- * along y; that of the rectangle is along z if it is wide. */
+/* Without given shear factors, a wall has the shear and warping shear of the rectangle. The long
+ * side of the wall is along y; that of a wide rectangle is along z. */
 static void rectangle_is_a_wall(double h, double t)
 {
     const section wall = wall_section(h, t, 0, 0, 0), wide = rectangle(h, t, 0, 0),
@@ -63,7 +63,7 @@ static void given_factors(void)
     gsl_test(one.F[8] != 0 || both.F[8] != 0, "with given factors there is no warping shear");
 }
 
-/* A wall anywhere at any angle has the principal axes and constants of its rectangle. */
+/* A wall at any position and angle has the principal axes and constants of its rectangle. */
 static void turned_wall(void)
 {
     const double h = 0.13, t = 0.017;
@@ -163,7 +163,7 @@ static double warping_at(double y, double z, double a, double b)
     return omega;
 }
 
-/* Checks int omega^2 dA, and the thin-rectangle value for thin ones. */
+/* Checks int omega^2 dA and, for thin rectangles, the thin-rectangle value. */
 static void warping_constant(double width, double height)
 {
     enum { N = 20 };
@@ -179,9 +179,9 @@ static void warping_constant(double width, double height)
     gsl_test_rel(rectangle(1e-4, 1, 0, 0).Iw, 1e-12 / 144, 1e-6, "of a thin one");
 }
 
-/* Torque that is cubic in the twist rate: 1/8 int (r^2 - mean)^2 dA over the area, for any
- * sides; for a thin rectangle w^5 t/1440 (N Eq. 46), for a square twice that. A given value
- * replaces it. */
+/* The constant of the torque that is cubic in the twist rate is 1/8 int (r^2 - mean)^2 dA over the
+ * area, for any rectangle. For a thin rectangle it is w^5 t/1440 (N Eq. 46), for a square twice
+ * that. A given value replaces it. */
 static void wagner_torque(double width, double height)
 {
     enum { N = 5 };
@@ -293,7 +293,7 @@ static void box(void)
     gsl_test_rel(c.F[4], square / (c.Iy * c.Iy), 1e-13, "box: shear along the webs");
 }
 
-/* A regular polygon tends to a thin ring, with errors of 1/n^2. */
+/* The constants of a regular polygon tend to those of a thin ring, with errors of order 1/n^2. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -315,7 +315,7 @@ static void ring(void)
     gsl_test_rel(c.Iy, d.Iy, 0.02, "ring: bending");
     gsl_test_rel(c.F[0], d.F[0], 0.02, "ring: shear");
     gsl_test(c.Iw != 0, "ring: no warping");
-    /* the polygon itself: area a = N/2 R^2 sin(2 pi/N), length l = 2 N R sin(pi/N) */
+    /* for the polygon itself: area a = N/2 R^2 sin(2 pi/N), length l = 2 N R sin(pi/N) */
     const double a = N / 2.0 * R * R * sin(2 * PI / N), l = 2 * N * R * sin(PI / N);
     gsl_test_rel(c.It, 4 * a * a * t / l + l * t * t * t / 3, 1e-12, "polygon: Bredt");
 }
@@ -341,8 +341,8 @@ static void tube_closed_forms(void)
     gsl_test_rel(c.F[0], PI / 8 * up / (c.Iz * c.Iz), 1e-13, "tube: shear");
 }
 
-/* Returns two cells of equal size with a common web: in torsion the web carries no flow (Bredt flow
- * of the outer wall). */
+/* Returns two cells of equal size with a common web. In torsion, the flow in the web is zero, and
+ * the outer wall has the Bredt flow. */
 static section_spec two_cells(int swapped, double skew)
 {
     static const double point[6][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
@@ -352,7 +352,7 @@ static section_spec two_cells(int swapped, double skew)
     spec.walls = 7;
     spec.cells = 2;
     for (int i = 0; i < 6;
-         i++) { /* swapped: other root, walls reversed and in the opposite order */
+         i++) { /* swapped: another root, and reversed walls in the opposite order */
         const int p = swapped ? 5 - i : i;
         spec.point[p][0] = b * point[i][0] + (i == 1 || i == 4 ? skew : 0);
         spec.point[p][1] = h * point[i][1];
@@ -393,7 +393,8 @@ static void cells(void)
                      "two cells, other order: shear %d", i);
 }
 
-/* Points within walls change nothing: a fin on a box, and walls cut in two. */
+/* Additional points within walls do not change the constants: a fin on a box, and walls cut in
+ * two. */
 static void points_between(void)
 {
     section_spec one = box_spec();

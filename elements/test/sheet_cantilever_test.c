@@ -1,7 +1,8 @@
-/* Cantilever of N section 4.1: sheet 100 x 100 x 2.25 mm, tip deflected by 0.15 L without rotation
- * in 15 steps, with warping restrained. Computes compliances of the tip with the prescribed motion
- * replaced by dead forces and spatial moments; node p of every element is towards the root. Values
- * from an independent prototype of the same equations. */
+/* Cantilever of N section 4.1: a sheet of 100 x 100 x 2.25 mm whose tip is deflected by 0.15 L
+ * without rotation in 15 steps, with warping restrained. The compliances of the tip are computed
+ * with dead forces and spatial moments in place of the prescribed motion. Node p of every element
+ * is towards the root. The expected values are those of an independent prototype of the same
+ * equations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -24,7 +25,7 @@ typedef struct cantilever {
     element_data *data;
     int n, reversed; /* 1: node p of every element is towards the tip */
     node_state node[MOST + 1];
-    double e[MOST][N], sigma[MOST][N]; /* additional unknowns, condensed element by element */
+    double e[MOST][N], sigma[MOST][N]; /* additional unknowns, condensed in each element */
 } cantilever;
 
 /* Adds the contribution of one element: K += J^T C J + H, force += J^T [P'(e) + C (D(x) - e)] (N
@@ -54,13 +55,13 @@ static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], d
     dense_add_congruence(N, NODAL, J, C, K, work);
 }
 
-/* Returns the row of an element's coordinate; negative: the root. */
+/* Returns the row of coordinate a of element i; it is negative for coordinates of the root. */
 static int row_of(const cantilever *c, int i, int a)
 {
     return NODE * (i - 1) + (c->reversed ? (a + NODE) % NODAL : a);
 }
 
-/* Assembles K(7n x 7n) and the internal forces of the nodes 1..n; the root's columns are fixed. */
+/* Assembles K(7n x 7n) and the internal forces of nodes 1 to n. The root is fixed. */
 static void assemble(const cantilever *c, double *K, double *force)
 {
     const int size = NODE * c->n;
@@ -89,7 +90,8 @@ static void hold(int size, double *K, double *right, int coordinate, double moti
     right[coordinate] = motion;
 }
 
-/* de = D(x) - e + J dx, dsigma = P' + C de - sigma; then the nodes move. */
+/* Updates strains and stresses with de = D(x) - e + J dx and dsigma = P' + C de - sigma, then moves
+ * the nodes. */
 static void advance(cantilever *c, const double *dx)
 {
     for (int i = 0; i < c->n; i++) {
@@ -176,7 +178,7 @@ static void solve(const element_type *type, int n, int reversed, double *C_xx, d
     double *K = malloc(sizeof(double) * SIZE * SIZE), *right = malloc(sizeof(double) * SIZE);
     int most = 0;
     section_spec spec = section_spec_rectangle(200e9, 200e9 / (2 * (1 + nu)), 0.1, 0.00225);
-    spec.given.Iw = pow(0.1 * 0.00225, 3) / 144; /* of a thin one */
+    spec.given.Iw = pow(0.1 * 0.00225, 3) / 144; /* value of a thin rectangle */
     spec.shear_factor[0] = spec.shear_factor[1] = 10 * (1 + nu) / (12 + 11 * nu);
     const section s = sections_computed(&spec);
     const element_request request = {.section = &s,
@@ -220,8 +222,8 @@ static void sheet_cantilever_tests(void)
         {&element_sheet_third, 2, 3.9673504e-7, 2.632057e-8},
         {&element_sheet_third_printed, 1, 3.9472445e-7, 2.470177e-8},
     };
-    /* with shear included in the strains: error in C_zz against the geometrically exact beam, in
-     * percent, and half of its last digit */
+    /* With shear included in the strains: error in C_zz relative to the geometrically exact beam,
+     * in percent, and half a unit of its last digit. */
     static const struct {
         int n;
         double percent, rounding;
@@ -249,7 +251,7 @@ static void sheet_cantilever_tests(void)
     gsl_test_rel(C_zz, 2.6633e-8, 3e-5, "sheet_third, reversed: C_zz");
 }
 
-/* Compares sheet elements with the printed equations and with differences. */
+/* Compares sheet elements with the published equations and with finite differences. */
 
 extern const element_type element_sheet_second, element_sheet_second_consistent,
     element_sheet_third, element_sheet_third_printed;
@@ -288,8 +290,8 @@ static double scaled_difference(int n, const double a[], const double b[])
     return worst / largest;
 }
 
-/* Computes N Eq. 37 as printed, except for the last term of e1, where L^2 must be L: a length is
- * expected. */
+/* Computes N Eq. 37 as printed, except for the last term of e1, where L^2 is replaced by L, because
+ * e1 is a length. */
 static void printed_strains(double L, double Ite, const double q[SHEET_N], double e[SHEET_N])
 {
     const double u = q[SHEET_LOCAL_U], px = q[SHEET_LOCAL_PX], yp = q[SHEET_LOCAL_YP],
@@ -333,7 +335,7 @@ static void printed_equation(void)
         gsl_test_rel(e[i], printed[i], 1e-14, "N Eq. 37, e%d", i + 1);
 }
 
-/* Places the nodes of a strained element far from its initial position. */
+/* Places the nodes of a deformed element far from its initial position. */
 static void strained(double L, node_state x[2])
 {
     static const double step[2][7] = {{0.013, -0.021, 0.037, 0.713, -0.437, 1.21, 0.83},
@@ -375,7 +377,7 @@ static void derivatives_of_strain(const element_type *type)
 }
 
 /* Checks energy, sigma and C with every feature and initial curvature; for the third-order element,
- * compares G with differences of C. */
+ * compares G with finite differences of C. */
 static void derivatives_of_stress(const element_type *type)
 {
     static const double stencil[4] = {1, -8, 8, -1}, at[4] = {-2, -1, 1, 2};
@@ -420,7 +422,7 @@ static void derivatives_of_stress(const element_type *type)
     free(data);
 }
 
-/* A request that cannot be prepared is rejected with the cause. */
+/* Invalid requests are rejected with the cause. */
 static void refusals(const element_type *type)
 {
     const section c = sheet_of(0.0912, 0.00217);

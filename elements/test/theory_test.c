@@ -1,4 +1,4 @@
-/* The energies in elements/NAME.md are those of the elements. */
+/* Checks that the energies of the elements are those stated in elements/NAME.md. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -55,7 +55,7 @@ static void modified(const section *c, double l, const double e[E + 1], double e
     ebar[6] += (e[2] * (e[3] / 5 + e[4] / 10) - (e[3] + e[4]) * e[7] / 30 + e[4] * e[8] / 10) / l;
 }
 
-/* Returns the sum of squares in elements/beamw.md; Phi[3]: y, z, w. */
+/* Returns the energy as the sum of squares in elements/beamw.md. Phi[3]: for y, z and w. */
 static double squares(const section *c, double l, const double Phi[3], const double b[E + 1])
 {
     const double l2 = l * l, l3 = l2 * l, A = (b[7] - b[8]) / 2, G = c->shear_modulus;
@@ -154,8 +154,8 @@ static void theory_tests(void)
     sheets();
 }
 
-/* Elimination inside a collocation element: without row exchange if the matrix allows it, and
- * correct otherwise. */
+/* Elimination inside a collocation element needs no row exchange for suitable matrices and is
+ * correct for all others. */
 
 extern const element_type element_collocation;
 
@@ -173,7 +173,8 @@ static exact_stages strip(int stages, unsigned features)
     return s;
 }
 
-/* Returns the largest departure of C, relative to the diagonal entries of the same strains. */
+/* Returns the largest difference of two matrices C, relative to the diagonal entries of the same
+ * strains. */
 static double departure(const double a[], const double b[])
 {
     double worst = 0;
@@ -195,7 +196,7 @@ static status stress(const exact_stages *s, const double e[], const double inner
     return outcome;
 }
 
-/* Eliminates the same equations in both ways. */
+/* Eliminates the same equations with and without row exchange. */
 static void both(int stages, unsigned features)
 {
     const exact_stages s = strip(stages, features);
@@ -237,8 +238,8 @@ static void both(int stages, unsigned features)
     gsl_test(!(following < 1e-7), "%d stages: unknowns follow alike (%.1e)", stages, following);
 }
 
-/* A straight element under more compression than its inner nodes can carry between fixed ends: the
- * first non-positive pivot is as small as possible. */
+/* A straight element under more compression than its inner nodes can carry between fixed ends, so
+ * that the first non-positive pivot is as small as possible. */
 static void compressed(int stages)
 {
     const exact_stages s = strip(stages, FEATURE_SHEAR | FEATURE_LARGE);
@@ -281,14 +282,13 @@ static void collocated_tests(void)
     }
 }
 
-/* J^T S J in registers has the same bits as plain loops, for every size and both instruction
- * sets. */
+/* J^T S J in registers equals plain loops bit for bit, for every size and both instruction sets. */
 
 enum { W = CONGRUENCE_WIDEST };
 
 typedef void add_function(int m, int n, const double *J, const double *S, double *K);
 
-/* Sums in the order of the terms, starting from the values in K. */
+/* Adds the terms in their order to the values in K. */
 static void plain_loops(int m, int n, const double *J, const double *S, double *K)
 {
     double SJ[W * W];
@@ -334,22 +334,23 @@ static void congruence_tests(void)
     compare("chosen for this processor", REAL_CHOSEN(congruence_add));
 }
 
-/* Compares warping inside an exact element with the closed-form solution of non-uniform torsion,
- * for thick and thin layers at its ends.
+/* Compares warping inside an exact element with the closed-form solution of nonuniform torsion, for
+ * thick and thin boundary layers.
  *
- * The warping amplitude a = p(x) + A exp(-lambda x) + B exp(-lambda (1 - x)), p a polynomial of
- * degree stages - 1, minimises the energy for the warping torque T = GJ (p - P a) - EIw p'' and the
- * twist rate P a + F T at the Gauss points; the bimoments at its ends are -EIw a'(0), EIw a'(1). */
+ * The warping amplitude a = p(x) + A exp(-lambda x) + B exp(-lambda (1 - x)), where p is a
+ * polynomial of degree stages - 1, minimises the energy for the warping torque T = GJ (p - P a) -
+ * EIw p'' and the twist rate P a + F T at the Gauss points; the bimoments at its ends are -EIw
+ * a'(0), EIw a'(1). */
 
 enum { WARPING_MOST = EXACT_WARPING_MAX_STAGES };
 
-/* p by its coefficients of x^k, and the amplitudes of both layers. */
+/* Coefficients of x^k in p, and the amplitudes of both layers. */
 typedef struct amplitude {
     int stages;
     double lambda, p[WARPING_MOST], layer[2];
 } amplitude;
 
-/* Returns derivative `order` of the polynomial. */
+/* Returns the derivative of the given order of the polynomial. */
 static double polynomial(const amplitude *a, double x, int order)
 {
     double sum = 0;
@@ -417,7 +418,7 @@ static double warping_departure(const beam_constants *c, const amplitude *a)
     return worst / size;
 }
 
-/* Compares one layer or polynomial term at a time, so that no term hides behind a larger one. */
+/* Compares one layer or polynomial term at a time, so that no error is hidden by a larger term. */
 static void warping_compare(int stages, double lambda, double shear)
 {
     const beam_constants c = {.GJ = 0.7, .EIw = 0.7 / (lambda * lambda), .F = {[8] = shear}};
@@ -431,7 +432,8 @@ static void warping_compare(int stages, double lambda, double shear)
     for (int k = 0; k < stages; k++) {
         amplitude a = {.stages = stages, .lambda = lambda};
         a.p[k] = 1;
-        if (k > 0) /* a constant needs no torque and no bimoment: it is checked in the mixture */
+        if (k > 0) /* a constant needs no torque and no bimoment; it is checked together with all
+                    * other terms */
             smooth = worst_of(smooth, warping_departure(&c, &a));
     }
     amplitude a = {.stages = stages, .lambda = lambda};

@@ -1,6 +1,6 @@
 /* The constant of the Wagner torque, c of the energy E c kx^4 per length, for sections of walls:
- * closed forms by hand, and the part of y^2 + z^2 over the area that remains after shortening and
- * bending are removed (least squares, three unknowns). */
+ * comparison with closed forms and with the part of y^2 + z^2 over the area that remains after
+ * axial and bending strains are removed (least squares with three unknowns). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -104,7 +104,8 @@ static void add_wall(const section_spec *s, int wall, const double about[2], dou
     }
 }
 
-/* Returns the part of the fourth that the first three leave: its square over the area. */
+/* Returns the integral of the square of the fourth function after its projection on the first three
+ * is removed. */
 static double left_of(double m[4][4])
 {
     for (int k = 0; k < 3; k++)
@@ -132,9 +133,9 @@ static void over_the_area(const wagner_shape *s, int thick, double angle)
                  "%s ten times larger", s->name);
 }
 
-/* A section that is symmetric under a rotation by pi, and one without symmetry, twist differently
- * in the two directions; mirror symmetry makes both directions alike, for any axes, and so do walls
- * that meet in one point. */
+/* A section that is symmetric under a rotation by pi and a section without symmetry behave
+ * differently in the two directions of twist. A section with mirror symmetry about any axis and
+ * walls that meet in one point behave alike in both directions. */
 static void one_sided(const wagner_shape *s, double angle)
 {
     const section_spec spec = spec_of(s, 0, 1, angle);
@@ -144,8 +145,8 @@ static void one_sided(const wagner_shape *s, double angle)
              angle, found);
 }
 
-/* The Z section by hand: omega minus its mean is the value at the middle of the web, and even under
- * the rotation by pi; int omega r^2 dA over the web and twice one flange. */
+/* Closed form for the Z-section: omega is measured from its mean and even under the rotation by pi,
+ * so that int omega r^2 dA is that of the web plus twice that of one flange. */
 static void one_sided_zed(void)
 {
     const double b = 0.07, h = 0.1, t = 2e-3; /* h: half of the web */
@@ -163,7 +164,8 @@ static void one_sided_zed(void)
                  "Z, by hand");
 }
 
-/* Legs b of thickness t about their common end: 1/8 (int r^4 dA - Ip^2/A). */
+/* Closed form for legs of length b and thickness t that meet at one end: 1/8 (int r^4 dA -
+ * Ip^2/A). */
 static void cruciform(void)
 {
     const section_spec spec = spec_of(&shapes[0], 0, 1, 0);
@@ -171,9 +173,8 @@ static void cruciform(void)
     gsl_test_rel(c.wagner_torque, 2 * 4e-3 * pow(0.1, 5) / 45, 1e-13, "cruciform, by hand");
 }
 
-/* An equal angle, t legs of b: mean distance b/4 of the centroid from each leg; along a leg s
- * from the corner r^2 = s^2, minus its mean b^2/3 and the part due to bending in the plane of
- * symmetry. */
+/* An equal-leg angle with legs of length b and thickness t. At the distance s from the corner, r^2
+ * = s^2; its mean b^2/3 and the part due to bending in the plane of symmetry are subtracted. */
 static void equal_angle(void)
 {
     const double b = 0.08, t = 3e-3, A = 2 * b * t;
@@ -189,8 +190,8 @@ static void equal_angle(void)
                  "equal angle, by hand: int r^4, shortening, bending");
 }
 
-/* A thick wall equals its rectangle: w^5 t/1440 for a thin one, and the same term for its short
- * side. */
+/* A thick wall has the constant of its rectangle: w^5 t/1440 if it is thin, plus the corresponding
+ * term of the short side. */
 static void strip(double w, double t)
 {
     for (int i = 0; i < 4; i++) {
@@ -206,7 +207,8 @@ static void strip(double w, double t)
     }
 }
 
-/* The fibres of a thin ring have equal lengths for any twist: almost nothing remains. */
+/* The fibres of a thin ring have equal lengths for any twist, so that the constant is almost
+ * zero. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -241,9 +243,9 @@ static void wagner_tests(void)
     ring();
 }
 
-/* Stresses at the points of sections: integrated over the walls they give the resultants that
- * caused them; the torsion of a rectangle is Saint-Venant's, with the coefficients published by
- * Timoshenko (Theory of Elasticity, 1970, section 109). */
+/* Stresses at the points of sections. Integrated over the walls, they equal the resultants. In
+ * torsion of a rectangle, they have the coefficients published by Timoshenko (Theory of Elasticity,
+ * 1970, section 109). */
 
 static stress_points points_of(const section_spec *spec, const section *c)
 {
@@ -266,7 +268,7 @@ static section_spec rectangle_spec(double width, double height)
     return spec;
 }
 
-/* Checks T = k1 (2a)^2 2b tau against Timoshenko's table for b/a. */
+/* Checks k1 of T = k1 (2a)^2 2b tau against Timoshenko's table for b/a. */
 static void torsion(double ratio, double coefficient, int flat)
 {
     const double t = 0.01, w = ratio * t;
@@ -280,19 +282,18 @@ static void torsion(double ratio, double coefficient, int flat)
                  "torsion of 1 : %g, flat %d", ratio, flat);
 }
 
-/* Compares with the slope of the stress function at the middles of the sides, from the double sine
- * series. */
+/* Compares the stresses with the slope of the stress function at the middles of the sides, from its
+ * double sine series. */
 static void torsion_exact(void)
 {
     const double t = 0.02, w = 0.03;
     const section_spec spec = rectangle_spec(w, t);
     const section c = sections_computed(&spec);
     const stress_points p = points_of(&spec, &c);
-    double shorter = 0; /* single series in 1/cosh of the other direction */
+    double shorter = 0; /* from a single series in 1/cosh of the other coordinate */
     for (int n = 1; n < 200; n += 2)
         shorter += 1 / (n * n * cosh(n * PI * t / (2 * w)));
-    for (int i = 0; i < p.count;
-         i++) /* tau_xy at z = w/2: the long side of the rectangle seen from z */
+    for (int i = 0; i < p.count; i++) /* tau_xy at z = w/2 */
         if (p.point[i].y == 0 && p.point[i].z > 0)
             gsl_test_rel(p.point[i].across[3][0], -w * (1 - 8 / (PI * PI) * shorter), 1e-3,
                          "middle of the short side, by the other series");
@@ -327,8 +328,8 @@ static void rectangle(void)
                  1e-12, "lying and standing");
 }
 
-/* The stresses that resultants cause in walls integrate to the same resultants: Simpson's rule is
- * exact, because all are quadratic along a wall. */
+/* The stresses in walls due to resultants integrate to the same resultants. Simpson's rule is
+ * exact, because all stresses are quadratic along a wall. */
 static void integrated(const char *name, const section_spec *spec)
 {
     static const double by[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -337,9 +338,8 @@ static void integrated(const char *name, const section_spec *spec)
     for (int k = 0; k < 4; k++) {
         double Q[2] = {0}, torque = 0;
         int from = 0;
-        while (
-            from <
-            p.count) { /* ends and middle of a wall on both surfaces, then further points of it */
+        while (from <
+               p.count) { /* ends and middle of a wall on both surfaces, then its other points */
             const stress_point *at = &p.point[from];
             const double length = hypot(at[4].y - at[0].y, at[4].z - at[0].z);
             double t = 0;
@@ -359,8 +359,8 @@ static void integrated(const char *name, const section_spec *spec)
                 Q[1] += share * tau[1];
                 torque += share * ((at[i].y - c.ys) * tau[1] - (at[i].z - c.zs) * tau[0]);
             }
-            if (k == 3) /* part that varies through the wall: half of t^3/3; the other half is
-                           across it */
+            if (k == 3) /* the part that varies through the wall, which is half of t^3/3; the other
+                         * half is due to stresses across the wall */
                 torque += length * t * t * t / 3;
             from += 6;
             while (from < p.count && (p.count - from) >= 2 &&
@@ -442,7 +442,7 @@ static void stress_tests(void)
              "given constants are refused (%s)", f.text);
 }
 
-/* Sections that change along a member: their ends, their middle, and rejected ones. */
+/* Tapered members: sections at their ends and middle, and rejected tapers. */
 
 /* Returns a doubly symmetric I-section with its web along z. */
 static section_spec i_shape(double depth, double flange, double thickness)
@@ -535,8 +535,8 @@ static void walls(void)
     gsl_test(checked(&p, &wide, &f) != STATUS_REFUSED, "walls that hang together otherwise");
 }
 
-/* Walls along z or oblique next to the shear centre: the web is along an axis rotated by an
- * angle. */
+/* Walls along z or at an angle near the shear centre: the web is along an axis rotated by
+ * `angle`. */
 static void turned_walls(double angle)
 {
     const double c = cos(angle), d = sin(angle);
