@@ -10,26 +10,26 @@
 
 enum { FIRST = 16, MORE = 12, MAX_STARTS = 5, MAX_VECTORS = 400 };
 
-/* Bounds on a residual, relative to its eigenvalue and to the largest eigenvalue, whose round-off
- * affects all.
- */
+/* Bounds on a residual relative to its eigenvalue. rounding_residual is relative to the largest
+ * eigenvalue, whose round-off affects all eigenvalues. */
 static const double good_residual = 1e-12, rounding_residual = 1e-14, stalled_residual = 1e-8,
                     bearable_residual = 1e-5;
 /* Eigenvalues with a smaller relative difference count as equal. */
 static const double same = 1e-6;
-/* Relative size of the remainder after orthogonalising a vector in the basis. */
+/* Relative length of the remainder of an orthogonalised vector up to which it counts as zero. */
 static const double nothing = 1e-14;
 
 typedef struct solver {
     const arnoldi_problem *p;
     arnoldi_result *out;
-    int room, count, chain; /* vectors; if chain is 1, the last one belongs to the current start */
-    double *Q, *TQ, *H;     /* [room x n], [room x n], [room x room] Q^T T Q */
+    int room, count,
+        chain; /* numbers of vectors; chain 1: the last one belongs to the current start vector */
+    double *Q, *TQ, *H; /* [room x n] basis Q, [room x n] T Q, [room x room] Q^T T Q */
     double *work, *A, *z, *re, *im;
     int *order;
     unsigned long long seed;
-    int found;         /* number of the Ritz values in order[] that are not round-off */
-    double *last;      /* [wanted] sizes when they last converged */
+    int found;         /* number of Ritz values in order[] that are not round-off */
+    double *last;      /* [wanted] magnitudes when they last converged */
     double complex *x; /* [n] */
 } solver;
 
@@ -64,7 +64,7 @@ static double orthogonalise(const solver *s, double x[])
     return before > 0 ? sqrt(dense_dot(n, x, x)) / before : 0;
 }
 
-/* Adds x, which is orthogonal to the basis. */
+/* Adds x, which must be orthogonal to the basis. */
 static void take(solver *s, double x[])
 {
     const int n = s->p->n, k = s->count++;
@@ -165,7 +165,7 @@ static double vector_of(const solver *s, int i, double complex x[])
     return sqrt(residual / length) / cabs(theta);
 }
 
-/* Have all the requested pairs converged? *worst: the largest residual. */
+/* Returns 1 if all the requested pairs have converged. *worst: the largest residual. */
 static int converged(solver *s, double *worst)
 {
     int good = 1;
@@ -178,7 +178,7 @@ static int converged(solver *s, double *worst)
     return good;
 }
 
-/* Did the last start vector yield an eigenvalue as large as the requested ones? */
+/* Returns 1 if the last start vector has yielded an eigenvalue as large as the requested ones. */
 static int changed(solver *s)
 {
     int different = 0;
@@ -190,7 +190,7 @@ static int changed(solver *s)
     return different;
 }
 
-/* Adds vectors until the wanted pairs have converged, or no further vector is useful. */
+/* Adds vectors until the requested pairs have converged or no further vector is useful. */
 static status iterate(solver *s, int vectors, fault *f)
 {
     for (double best = INFINITY, worst;; vectors = s->count / 3 > MORE ? s->count / 3 : MORE) {

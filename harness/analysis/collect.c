@@ -13,7 +13,7 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-/* Number of kept states of one analysis; most: limit per path. */
+/* Returns the number of states of one analysis that are kept; most: limit per path. */
 static int count_of(const analysis_outcome *o, int most)
 {
     if (o->kind == SCENE_MOTION)
@@ -54,7 +54,8 @@ static void keep_motion(const analysis_context *c, int analysis, shapes *s)
         keep(c, s, &(shape_state){SHAPE_MOTION, analysis, o->value[i], 1}, o->state[i]);
 }
 
-/* x[free + driven]; the analysis is linearised about the last state of the path it follows. */
+/* Stores the state displaced by x[free + driven]. The analysis is linearised about the last state
+ * of the path that it follows. */
 static status keep_displaced(const analysis_context *c, shape_state *what, const double x[],
                              const double sigma[], shapes *s, fault *f)
 {
@@ -77,7 +78,7 @@ static status keep_displaced(const analysis_context *c, shape_state *what, const
     return outcome;
 }
 
-/* sigma[stresses] is work space. */
+/* Stores the displacements of linear solutions. sigma[stresses]: workspace. */
 static status keep_displacements(const analysis_context *c, int analysis, double sigma[], shapes *s,
                                  fault *f)
 {
@@ -102,7 +103,7 @@ static status keep_linear(const analysis_context *c, int analysis, shapes *s, fa
     return outcome;
 }
 
-/* x[free + driven] is work space. */
+/* Stores the modes of one side. x[free + driven]: workspace. */
 static status keep_modes_in(const analysis_context *c, int analysis, const outcome_side *side,
                             double x[], shapes *s, fault *f)
 {
@@ -117,7 +118,7 @@ static status keep_modes_in(const analysis_context *c, int analysis, const outco
     return STATUS_OK;
 }
 
-/* mode[count x free] */
+/* Stores the modes mode[count x free] of one side. */
 static status keep_modes(const analysis_context *c, int analysis, const outcome_side *side,
                          shapes *s, fault *f)
 {
@@ -132,7 +133,7 @@ static status keep_modes(const analysis_context *c, int analysis, const outcome_
     return outcome;
 }
 
-/* The caller, collect_shapes, frees *s, also after a failure. */
+/* Stores all shapes. The caller, collect_shapes, frees *s, also after a failure. */
 static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
 {
     TRY(shapes_alloc(s, f));
@@ -174,7 +175,7 @@ status collect_shapes(const analysis_context *c, int most, shapes *s, fault *f)
 
 /* Workspace shared by all states. */
 typedef struct workspace {
-    sparse K, M, G, C; /* for linear models: including driven coordinates */
+    sparse K, M, G, C; /* for linear models, including the driven coordinates */
     int models, free, all;
     double *residual, *load; /* [free + driven] */
     double *sigma;           /* [stresses] */
@@ -233,7 +234,7 @@ static status next(system_matrices *s, state_matrices **out, fault *f)
     return STATUS_OK;
 }
 
-/* B: each load at factor 1, as it acts in this state. */
+/* Fills B: the forces of each load at factor 1, as it acts in this state. */
 static status inputs(const analysis_context *c, const model_state *state, workspace *w,
                      triplets *out, fault *f)
 {
@@ -248,7 +249,7 @@ static status inputs(const analysis_context *c, const model_state *state, worksp
     return triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
 }
 
-/* The block of the free coordinates. */
+/* Stores the block of the free coordinates. */
 static status keep_block(const workspace *w, const sparse *a, int skew, triplets *out, fault *f)
 {
     TRY(triplets_of(a, skew, out, f));
@@ -272,8 +273,8 @@ static status keep_model(const analysis_context *c, const model_state *state, co
     return w->models ? second_order_keep(&v, out->turns ? &w->G : NULL, s, out, f) : STATUS_OK;
 }
 
-/* Stores K, which is known, and B; also M if the formulation has inertia, and G if the axes rotate.
- */
+/* Stores K, which has been computed, and B. Also stores M if the formulation has inertia, and G if
+ * the axes rotate. */
 static status systems_keep(const analysis_context *c, const model_state *state, double path,
                            workspace *w, const system_matrices *s, state_matrices *out, fault *f)
 {
@@ -293,8 +294,8 @@ static status systems_keep(const analysis_context *c, const model_state *state, 
     return keep_model(c, state, w, s, out, f);
 }
 
-/* Stores the matrices of the undeformed structure. displaced: displacements of the linear solution
- * that gives the stresses, under the loads at `path`; NULL: none. */
+/* Stores the matrices of the undeformed structure. displaced: displacements of the linear solution,
+ * under the loads at `path`, that causes the stresses; NULL: there are no stresses. */
 static status systems_keep_linear(const analysis_context *c, int analysis, const double displaced[],
                                   double path, workspace *w, system_matrices *s, fault *f)
 {
@@ -314,7 +315,7 @@ static status systems_keep_linear(const analysis_context *c, int analysis, const
                : STATUS_OK;
 }
 
-/* The tangent of a state of a path, in the axes of the analysis. */
+/* Stores the tangent of a state of a path, in the axes of the analysis. */
 static status keep_state(const analysis_context *c, int analysis, int station,
                          const model_state *state, workspace *w, system_matrices *s, fault *f)
 {
@@ -337,15 +338,14 @@ static status systems_keep_path(const analysis_context *c, int analysis, workspa
 {
     const outcome_path *path = outcome_path_of(&c->outcomes[analysis]);
     const scene_analysis_kind kind = c->scene->analysis[analysis].kind;
-    if (kind == SCENE_COMPLIANCE || kind == SCENE_MOTION) /* these are about the states of another
-                                                             analysis; there is no equilibrium */
+    if (kind == SCENE_COMPLIANCE || kind == SCENE_MOTION) /* of others; no equilibrium */
         return STATUS_OK;
     for (int i = 0; i < path->reached; i++)
         TRY(keep_state(c, analysis, i, path->state[i], w, s, f));
     return STATUS_OK;
 }
 
-/* The state without loads; stress-free strains remain. */
+/* Stores the matrices of the state without loads, in which stress-free strains remain. */
 static status keep_unloaded(const analysis_context *c, int analysis, workspace *w,
                             system_matrices *s, fault *f)
 {
@@ -354,7 +354,7 @@ static status keep_unloaded(const analysis_context *c, int analysis, workspace *
     return systems_keep_linear(&unloaded, analysis, strained, 0, w, s, f);
 }
 
-/* The matrices about the state that the modal analysis follows. */
+/* Stores the matrices about the state that the modal analysis follows. */
 static status keep_about(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {
@@ -369,7 +369,8 @@ static status keep_about(const analysis_context *c, int analysis, workspace *w, 
     return keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f);
 }
 
-/* Matrices about an instant of a motion: C is the damping, G the remaining effect of rates. */
+/* Stores the matrices about an instant of a motion. C is the damping matrix; G contains the
+ * remaining effects of the rates. */
 static status keep_instant(const analysis_context *c, int analysis, workspace *w,
                            system_matrices *s, fault *f)
 {
@@ -404,7 +405,7 @@ static status keep_instant(const analysis_context *c, int analysis, workspace *w
     return outcome;
 }
 
-/* Stores the matrices of a modal analysis and its modes; nothing if it failed. */
+/* Stores the matrices of a modal analysis and its modes; stores nothing if the analysis failed. */
 static status keep_modal(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {
@@ -427,7 +428,7 @@ static status keep_modal(const analysis_context *c, int analysis, workspace *w, 
     return STATUS_OK;
 }
 
-/* The linear model of a harmonic analysis, with its damping. */
+/* Stores the linear model of a harmonic analysis, including its damping. */
 static status keep_harmonic(analysis_context *c, int analysis, const workspace *w,
                             system_matrices *s, fault *f)
 {

@@ -1,6 +1,7 @@
 /* Continuation of an equilibrium path by displacement or arc length. A step is repeated in smaller
- * steps if its rotation is too large, or if the tangent stiffness changes by more than one critical
- * point. If the smaller steps end at another point, the step had jumped. */
+ * steps if the path rotates too far in it, or if the change of the tangent stiffness indicates more
+ * than one critical point. If the smaller steps end at a different point, the step has jumped to
+ * another branch. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -8,23 +9,23 @@
 
 #include "harness/model/model.h"
 
-/* continuation.c: reason why the step from `here` to `next` is too long or led to another branch;
- * NULL: valid. *swing: rotation of the path relative to its limit. last_resort: the step cannot be
- * shorter, so several critical points may lie in it. */
+/* Returns the reason why the step from `here` to `next` is too long or led to another branch; NULL:
+ * the step is valid. *swing: rotation of the path relative to its limit. last_resort: the step
+ * cannot be shorter, so it may contain several critical points. */
 static const char *continuation_sound_doubt(const continuation *, int last_resort, double *swing);
 /* Reports a jump: the step from the control coordinate `from` led to the rival, but the path leads
- * to `here`. With constant steps the path ends there. */
+ * to `here`. If the steps are constant, the path ends there. */
 static status continuation_sound_report_jump(continuation *, const rival *, double from, fault *);
 
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
-/* Target rotation of the next step relative to its limit: the longest steps with a rejection rate
- * below 1 % (measured on c_cantilever: 0.5 costs 10 % more, 0.85 the same). */
+/* Target rotation of the next step relative to its limit: it gives the longest steps with a
+ * rejection rate below 1 % (measured on c_cantilever: 0.5 costs 10 % more, 0.85 costs the same). */
 static const double aim = 0.7;
 
-/* Result of an attempt. */
+/* Result of an attempted step. */
 typedef struct attempt {
-    const char *doubt; /* NULL: sound */
-    double swing;      /* relative to its limit */
+    const char *doubt; /* NULL: sound; otherwise the reason */
+    double swing;      /* rotation of the path relative to its limit */
     step_record record;
 } attempt;
 
@@ -55,8 +56,8 @@ static status add_point(continuation *p, fault *f)
     return STATUS_OK;
 }
 
-/* Records whether the critical points of the step from `before` to `here` are known and, without an
- * inertia, the number of eigenvalues that have passed zero. */
+/* Records whether the critical points of the step from `before` to `here` are known. Without an
+ * inertia, also records the number of eigenvalues that have passed zero. */
 static void judge(continuation *p, const path_point *before, step_record *record)
 {
     outcome_continuation *o = p->o;
@@ -75,7 +76,7 @@ static void judge(continuation *p, const path_point *before, step_record *record
     record->by_eigenvalues = !p->here.symmetric && !o->undecided && p->first >= 0;
 }
 
-/* `next` becomes `here`. */
+/* Makes `next` the point `here`. */
 static status accept(continuation *p, step_record *record, fault *f)
 {
     const path_point before = p->here;
@@ -92,7 +93,7 @@ static status accept(continuation *p, step_record *record, fault *f)
     return history_add_step(p->c->result, record, f);
 }
 
-/* The first step follows the control coordinate, with or against the load. */
+/* Sets the direction of the first step, along the control coordinate, with or against the load. */
 static void turn_start(continuation *p)
 {
     if (p->o->points > 1 || continuation_step_dot(p, p->here.tangent, p->moved) >= 0)
@@ -102,8 +103,8 @@ static void turn_start(continuation *p)
         p->here.tangent[k] = -p->here.tangent[k];
 }
 
-/* Corrects the state and evaluates the point. Not valid: the state found may be on another branch.
- * A step along the arc ends at the next station. */
+/* Corrects the state and evaluates the point. If the attempt is not sound, the state may be on
+ * another branch. A step along the arc ends at the next station. */
 static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t,
                        fault *f)
 {
@@ -156,8 +157,8 @@ static double length_left(const continuation *p, path_goal goal, double gone)
     return goal.by_arc ? goal.value - gone : fabs(goal.value - p->here.control);
 }
 
-/* The arc length to a point depends on the steps, so a rival that has not been reached may lie
- * farther along the arc. */
+/* Returns 1 if the goal has been reached. The arc length to a point depends on the steps, so a
+ * rival that has not been reached may lie farther along the arc. */
 static int arrived(const continuation *p, path_goal goal, double station, const rival *r,
                    double gone, double nearest)
 {
@@ -167,7 +168,7 @@ static int arrived(const continuation *p, path_goal goal, double station, const 
                                                nearest <= goal.value / 2 || gone >= 3 * goal.value);
 }
 
-/* The next part of the step from the control coordinate `from` to the goal. */
+/* Returns the goal of the next part of the step from the control coordinate `from` to the goal. */
 static path_goal part_of(const continuation *p, path_goal goal, double from, double length,
                          int last)
 {
@@ -221,7 +222,8 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
                                               : STATUS_OK;
 }
 
-/* Stores the end of a step that may lie on another branch: smaller steps may lead elsewhere. */
+/* Stores the end of a step that may lie on another branch, because smaller steps may lead to a
+ * different end. */
 static status rival_alloc(const continuation *p, rival *r, fault *f)
 {
     TRY(kinematics_state_alloc(p->c->model, &r->state, f));
@@ -230,8 +232,8 @@ static status rival_alloc(const continuation *p, rival *r, fault *f)
     return STATUS_OK;
 }
 
-/* Repeats a step in smaller steps if it failed or if its end, then the rival, may lie on another
- * branch. reach() frees the rival. */
+/* Repeats a step in smaller steps if it failed, or if its end, then stored as the rival, may lie on
+ * another branch. reach() frees the rival. */
 static status try_again(continuation *p, path_goal goal, double station, const attempt *t,
                         int doubted, rival *r, double *size, fault *f)
 {
@@ -241,7 +243,7 @@ static status try_again(continuation *p, path_goal goal, double station, const a
     return retrace(p, goal, station, r, size, f);
 }
 
-/* Reaches the goal in one step or several. */
+/* Reaches the goal in one or more steps. */
 static status reach(continuation *p, path_goal goal, double station, double *size, fault *f)
 {
     attempt t = {0};
@@ -260,7 +262,7 @@ static status reach(continuation *p, path_goal goal, double station, double *siz
     return outcome;
 }
 
-/* The goal of the next step towards the station. */
+/* Returns the goal of the next step towards the station. */
 static path_goal next_goal(const continuation *p, double station, double length)
 {
     const double left = station - p->here.control;
@@ -283,7 +285,7 @@ static status walk_to(continuation *p, double station, double *size, fault *f)
     return STATUS_OK;
 }
 
-/* Equilibrium without the proportional loads, and the tangent there. */
+/* Computes the equilibrium without the proportional loads, and the tangent there. */
 static status start(continuation *p, fault *f)
 {
     step_record record = {0};
@@ -293,7 +295,7 @@ static status start(continuation *p, fault *f)
     return add_point(p, f);
 }
 
-/* The caller, continuation_analysis, frees *p, also after a failure. */
+/* Follows the path. The caller, continuation_analysis, frees *p, also after a failure. */
 static status walk(analysis_context *c, int analysis, outcome_continuation *o, continuation *p,
                    fault *f)
 {
@@ -316,13 +318,13 @@ status continuation_analysis(analysis_context *c, int analysis, analysis_outcome
     return result;
 }
 
-/* Checks whether a step stayed on its branch, and reports if not. */
+/* Checks whether a step stayed on its branch, and reports a jump. */
 
-/* Limit of the angle between the tangent and the secant [rad] in the metric: the relative error of
- * the tangent over a step. It controls the step size. */
+/* Limit of the angle [rad] between the tangent and the secant in the metric, that is, of the
+ * relative error of the tangent over a step. This limit controls the step size. */
 static const double largest_swing = 0.3;
-/* largest rotation of any node in one step [rad]: a guard for paths on which few nodes rotate.
- * Steps of a tenth of both limits lead to the same states and events in all runs of `verify`. */
+/* Largest rotation of any node in one step [rad], a guard for paths on which few nodes rotate.
+ * Steps with a tenth of both limits lead to the same states and events in all runs of `verify`. */
 static const double largest_turn = 0.5;
 
 static double angle_to_secant(const continuation *p, const double tangent[], double length)
@@ -342,8 +344,8 @@ static const char *continuation_sound_doubt(const continuation *p, int last_reso
         return "its direction changes too much";
     if (!(turned <= largest_turn))
         return "a node rotates too far";
-    /* At a limit point the rate changes its sign, and so does the determinant, by one pivot. At
-     * bifurcations only the determinant changes; several may coincide. */
+    /* At a limit point the rate changes its sign, and so does the determinant, by one pivot. At a
+     * bifurcation only the determinant changes its sign; several bifurcations may coincide. */
     const int reversed = (a->rate < 0) != (b->rate < 0), pivots = abs(b->negative - a->negative);
     if (!last_resort && reversed && (pivots > 1 || a->determinant == b->determinant))
         return "the pivots of its tangent stiffness change by more than one critical point "

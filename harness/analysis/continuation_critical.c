@@ -2,8 +2,8 @@
  * gives their kind.
  *
  * Along a path K x' = f' l', so at a critical point 0 = phi . K x' = (phi . f') l': either the load
- * has an extremum (limit point) or its work on phi is zero (bifurcation). K need not be symmetric:
- * phi is its left null vector. */
+ * has an extremum (limit point) or the work of f' on phi is zero (bifurcation). K need not be
+ * symmetric; phi is its left null vector. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -14,22 +14,23 @@
 
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 6, CORRECTIONS = 2 };
 static const double least_load_work =
-    1e-5; /* smallest work on the load of a null vector at a limit point */
-static const double closeness = 1e-10; /* of a trial point, relative to the step */
-static const double near = 1e-3; /* of a vanishing eigenvalue, relative to its earlier values */
+    1e-5; /* smallest work of the load on a null vector at a limit point */
+static const double closeness = 1e-10; /* distance of a trial point, relative to the step */
+static const double near = 1e-3;       /* vanishing eigenvalue, relative to its earlier values */
 static const double one_point =
-    1e-6; /* distance below which two points count as one, relative to the step */
-static const double touches = 0.02; /* smallest value relative to its neighbours */
+    1e-6; /* distance, relative to the step, below which two points count as one */
+static const double touches =
+    0.02; /* smallest value of an indicator that counts as zero, relative to its neighbours */
 static const double aside =
-    1e-3; /* real part of a pair that crosses the imaginary axis near zero */
+    1e-3; /* largest relative real part of a pair that crosses the imaginary axis near zero */
 
 /* One end of the interval in which the critical point lies. */
 typedef struct bound {
-    double at, value; /* part of the step; test function, NAN: unknown */
+    double at, value; /* fraction of the step; value of the test function, NAN: unknown */
 } bound;
 
-/* mode: left eigenvector of K with its smallest eigenvalue, which is returned; K is factored in the
- * current state. */
+/* Returns the smallest eigenvalue of K; p->mode becomes its left eigenvector. K must be factored in
+ * the current state. */
 static double least_eigenvalue(continuation *p)
 {
     double *x = p->mode, eigenvalue = NAN;
@@ -54,20 +55,20 @@ static double least_eigenvalue(continuation *p)
     return eigenvalue;
 }
 
-/* Returns the smallest eigenvalue at the point, where K is factored, or the real part of the
- * eigenvalue nearest to zero. */
+/* Returns the smallest eigenvalue of K at the point where K is factored or, if K is not symmetric,
+ * the real part of the eigenvalue nearest to zero. */
 static double least_of(continuation *p, const path_point *at)
 {
     return at->symmetric ? least_eigenvalue(p) : at->least;
 }
 
-/* Is the eigenvalue nearest to zero a pair with a negligible real part? */
+/* Returns 1 if the eigenvalue nearest to zero belongs to a pair with a negligible real part. */
 static int is_aside(const path_point *at)
 {
     return !at->symmetric && at->nearest > 0 && fabs(creal(at->mu[0])) < aside * cabs(at->mu[0]);
 }
 
-/* |phi . f'|/(|phi| |f'|), with lengths in the metric and its dual. */
+/* Returns |phi . f'|/(|phi| |f'|), where the lengths are those in the metric and in its dual. */
 static double load_work(continuation *p)
 {
     const double *load = p->load;
@@ -88,11 +89,12 @@ static path_goal part_of(const continuation *p, path_goal goal, double part)
 /* Target of the search: the first point after `from` where the count changes. */
 typedef struct sought {
     int by_rate;
-    double from;  /* part of the step */
-    int negative; /* pivots there */
+    double from;  /* fraction of the step */
+    int negative; /* number of negative pivots at `from` */
 } sought;
 
-/* Does the indicator of the critical point still have its initial value? */
+/* Returns 1 if the indicator of the critical point still has its initial value at the trial
+ * point. */
 static int is_before(const continuation *p, const sought *s)
 {
     if (s->by_rate)
@@ -102,8 +104,8 @@ static int is_before(const continuation *p, const sought *s)
     return p->trial.negative == s->negative;
 }
 
-/* Evaluates the point at this fraction of the step; *before: 1 if it lies before the critical
- * point. */
+/* Evaluates the point at fraction b->at of the step. *before: 1 if this point lies before the
+ * critical point. */
 static status try_at(continuation *p, path_goal goal, const sought *s, bound *b, int *before,
                      fault *f)
 {
@@ -123,7 +125,8 @@ static status try_at(continuation *p, path_goal goal, const sought *s, bound *b,
     return STATUS_OK;
 }
 
-/* Secant with Illinois weights if both values are known, otherwise the midpoint. */
+/* Returns the next fraction to be examined: the secant with Illinois weights if both values are
+ * known, otherwise the midpoint. */
 static double next_part(const bound *low, const bound *high)
 {
     const double width = high->at - low->at;
@@ -131,8 +134,8 @@ static double next_part(const bound *low, const bound *high)
     return isfinite(secant) && secant > low->at && secant < high->at ? secant : low->at + width / 2;
 }
 
-/* Narrows the interval; the final state is the critical point, up to round-off. *gone: the test
- * function has no zero; *after: fraction of the step after the point. */
+/* Narrows the interval; the final state is the critical point, up to round-off. *gone: 1 if the
+ * test function has no zero; *behind: fraction of the step just after the point. */
 static status locate(continuation *p, path_goal goal, const sought *s, int *gone, double *behind,
                      fault *f)
 {
@@ -146,7 +149,7 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
         int before = 0;
         const status outcome = try_at(p, goal, s, &trial, &before, f);
         at = trial.at;
-        const int at_it = i > 0 && value <= near * scale; /* there, corrections are round-off */
+        const int at_it = i > 0 && value <= near * scale; /* here, corrections are round-off */
         if (outcome == STATUS_SINGULAR || (outcome == STATUS_NOT_CONVERGED && at_it))
             break;
         TRY(outcome);
@@ -174,7 +177,7 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
 }
 
 /* Counts the negative pivots after the point, once all the eigenvalues that vanish at it have
- * passed zero; *at: fraction of the step where they are counted. */
+ * passed zero; *at: fraction of the step where the pivots are counted. */
 static status count_behind(continuation *p, path_goal goal, const sought *s, double *at,
                            int *negative, fault *f)
 {
@@ -189,16 +192,17 @@ static status count_behind(continuation *p, path_goal goal, const sought *s, dou
     return STATUS_OK;
 }
 
-/* Returns 1 if the count changes without an eigenvalue at zero: a pair crosses the imaginary axis
- * away from zero, and no branch starts. */
+/* Returns 1 if the count changes although no eigenvalue passes zero: a pair crosses the imaginary
+ * axis away from zero, and no branch starts. */
 static int is_pair(const continuation *p, const sought *s)
 {
     return !s->by_rate && !p->next.symmetric && p->narrow && s->negative >= 0 &&
            p->next.negative >= 0;
 }
 
-/* Is a node fixed about some axes and free about others? Its tangent does not contain the moment of
- * the support, so a pair that passes near zero may really pass through zero. */
+/* Returns 1 if a node is fixed about some axes and free about others. The tangent then does not
+ * contain the moment of the support, so a pair that passes near zero may really pass through
+ * zero. */
 static int holds_some_turns(const model *m)
 {
     const scene *s = model_scene(m);
@@ -212,7 +216,7 @@ static int holds_some_turns(const model *m)
     return 0;
 }
 
-/* Continues the search *s after the pair, which is not a critical point. */
+/* Continues the search *s after the pair, whose crossing is not a critical point. */
 static status pass_pair(continuation *p, path_goal goal, sought *s, double behind, int *jump,
                         fault *f)
 {
@@ -257,7 +261,7 @@ static status report_critical(continuation *p, path_goal goal, sought *s, int *j
     return *jump ? STATUS_OK : history_add_event(p->c->result, &event, f);
 }
 
-/* Reports all critical points in their order. */
+/* Reports all critical points in order. */
 static status report_all(continuation *p, path_goal goal, int by_rate, int *jump, fault *f)
 {
     sought s = {by_rate, 0, p->here.negative};
@@ -267,8 +271,8 @@ static status report_all(continuation *p, path_goal goal, int by_rate, int *jump
     return STATUS_OK;
 }
 
-/* Makes the state at this fraction of the step the trial point (the first or the next). Two
- * corrections are enough for a state that is only examined. */
+/* Makes the state at this fraction of the step the trial point, either the first one or the next.
+ * Two corrections are enough for a state that is only examined. */
 static status look_at(continuation *p, path_goal goal, double part, int first, fault *f)
 {
     const path_goal to = part_of(p, goal, part);
@@ -285,8 +289,8 @@ static status look_at(continuation *p, path_goal goal, double part, int first, f
     return continuation_step_look(p, p->moved, &p->trial, &unused, f);
 }
 
-/* Does a parabola through three equidistant values of one sign reach zero between them, or nearly?
- */
+/* Returns 1 if a parabola through three equidistant values of one sign reaches or almost reaches
+ * zero between them. */
 static int dips(const double value[3])
 {
     const double sign = value[1] > 0 ? 1 : -1, bend = value[0] - 2 * value[1] + value[2],
@@ -297,7 +301,8 @@ static int dips(const double value[3])
                touches * fmax(fabs(value[0]), fabs(value[2]));
 }
 
-/* Does an indicator of a critical point change back between a and b, in a step that ends at c? */
+/* Returns 1 if an indicator of a critical point changes between a and b and changes back in the
+ * step, which ends at c. */
 static int goes_back(const path_point *a, const path_point *b, const path_point *c)
 {
     const int of_rate = (a->rate < 0) == (c->rate < 0) && (b->rate < 0) != (c->rate < 0);
@@ -307,8 +312,8 @@ static int goes_back(const path_point *a, const path_point *b, const path_point 
            b->negative > (a->negative > c->negative ? a : c)->negative;
 }
 
-/* Examines every sixth of the step: a loss of stability over a fifth of the step contains one of
- * these points. */
+/* Examines the state after every sixth of the step, so that a loss of stability over a fifth of the
+ * step contains one of these states. */
 static status look_within(continuation *p, path_goal goal, int *hidden, fault *f)
 {
     double value[PARTS + 1] = {p->here.least, [PARTS] = p->next.least};
@@ -331,7 +336,7 @@ status continuation_critical_within(continuation *p, path_goal goal, int *hidden
         return STATUS_OK;
     const arrival before = p->n.arrival;
     kinematics_state_copy(p->c->model, p->n.state, p->end);
-    p->n.arrival.criterion = INFINITY; /* one correction at a time */
+    p->n.arrival.criterion = INFINITY; /* so that Newton's method makes one correction at a time */
     const status outcome = look_within(p, goal, hidden, f);
     p->n.arrival = before;
     kinematics_state_copy(p->c->model, p->end, p->n.state);

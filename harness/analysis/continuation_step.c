@@ -1,4 +1,5 @@
-/* One point of a continued path: Newton's method with a constraint, and the tangent there. */
+/* One point of a continued path: Newton's method with a constraint, and the tangent of the path
+ * there. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-/* 1: a curve of coordinates is requested, so the states of all points are kept. */
+/* Returns 1 if a curve of coordinates is requested, so that the states of all points are kept. */
 static int continuation_extract_keeps_states(const scene *, int analysis);
 
 status continuation_step_alloc(analysis_context *c, int analysis, outcome_continuation *o,
@@ -63,7 +64,7 @@ double continuation_step_dot(const continuation *p, const double a[], const doub
     return sum;
 }
 
-/* n.dx = K^-1 r and response = K^-1 f' in the current state. */
+/* Computes n.dx = K^-1 r and response = K^-1 f' in the current state. */
 static status directions(continuation *p, step_record *record, fault *f)
 {
     const double load = kinematics_state_path(p->n.state);
@@ -83,14 +84,14 @@ static double control_value(const continuation *p)
     return kinematics_component(p->c->model, p->n.state, p->by->node, p->by->component);
 }
 
-/* Residual of the constraint. */
+/* Returns the residual of the constraint. */
 static double residual_of(const continuation *p, path_goal goal)
 {
     return goal.value -
            (goal.by_arc ? continuation_step_dot(p, p->here.tangent, p->moved) : control_value(p));
 }
 
-/* Change of the constraint with an increment of the coordinates. */
+/* Returns the change of the constraint due to an increment of the coordinates. */
 static double change_of(const continuation *p, path_goal goal, const double dx[])
 {
     if (goal.by_arc)
@@ -142,7 +143,8 @@ status continuation_step_go_on(continuation *p, path_goal goal, step_record *rec
     return newton_iterate(p->c, &use, &p->n.arrival, record, f);
 }
 
-/* Counts eigenvalues of an unsymmetric tangent, which has no inertia in the sense of Sylvester. */
+/* Counts the eigenvalues left of the imaginary axis for an unsymmetric tangent, to which
+ * Sylvester's law of inertia does not apply. */
 static status index_of(continuation *p, path_point *out, fault *f)
 {
     left_of_axis left;
@@ -212,7 +214,8 @@ static int continuation_extract_keeps_states(const scene *s, int analysis)
     return 0;
 }
 
-/* Load factor or coordinate against the control coordinate, at every point. */
+/* Stores the load factor or a coordinate as a function of the control coordinate, at every
+ * point. */
 static void take_curve(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, quantity_result *r)
 {

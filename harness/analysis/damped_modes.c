@@ -10,7 +10,7 @@
 #include "elements/math/scalar.h"
 #include "harness/model/model.h"
 
-/* With at most this many states, all poles of closed loops are found. */
+/* Up to this number of states, all poles of closed loops are found. */
 enum { ALL_STATES = 400 };
 
 static status no_memory(fault *f)
@@ -37,7 +37,8 @@ static double diagonal(const sparse *a, int j)
     return 0;
 }
 
-/* Largest quotient of diagonal entries, approximately the square of the highest frequency. */
+/* Returns the square root of the largest quotient of diagonal entries, which approximates the
+ * highest circular frequency. */
 static double highest(const unsymmetric_problem *p)
 {
     double square = 0;
@@ -88,7 +89,7 @@ static int hides(const unsymmetric_problem *p, const unsymmetric_result *r)
     return hidden;
 }
 
-/* own: values of K and C without the shift. */
+/* Shifts the matrices. own: values of K and C without the shift. */
 static void shift_by(sparse closed[], const double own[], double shift)
 {
     sparse *K = &closed[0], *M = &closed[1], *C = &closed[2];
@@ -98,8 +99,8 @@ static void shift_by(sparse closed[], const double own[], double shift)
     }
 }
 
-/* The shift is a small part of the slowest mode after the poles of integrals. A first shift finds
- * that mode. */
+/* Solves with a shift that is a small fraction of the slowest mode after the poles of integrals. A
+ * first shift serves to find that mode. */
 static status solve_shifted(vibration *v, unsymmetric_problem *p, int integrals, sparse closed[],
                             const double own[], double first, unsymmetric_result *r, fault *f)
 {
@@ -189,8 +190,8 @@ static status take_frequencies(const harmonic_modes *m, int *count, double **her
     return STATUS_OK;
 }
 
-/* Finds the damped modes of at least those frequencies [Hz]. With closed loops, it finds all modes,
- * or as many as a reasonable effort finds. */
+/* Finds the damped modes up to the frequency `below` [Hz]. If loops are closed, finds all modes, or
+ * as many as can be found with reasonable effort. */
 static status find_damped_of(vibration *v, const sparse *const of[], sparse closed[],
                              matrix_factor *factor, double below, unsymmetric_result *r, fault *f)
 {
@@ -224,8 +225,8 @@ static status find_damped_of(vibration *v, const sparse *const of[], sparse clos
     return STATUS_OK;
 }
 
-/* Frequencies of damped modes, for an unsymmetric K or gyroscopic damping: undamped frequencies, if
- * there are any, may be far from all peaks. */
+/* Finds the frequencies of damped modes if K is unsymmetric or the damping is gyroscopic. Undamped
+ * frequencies, if there are any, may then be far from all peaks. */
 static status find_damped(vibration *v, harmonic_modes *m, double below, unsymmetric_result *r,
                           fault *f)
 {
@@ -277,7 +278,7 @@ static status damped_frequencies(vibration *v, double below, int *count, double 
     return outcome;
 }
 
-/* Is the growth above round-off? */
+/* Returns 1 if the growth is larger than round-off. */
 static int grows(const vibration *v, const unsymmetric_result *r, int i)
 {
     return r->growth[i] > (v->about != NULL ? 1e-7 : 1e-9) * r->frequency[i];
@@ -390,8 +391,8 @@ static void say_instant(const vibration *v, size_t size, char out[])
              a->axes_of != SCENE_NONE ? scene_name(v->c->scene, SCENE_NODES, a->axes_of).text : "");
 }
 
-/* Finds modes, with the factors of K. closed: matrices with closed loops, whose integrals follow
- * the coordinates, or NULL. */
+/* Finds modes with the factors of K. closed: matrices with closed loops, whose integrals follow the
+ * coordinates; NULL: no loop is closed. */
 static status find_modes_with(vibration *v, const sparse *const of[], matrix_factor *factor,
                               sparse closed[], unsymmetric_result *r, fault *f)
 {
@@ -425,7 +426,7 @@ static status find_modes_with(vibration *v, const sparse *const of[], matrix_fac
                            closed != NULL ? "; with feedback, use fewer elements" : "");
 }
 
-/* Removes the loop integrals from the modes. */
+/* Removes the integrals of the loops from the modes. */
 static void shorten(unsymmetric_result *r, int n)
 {
     for (int i = 1; i < r->count && n < r->n; i++)

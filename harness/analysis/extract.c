@@ -10,10 +10,10 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
-/* Critical load factor of the wanted sign and order. */
+/* Takes the critical load factor of the requested sign and order. */
 static void extract_spectrum_buckling(const analysis_context *, const scene_quantity *,
                                       const analysis_outcome *, quantity_result *);
-/* Frequency [Hz] of the wanted kind and order of mode. */
+/* Takes the frequency [Hz] of the requested kind and order of mode. */
 static void extract_spectrum_modal(const analysis_context *, const scene_quantity *,
                                    const analysis_outcome *, quantity_result *);
 
@@ -21,7 +21,7 @@ static const char *const no_frequency =
     "the mesh has no mode of this kind that is distinguishable from round-off; coordinates with "
     "little or no mass have no mode";
 
-/* Does the node have its own angle about this component? */
+/* Returns 1 if the node has its own angle about this component. */
 static int is_turned(const scene *s, int node, int component, fault *f)
 {
     double axis[3];
@@ -35,7 +35,7 @@ static int is_turned(const scene *s, int node, int component, fault *f)
     return 0;
 }
 
-/* Is the quantity defined if nodes rotate independently? */
+/* Returns 1 if the quantity is defined although nodes rotate independently. */
 static int is_defined(const scene *s, const scene_quantity *q, fault *f)
 {
     const quantity_type *type = quantity_type_of(q);
@@ -46,7 +46,7 @@ static int is_defined(const scene *s, const scene_quantity *q, fault *f)
     return 1;
 }
 
-/* Takes a value at full load, about the undeformed state, under one load case or combination. */
+/* Takes a value at full load, about the undeformed state, for one load case or combination. */
 static void under_one(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                       int acting, quantity_result *r)
 {
@@ -112,7 +112,7 @@ static void from_linear(const analysis_context *c, const scene_quantity *q,
                   r);
 }
 
-/* Did a failed analysis leave results? */
+/* Returns 1 if a failed analysis has left results. */
 static int has_anything(const analysis_outcome *o)
 {
     if (o->kind == SCENE_CONTINUATION && outcome_continuation_of(o)->points > 0)
@@ -132,7 +132,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     const analysis_outcome *o = &c->outcomes[q->analysis];
     fault f = {""};
     memset(r, 0, sizeof *r);
-    if (q->what.kind == SCENE_ENVELOPE_OF) /* computed from later values: solve.c */
+    if (q->what.kind == SCENE_ENVELOPE_OF) /* computed later, from other values: solve.c */
         return;
     if (!is_defined(c->scene, q, &f)) {
         quantity_no_value(r, STATUS_REFUSED, f.text);
@@ -178,13 +178,13 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         quantity_no_value(r, STATUS_SINGULAR, "the value is not finite");
 }
 
-/* Takes value i of a side, or the reason why it does not exist. */
+/* Takes value i of a side, or the reason why this value does not exist. */
 static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i,
                             quantity_result *r)
 {
     const quantity_eigenvalue found = {side->value[i], side->growth != NULL ? -side->growth[i] : 0};
     const double size = hypot(found.decay, found.value);
-    const double undamped = 1e-4; /* with a larger error, zero damping cannot be established */
+    const double undamped = 1e-4; /* if the error is larger, zero damping cannot be established */
     double part;
     if (isnan(found.value)) {
         quantity_no_value(r, side->status, side->reason);
@@ -195,7 +195,7 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
     if (side->growth != NULL && part == 0 && found.decay == 0 && r->rounding > undamped)
         quantity_no_value(r, STATUS_NOT_CONVERGED,
                           "the damping is lost in round-off; use fewer elements");
-    if (side->growth != NULL) /* the error is that of the whole complex eigenvalue */
+    if (side->growth != NULL) /* the error is that of the complex eigenvalue */
         r->rounding = part != 0 ? r->rounding * size / fabs(part) : 0;
 }
 
@@ -256,7 +256,8 @@ static void extract_spectrum_buckling(const analysis_context *c, const scene_qua
     quantity_no_value(r, side->status, why);
 }
 
-/* *found: the requested mode (kind and order); -1: none. x[free + driven] is work space. */
+/* Sets *found to the number of the requested mode (kind and order); -1: there is none. x[free +
+ * driven]: workspace. */
 static status find_mode(const analysis_context *c, const scene_mode *wanted,
                         const outcome_side *side, double x[], int *found, fault *f)
 {

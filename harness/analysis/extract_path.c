@@ -7,7 +7,7 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
-/* A value with its relative error; NAN with a reason if no digit is significant. */
+/* Returns the value; NAN, with a reason in r, if its relative error leaves no significant digit. */
 static double known(const analysis_context *c, double value, double error, const char *what,
                     quantity_result *r)
 {
@@ -22,7 +22,8 @@ static double known(const analysis_context *c, double value, double error, const
     return NAN;
 }
 
-/* Eigenvalue of a mode; NAN: no mode is of this kind, or it is lost in round-off. */
+/* Returns the eigenvalue of a mode; NAN: no mode is of this kind, or the eigenvalue is lost in
+ * round-off. */
 static double eigenvalue_of(const analysis_context *c, const scene_quantity *q,
                             const rotation_modes *modes, quantity_result *r)
 {
@@ -40,7 +41,7 @@ static double eigenvalue_of(const analysis_context *c, const scene_quantity *q,
     return NAN;
 }
 
-/* [1/s]; NAN: no modes, or no significant digit. */
+/* Returns the growth rate [1/s]; NAN: there are no modes, or no digit is significant. */
 static double growth_of(const analysis_context *c, const rotation_modes *modes, quantity_result *r)
 {
     int largest = 0;
@@ -53,14 +54,15 @@ static double growth_of(const analysis_context *c, const rotation_modes *modes, 
     return known(c, growth, modes->error[largest] * size / growth, "the rate of growth", r);
 }
 
-/* NULL: no quantity requested them. */
+/* Returns the modes at a station; NULL: no quantity requested them. */
 static const rotation_modes *modes_at(const analysis_outcome *o, int i)
 {
     rotation_modes *const modes = outcome_rotation_of(o)->modes;
     return modes != NULL ? &modes[i] : NULL;
 }
 
-/* Value that a file of cases/quantities reads from the state; NAN: r says why. */
+/* Returns the value that a file of cases/quantities reads from the state; NAN: r contains the
+ * reason. */
 static double read_at(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                       int i, quantity_result *r)
 {
@@ -88,7 +90,7 @@ static double read_at(const analysis_context *c, const scene_quantity *q, const 
     return outcome == STATUS_OK ? value : NAN;
 }
 
-/* Value of a quantity of the path at one station; NAN: r may give the reason. */
+/* Returns the value of a quantity of the path at one station; NAN: r may contain the reason. */
 static double extracted(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, int i, quantity_result *r)
 {
@@ -111,7 +113,7 @@ static double at_station(const analysis_context *c, const scene_quantity *q,
     return quantity_scaled(q, extracted(c, q, o, i, r));
 }
 
-/* Error bound on a response at a station; 0 for other quantities. */
+/* Returns an error bound for a response at a station; 0 for other quantities. */
 static double bound_at(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, int i)
 {
@@ -122,7 +124,7 @@ static double bound_at(const analysis_context *c, const scene_quantity *q,
                : 0;
 }
 
-/* Relative to the value; 0 if a part is zero. */
+/* Returns the error relative to the value; 0 if either is zero. */
 static double relative(double error, double value)
 {
     return value != 0 ? error / fabs(value) : 0;
@@ -145,7 +147,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
 }
 
-/* Spectrum over frequency, from the stations of a window. */
+/* Computes the spectrum from the stations of a window. */
 static void take_spectrum(const analysis_context *c, const scene_quantity *q,
                           const analysis_outcome *o, quantity_result *r)
 {
@@ -167,7 +169,7 @@ static void take_spectrum(const analysis_context *c, const scene_quantity *q,
     free(value);
 }
 
-/* Reason why a path ends before a station, taken from the followed analysis. */
+/* Returns the reason why a path ended before a station, taken from the followed analysis. */
 static const char *reason_of_path(const analysis_context *c, const scene_quantity *q)
 {
     const int follows = c->scene->analysis[q->analysis].follows;
@@ -191,7 +193,8 @@ static void path_ends(const analysis_context *c, const scene_quantity *q, const 
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason_of_path(c, q));
 }
 
-/* Is the quantity evaluated at the station? For a maximum or minimum, all stations are examined. */
+/* Returns 1 if the quantity is evaluated at the station. For a maximum or minimum, all stations are
+ * evaluated. */
 static int is_taken_at(const scene_quantity *q, int stations, const double path[], int station)
 {
     if (q->reduction == SCENE_AT)
@@ -199,7 +202,7 @@ static int is_taken_at(const scene_quantity *q, int stations, const double path[
     return station == stations - 1;
 }
 
-/* Does a quantity other than a curve use the station? */
+/* Returns 1 if the station is needed by a quantity that is not a curve. */
 static int takes_station(const scene_quantity *q, int stations, const double path[], int station)
 {
     return q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ||
@@ -226,7 +229,7 @@ int extract_path_wants(const analysis_context *c, int analysis, int stations, co
 
 extern const quantity_type quantity_hinge; /* angles of releases are stored with the elements */
 
-/* Does an analysis that follows the path start from this state? */
+/* Returns 1 if an analysis that follows the path starts from this state. */
 static int begins_with(const analysis_context *c, int analysis, int path, int station)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
@@ -261,8 +264,8 @@ int extract_path_whole(const analysis_context *c, int analysis, int station)
     return 0;
 }
 
-/* Evaluates a quantity of a motion between its stations. A crossing stays valid if the motion fails
- * later. */
+/* Evaluates a quantity of a motion between its stations. A crossing that was found stays valid if
+ * the motion fails later. */
 static void extract_passing(const analysis_context *c, const scene_quantity *q,
                             const analysis_outcome *o, quantity_result *r)
 {
@@ -285,8 +288,8 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
     }
 }
 
-/* Takes the extreme between the frequencies of the analysis if it exceeds those at the frequencies.
- */
+/* Takes the extreme between the frequencies of the analysis if it exceeds the values at these
+ * frequencies. */
 static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quantity_result *r)
 {
     char why[FAULT_TEXT];

@@ -49,7 +49,7 @@ status flutter_motions(const newton_run *n, flutter_system *s, int wanted, int e
 
 void flutter_take(unsymmetric_result *from, outcome_side *to)
 {
-    const double largest_error = 1e-2; /* above it no digit is significant */
+    const double largest_error = 1e-2; /* with a larger error no digit is significant */
     to->count = from->count;
     to->value = from->frequency;
     to->mode = from->mode;
@@ -75,7 +75,7 @@ const char *flutter_damping(const scene *s, int damped)
 
 flutter_kind flutter_of(const flutter_system *s, const unsymmetric_result *r, int *mode)
 {
-    const double rounding = 1e-6; /* for a double value that diverges */
+    const double rounding = 1e-6; /* of a double eigenvalue that diverges */
     flutter_kind kind = FLUTTER_NONE;
     double largest = 0;
     for (int i = 0; i < r->count; i++) {
@@ -99,9 +99,10 @@ const char *flutter_name(const flutter_system *s, flutter_kind kind)
     return s->damped ? "flutter, growth with damping" : "flutter, undamped";
 }
 
-enum { MOTIONS = 8 };                  /* number of smallest motions examined */
-static const double most_error = 1e-2; /* above it a mode is unknown */
-static const double real_part = 1e-6;  /* relative to it, a smaller imaginary part is round-off */
+enum { MOTIONS = 8 };                  /* number of modes of smallest |s| that are examined */
+static const double most_error = 1e-2; /* above this error a mode is unknown */
+static const double real_part =
+    1e-6; /* an imaginary part smaller than this fraction is round-off */
 
 status flutter_judge_begin(flutter_judge *j, analysis_context *c, fault *f)
 {
@@ -111,7 +112,8 @@ status flutter_judge_begin(flutter_judge *j, analysis_context *c, fault *f)
     return newton_alloc(c, 0, &j->n, f);
 }
 
-/* An odd number of negative eigenvalues of K means divergence, wherever they lie. */
+/* Returns the stability according to the modes. An odd number of negative eigenvalues of K means
+ * divergence, wherever the eigenvalues lie. */
 static step_stability by_motions(const flutter_judge *j, const unsymmetric_result *r)
 {
     int mode = 0;
@@ -136,7 +138,8 @@ static status ask_motions(flutter_judge *j, step_record *record, fault *f)
     return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
 }
 
-/* If the eigenvalues are real, two of them have passed zero; a pair may have passed near zero. */
+/* Counts the eigenvalues that have passed zero. An even number decides only if the eigenvalues are
+ * real, because a pair may have passed near zero. */
 static status count_passed(flutter_judge *j, step_record *record, fault *f)
 {
     left_of_axis left;
@@ -158,7 +161,7 @@ static status flutter_judge_here(flutter_judge *j, step_record *record, fault *f
     record->negative_pivots = -1;
     if (factored == STATUS_FAULT)
         return fault_set(f, factored, "%s", why.text);
-    if (factored != STATUS_OK) /* singular: undecided */
+    if (factored != STATUS_OK) /* singular: the stability remains open */
         return STATUS_OK;
     record->negative_pivots = at.negative_pivots;
     if (at.negative_pivots >= 0)
@@ -192,10 +195,11 @@ void flutter_judge_free(flutter_judge *j)
 }
 
 enum { PARTS = 6 };
-static const double near_enough = 1e-5; /* correction for a state that is only examined */
+static const double near_enough =
+    1e-5; /* size of the last correction for a state that is only examined */
 
-/* Degree of instability of the current state: number of negative eigenvalues, or 1 if a mode grows;
- * -1: not known. */
+/* Sets *unstable to the degree of instability of the current state: the number of negative
+ * eigenvalues, or 1 if a mode grows; -1: unknown. */
 static status look(flutter_judge *j, int *unstable, fault *f)
 {
     step_record record = {0};
@@ -208,7 +212,7 @@ static status look(flutter_judge *j, int *unstable, fault *f)
     return STATUS_OK;
 }
 
-/* *reached 0: Newton does not converge. */
+/* Advances to `path`. *reached 0: Newton's method did not converge. */
 static status go_to(newton_run *n, double path, int *reached, fault *f)
 {
     step_record record = {0};
@@ -262,8 +266,8 @@ enum {
     FEWEST = 6,
     MOST = 48,
     SPARE = 3
-}; /* number of eigenvalues examined, and how many beyond the last one on the left */
-/* relative to the eigenvalues examined: a smaller one may have the wrong sign */
+}; /* number of eigenvalues examined, and number of those beyond the last one on the left */
+/* A magnitude below this fraction of the largest one may have the wrong sign. */
 static const double rounding = 1e-6;
 
 typedef struct metric_inverse {
@@ -283,7 +287,8 @@ static void apply(void *context, const double x[], double y[])
         y[k] *= sqrt(of->weight[k]);
 }
 
-/* Number of eigenvalues on the left; *sure 0: others may exist beyond those examined. */
+/* Returns the number of eigenvalues left of the imaginary axis. *sure 0: there may be others beyond
+ * those examined. */
 static int count_of(const arnoldi_result *r, int wanted, int determinant, int *sure)
 {
     int left = 0;

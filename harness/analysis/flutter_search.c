@@ -1,7 +1,7 @@
 /* Follows the path from 0 in steps with small changes of all frequencies. Where two frequencies
- * approach each other, the interval is examined. Bisection follows, then interpolation on the
- * unstable side, where the square of the imaginary part of s^2 (flutter), s^2 (divergence) or s
- * (with damping) is smooth. */
+ * approach each other, the interval is examined. Bisection then narrows the interval, followed by
+ * interpolation on the unstable side, where the square of the imaginary part of s^2 (flutter), s^2
+ * (divergence) or s (with damping) is smooth. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -11,25 +11,28 @@
 #include "harness/model/model.h"
 
 enum { MOTIONS = 8, WATCHED = 4, MAX_STATIONS = 400, MAX_LOOKS = 8, MAX_CLOSER = 60, POINTS = 3 };
-static const double first_step = 1e-3; /* of the path of the state followed */
-static const double wanted_change = 0.15, largest_change = 0.5; /* of a square of a frequency */
-static const double quickest = 10; /* ratio of a step to the previous one */
+static const double first_step = 1e-3; /* relative to the path of the followed state */
+static const double wanted_change = 0.15,
+                    largest_change = 0.5; /* relative change of the square of a frequency */
+static const double quickest = 10;        /* ratio of a step to the previous one */
 static const double farthest =
-    1e3; /* of the path of the state followed, unless its loads are small */
-static const double farther = 100; /* of the path that doubles a square at the first rate */
-static const double rough = 1e-2;  /* bracket at the start of interpolation, relative to the path */
-static const double near_lost = 1e-2; /* of the path: distance to a point without equilibrium */
-static const double closer = 0.1;     /* fraction of the remaining interval */
-static const double closest = 1e-5, wanted_error = 1e-10; /* of the path */
+    1e3; /* relative to the path of the followed state, unless its loads are small */
+static const double farther =
+    100; /* relative to the path that doubles a square at the initial rate */
+static const double rough = 1e-2; /* bracket at the start of interpolation, relative to the path */
+static const double near_lost =
+    1e-2; /* distance to a point without equilibrium, relative to the path */
+static const double closer = 0.1;                         /* fraction of the remaining interval */
+static const double closest = 1e-5, wanted_error = 1e-10; /* relative to the path */
 static const double near_divergence = 1e-4; /* distance at which Newton's method still converges */
-static const double alike = 1e-10; /* squares of a double value, relative difference squared */
+static const double alike = 1e-10; /* square of the relative difference of two equal squares */
 
 typedef struct station {
     double path;
     flutter_kind kind;
     int count;
-    double square[MOTIONS]; /* of frequencies, ascending; negative: divergence */
-    double measure;         /* of the growing mode: zero where stability is lost */
+    double square[MOTIONS]; /* squares of frequencies, ascending; negative: divergence */
+    double measure;         /* measure of the growing mode, zero where stability is lost */
     double frequency;
 } station;
 
@@ -37,10 +40,10 @@ typedef struct search {
     newton_run *n;
     flutter_walk *walk;
     flutter_system of;
-    model_state *kept; /* of the last stable station */
+    model_state *kept; /* state of the last stable station */
     station before, last, next;
     double size;
-    unsymmetric_result found; /* of the last unstable station */
+    unsymmetric_result found; /* modes of the last unstable station */
     int mode;
 } search;
 
@@ -52,7 +55,7 @@ static int ascending(const void *a, const void *b)
 
 static void describe(search *s, const unsymmetric_result *r, station *out)
 {
-    const int all = s->of.massless || s->of.damped; /* the magnitude of s counts */
+    const int all = s->of.massless || s->of.damped; /* with these, the magnitude of s is used */
     out->kind = flutter_of(&s->of, r, &s->mode);
     out->count = r->count < MOTIONS ? r->count : MOTIONS;
     for (int i = 0; i < out->count; i++)
@@ -70,7 +73,7 @@ static void describe(search *s, const unsymmetric_result *r, station *out)
 }
 
 /* Computes the station at `path`, starting from the stored state. STATUS_SINGULAR: the tangent is
- * singular. With the flag set, growth within round-off counts as none. */
+ * singular. If the flag is set, growth within round-off does not count. */
 static status look_closely(search *s, double path, int surely, station *out, fault *f)
 {
     newton_run *n = s->n;
@@ -107,8 +110,8 @@ static void keep(search *s, const station *at)
     kinematics_state_copy(s->n->c->model, s->n->state, s->kept);
 }
 
-/* Largest relative change of a square, relative to the lowest square; for a square that falls to
- * zero, relative to the lowest at path 0. */
+/* Returns the largest change of a square between two stations, relative to the lowest square; for a
+ * square that falls to zero, relative to the lowest square at path 0. */
 static double change(const station *a, const station *b, double lowest)
 {
     double largest = 0;
@@ -118,15 +121,16 @@ static double change(const station *a, const station *b, double lowest)
     return largest;
 }
 
-/* Relative difference of neighbours, squared: negative after a flutter point. */
+/* Returns the square of the relative difference of two adjacent squares; continued beyond a flutter
+ * point, it becomes negative. */
 static double difference(const station *a, int i)
 {
     const double part = (a->square[i + 1] - a->square[i]) / (a->square[i + 1] + a->square[i]);
     return part * part;
 }
 
-/* Position of the minimum of the parabola through three stations, if it is below zero or small and
- * within their range; NAN: none. */
+/* Returns the minimum of the parabola through three stations if it lies between them and its value
+ * is negative or small; NAN: there is no such minimum. */
 static double vertex(const station *a, const station *b, const station *c, int i)
 {
     const double fa = difference(a, i), fb = difference(b, i), fc = difference(c, i);
@@ -139,7 +143,8 @@ static double vertex(const station *a, const station *b, const station *c, int i
     return at > a->path && at < c->path && least < 0.1 * fmin(fa, fmin(fb, fc)) ? at : NAN;
 }
 
-/* Stable at a, b and c: searches for flutter between them. If found, it is s->next. */
+/* Searches for flutter between the stable stations a, b and c. If flutter is found, its station is
+ * s->next. */
 static status look_between(search *s, station a, station b, station c, int i, fault *f)
 {
     for (int looks = 0; looks < MAX_LOOKS; looks++) {
@@ -175,7 +180,7 @@ static status is_lost(const search *s, const char *why, fault *f)
                      s->last.path, why);
 }
 
-/* Is the growth at `next` larger than round-off? */
+/* Checks that the growth at `next` is larger than round-off. */
 static status confirm(search *s, fault *f)
 {
     station again;
@@ -185,12 +190,13 @@ static status confirm(search *s, fault *f)
                : is_lost(s, "growing modes are lost in the round-off of the tangent", f);
 }
 
-/* Walks from the stored state, which is that of `last`, to the first unstable station s->next. */
+/* Advances from the stored state, which is that of `last`, to the first unstable station
+ * s->next. */
 static status walk(search *s, fault *f)
 {
     double step = first_step * s->size, end = farthest * s->size;
     const double lowest = s->last.count > 0 ? s->last.square[0] : 0;
-    double failed = INFINITY; /* smallest path without an equilibrium */
+    double failed = INFINITY; /* smallest path parameter without an equilibrium */
     int stations = 0;
     for (int looks = 0; looks < MAX_STATIONS; looks++) {
         const double path = s->last.path + step;
@@ -240,7 +246,7 @@ static status walk(search *s, fault *f)
                                     : " and no flutter");
 }
 
-/* Zero of the measure, extrapolated from the unstable stations p[0] < p[1] < ... */
+/* Returns the zero of the measure, extrapolated from the unstable stations p[0] < p[1] < ... */
 static double extrapolate(int points, const double p[], const double g[])
 {
     const double slope = (p[0] - p[1]) / (g[0] - g[1]), line = p[0] - g[0] * slope;
@@ -250,7 +256,7 @@ static double extrapolate(int points, const double p[], const double g[])
     return line + g[0] * g[1] * bend;
 }
 
-/* Starts from the bracket between the last stable and the next, unstable station. */
+/* Narrows the interval between the last stable station and the next, unstable one. */
 static status close_in(search *s, flutter_point *out, fault *f)
 {
     double p[POINTS] = {0}, g[POINTS] = {0}, low = s->last.path, estimate = NAN, apart = INFINITY;
@@ -278,7 +284,7 @@ static status close_in(search *s, flutter_point *out, fault *f)
         }
         station m;
         const status outcome = look(s, target, &m, f);
-        if (outcome == STATUS_SINGULAR) { /* at a divergence */
+        if (outcome == STATUS_SINGULAR) { /* the station is at a divergence */
             estimate = target;
             apart = 0;
             break;

@@ -1,5 +1,5 @@
-/* Steady small vibration about a state: one solution with the dynamic stiffness at each frequency
- * (harmonic_matrices.c). */
+/* Small steady-state vibration about a state: one solution with the dynamic stiffness at each
+ * frequency (harmonic_matrices.c). */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -38,7 +38,7 @@ static int same_input(const scene_response *a, const scene_response *b)
            (a->unbalanced == SCENE_NONE || a->spinning == b->spinning);
 }
 
-/* x: forces, replaced by the solution. */
+/* Solves directly. x: forces, replaced by the solution. */
 static void solve_direct(vibration *v, const scene_response *r, double w, double complex x[])
 {
     const int n = v->free, more = harmonic_border(v), N = n + more + v->loops;
@@ -63,7 +63,7 @@ static void solve_direct(vibration *v, const scene_response *r, double w, double
         x[v->all + l] = v->x[n + more + l] + I * v->x[N + n + more + l];
 }
 
-/* x: forces, replaced by the modal solution; left[free]: residual of the forces. */
+/* Solves by modes. x: forces, replaced by the solution; left[free]: residual of the forces. */
 static void solve_by_modes(vibration *v, const scene_response *r, double w, double complex x[],
                            double complex left[])
 {
@@ -93,8 +93,8 @@ static status solve_own_input(vibration *v, int quantity, double w, fault *f)
     return STATUS_OK;
 }
 
-/* The solution for the input of a quantity; reuses that of an earlier quantity with the same input.
- */
+/* Sets the solution for the input of a quantity; reuses that of an earlier quantity with the same
+ * input. */
 static status solve_input(vibration *v, int quantity, double w, fault *f)
 {
     const scene *s = v->c->scene;
@@ -135,7 +135,8 @@ static double part_of(const scene_response *r, double complex z)
     return cimag(z);
 }
 
-/* Error of the phase of z, whose error is at most `bound`. */
+/* Returns the error bound of the requested part of z, whose own error is at most `bound`. For a
+ * phase it is an angle [rad]. */
 static double bound_of(const scene_response *r, double complex z, double bound)
 {
     if (r->part != SCENE_PHASE || bound == 0)
@@ -163,7 +164,7 @@ static void read_quantity(vibration *v, int quantity, double w, double *value, d
     }
 }
 
-/* One quantity at a frequency; sign * value is to be large. */
+/* Computes one quantity at a frequency. The search maximises sign * value. */
 static status respond_at(vibration *v, int quantity, double sign, double hertz, outcome_peak *out,
                          fault *f)
 {
@@ -171,7 +172,7 @@ static status respond_at(vibration *v, int quantity, double sign, double hertz, 
     const int amplitude = v->c->scene->quantity[quantity].what.of.response.part == SCENE_AMPLITUDE;
     *out = (outcome_peak){.hertz = hertz};
     const status factored = factor_at(v, hertz, f);
-    if (factored == STATUS_SINGULAR) { /* on an undamped resonance */
+    if (factored == STATUS_SINGULAR) { /* the frequency is an undamped resonance */
         out->value = amplitude ? INFINITY : sign * INFINITY;
         return STATUS_OK;
     }
@@ -306,7 +307,8 @@ status harmonic_analysis(analysis_context *c, int analysis, analysis_outcome *o,
     return outcome;
 }
 
-/* Largest difference between two values of a response, relative to the largest value. */
+/* Returns the largest difference between two values of a response, relative to the largest
+ * value. */
 static double apart(const vibration *v, int quantity, const outcome_harmonic *a,
                     const outcome_harmonic *b)
 {
@@ -329,7 +331,7 @@ status harmonic_inside(analysis_context *c, int analysis, double *error, int *qu
     analysis_outcome o = {.kind = SCENE_HARMONIC};
     const counters before = c->run->counters;
     const status outcome = solve(&v, &o.left.harmonic, f);
-    c->run->counters = before; /* this is not work of the solution */
+    c->run->counters = before; /* this solution does not count as work */
     for (int i = 0; outcome == STATUS_OK && i < c->scene->quantities; i++) {
         if (!scene_asks(&c->scene->quantity[i], analysis, SCENE_RESPONSE))
             continue;

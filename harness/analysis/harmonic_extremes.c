@@ -5,17 +5,18 @@
 #include <stdlib.h>
 
 enum { MOST_REMOVED = 8 };
-/* Search for the largest sign * value. removed: undamped natural frequencies whose modes the input
- * does not excite or the output does not see; the response is continuous there, but the equations
- * are singular. */
+/* Search for the largest sign * value. removed: undamped natural frequencies whose modes do not
+ * appear in the response, because the input does not excite them or the output does not contain
+ * them. The response is continuous there, but the equations are singular. */
 typedef struct extreme_search {
     vibration *v;
     harmonic_value *respond;
     int quantity, removed;
-    double sign, size, hertz[MOST_REMOVED]; /* size: of the response */
+    double sign, size, hertz[MOST_REMOVED]; /* size: magnitude of the response */
 } extreme_search;
 
-static const double aside = 1e-6; /* of a natural frequency */
+static const double aside =
+    1e-6; /* distance from a natural frequency, relative to that frequency */
 
 static status value_at(extreme_search *s, double hertz, outcome_peak *out, fault *f)
 {
@@ -34,8 +35,8 @@ static status value_at(extreme_search *s, double hertz, outcome_peak *out, fault
     return s->respond(s->v, s->quantity, s->sign, hertz, out, f);
 }
 
-/* Golden-section search between two frequencies for the largest sign * value, assuming a single
- * maximum. */
+/* Golden-section search between two frequencies for the largest sign * value, which assumes a
+ * single maximum. */
 static status refine_between(extreme_search *s, double low, double high, outcome_peak *best,
                              fault *f)
 {
@@ -63,7 +64,7 @@ static status refine_between(extreme_search *s, double low, double high, outcome
     return STATUS_OK;
 }
 
-/* Does the response grow as its inverse distance from the frequency? */
+/* Sets *pole to 1 if the response grows as the inverse of its distance from the frequency. */
 static status is_pole(extreme_search *s, double hertz, int *pole, fault *f)
 {
     static const double distance[] = {1e-4, 1e-5, 1e-6}, round_off = 1e-6;
@@ -79,8 +80,8 @@ static status is_pole(extreme_search *s, double hertz, int *pole, fault *f)
     return STATUS_OK;
 }
 
-/* Searches between two frequencies, without the singular frequencies at which nothing is excited or
- * read. */
+/* Searches between two frequencies and excludes the singular frequencies whose modes do not appear
+ * in the response. */
 static status find_between(extreme_search *s, double low, double high, outcome_peak *best, fault *f)
 {
     for (int pole = 0;;) {
@@ -93,16 +94,16 @@ static status find_between(extreme_search *s, double low, double high, outcome_p
     }
 }
 
-/* Frequencies at which extremes are searched for: those of the analysis; some on both sides of each
- * natural frequency, closer than the width of any peak; and some between natural frequencies, where
- * responses have their minima. */
+/* Frequencies at which a search for extremes starts: those of the analysis; some on both sides of
+ * each natural frequency, closer to it than the width of any peak; and some between natural
+ * frequencies, where responses have their minima. */
 typedef struct samples {
     int count;
     double *hertz, *value;
-    int *station; /* SCENE_NONE: between the frequencies of the analysis */
+    int *station; /* station of the analysis; SCENE_NONE: between stations */
 } samples;
 
-enum { SIDES = 5, BETWEEN = 9 }; /* around a natural frequency: at 1 +- 10^-1 ... 10^-5 of it */
+enum { SIDES = 5, BETWEEN = 9 }; /* at f (1 +- 10^-1 ... 10^-5) around a natural frequency f */
 
 static void samples_free(samples *s)
 {
@@ -167,7 +168,8 @@ static status refine(vibration *v, harmonic_value *respond, int quantity, sample
     const double *known = o->response + (size_t)quantity * (size_t)o->path.stations;
     double *value = at->value, most = -INFINITY, size = 0;
     const double sign = (q->reduction == SCENE_MAX) == (q->factor > 0) ? 1 : -1;
-    static const double boundless = 1e8; /* times the values at the frequencies of the analysis */
+    static const double boundless =
+        1e8; /* largest extreme, relative to the values at the frequencies of the analysis */
     for (int i = 0; i <= last; i++) {
         outcome_peak one = {0};
         if (at->station[i] != SCENE_NONE) {

@@ -1,4 +1,4 @@
-/* Inputs of a harmonic analysis as forces, and its outputs as linear forms of displacements. */
+/* Inputs of a harmonic analysis as forces, and its outputs as linear forms of the displacements. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -20,8 +20,8 @@ status harmonic_check_motion(const vibration *v, int driver, fault *f)
     return STATUS_OK;
 }
 
-/* Generalised force in coordinate k of the node, T[6 x count], due to a unit force along a
- * component or a unit rotating unbalance. */
+/* Returns the generalised force in coordinate k of the node, T[6 x count], due to a unit force
+ * along a component or due to a unit rotating unbalance. */
 static double complex force_of(const scene_response *r, double w, const double T[], int count,
                                int k)
 {
@@ -52,7 +52,7 @@ status harmonic_input(const vibration *v, const scene_response *r, double w, dou
         return STATUS_OK;
     }
     if (r->reference != SCENE_NONE) {
-        const control_loop *loop = loops_of(v, r->reference); /* closed: response.c */
+        const control_loop *loop = loops_of(v, r->reference); /* checked in response.c */
         x[v->all + (loop - v->loop)] = loops_gain(loop, w, &own);
         return STATUS_OK;
     }
@@ -78,7 +78,7 @@ int harmonic_carried(const vibration *v, const scene_response *r, double y[])
     return 1;
 }
 
-/* o[all] += times the small motion of a component of a node, in all coordinates. */
+/* Adds `times` the small motion of a component of a node to o[all]. */
 static void add_motion(const vibration *v, int node, int component, double times,
                        double complex o[])
 {
@@ -103,7 +103,7 @@ status harmonic_reacting(const vibration *v, const scene_response *r, int *out, 
     scene_node_axes(&s->node[r->node], R);
     *out = -1;
     for (int k = 0; k < count; k++) {
-        double moved = 0; /* along the node's support axes */
+        double moved = 0; /* the motion is along the node's support axes */
         for (int i = 0; i < 3; i++)
             moved += R[3 * i + r->component % 3] * T[(first + i) * count + k];
         if (fabs(moved) > rounding)
@@ -116,7 +116,7 @@ status harmonic_reacting(const vibration *v, const scene_response *r, int *out, 
         for (int k = 0; k < 3; k++)
             nodes += (s->node[i].translation[k] == driver) + (s->node[i].angle[k] == driver) +
                      2 * (model_vertex(v->c->model, i)->vector_driver[k] == driver);
-    for (int i = 0; i < 6 * s->nodes && driver != SCENE_NONE; i++) /* what follows it */
+    for (int i = 0; i < 6 * s->nodes && driver != SCENE_NONE; i++) /* followers */
         nodes += model_tie(v->c->model, i / 6, i % 6) != NULL &&
                  model_vertex(v->c->model, i / 6)->coordinate[i % 6] == *out;
     if (driver == SCENE_NONE)
@@ -133,7 +133,7 @@ status harmonic_reacting(const vibration *v, const scene_response *r, int *out, 
                      s->driver[driver].name);
 }
 
-/* o[all] += row c of D at w. */
+/* Adds row c of D at w to o[all]. */
 static void add_row(const vibration *v, int c, double w, double complex o[])
 {
     for (int j = 0; j < v->all; j++)
@@ -145,8 +145,8 @@ static void add_row(const vibration *v, int c, double w, double complex o[])
         }
 }
 
-/* Adds the contribution of modal damping to the reaction of a driven coordinate: forces -i w r^T U
- * U^T (x - r of the input). */
+/* Adds the contribution of modal damping to the reaction of a driven coordinate: the forces -i w
+ * r^T U U^T (x - r of the input). */
 static void add_carried(vibration *v, const scene_response *r, int c, double w, double complex o[])
 {
     const double *U;
@@ -200,7 +200,7 @@ double complex harmonic_force_at(const vibration *v, const scene_response *r, do
     return sum;
 }
 
-/* Shapes of a driven coordinate. */
+/* Sets the shapes of a driven coordinate. */
 static int shapes_of_motion(const vibration *v, int c, double out[])
 {
     const sparse *const by_motion[HARMONIC_SHAPES_OF_MOTION] = {&v->K, &v->M, &v->C, &v->B};
@@ -211,14 +211,14 @@ static int shapes_of_motion(const vibration *v, int c, double out[])
     return HARMONIC_SHAPES_OF_MOTION;
 }
 
-/* v->output as forces. */
+/* Converts v->output to forces. */
 static void take_shape(const vibration *v, double out[])
 {
     for (int k = 0; k < v->free; k++)
         out[k] = creal(v->output[k]);
 }
 
-/* The forces of an input at any frequency. */
+/* Sets the forces of an input, from which those at any frequency can be combined. */
 static int shapes_of_input(vibration *v, const scene_response *r, double out[])
 {
     const size_t n = (size_t)v->free;

@@ -1,7 +1,7 @@
-/* Steady small vibration about a state: one solution at each frequency with the dynamic stiffness
- * D(w) = K + i w C - w^2 M - (w^2 - i a w)^2/(1 + i b w) B. C contains the proportional damping a M
- * + b K; B is the inertia of the elements' internal motions in an unstressed structure
- * (field/field.h). In real numbers [Re D, -Im D; Im D, Re D] [Re x; Im x] = [Re f; Im f]. Damped
+/* Small steady-state vibration about a state: one solution at each frequency with the dynamic
+ * stiffness D(w) = K + i w C - w^2 M - (w^2 - i a w)^2/(1 + i b w) B. C contains the proportional
+ * damping a M + b K; B is the inertia of the elements' internal motions in an unstressed structure
+ * (field/field.h). In real form: [Re D, -Im D; Im D, Re D] [Re x; Im x] = [Re f; Im f]. Damped
  * modes are the eigenvectors of D at s = i w. */
 #include "harness/analysis/analysis_impl.h"
 
@@ -27,7 +27,8 @@ double complex harmonic_dynamic(const vibration *v, double w, int k)
     return v->damped ? D + I * w * v->C.value[k] : D;
 }
 
-/* K of the undeformed structure, or with the stresses of a linear solution. */
+/* Computes K of the undeformed structure, with the stresses of a linear solution if `displaced` is
+ * not NULL. */
 static status linear_system_of(vibration *v, const double displaced[], fault *f)
 {
     const equations *eq = &v->c->eq;
@@ -43,7 +44,7 @@ static status linear_system_of(vibration *v, const double displaced[], fault *f)
     return STATUS_OK;
 }
 
-/* K at the end of the static path. */
+/* Computes K at the end of the static path. */
 static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
 {
     analysis_context *c = v->c;
@@ -64,7 +65,8 @@ static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
     return linearise_state(&c->eq, &c->run->memory, v->state, &lin, f);
 }
 
-/* K, and C including all effects of rates, about an instant, in all coordinates; G: work space. */
+/* Computes K, and C with all effects of rates, about an instant, in all coordinates. G:
+ * workspace. */
 static status small_motions(const vibration *v, sparse *K, sparse *C, sparse *G, fault *f)
 {
     const outcome_about *about = v->about;
@@ -161,7 +163,7 @@ static void append(vibration *v, int column, int row, int source)
     v->source[at] = source;
 }
 
-/* The free block as a full matrix: first[free + 1] from counts, or its entries. */
+/* Lists the free block as a full matrix. Sets first[free + 1] from the counts, or the entries. */
 static void unfold(vibration *v)
 {
     for (int j = 0; j < v->free; j++)
@@ -181,7 +183,7 @@ int harmonic_border(const vibration *v)
     return v->c->scene->analysis[v->analysis].by_modes ? 0 : harmonic_modes_damped(v->modes, &U);
 }
 
-/* The entries of the loops in column j of one half: gain S^T x + own u = 0, and -P u. */
+/* Sets the entries of the loops in column j of one half: gain S^T x + own u = 0, and -P u. */
 static int loops_column(const vibration *v, int j, double w, int count, int row[],
                         double complex z[])
 {
@@ -207,7 +209,7 @@ static int loops_column(const vibration *v, int j, double w, int count, int row[
     return count;
 }
 
-/* The entries of column j of one half: rows and, unless z is NULL, their values at w. */
+/* Sets the entries of column j of one half: the rows and, unless z is NULL, the values at w. */
 static int column_of(const vibration *v, int j, double w, int row[], double complex z[])
 {
     const int n = v->free, more = harmonic_border(v);
@@ -233,7 +235,7 @@ static int column_of(const vibration *v, int j, double w, int row[], double comp
     return loops_column(v, j, w, count, row, z);
 }
 
-/* D at the frequency; w = 0 also sets its pattern. */
+/* Fills D at the frequency w. The call with w = 0 also sets its pattern. */
 static void fill(vibration *v, double w)
 {
     const int n = v->free + harmonic_border(v) + v->loops;

@@ -1,4 +1,4 @@
-/* Modes without damping of a harmonic analysis, and damping ratios of modes. */
+/* Undamped modes of a harmonic analysis, and damping ratios of modes. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <float.h>
@@ -33,7 +33,7 @@ void harmonic_modes_free(harmonic_modes *m)
         free(block[i]);
 }
 
-/* Factors K, which must have no singular pivots. */
+/* Factors K. Refused if K has a singular pivot. */
 static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
 {
     fault why = {""};
@@ -87,7 +87,7 @@ static void whole(const sparse *a, double D[])
             D[(size_t)a->row[k] * n + j] = D[j * n + (size_t)a->row[k]] = a->value[k];
 }
 
-/* All modes, including those without mass; the first has the lowest frequency. */
+/* Computes all modes, including those without mass; the first one has the lowest frequency. */
 static status all_modes(vibration *v, harmonic_modes *m, fault *f)
 {
     const size_t n = (size_t)m->n;
@@ -108,7 +108,7 @@ static status all_modes(vibration *v, harmonic_modes *m, fault *f)
     }
     const double none = 16 * (double)n * sqrt((double)n) * DBL_EPSILON;
     for (size_t i = 0; info == 0 && i < n; i++) {
-        const size_t from = n - 1 - i; /* ascending */
+        const size_t from = n - 1 - i; /* sorts in ascending order */
         memcpy(m->V + i * n, x + from * n, n * sizeof *x);
         m->square[i] = mu[from] > none * mu[n - 1] ? 1 / mu[from] : INFINITY;
     }
@@ -138,7 +138,7 @@ static status first_modes(vibration *v, harmonic_modes *m, int wanted, fault *f)
         memcpy(m->V, e.positive.mode, (size_t)m->kept * n * sizeof *m->V);
         for (int i = 0; i < m->kept; i++)
             m->square[i] = 1 / e.positive.mu[i];
-        /* without a next mode, the others may be round-off of the first */
+        /* without a next mode, further modes may be lost in the round-off of the first one */
         m->least = found > wanted ? 1 / e.positive.mu[wanted]
                    : found > 0    ? fmax(m->square[m->kept - 1], 1e8 * m->square[0])
                                   : INFINITY;
@@ -147,7 +147,7 @@ static status first_modes(vibration *v, harmonic_modes *m, int wanted, fault *f)
     return outcome;
 }
 
-/* U of the damping ratios: C = M X diag(2 ratio w) X^T M, X^T M X = 1. */
+/* Computes U for the damping ratios: C = M X diag(2 ratio w) X^T M with X^T M X = 1. */
 static status damp(const vibration *v, harmonic_modes *m, fault *f)
 {
     const scene_analysis *a = &v->c->scene->analysis[v->analysis];
@@ -214,7 +214,7 @@ status harmonic_modes_lowest(vibration *v, harmonic_modes *m, int wanted, fault 
     return all ? all_modes(v, m, f) : first_modes(v, m, wanted, f);
 }
 
-/* Projections on modes are symmetric. */
+/* REFUSED: the matrices are not symmetric, as projections on modes require. */
 static status check_damping(const vibration *v, fault *f)
 {
     const scene *s = v->c->scene;

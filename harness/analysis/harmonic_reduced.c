@@ -1,17 +1,18 @@
-/* Steady vibration by undamped modes.
+/* Steady-state vibration by superposition of undamped modes.
  *
- * V contains the modes and the static shapes of inputs and outputs, K-orthonormalised; the solution
- * is x = V y, V^T D V y = V^T f (Galerkin). The coupling of modes by damping is included, so only
- * modes are omitted. With all modes V is square, and x equals that of a direct solution.
+ * V contains the modes and the static shapes of inputs and outputs, K-orthonormalised. The solution
+ * is x = V y with V^T D V y = V^T f (Galerkin). The coupling of modes by damping is included, so
+ * the only approximation is the omission of modes. With all modes, V is square, and x equals the
+ * direct solution.
  *
- * The omitted part is bounded as follows. The residuals r = f - D x and s = o - D z, with z the
+ * The omitted part is bounded as follows. The residuals r = f - D x and s = o - D z, where z is the
  * solution for the output o, have no component along the modes, and o^T (D^-1 f - x) = s^T D^-1 r.
- * Scaled by the root of K, D beyond the modes has a real part of at least 1 - w^2/least - |t| b -
- * d. Here `least` is the square of the next frequency, t the factor of B in D, and b the largest
- * eigenvalue of K^-1 B; d is the norm of T D_m^-1 T^T, where T couples that part to the D_m of the
- * modes by damping and B. Damping dissipates energy and cannot lower the real part. The error is at
- * most sqrt(r^H K^-1 r s^H K^-1 s) divided by that real part. For a free structure K + shift M
- * replaces K. */
+ * Scaled by the square root of K, the part of D beyond the modes has a real part of at least 1 -
+ * w^2/least - |t| b - d. Here `least` is the square of the next frequency, t the factor of B in D,
+ * and b the largest eigenvalue of K^-1 B; d is the norm of T D_m^-1 T^T, where T couples that part
+ * to the D_m of the modes by damping and B. Damping dissipates energy and cannot lower the real
+ * part. The error is at most sqrt(r^H K^-1 r s^H K^-1 s) divided by that real part. For a free
+ * structure K + shift M replaces K. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <lapacke.h>
@@ -27,7 +28,7 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for the modes of a harmonic analysis");
 }
 
-/* B <= g (M + K/least), and M <= K/least beyond the modes. */
+/* Bounds B: finds the largest g for which B <= g (M + K/least); beyond the modes, M <= K/least. */
 static status bound_inner(vibration *v, harmonic_modes *m, sparse *N, matrix_factor **factor,
                           eigen_result *e, fault *f)
 {
@@ -40,7 +41,7 @@ static status bound_inner(vibration *v, harmonic_modes *m, sparse *N, matrix_fac
     const eigen_problem p = {.K = N, .A = &m->B, .K_factor = *factor, .sign = 1, .largest = 1};
     const status outcome = eigen_solve(&p, e, f);
     context_count_eigen(v->c, e);
-    if (outcome == STATUS_OK && e->positive.count > 0) /* plus a margin */
+    if (outcome == STATUS_OK && e->positive.count > 0) /* with a margin */
         m->inner = 1.001 * e->positive.mu[0] * 2 / m->least;
     return outcome;
 }
@@ -84,7 +85,7 @@ static void take_static(vibration *v, harmonic_modes *m, const double f[])
     m->count += size > 0;
 }
 
-/* P = V^T A V, symmetric; of_modes, unless NULL, receives A V of the modes. */
+/* Computes the symmetric P = V^T A V. of_modes, unless NULL, receives A V of the modes. */
 static void project(const harmonic_modes *m, const sparse *A, double P[], double *of_modes)
 {
     const size_t n = (size_t)m->n, count = (size_t)m->count;
@@ -97,7 +98,7 @@ static void project(const harmonic_modes *m, const sparse *A, double P[], double
     }
 }
 
-/* X^T (K^-1 - V V^T) Y of the modes, X = A V, Y = A' V. */
+/* Computes X^T (K^-1 - V V^T) Y for the modes, where X = A V and Y = A' V. */
 static void couple(const harmonic_modes *m, const double X[], const double solved[],
                    const double Xp[], const double Yp[], double out[])
 {
@@ -137,7 +138,7 @@ static status couplings(vibration *v, harmonic_modes *m, double *X[2], fault *f)
     return outcome;
 }
 
-/* V^T U U^T V of the damping ratios. */
+/* Adds V^T U U^T V of the damping ratios. */
 static void add_ratios(harmonic_modes *m)
 {
     const size_t n = (size_t)m->n, count = (size_t)m->count;
@@ -201,7 +202,7 @@ status harmonic_modes_project(vibration *v, int count, const double f[], fault *
     m->half = calloc(2 * kept * kept + 1, sizeof *m->half);
     enough &= m->D != NULL && m->entry != NULL && m->scale != NULL && m->pivot != NULL &&
               m->y != NULL && m->inverse != NULL && m->half != NULL;
-    if (m->complete) { /* no bound is needed */
+    if (m->complete) { /* the solution is exact, so that no bound is needed */
         free(X[0]);
         free(X[1]);
         X[0] = X[1] = NULL;
@@ -212,7 +213,7 @@ status harmonic_modes_project(vibration *v, int count, const double f[], fault *
     return outcome;
 }
 
-/* D of the projected matrices. */
+/* Returns entry k of D of the projected matrices. */
 static double complex projected(const vibration *v, const harmonic_modes *m, double w, size_t k)
 {
     const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;
@@ -221,7 +222,7 @@ static double complex projected(const vibration *v, const harmonic_modes *m, dou
            moves * moves / (1 + I * w * damping->stiffness) * m->Bp[k];
 }
 
-/* Frobenius norm of the coupling between the modes and the rest; INFINITY: not known. */
+/* Returns the Frobenius norm of the coupling between the modes and the rest; INFINITY: unknown. */
 static double coupled(vibration *v, harmonic_modes *m, double w)
 {
     const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;
@@ -261,7 +262,7 @@ static double coupled(vibration *v, harmonic_modes *m, double w)
     return sqrt(fmax(0, creal(sum)));
 }
 
-/* The part of D beyond the modes that is certainly positive. */
+/* Returns a lower bound of the real part of D beyond the modes. */
 static double positive_part(vibration *v, harmonic_modes *m, double w)
 {
     const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;
@@ -301,7 +302,7 @@ status harmonic_modes_factor(vibration *v, double w, fault *f)
     return condition > 1e-14 ? STATUS_OK : fault_set(f, STATUS_SINGULAR, "a mode has no damping");
 }
 
-/* y -= D x */
+/* Computes y -= D x. */
 static void subtract_product(const vibration *v, const double complex x[], double complex y[])
 {
     const harmonic_modes *m = v->modes;
@@ -339,7 +340,7 @@ void harmonic_modes_solve(vibration *v, double complex f[], double complex x[])
         subtract_product(v, x, f);
 }
 
-/* r^H K^-1 r */
+/* Returns r^H K^-1 r. */
 static double size_of(vibration *v, const double complex r[])
 {
     harmonic_modes *m = v->modes;

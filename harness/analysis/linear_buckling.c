@@ -8,12 +8,13 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-/* Linear statics about the undeformed state: one factorisation, and a right-hand side for each load
- * case and combination that is read. The initial strains of members are in each of them once, so
- * combinations are not sums of solutions. */
+/* Linear statics about the undeformed state: one factorisation, and one right-hand side for each
+ * load case or combination that a quantity reads. Each right-hand side contains the initial strains
+ * of members once, so the solution of a combination is not the sum of the solutions of its load
+ * cases. */
 
-/* Does a quantity of the analysis read this load case or combination? If no quantity does, all
- * count as read. */
+/* Returns 1 if a quantity of the analysis reads this load case or combination. If no quantity reads
+ * any, all count as read. */
 static int is_read(const scene *s, int analysis, int acting)
 {
     int any = 0;
@@ -47,7 +48,7 @@ static status solutions_alloc(const analysis_context *c, int analysis, outcome_l
                         : fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
 }
 
-/* The caller, linear_analysis, frees *s, also after a failure. */
+/* Solves for the displacements. The caller, linear_analysis, frees *s, also after a failure. */
 static status displace(analysis_context *c, int analysis, linear_system *s, outcome_linear *l,
                        fault *f)
 {
@@ -72,12 +73,12 @@ status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
  * due to the change of loads from path 0 to 1, and G_0 from those at path 0, which are constant and
  * include initial strains. */
 
-/* Quadratic forms of the loads scaled by the load factor (growing) and of the constant loads
- * (staying). */
+/* Quadratic forms of the loads that are scaled by the load factor (growing) and of the constant
+ * loads (staying). */
 typedef struct prestresses {
     quadratic_forms growing, staying;
     int stays;         /* 0: no constant stress */
-    sparse G, of_stay; /* geometric stiffness of both */
+    sparse G, of_stay; /* geometric stiffness of the growing and of the staying stresses */
     double *product;   /* [free] */
 } prestresses;
 
@@ -126,7 +127,7 @@ static void keep(eigen_side *side, outcome_side *to)
     outcome_take(side, to);
 }
 
-/* Number of eigenvalues of each sign that the quantities request. */
+/* Sets the number of eigenvalues of each sign that the quantities request. */
 static void wanted_of(const analysis_context *c, int analysis, eigen_problem *p)
 {
     p->largest = imperfection_modes(c->scene, analysis);
@@ -147,8 +148,8 @@ static void subtract(const sparse *from, sparse *a)
         a->value[i] -= from->value[i];
 }
 
-/* K += G of the constant stresses, under which the structure must be stable; the remaining stresses
- * grow. */
+/* Adds G of the constant stresses, under which the structure must be stable, to K; only the
+ * remaining stresses grow. */
 static status split_stays(analysis_context *c, linear_system *s, prestresses *p, fault *f)
 {
     const model_size size = model_sizes(c->model);
@@ -178,7 +179,7 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
     return factored;
 }
 
-/* The linear solution, its stresses and their geometric stiffness. */
+/* Computes the linear solution, its stresses and their geometric stiffness. */
 static status prestress(analysis_context *c, linear_system *s, prestresses *p, fault *f)
 {
     if (!s->K.symmetric)
@@ -216,7 +217,7 @@ static void buckling_free(buckling *b)
     free(b->of.product);
 }
 
-/* The caller, buckling_analysis, frees *b, also after a failure. */
+/* Solves the eigenvalue problem. The caller, buckling_analysis, frees *b, also after a failure. */
 static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
 {
     TRY(linear_system_alloc(c, &b->system, f));
@@ -237,8 +238,8 @@ static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
     return result;
 }
 
-/* Do the nodes rotate without displacement? Only then can the load depend on the element length, by
- * local buckling of elements. */
+/* Returns 1 if the nodes of mode i rotate without displacement. Only then can the load depend on
+ * the element length, by local buckling of elements. */
 static int only_turns(const analysis_context *c, const eigen_side *side, int i)
 {
     const double no_shift = 1e-6;
@@ -252,11 +253,11 @@ static int only_turns(const analysis_context *c, const eigen_side *side, int i)
     return part < no_shift;
 }
 
-/* The same problem on a mesh of half the element length. */
+/* Solves the same problem on a mesh with half the element length. */
 static status solve_halved(const analysis_context *c, int analysis, eigen_result *found, fault *f)
 {
     model *halved = NULL;
-    run_state run = {0}; /* its work is not counted */
+    run_state run = {0}; /* its work does not count */
     context_work work = {0};
     buckling b = {0};
     status result = model_halved(c->model, &halved, f);
@@ -280,7 +281,7 @@ static status solve_halved(const analysis_context *c, int analysis, eigen_result
 }
 
 /* Removes mesh-dependent loads. A load that grows with the square of the number of elements is not
- * a property of the structure: elements without shear flexibility buckle by themselves (12 EI/l^2
+ * a property of the structure: elements without shear flexibility buckle individually (12 EI/l^2
  * acts as GA). That load and all higher loads are removed. */
 static void drop_of_mesh(eigen_side *side, const eigen_side *finer, int i)
 {

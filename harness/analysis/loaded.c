@@ -1,7 +1,8 @@
-/* Critical point: sigma(p), the smallest eigenvalue of the tangent K(p) scaled by the diagonal of
- * the first K, falls to zero along the path. Interpolation uses stable states that approach it; the
- * error of an estimate is the product of their distances. (K itself is not extrapolated: the
- * rotation of a stiff structure along the path would make it indefinite much earlier.) */
+/* Search for a critical point, where sigma(p) falls to zero along the path; sigma is the smallest
+ * eigenvalue of the tangent K(p), scaled by the diagonal of the first K. Interpolation uses stable
+ * states that approach this point; the error of an estimate is proportional to the product of their
+ * distances from it. (K itself is not extrapolated: the rotation of a stiff structure along the
+ * path would make it indefinite much earlier.) */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -14,21 +15,21 @@
 #include "harness/model/model.h"
 
 enum { MAX_STATES = 60, POINTS = 3 };
-static const double first_step = 0.1; /* of the path so far */
-static const double growth =
-    0.5; /* largest step from one state to the next, of the path beyond its beginning */
-static const double halfway = 0.5;    /* fraction of the distance to the predicted point */
+static const double first_step = 0.1; /* first step, relative to the path so far */
+static const double growth = 0.5;  /* largest step from one state to the next, relative to the path
+                                      since the start of the search */
+static const double halfway = 0.5; /* fraction of the distance to the predicted point */
 static const double approached = 0.9; /* fraction of the distance to the estimate */
 static const double farthest = 1e3; /* path at which the search ends, relative to the path so far */
 static const double alike = 1e-3;   /* difference of successive estimates, relative to the path */
 static const double steepest =
-    8; /* rate of a state along the path, relative to that of the last step */
-static const double at_rest = 1e-9; /* relative distance of states that is round-off */
+    8; /* rate of change of a state along the path, relative to that in the last step */
+static const double at_rest = 1e-9; /* relative distance between states that is round-off */
 static const double wanted_error = 1e-9;
 static const double closest = 1e-5; /* distance from the estimate, relative to the path; closer to
                                        it, round-off determines the stability */
 
-/* The followed state: the end of a computed static path. */
+/* Sets *state to the followed state, the end of a computed static path. */
 static status followed_state(const analysis_context *c, int analysis, const model_state **state,
                              fault *f)
 {
@@ -41,7 +42,8 @@ static status followed_state(const analysis_context *c, int analysis, const mode
     return STATUS_OK;
 }
 
-/* Newton's method at the followed state: its K in n->K, factored, possibly unsymmetric. */
+/* Prepares Newton's method at the followed state; its K in n->K is factored and may be
+ * unsymmetric. */
 static status start(analysis_context *c, int analysis, const char *what, newton_run *n, fault *f)
 {
     const model_state *state = NULL;
@@ -65,8 +67,8 @@ static int asks_for_growth(const analysis_context *c, int analysis)
     return 0;
 }
 
-/* Without a symmetric, definite tangent modes may grow. Damping is included for growth, not for
- * frequencies. */
+/* Finds the frequencies if the tangent is not symmetric and positive definite, so that modes may
+ * grow. Damping is included for the growth rates but not for the frequencies. */
 static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_run *n,
                                       outcome_spectrum *out, fault *f)
 {
@@ -100,7 +102,7 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
     return outcome;
 }
 
-/* The caller, loaded_modal, frees *n, *M and *e, also after a failure. */
+/* Finds the frequencies. The caller, loaded_modal, frees *n, *M and *e, also after a failure. */
 static status frequencies(analysis_context *c, int analysis, newton_run *n, sparse *M,
                           eigen_result *e, outcome_spectrum *out, fault *f)
 {
@@ -132,7 +134,7 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
     const status result = frequencies(c, analysis, &n, &M, &e, &o->left.spectrum, f);
     for (int i = 0; i < e.positive.count; i++) {
         e.positive.mu[i] = 1 / sqrt(e.positive.mu[i]);
-        e.positive.error[i] /= 2; /* error of the square root */
+        e.positive.error[i] /= 2; /* relative error of the square root */
     }
     if (e.positive.mu != NULL)
         outcome_take(&e.positive, &o->left.spectrum.positive);
@@ -142,28 +144,29 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
     return result;
 }
 
-/* Stable states on the path, the last ones first. */
+/* Search for the critical point. The stable states on the path are stored, the last ones first. */
 typedef struct loaded_search {
     newton_run n;
-    predictor guess; /* for the next state, from the stable ones since the last unstable one */
+    predictor guess; /* predicts the next state from the stable ones since the last unstable one */
     model_state *stable;
     sparse scale; /* diagonal of the first K */
     double begin, shift, p[POINTS],
         sigma[POINTS]; /* shift: the first sigma; K + shift scale is far from singular */
     int points;
     double estimate, change,
-        unstable; /* unstable: smallest path known to be beyond the critical point */
-    int wanted;   /* loads */
-    double size;  /* of the path so far */
-    double
-        predicted; /* from the start to the first point, from the rate of K there; INFINITY: none */
-    double farthest; /* path at which the search ends */
-    double rate;     /* distance of the last stable states divided by that of their paths */
-    int lost;        /* 1: the path does not lead from the last stable state to the trial state */
+        unstable;     /* unstable: smallest path known to be beyond the critical point */
+    int wanted;       /* number of loads requested */
+    double size;      /* length of the path so far */
+    double predicted; /* distance from the start to the first critical point, predicted from the
+                         rate of K there; INFINITY: none */
+    double farthest;  /* path at which the search ends */
+    double rate; /* distance between the last two stable states, divided by the difference of their
+                    path parameters */
+    int lost;    /* 1: the path does not lead from the last stable state to the trial state */
     eigen_result found;
 } loaded_search;
 
-/* The given state is beyond a critical point: the search starts at path 0. */
+/* Starts the search at path 0, because the given state is beyond a critical point. */
 static status begin_at_rest(newton_run *n, fault *f)
 {
     step_record unused = {0};
@@ -224,7 +227,8 @@ static void search_free(loaded_search *s)
     eigen_free(&s->found);
 }
 
-/* Makes Newton's current state, whose K is factored, the last stable one; computes its sigma. */
+/* Makes Newton's current state, whose K is factored, the last stable one, and computes its
+ * sigma. */
 static status take_state(loaded_search *s, fault *f)
 {
     const eigen_problem p = {
@@ -247,7 +251,7 @@ static status take_state(loaded_search *s, fault *f)
     return STATUS_OK;
 }
 
-/* Equilibrium at `path`, and the tangent there, factored. */
+/* Computes the equilibrium at `path` and factors the tangent there. */
 static status tangent_at_path(loaded_search *s, double path, fault *f)
 {
     step_record unused = {0};
@@ -258,15 +262,15 @@ static status tangent_at_path(loaded_search *s, double path, fault *f)
                                                  : newton_direction(&s->n, path, &unused, f);
 }
 
-/* Rate of change of the structure from the stored state to Newton's current state. */
+/* Returns the rate of change of the structure from the stored state to Newton's current state. */
 static double rate_to(const loaded_search *s, double path)
 {
     return metric_distance(s->n.c->model, s->stable, s->n.state, NULL) / (path - s->p[0]);
 }
 
-/* Computes the state at `path`; *stable: it was stable and has become the last stable one. Beyond a
- * limit point no state is near: Newton's method fails, or finds a distant state, which may be
- * stable. */
+/* Computes the state at `path`. *stable: 1 if the state is stable; it has then become the last
+ * stable one. Beyond a limit point no state is near: Newton's method fails, or finds a distant
+ * state, which may be stable. */
 static status go_to(loaded_search *s, double path, int *stable, fault *f)
 {
     const status outcome = tangent_at_path(s, path, f);
@@ -274,7 +278,7 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
     s->lost = outcome == STATUS_NOT_CONVERGED;
     if (outcome != STATUS_OK && outcome != STATUS_SINGULAR && !s->lost) /* singular: critical */
         return outcome;
-    if (outcome == STATUS_OK) { /* a distant unstable state may be on another path */
+    if (outcome == STATUS_OK) { /* a distant unstable state may belong to another path */
         const double rate = rate_to(s, path);
         s->lost = s->rate > 0 && rate > steepest * s->rate && rate * (path - s->p[0]) > at_rest;
         *stable &= !s->lost;
@@ -292,7 +296,8 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
     return predictor_add(&s->n.c->eq, s->stable, 0, &s->guess, f);
 }
 
-/* Zero of sigma from the inverse interpolation p(sigma); INFINITY if sigma does not fall. */
+/* Returns the zero of sigma from the inverse interpolation p(sigma); INFINITY if sigma does not
+ * fall. */
 static double extrapolate(const loaded_search *s)
 {
     const double *p = s->p, *g = s->sigma;
@@ -306,8 +311,8 @@ static double extrapolate(const loaded_search *s)
     return parabola > p[0] ? parabola : line;
 }
 
-/* Distance to the first critical point from (K, -dK): K at the start, dK its change in a step. A
- * has the pattern of K. */
+/* Predicts the distance to the first critical point from the eigenvalues of (K, -dK), where K is
+ * the tangent at the start and dK its change in a step. A has the pattern of K. */
 static status predict(loaded_search *s, double step, sparse *A, fault *f)
 {
     newton_run *n = &s->n;
@@ -338,7 +343,8 @@ static status predict(loaded_search *s, double step, sparse *A, fault *f)
     return outcome == STATUS_FAULT ? outcome : STATUS_OK;
 }
 
-/* Scale-free: the second step is small relative to the prediction of the first. */
+/* Predicts in two steps and so needs no scale: the second step is small relative to the prediction
+ * of the first. */
 static status predict_twice(loaded_search *s, fault *f)
 {
     const double small = 1e-3;
@@ -354,8 +360,9 @@ static status predict_twice(loaded_search *s, fault *f)
     return outcome;
 }
 
-/* Is sigma as small as expected from the remaining distance, proportional to it or, at a limit
- * point, to its square root? Otherwise the state beyond belongs to another equilibrium path. */
+/* Returns 1 if sigma is as small as expected from the remaining distance, to which it is
+ * proportional or, at a limit point, proportional to its square root. Otherwise the state beyond
+ * belongs to another equilibrium path. */
 static int falls_to_zero(const loaded_search *s)
 {
     const double noise = 2e-3, steep = 5;
@@ -410,9 +417,8 @@ static status find_critical(loaded_search *s, fault *f)
                      s->begin, s->p[0]);
 }
 
-/* Number of negative eigenvalues at `path`, computed from the stored state, which becomes this
- * state.
- */
+/* Counts the negative eigenvalues at `path`. The computation starts from the stored state, which is
+ * then replaced by this state. */
 static status count_at(loaded_search *s, double path, int *negative, fault *f)
 {
     s->p[0] = kinematics_state_path(s->stable);
@@ -465,7 +471,7 @@ static status find_more(loaded_search *s, double value[], int *count, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the first load with its mode; the others have no mode. */
+/* Moves the loads to the outcome: the first load with its mode, the others without a mode. */
 static status hand_over(loaded_search *s, outcome_side *out, fault *f)
 {
     const size_t n = (size_t)s->n.free, wanted = (size_t)s->wanted;
@@ -495,8 +501,9 @@ static status hand_over(loaded_search *s, outcome_side *out, fault *f)
     return more == STATUS_FAULT ? fault_set(f, more, "%s", why.text) : STATUS_OK;
 }
 
-/* The largest N l^2/(pi^2 E I) of an element under thrust N in Newton's state; I: smallest of its
- * section. Above 1 the element buckles by itself, and the divergence may be only that. */
+/* Returns the largest N l^2/(pi^2 E I) over the elements, where N is the compressive force in
+ * Newton's state and I the smaller second moment of area. If it exceeds 1, an element buckles
+ * individually, and the divergence may be this local buckling. */
 static double thrust_of_elements(const newton_run *n)
 {
     const model *m = n->c->model;
@@ -509,7 +516,7 @@ static double thrust_of_elements(const newton_run *n)
         for (int k = 0; k < 2; k++)
             internal_at_end(&n->c->eq, &at, model_element(m, i)->member, k, end[k]);
         const double EI = s->young * fmin(s->Iy, s->Iz), thrust = -fmin(end[0][0], end[1][0]);
-        if (EI > 0) /* for a section given by matrices: 0 */
+        if (EI > 0) /* EI is 0 for a section given by matrices */
             most = fmax(most, thrust * kind->length * kind->length / (PI * PI * EI));
     }
     return most;
@@ -529,7 +536,7 @@ static status judge_massless(const newton_run *n, const flutter_point *first, fa
                                 first->path, most);
 }
 
-/* For loads without a potential: the first critical load and its kind. */
+/* Finds the first critical load and its kind for loads without a potential. */
 static status find_without_potential(analysis_context *c, loaded_search *s, outcome_spectrum *found,
                                      fault *f)
 {
@@ -565,7 +572,7 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
     return STATUS_OK;
 }
 
-/* The caller, loaded_buckling, frees *s, also after a failure. */
+/* Runs the search. The caller, loaded_buckling, frees *s, also after a failure. */
 static status run(analysis_context *c, int analysis, loaded_search *s, outcome_spectrum *out,
                   fault *f)
 {

@@ -1,8 +1,8 @@
 /* Feedback loops in small vibrations. The force is P u with the factor u = (Kp + Kd s + Ki/s) (r -
  * S^T x), where S^T x is measured and r is the reference, as in motions (time/feedback.c); the
- * limit of u is not reached. In a harmonic analysis each loop adds an unknown u. Damped modes have
- * K + Kp P S^T + s (C + Kd P S^T) and, for each integral gain, one more coordinate: the integral of
- * -S^T x. */
+ * limit of u is assumed not to be reached. In a harmonic analysis each loop adds an unknown u. For
+ * damped modes the matrices become K + Kp P S^T and C + Kd P S^T, and each integral gain adds a
+ * coordinate, the integral of -S^T x. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -96,7 +96,8 @@ static void add(full_column *c, int which, int row, double value)
     c->value[row * CLOSED + which] += value;
 }
 
-/* Adds the loops' entries to column j: coordinates below n, integrals from n on. */
+/* Adds the loops' entries to column j. Columns below n are coordinates, columns from n on are
+ * integrals. */
 static void add_loops(const vibration *v, int n, int j, full_column *c)
 {
     for (int l = 0, at = n; l < v->loops; l++) {
@@ -110,7 +111,7 @@ static void add_loops(const vibration *v, int n, int j, full_column *c)
             }
         if (!loop->integrates)
             continue;
-        if (measured != 0) /* z' + S^T x = 0, forces Ki P z */
+        if (measured != 0) /* z' + S^T x = 0; the forces are Ki P z */
             add(c, 0, at, measured);
         for (int i = 0; i < n && j == at; i++)
             if (loop->push[i] != 0)
@@ -126,7 +127,7 @@ static int ascending(const void *a, const void *b)
     return *(const int *)a - *(const int *)b;
 }
 
-/* Appends the column to the matrices, which have room. */
+/* Appends the column to the matrices, which must have room for it. */
 static void append(full_column *c, int j, sparse to[])
 {
     qsort(c->row, (size_t)c->rows, sizeof *c->row, ascending);
@@ -142,7 +143,8 @@ static void append(full_column *c, int j, sparse to[])
     c->rows = 0;
 }
 
-/* Entries of the symmetric K above its diagonal, by rows: of[first[i]] .. positions in K. */
+/* Lists the entries of the symmetric K above its diagonal by rows: of[first[i]] and the following
+ * are their positions in K. */
 static void turn(const sparse *K, int first[], int column[], int of[])
 {
     for (int j = 0; j < K->n; j++)

@@ -11,7 +11,7 @@
 
 int modal_wanted(const analysis_context *c, int analysis)
 {
-    const int others = 6; /* margin for axial modes and other families between the wanted ones */
+    const int others = 6; /* margin for axial modes and other families between the requested ones */
     int wanted = imperfection_modes(c->scene, analysis);
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
@@ -23,12 +23,12 @@ int modal_wanted(const analysis_context *c, int analysis)
     return wanted + others;
 }
 
-/* K of the modes: the structure, the prestress and the shift. */
+/* K of the modes, which consists of the structure, the prestress and the shift. */
 typedef struct modal_forms {
     quadratic_forms of;
     int prestressed;
-    sparse M, G;  /* G of the prestress; no values: none */
-    double shift; /* [1/s^2] in K of the system and in its forms */
+    sparse M, G;  /* G: geometric stiffness of the prestress; without values: none */
+    double shift; /* [1/s^2] shift contained in K of the system and in its forms */
     double *work; /* [free] */
 } modal_forms;
 
@@ -51,7 +51,7 @@ static double stiffness_rounding(void *context, const double mode[])
     return quadratic_forms_stiffness_rounding(&f->of, mode);
 }
 
-/* y += times A x */
+/* Adds `times` A x to y. */
 static void add_product(const modal_forms *f, const sparse *A, double times, const double x[],
                         double y[])
 {
@@ -70,7 +70,7 @@ static void stiffness_product(void *context, const double mode[], double y[])
         add_product(f, &f->M, f->shift, mode, y);
 }
 
-/* Eigenvalue of a mode x with x^T (K + shift M) x = 1: the positive root of
+/* Returns the eigenvalue of a mode x with x^T (K + shift M) x = 1: the positive root of
  *   x^T K x = lambda x^T M x + lambda^2 x^T B x
  * including the elements' internal motions (field/field.h), except under stress, which would act on
  * these too. A value below the round-off of the shift is a rigid-body mode. */
@@ -101,7 +101,7 @@ static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
     const int n = about->of.free;
     for (int i = 0; i < side->count; i++) {
         side->mu[i] = sqrt(eigenvalue(about, side->mu[i], side->mode + (size_t)i * (size_t)n));
-        side->error[i] /= 2; /* error of the square root */
+        side->error[i] /= 2; /* relative error of the square root */
         for (int k = i; k > 0 && side->mu[k] < side->mu[k - 1]; k--) {
             swap(&side->mu[k - 1], &side->mu[k], 1);
             swap(&side->error[k - 1], &side->error[k], 1);
@@ -111,7 +111,7 @@ static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
     outcome_take(side, &o->left.spectrum.positive);
 }
 
-/* Explains a mode with neither stiffness nor mass, whose frequency is arbitrary. */
+/* Reports a mode with neither stiffness nor mass, whose frequency is arbitrary. */
 static status explain_massless(analysis_context *c, fault *f)
 {
     c->work->singular = 0;
@@ -122,7 +122,7 @@ static status explain_massless(analysis_context *c, fault *f)
     return singular_mechanism(c, STATUS_SINGULAR, f);
 }
 
-/* K of a free structure is singular; K + shift M is not. */
+/* Adds shift M to K of a free structure, which is singular. */
 static status shifted_system(analysis_context *c, linear_system *s, const sparse *M, double *shift,
                              fault *f)
 {
@@ -140,7 +140,7 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
                                                                        : outcome;
 }
 
-/* K += G of the stresses of the displacements load_x, under the loads at `path`. */
+/* Adds G of the stresses due to the displacements load_x, under the loads at `path`, to K. */
 static status add_stresses(analysis_context *c, double path, linear_system *s, modal_forms *about,
                            fault *f)
 {
@@ -154,7 +154,7 @@ static status add_stresses(analysis_context *c, double path, linear_system *s, m
     return context_factor(c, s->factor, &s->K, f);
 }
 
-/* K += G of the stresses of the followed linear analysis. */
+/* Adds G of the stresses of the followed linear analysis to K. */
 static status add_prestress(analysis_context *c, int follows, linear_system *s, modal_forms *about,
                             fault *f)
 {
@@ -170,8 +170,8 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
     return add_stresses(c, 1, s, about, f);
 }
 
-/* K += G of the stresses due to initial strains without loads. K may be that of a free structure,
- * with its shift. */
+/* Adds G of the stresses due to initial strains without loads to K. K may be that of a free
+ * structure, which includes its shift. */
 static status add_strains(const analysis_context *c, linear_system *s, modal_forms *about, fault *f)
 {
     analysis_context unloaded = context_unloaded(c);
@@ -179,7 +179,7 @@ static status add_strains(const analysis_context *c, linear_system *s, modal_for
     return add_stresses(&unloaded, 0, s, about, f);
 }
 
-/* K with its factors, and M; K of a free structure is shifted. */
+/* Assembles M and the factored K; K of a free structure is shifted. */
 static status assemble(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                        fault *f)
 {
@@ -207,7 +207,7 @@ static status assemble(analysis_context *c, int analysis, linear_system *s, moda
     return STATUS_OK;
 }
 
-/* The caller, modal_analysis, frees *s, *about and *e, also after a failure. */
+/* Finds the modes. The caller, modal_analysis, frees *s, *about and *e, also after a failure. */
 static status solve(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                     eigen_result *e, fault *f)
 {

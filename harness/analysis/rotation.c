@@ -10,15 +10,15 @@
 
 #include "harness/model/model.h"
 
-enum { OTHERS = 2 }; /* margin for modes of other families between those wanted */
+enum { OTHERS = 2 }; /* margin for modes of other families between the requested ones */
 
-/* The tangent of the last linearisation through the strains. */
+/* The tangent in two parts, from the last linearisation with respect to the strains. */
 typedef struct tangent_parts {
     const model *m;
     const linear_memory *memory;
     const model_state *state;
     const sparse *geometric;
-    double *x, *y; /* [free + driven], prescribed coordinates zero */
+    double *x, *y; /* [free + driven] with the prescribed coordinates set to zero */
     int free_count, all;
 } tangent_parts;
 
@@ -98,7 +98,7 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
     return context_symmetric(a->factor, "frequencies in a rotating frame", f);
 }
 
-/* Frequencies and families of the modes found. */
+/* Sets the frequencies and families of the modes found. */
 static status identify(analysis_context *c, const gyroscopic_result *r, double mode[],
                        rotation_modes *out, fault *f)
 {
@@ -139,7 +139,8 @@ static status take_modes(analysis_context *c, const gyroscopic_result *r, rotati
     return outcome;
 }
 
-/* Do quantities of this analysis request modes at any station, or at one before the last? */
+/* Returns 1 if quantities of this analysis request modes at any station or, with elsewhere 1, at a
+ * station other than the last. */
 static int asks_for_modes(const analysis_context *c, int analysis, int elsewhere)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
@@ -151,8 +152,9 @@ static int asks_for_modes(const analysis_context *c, int analysis, int elsewhere
     return 0;
 }
 
-/* 1: the modes of a station are needed. If the modes of any station before the last are needed,
- * those of all stations are, because growth is reported at the first station where it occurs. */
+/* Returns 1 if the modes of a station are needed. If the modes of any station before the last are
+ * needed, those of all stations are, because growth is reported at the first station where it
+ * occurs. */
 static int are_wanted_at(const analysis_context *c, int analysis, const outcome_path *path,
                          int station)
 {
@@ -161,7 +163,7 @@ static int are_wanted_at(const analysis_context *c, int analysis, const outcome_
     return station == path->stations - 1 || asks_for_modes(c, analysis, 1);
 }
 
-/* Initial number of modes. */
+/* Returns the initial number of modes to be computed. */
 static int modes_wanted(const analysis_context *c, int analysis)
 {
     int wanted = scene_walk_of(&c->scene->analysis[analysis])->modes;
@@ -173,7 +175,7 @@ static int modes_wanted(const analysis_context *c, int analysis)
     return wanted + OTHERS;
 }
 
-/* Is there a mode for every quantity of the analysis? */
+/* Returns 1 if there is a mode for every quantity of the analysis. */
 static int is_enough(const analysis_context *c, int analysis, const rotation_modes *modes)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
@@ -189,7 +191,7 @@ static int is_enough(const analysis_context *c, int analysis, const rotation_mod
     return 1;
 }
 
-/* The caller, try_modes, frees *result, also after a failure. */
+/* Finds the modes. The caller, try_modes, frees *result, also after a failure. */
 static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
                          gyroscopic_result *result, rotation_modes *out, fault *f)
 {
@@ -201,8 +203,8 @@ static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
     return take_modes(c, result, out, f);
 }
 
-/* Computes `wanted` modes, if they exist; *enough: there is a mode for every quantity, or there are
- * no more modes. */
+/* Computes `wanted` modes, if they exist; *enough: 1 if there is a mode for every quantity or if
+ * there are no more modes. */
 static status try_modes(analysis_context *c, int analysis, const gyroscopic_problem *problem,
                         rotation_modes *out, int *enough, fault *f)
 {
@@ -213,8 +215,8 @@ static status try_modes(analysis_context *c, int analysis, const gyroscopic_prob
     return outcome;
 }
 
-/* Increases the number of modes until it is sufficient: modes of other families lie between the
- * requested modes. */
+/* Computes the modes in a state. Increases their number until it is sufficient, because modes of
+ * other families may lie between the requested ones. */
 static status modes_at(analysis_context *c, int analysis, const model_state *state, matrices *a,
                        rotation_modes *out, fault *f)
 {
@@ -237,7 +239,7 @@ static status modes_at(analysis_context *c, int analysis, const model_state *sta
     return STATUS_OK;
 }
 
-/* Does a mode grow by more than round-off? */
+/* Returns 1 if mode i grows by more than round-off. */
 static int grows(const rotation_modes *modes, int i)
 {
     return modes->growth[i] > modes->error[i] * hypot(modes->growth[i], modes->frequency[i]);
@@ -264,7 +266,7 @@ static void note_unproven(analysis_context *c, const rotation_modes *modes, doub
                  path, modes->unproven);
 }
 
-/* Computes the modes at every station, or at the last. */
+/* Computes the modes at every station, or only at the last. */
 static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_rotation *out,
                        fault *f)
 {
@@ -283,8 +285,9 @@ static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_r
     return STATUS_OK;
 }
 
-/* Without negative eigenvalues no mode grows. Otherwise the modes decide, if each is known and they
- * account for all negative eigenvalues. */
+/* Returns the stability according to the modes. If there are no negative eigenvalues, no mode
+ * grows. Otherwise the modes decide, provided that each mode is known and that the modes account
+ * for all negative eigenvalues. */
 static step_stability stability_of(const rotation_modes *modes)
 {
     int known = modes->unproven == 0;

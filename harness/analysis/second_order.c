@@ -1,5 +1,5 @@
-/* Linear models about states. The inputs and outputs are those named by the scene's quantities, and
- * its loads. */
+/* Linear models about states. The inputs and outputs are those that the scene's quantities name,
+ * and its loads. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <limits.h>
@@ -46,7 +46,7 @@ static void add_output(system_matrices *s, int quantity, const scene_response *a
     s->output[s->outputs++] = (system_output){quantity, *as};
 }
 
-/* Lists the inputs and outputs of responses and displacements; then the loads and the feedback
+/* Lists the inputs and outputs of responses and displacements, then the loads and the feedback
  * references. */
 status second_order_list(const scene *of, system_matrices *s, fault *f)
 {
@@ -89,7 +89,8 @@ status second_order_list(const scene *of, system_matrices *s, fault *f)
     return STATUS_OK;
 }
 
-/* Position of each coordinate of the model in the linear model: [all]; -1: it does not move. */
+/* Returns the position of each coordinate of the model in the linear model, [all]; -1: the
+ * coordinate does not move. */
 static int *positions(const vibration *v, const system_matrices *s)
 {
     int *out = calloc((size_t)v->all + 1, sizeof *out), motions = 0;
@@ -115,7 +116,7 @@ static void add_matrix(const vibration *v, const sparse *a, int skew, const int 
         }
 }
 
-/* Row c of a. */
+/* Adds row c of a to out. */
 static void add_row(const vibration *v, const sparse *a, int skew, int c, const int at[],
                     double out[])
 {
@@ -129,14 +130,14 @@ static void add_row(const vibration *v, const sparse *a, int skew, int c, const 
         }
 }
 
-/* Forces of a unit input on all coordinates. */
+/* Computes the forces of a unit input on all coordinates. */
 static void forces_of(const vibration *v, const system_input *in, double out[])
 {
     int index[KINEMATICS_MOST];
     double T[6 * KINEMATICS_MOST];
     memset(out, 0, (size_t)v->all * sizeof *out);
     if (in->reference)
-        return; /* acts in a closed loop only */
+        return; /* the input acts only in a closed loop */
     if (in->load != SCENE_NONE) {
         const scene_load *load = &v->c->scene->load[in->load];
         loads_add_one(&v->c->eq, v->state, load, 1, out);
@@ -182,7 +183,7 @@ static int input_of(const system_matrices *s, int load, int reference)
     return i;
 }
 
-/* The state space of m with the loops closed. */
+/* Computes the state space of m and closes the loops. */
 static status close_loops(const vibration *v, const system_matrices *s, int inputs,
                           state_space *space, fault *f)
 {
@@ -208,7 +209,8 @@ static status close_loops(const vibration *v, const system_matrices *s, int inpu
     return outcome;
 }
 
-/* C of damping ratios: U U^T, acting on the motion relative to the static motion of the base. */
+/* Adds C of the damping ratios, U U^T, which acts on the motion relative to the static motion of
+ * the base. */
 static void add_ratios(const vibration *v, const system_matrices *s, second_order *m, double r[])
 {
     const double *U;
@@ -323,7 +325,7 @@ static status triplets_of_rows(int rows, int columns, const double value[], trip
     return outcome;
 }
 
-/* Stores the model with its first outputs. */
+/* Stores the model with its first `outputs` outputs. */
 static status keep_second_order(const second_order *m, int outputs, linear_model *out, fault *f)
 {
     const int N = m->n + m->motions;
@@ -336,7 +338,7 @@ static status keep_second_order(const second_order *m, int outputs, linear_model
     return triplets_of_rows(outputs, m->inputs, m->D, &out->D, f);
 }
 
-/* reduced: the state space of the whole model exists already. */
+/* Stores the state space. reduced 1: the state space of the whole model already exists. */
 static status keep_state_space(const vibration *v, const system_matrices *of, const second_order *m,
                                int reduced, linear_model *out, fault *f)
 {
@@ -378,7 +380,7 @@ static status keep_state_space(const vibration *v, const system_matrices *of, co
     return outcome;
 }
 
-/* Reads the node named from `at` to the next comma; a node named twice is rejected. */
+/* Reads the node name from `at` to the next comma. REFUSED: a node is named twice. */
 static status read_node(const scene *s, const char *text, const char *list, const char *at,
                         int *node, fault *f)
 {
@@ -406,7 +408,7 @@ static status read_node(const scene *s, const char *text, const char *list, cons
     return STATUS_OK;
 }
 
-/* "MODES:NODE,NODE": *modes, and 1 for the coordinates of these nodes. */
+/* Reads "MODES:NODE,NODE" into *modes, and sets edge to 1 for the coordinates of these nodes. */
 static status read_interface(const vibration *v, const char *text, int *modes, char edge[],
                              fault *f)
 {
@@ -433,7 +435,8 @@ static status read_interface(const vibration *v, const char *text, int *modes, c
     return STATUS_OK;
 }
 
-/* Largest differences of the transfer functions at the frequencies of a harmonic analysis. */
+/* Computes the largest differences between the transfer functions of the two models at the
+ * frequencies of a harmonic analysis. */
 static status compare_transfer(const vibration *v, const second_order *whole,
                                const second_order *small, reduced_model *out, fault *f)
 {
@@ -449,7 +452,7 @@ static status compare_transfer(const vibration *v, const second_order *whole,
     for (int i = 0; outcome == STATUS_OK && i < path->stations; i++) {
         const double w = 2 * PI * path->value[i];
         if (w == 0 && whole->motions > 0)
-            continue; /* infinite for a constant acceleration */
+            continue; /* the response to a constant acceleration is infinite */
         outcome = second_order_transfer(whole, w, one, f);
         if (outcome == STATUS_OK)
             outcome = second_order_transfer(small, w, other, f);

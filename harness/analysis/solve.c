@@ -37,9 +37,8 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
     return motion_analysis;
 }
 
-/* Did the analysis fail before leaving the undeformed state? For a motion the structure may be
- * free.
- */
+/* Returns 1 if the analysis failed before leaving the undeformed state. This does not apply to
+ * motions, whose structure may be free, nor to harmonic analyses. */
 static int is_stuck(const analysis_outcome *o)
 {
     const int failed = o->status == STATUS_SINGULAR || o->status == STATUS_NOT_CONVERGED;
@@ -47,7 +46,7 @@ static int is_stuck(const analysis_outcome *o)
            (!outcome_has_path(o) || outcome_path_of(o)->reached == 0);
 }
 
-/* Does the analysis have a step with an indefinite tangent? */
+/* Returns 1 if the analysis has a step with an indefinite tangent. */
 static int has_negative(const solve_result *r, int from)
 {
     for (int i = from; i < r->steps; i++)
@@ -56,14 +55,14 @@ static int has_negative(const solve_result *r, int from)
     return 0;
 }
 
-/* Detects a path that starts from a structure whose stiffness is indefinite at rest. Called if the
- * path was unstable or failed; not counted as work. */
+/* Detects a path that starts from a structure whose stiffness is indefinite at rest. It is called
+ * if the path was unstable or failed. The work is not counted. */
 static status judge_rest(analysis_context *c, const analysis_outcome *o, int first_step, fault *f)
 {
     if (!outcome_has_path(o) || o->kind == SCENE_COMPLIANCE || o->kind == SCENE_MOTION ||
         o->kind == SCENE_HARMONIC ||
         (o->status == STATUS_OK && !has_negative(c->result, first_step)) ||
-        newton_judge_rest(c->model, NULL) != STATUS_OK) /* which has been reported already */
+        newton_judge_rest(c->model, NULL) != STATUS_OK) /* already reported */
         return o->status;
     fault why = {""};
     linear_system s = {0};
@@ -74,8 +73,8 @@ static status judge_rest(analysis_context *c, const analysis_outcome *o, int fir
     return at_rest == STATUS_NOT_CONVERGED ? fault_set(f, at_rest, "%s", why.text) : o->status;
 }
 
-/* Runs analyses; the first failure determines the overall status. perfect: 0, 1: those of the
- * imperfect or the perfect structure; otherwise all. */
+/* Runs analyses; the first failure determines the overall status. perfect: 0: runs the analyses of
+ * the imperfect structure; 1: those of the perfect structure; otherwise: all analyses. */
 static void run_analyses(analysis_context *c, int perfect)
 {
     for (int i = 0; i < c->scene->analyses; i++) {
@@ -121,7 +120,7 @@ static void spoil(solve_result *r, status outcome, const fault *f)
     snprintf(r->reason, sizeof r->reason, "%s", f->text);
 }
 
-/* Shapes and the matrices of all states, if requested. */
+/* Stores the shapes and matrices of all states, if they were requested. */
 static void keep_states(analysis_context *c)
 {
     fault f = {""};
@@ -132,7 +131,7 @@ static void keep_states(analysis_context *c)
         spoil(r, collect_systems(c, &r->systems, &f), &f);
 }
 
-/* Reports the value of the governing quantity, and names it. */
+/* Reports the value of the governing quantity and its name. */
 static void put_envelope(const scene *s, solve_result *r, int quantity)
 {
     const scene_quantity *q = &s->quantity[quantity];
@@ -161,7 +160,7 @@ static void put_envelope(const scene *s, solve_result *r, int quantity)
     }
 }
 
-/* Reports a curve over another quantity, at the points that both have. */
+/* Reports a curve as a function of another quantity, at the points that both have. */
 static void put_over(const scene *s, solve_result *r, int quantity)
 {
     const int over = scene_abscissa_of(s, &s->quantity[quantity]);
@@ -223,7 +222,8 @@ static status imperfect_begin(const analysis_context *c, imperfect *p, fault *f)
     return run_state_begin(&p->run, p->m, c->options->threads, f);
 }
 
-/* Runs the analyses whose modes are imperfections, then those of the imperfect structure. */
+/* Runs the analyses whose modes are used as imperfections, then the analyses of the imperfect
+ * structure. */
 static void run_imperfect(analysis_context *c, imperfect *p)
 {
     fault f = {""};
@@ -300,7 +300,7 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
         put_envelope(s, result, i);
     }
     add_counters(&other.run.counters, &run.counters);
-    result->counters = run.counters; /* shapes are for drawing, so their work is not counted */
+    result->counters = run.counters; /* shapes are for pictures, so their work does not count */
     keep_states(&c);
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);

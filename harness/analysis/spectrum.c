@@ -1,4 +1,4 @@
-/* Spectra of histories: scene_transform documents the formulas. */
+/* Spectra of time histories; scene_transform documents the formulas. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -22,7 +22,8 @@ static size_t least_factor(size_t n)
     return n;
 }
 
-/* out[n] of x[0], x[stride] ...: combines the transforms of its p interleaved parts. */
+/* Computes the transform out[n] of x[0], x[stride], ... by combining the transforms of its
+ * interleaved parts. */
 static void transform(const fourier *t, size_t n, size_t stride, const double complex x[],
                       double complex out[])
 {
@@ -48,7 +49,7 @@ static double weight_of(const scene_quantity *q, int i, int count)
     return q->passing.taper == SCENE_TAPER_HANN ? s * s : 1;
 }
 
-/* Stores the curve from weighted and transformed values. */
+/* Stores the curve computed from the weighted and transformed values. */
 static void put(const scene_quantity *q, int count, double step, const double complex x[],
                 quantity_result *r)
 {

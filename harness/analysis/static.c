@@ -1,7 +1,8 @@
 /* Nonlinear equilibrium along a load path with adaptive steps. The step size follows from the
  * success of Newton's method, not from the error of the tangent. Steps chosen by that error are
- * shorter than Newton's method needs and cost more (14 to 20 % more iterations, measured on all
- * cases with one station, with errors from 0.2 to 2 rad or lengths). */
+ * shorter than Newton's method needs and cost more: 14 to 20 % more iterations, measured on all
+ * cases with one station, with errors from 0.2 to 2 (rotations in rad, displacements in
+ * lengths). */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -11,14 +12,15 @@
 #include "elements/math/dense.h"
 #include "harness/model/model.h"
 
-/* Prepares the compliances of all analyses about states of `path`; *out NULL: no analysis follows
- * the path. */
+/* Prepares the compliances of all analyses about states of `path`. *out NULL: no such analysis
+ * follows the path. */
 static status compliance_walk_begin(newton_run *, int path, compliance_walk **out, fault *);
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
-/* Stability at the end of a step if pivots do not decide it. *found: path within the step with a
- * different stability from both ends, or INFINITY; last_resort: the step cannot be shorter. */
+/* Determines the stability at the end of a step if the pivots do not decide it. *found: path within
+ * the step whose stability differs from that of both ends, or INFINITY; last_resort: the step
+ * cannot be shorter. */
 static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, step_record *record,
                          double *found, fault *f)
 {
@@ -32,7 +34,7 @@ static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, s
                : flutter_judge_state(judge, n->c, n->state, record, f);
 }
 
-/* Takes the step back, to repeat it in shorter steps. */
+/* Undoes the step, so that it can be repeated in shorter steps. */
 static void take_back(newton_run *n, const step_record *record)
 {
     history_drop_step(n->c->result, record);
@@ -80,7 +82,7 @@ static status walk_to(newton_run *n, double target, flutter_judge *judge, double
             rejected = 0;
             continue;
         }
-        /* Shorter steps have the same matrix, except for the load stiffness. */
+        /* shorter steps have the same matrix, except for the load stiffness */
         const int hopeless =
             outcome == STATUS_SINGULAR && record.iterations == 0 && rejected >= SINGULAR_STARTS;
         if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least ||
@@ -100,7 +102,7 @@ status static_walk(newton_run *n, double target, double *increment, fault *f)
     return walk_to(n, target, NULL, increment, f);
 }
 
-/* Repeats iterations from the undeformed state to measure their time; the state does not change. */
+/* Repeats iterations from the undeformed state to measure their time. The state does not change. */
 static status sample(newton_run *n, double path, fault *f)
 {
     step_record record = {.path = path};
@@ -109,8 +111,8 @@ static status sample(newton_run *n, double path, fault *f)
     return STATUS_OK;
 }
 
-/* Is the start of the path loaded: by constant loads, motions with a nonzero start or stress-free
- * strains? */
+/* Returns 1 if the start of the path is loaded by constant loads, by motions with a nonzero start,
+ * or by stress-free strains. */
 static int begins_loaded(const analysis_context *c)
 {
     const scene *s = c->scene;
@@ -124,7 +126,7 @@ static int begins_loaded(const analysis_context *c)
     return acts;
 }
 
-/* Equilibrium at path 0. */
+/* Computes the equilibrium at path 0. */
 static status equilibrate(newton_run *n, flutter_judge *judge, fault *f)
 {
     step_record record = {.path = 0};
@@ -141,7 +143,7 @@ static status equilibrate(newton_run *n, flutter_judge *judge, fault *f)
     return STATUS_OK;
 }
 
-/* Steps to every station and stores its state. Steps are not shortened without need. */
+/* Advances to every station and stores its state. Steps are not shortened without need. */
 static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance_walk *on_the_way,
                    outcome_path *o, fault *f)
 {
@@ -166,7 +168,7 @@ static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance
     return STATUS_OK;
 }
 
-/* The caller, static_analysis, frees the workspace, also after a failure. */
+/* Solves the path. The caller, static_analysis, frees the workspace, also after a failure. */
 static status solve(analysis_context *c, int analysis, newton_run *n, predictor *t,
                     flutter_judge *judge, compliance_walk **on_the_way, outcome_path *o, fault *f)
 {
@@ -201,7 +203,7 @@ status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
 /* Compliance and stiffness of a node in a deformed state. A released prescribed motion is replaced
  * by its reactions: dead forces, and moments that follow the convention of the analysis. */
 
-/* Loads for which a quantity requests the response. */
+/* Returns the loads for which a quantity requests the response. */
 static unsigned wanted_columns(const analysis_context *c, int analysis)
 {
     unsigned wanted = 0;
@@ -221,7 +223,7 @@ static void forget_columns(unsigned known, double C[36])
             C[i] = NAN;
 }
 
-/* Force on the node, and moment that drives its rotation. */
+/* Computes the force on the node, and the moment that drives its rotation. */
 static status reaction_of(analysis_context *c, const scene_compliance *what, const model_state *s,
                           node_tangent *t, double reaction[6], fault *f)
 {
@@ -233,7 +235,8 @@ static status reaction_of(analysis_context *c, const scene_compliance *what, con
     return tangent_driven_moment(c, s, what->node, t, reaction + 3, f);
 }
 
-/* Computes compliance C and stiffness K at the node; unneeded columns of C, and then K, are NaN. */
+/* Computes the compliance C and the stiffness K at the node. Columns of C that are not needed are
+ * NaN, and K is then NaN too. */
 static status matrices_of(analysis_context *c, const scene_compliance *what, double reaction[6],
                           node_tangent *t, unsigned wanted, station_matrices *out, fault *f)
 {
@@ -263,7 +266,8 @@ static status compliance_at(analysis_context *c, const scene_compliance *what, c
     return matrices_of(c, what, reaction, t, wanted, out, f);
 }
 
-/* The analysis at a state that Newton's method has just reached, with its last tangent if valid. */
+/* Evaluates the analysis at a state that Newton's method has just reached, with its last tangent if
+ * that is valid. */
 static status compliance_take(analysis_context *c, int analysis, const newton_run *n,
                               node_tangent *t, station_matrices *out, fault *f)
 {
@@ -297,7 +301,7 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
                : STATUS_OK;
 }
 
-/* The state without loads: undeformed except for stress-free strains. */
+/* Sets *state to the state without loads, which is undeformed except for stress-free strains. */
 static status unloaded(analysis_context *c, newton_run *n, const model_state **state, fault *f)
 {
     step_record unused = {0};

@@ -7,17 +7,17 @@
 
 #include "elements/math/dense.h"
 
-/* Relative magnitude below which eigenvalues may be round-off of massless coordinates. */
+/* Relative magnitude below which an eigenvalue may be the round-off of massless coordinates. */
 static const double nothing = 1e-6;
 
-/* Coordinates are scaled by the square roots of the diagonal of K, rates by `second`. */
+/* Coordinates are scaled by the square roots of the diagonal of K; rates are scaled by `second`. */
 typedef struct unsymmetric_solver {
     const unsymmetric_problem *p;
     unsymmetric_result *out;
-    int n, massive; /* number of coordinates, and of those with mass */
+    int n, massive; /* number of coordinates, and number of those with mass */
     int *of;        /* [massive] */
     double *scale;  /* [n] */
-    double *x, *y;  /* [n] work */
+    double *x, *y;  /* [n] workspace */
     double second;  /* [s] */
     arnoldi_result right, left;
 } unsymmetric_solver;
@@ -39,7 +39,7 @@ static void solve(const unsymmetric_solver *s, int transposed, double x[])
     s->out->solutions++;
 }
 
-/* y = K^-1 M x */
+/* Computes y = K^-1 M x. */
 static void apply_undamped(void *context, const double in[], double out[])
 {
     const unsymmetric_solver *s = context;
@@ -51,7 +51,7 @@ static void apply_undamped(void *context, const double in[], double out[])
         out[i] = s->y[i] * s->scale[i];
 }
 
-/* y = M K^-T x */
+/* Computes y = M K^-T x. */
 static void apply_undamped_transposed(void *context, const double in[], double out[])
 {
     const unsymmetric_solver *s = context;
@@ -63,7 +63,7 @@ static void apply_undamped_transposed(void *context, const double in[], double o
         out[i] = s->y[i] / s->scale[i];
 }
 
-/* [-K^-1 C, -K^-1 M; 1, 0] of [x; v] */
+/* Applies [-K^-1 C, -K^-1 M; 1, 0] to [x; v]. */
 static void apply_damped(void *context, const double in[], double out[])
 {
     const unsymmetric_solver *s = context;
@@ -107,8 +107,8 @@ static double diagonal(const sparse *a, int j)
     return 0;
 }
 
-/* Scale of a coordinate without stiffness of its own, such as a feedback integral, from the forces
- * that it causes. */
+/* Returns the scale of a coordinate without its own stiffness, such as a feedback integral, from
+ * the forces that it causes. */
 static double scale_of(const unsymmetric_solver *s, int j)
 {
     const sparse *K = s->p->K;
@@ -136,7 +136,7 @@ static void measure(unsymmetric_solver *s)
     }
 }
 
-/* An estimate of the longest period of the undamped structure. */
+/* Estimates the longest period of the undamped structure. */
 static void find_second(unsymmetric_solver *s, double from[], double to[])
 {
     double size = 0;
@@ -189,7 +189,7 @@ static status pairs(unsymmetric_solver *s, int transposed, arnoldi_result *out, 
     return arnoldi_solve(&a, out, f);
 }
 
-/* y = |A| x, or A x. */
+/* Computes y = A x or, with absolute 1, y = |A| x. */
 static void multiply(const sparse *A, int absolute, const double complex x[], double complex y[])
 {
     for (int j = 0; j < A->n; j++)
@@ -203,7 +203,7 @@ static void multiply(const sparse *A, int absolute, const double complex x[], do
         }
 }
 
-/* Eigenvalue s of the matrices, which may be shifted. */
+/* Returns the eigenvalue s of the matrices, which may be shifted. */
 static double complex root(const unsymmetric_solver *s, double complex theta)
 {
     return s->p->C != NULL ? 1 / theta : csqrt(-1 / theta);
@@ -228,7 +228,7 @@ static double complex product(int n, const double complex a[], const double comp
     return sum;
 }
 
-/* w^T (2 s M + C) x, or of absolute values. */
+/* Returns w^T (2 s M + C) x; with absolute 1, the sum of the absolute values of its terms. */
 static double slope(const unsymmetric_solver *s, int absolute, double complex at,
                     const double complex w[], const growth_estimate *e)
 {
@@ -240,8 +240,9 @@ static double slope(const unsymmetric_solver *s, int absolute, double complex at
     return cabs(sum + product(s->n, w, e->y));
 }
 
-/* Round-off in K changes s by w^T dK x/(w^T (2 s M + C) x); for coinciding eigenvalues it changes s
- * by the square root of the change in their difference. */
+/* Returns the estimated error of s due to round-off. A change dK of K changes s by w^T dK x/(w^T (2
+ * s M + C) x). If eigenvalues coincide,
+ * the error is of the order of the square root of the round-off. */
 static double error_of(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const int n = s->n;
@@ -267,7 +268,7 @@ static double error_of(const unsymmetric_solver *s, int i, const growth_estimate
     return fmin(least, cap) + part * s->right.residual[i] * fmin(1, least / DBL_EPSILON);
 }
 
-/* Left vectors w of K: K^-T times those of the operator. */
+/* Computes the left vectors w of K, which are K^-T times those of the operator. */
 static status left_vectors(unsymmetric_solver *s, growth_estimate *e, fault *f)
 {
     const size_t n = (size_t)s->n;
@@ -292,8 +293,8 @@ static status left_vectors(unsymmetric_solver *s, growth_estimate *e, fault *f)
     return STATUS_OK;
 }
 
-/* Selects the phase with the largest real part; for the second of two flutter modes, the imaginary
- * part. */
+/* Sets mode[] to the real part of the eigenvector, at the phase where this part is largest; for the
+ * second of two flutter modes, to the imaginary part. */
 static void take_mode(const unsymmetric_solver *s, int i, int second, double mode[])
 {
     const size_t size = s->p->C != NULL ? (size_t)(s->n + s->massive) : (size_t)s->n;
@@ -308,7 +309,7 @@ static void take_mode(const unsymmetric_solver *s, int i, int second, double mod
     }
 }
 
-/* w^T A x; y is work space. */
+/* Returns w^T A x; y is workspace. */
 static double complex form(const unsymmetric_solver *s, const sparse *A, const double complex w[],
                            const double complex x[], double complex y[])
 {
@@ -316,7 +317,8 @@ static double complex form(const unsymmetric_solver *s, const sparse *A, const d
     return product(s->n, w, y);
 }
 
-/* The left vector of eigenvalue i; of several, the one least orthogonal to e->x; NULL: none. */
+/* Returns the left vector of eigenvalue i; if there are several, the one that is least orthogonal
+ * to e->x; NULL: none. */
 static const double complex *left_of(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const double complex theta = s->right.theta[i], *found = NULL;
@@ -333,8 +335,8 @@ static const double complex *left_of(const unsymmetric_solver *s, int i, const g
     return found;
 }
 
-/* Sets e->w of the forms: the left vector or, for a symmetric K, the mode itself or, if its form is
- * too small, its conjugate. */
+/* Sets e->w, the second vector of the forms: the left vector or, for a symmetric K, the mode itself
+ * or, if its form is too small, its conjugate. */
 static void take_other(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const double complex *left = s->p->K->symmetric ? NULL : left_of(s, i, e);
@@ -348,8 +350,8 @@ static void take_other(const unsymmetric_solver *s, int i, const growth_estimate
         memcpy(e->w, e->x, (size_t)s->n * sizeof *e->w);
 }
 
-/* The root of c (z - s) + m (z^2 - s^2) = b (z^2 + mass z)^2/(1 + stiffness z) next to the
- * eigenvalue s, with the forms of its mode. */
+/* Returns the root of c (z - s) + m (z^2 - s^2) = b (z^2 + mass z)^2/(1 + stiffness z) next to the
+ * eigenvalue s, where c, m and b are the forms of its mode. */
 static double complex with_inside(const unsymmetric_solver *s, int i, double complex at,
                                   const growth_estimate *e)
 {

@@ -109,7 +109,7 @@ typedef struct result_series {
     double decades; /* sum of log10(|error| + RESULTS_FLOOR) over these values: it changes with
                        every error */
     result_error least,
-        largest; /* smallest: error on the mesh with the smallest error; largest: over all meshes */
+        largest; /* least: of the mesh on which this error is smallest; largest: over all meshes */
     result_limit *limit; /* [limits] at a default point, in the order of the point's quantities */
 } result_series;
 
