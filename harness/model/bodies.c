@@ -39,7 +39,7 @@ static mesh_discrete *add_spring(model *m, const scene_spring *spring)
     return d;
 }
 
-/* Vertices of all members that have a foundation. */
+/* Returns the number of vertices of all members that have a foundation. */
 static int founded_vertices(const model *m)
 {
     int count = 0;
@@ -50,7 +50,7 @@ static int founded_vertices(const model *m)
     return count;
 }
 
-/* Adds the stiffness of a length of foundation to K; R: axes of the foundation. */
+/* Adds the stiffness of a length of foundation to K. R: axes of the foundation. */
 static void add_founded(const double foundation[6], double length, const double R[9], double K[36])
 {
     for (int block = 0; block < 2; block++)
@@ -61,7 +61,8 @@ static void add_founded(const double foundation[6], double length, const double 
                         length * foundation[3 * block + k] * R[3 * i + k] * R[3 * j + k];
 }
 
-/* The weights are those of lumped masses: mesh.c. */
+/* Creates the springs of a member's foundation. Their weights are those of lumped masses:
+ * mesh.c. */
 static status found_member(model *m, int member, scene_spring *spring, int *used, fault *f)
 {
     const scene_member *sm = &m->scene->member[member];
@@ -149,7 +150,7 @@ static const mesh_discrete *numbered(const model *m, int spring)
     return &m->mesh.discrete[m->mesh.discretes - m->mesh.springs + spring];
 }
 
-/* sigma += damping x rate */
+/* Adds the dashpot forces, damping x rate, to sigma. */
 static void damp(const scene_spring *p, const double rate[], double sigma[])
 {
     double more[SPRING_STRAINS];
@@ -158,7 +159,7 @@ static void damp(const scene_spring *p, const double rate[], double sigma[])
         sigma[k] += more[k];
 }
 
-/* r NULL: rates are zero. */
+/* Evaluates a spring in a state. r NULL: the rates are zero. */
 static void spring_at(const model *m, const model_state *s, const mesh_discrete *d,
                       const spring_rates *r, spring_state *out)
 {
@@ -178,7 +179,8 @@ static void spring_at(const model *m, const model_state *s, const mesh_discrete 
     spring_strain(d->el.nodes, x, turn, &(strain_output){.s = out->sigma, .H = out->H});
 }
 
-/* Force and tangent at the nodes; material: with J^T S J of springs. */
+/* Computes the force and the tangent at the nodes; material 1: the tangent includes J^T S J of
+ * springs. */
 static void evaluate(const model *m, const model_state *s, const mesh_discrete *d,
                      const element_rotating_frame *frame, const spring_rates *r, int material,
                      double force[], double K[])
@@ -208,7 +210,7 @@ static void evaluate(const model *m, const model_state *s, const mesh_discrete *
         force[k] = -force[k];
 }
 
-/* Force and tangent in model coordinates. */
+/* Computes the force and the tangent in model coordinates. */
 static void eliminated(const model *m, const model_state *s, const mesh_discrete *d,
                        const element_rotating_frame *frame, const spring_rates *r, int material,
                        double force[], double K[])
@@ -369,7 +371,7 @@ double dashpots_power(const model *m, const double rate[])
     return sum;
 }
 
-/* Forces at the spring's nodes. */
+/* Computes the forces at the spring's nodes. */
 static void force_of(const model *m, const model_state *s, int spring, const double rate[],
                      double force[])
 {

@@ -7,10 +7,12 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-enum { LEAST_PIECES = 12 }; /* per member, so that a single element appears curved */
-static const double drawn_part = 0.1, drawn_rotation = 0.5; /* of the size; [rad] */
+enum { LEAST_PIECES = 12 }; /* pieces per member, so that a single element appears curved */
+static const double drawn_part = 0.1,
+                    drawn_rotation = 0.5; /* fraction of the model's size; [rad] */
 
-/* Gaps between the vertices of a member, and pieces of each gap. */
+/* Returns the number of gaps between the vertices of a member; the second function the number of
+ * pieces of each gap. */
 static int gaps_of(const model *m, int member)
 {
     return (m->mesh.first_element[member + 1] - m->mesh.first_element[member]) *
@@ -36,7 +38,7 @@ int centreline_points(const model *m, int first[])
     return count;
 }
 
-/* One element: frames of its nodes and external forces on them. */
+/* One element, with the frames of its nodes and the external forces on them. */
 typedef struct span {
     int nodes;
     double gap; /* undeformed distance between two nodes [m] */
@@ -61,7 +63,7 @@ static void span_of(const model *m, const model_state *s, int element, span *out
     dense_add_transpose_mul(m->mesh.coordinates, m->mesh.strains, 1, J, sigma, out->force);
 }
 
-/* Cubic from node k to the next at t = 0 .. 1: position and direction. */
+/* Computes the position and the direction of the cubic from node k to the next at t = 0 .. 1. */
 static void cubic(const span *e, int k, double t, double r[3], double direction[3])
 {
     const double *p = e->x[k].r, *q = e->x[k + 1].r, u = 1 - t;
@@ -72,8 +74,8 @@ static void cubic(const span *e, int k, double t, double r[3], double direction[
     }
 }
 
-/* Shortest rotation between the two triads, then the shortest rotation of the x axis to the line.
- */
+/* Computes the orientation: interpolates along the shortest rotation between the two triads, then
+ * applies the shortest rotation of the x axis to the line. */
 static void orientation(const span *e, int k, double t, const double direction[3], double q[4])
 {
     double rotation_vector[3], step[4], x[3] = {1, 0, 0}, axis[3];
@@ -91,7 +93,8 @@ static void orientation(const span *e, int k, double t, const double direction[3
     rotation_compose(step, q, q);
 }
 
-/* Resultants that act on the part before the point: from the forces on the nodes after it. */
+/* Computes the resultants that act on the part before the point, from the forces on the nodes after
+ * it. */
 static void resultants(const span *e, int k, double t, centreline_point *p)
 {
     double force[3] = {0}, moment[3] = {0}, R[9];
@@ -143,7 +146,7 @@ void centreline_nodes(const model *m, const model_state *s, double out[])
         kinematics_position(m, s, i, out + 3 * i);
 }
 
-/* The node may consist of released ends only. */
+/* Computes the increment of a node, which may consist of released ends only. */
 static void increment_of_node(const model *m, const model_state *s, int node, const double x[],
                               double out[])
 {
@@ -157,7 +160,7 @@ static void increment_of_node(const model *m, const model_state *s, int node, co
     }
 }
 
-/* Increments of a vertex's frame: translation, spatial rotation. */
+/* Computes the increments of all vertex frames: translation and spatial rotation. */
 static void increments_of(const model *m, const model_state *s, const double x[], double out[])
 {
     for (int i = 0; i < m->mesh.elements; i++) {
@@ -178,7 +181,8 @@ void centreline_increments(const model *m, const double x[], double out[])
         increment_of_node(m, m->rest, i, x, out);
 }
 
-/* Scale that makes a mode visible: by its translations, or by its rotations if these are larger. */
+/* Returns the scale that makes a mode visible, by its translations or, if these are larger, by its
+ * rotations. */
 static double visible_scale(const model *m, const double increment[])
 {
     double scale = INFINITY;
@@ -188,7 +192,7 @@ static double visible_scale(const model *m, const double increment[])
     return isfinite(scale) ? scale : 1;
 }
 
-/* s: state moved by scale x the increments[vertices x 6]. */
+/* Moves the state s by scale x the increments[vertices x 6]. */
 static void displace(const model *m, double scale, const double increment[], model_state *s)
 {
     for (int v = 0; v < m->mesh.vertices; v++) {
@@ -223,7 +227,7 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
 
 /* Distance between two states of a model; the arc length uses it. */
 
-/* Bodies that have a coordinate. */
+/* Returns the number of bodies that have a coordinate. */
 static int moving_bodies(const model *m)
 {
     int count = 0;
@@ -271,7 +275,7 @@ static double turn(const model_state *a, const model_state *b, int vertex)
     return vec3_norm(angle);
 }
 
-/* |d - P d|^2 */
+/* Returns |d - P d|^2. */
 static double square_beside(const double d[3], const double P[9])
 {
     double light[3] = {0, 0, 0}, sum = 0;

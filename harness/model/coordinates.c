@@ -1,4 +1,4 @@
-/* Numbers the unknown and the prescribed coordinates; the others are eliminated. */
+/* Numbers the unknown and the prescribed coordinates. All other scalars are eliminated. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@ status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     return STATUS_OK;
 }
 
-/* Is the component a motion out of the plane to which the scene is restricted? */
+/* Returns 1 if the component is a motion out of the plane to which the scene is restricted. */
 static int leaves_plane(const model *m, int vertex, int component)
 {
     const int normal = scene_normal(m->scene), turn = component - SCENE_RX;
@@ -40,7 +40,7 @@ static int leaves_plane(const model *m, int vertex, int component)
     return turn < v->angles && fabs(v->axis[turn][normal]) < 0.5 * vec3_norm(v->axis[turn]);
 }
 
-/* How a component of a body moves: SCENE_FREE, SCENE_HELD or a driver. */
+/* Returns how a component of a body moves: SCENE_FREE, SCENE_HELD or a driver. */
 static int motion_of(const model *m, int vertex, int component)
 {
     if (leaves_plane(m, vertex, component))
@@ -58,8 +58,8 @@ static int motion_of(const model *m, int vertex, int component)
     return (sequence && angle >= v->angles) || (v->idle >> angle & 1) ? SCENE_HELD : motion;
 }
 
-/* The unknown driver whose value is found from the condition that known driver `known` puts on a
- * component, or NONE. */
+/* Returns the unknown driver whose value follows from the condition that the known driver `known`
+ * imposes on a component; NONE: there is none. */
 static int conditioned_by(const model *m, int vertex, int component, int known)
 {
     for (int d = 0; d < m->scene->drivers; d++) {
@@ -71,7 +71,8 @@ static int conditioned_by(const model *m, int vertex, int component, int known)
     return NONE;
 }
 
-/* An unconnected vertex must not cause a zero row. */
+/* Marks the vertices that are connected, because an unconnected vertex must not cause a zero
+ * row. */
 static void mark_used(const model *m, char *used)
 {
     for (int i = 0; i < m->mesh.elements; i++)
@@ -82,7 +83,7 @@ static void mark_used(const model *m, char *used)
             used[m->mesh.vertex[m->mesh.discrete[i].el.vertex[k]].body] = 1;
 }
 
-/* Numbers the coordinates of a released end: displacements first, then rotations. */
+/* Numbers the coordinates of a released end, first the displacements, then the rotations. */
 static void number_release(model *m, int index)
 {
     mesh_vertex *v = &m->mesh.vertex[index];
@@ -93,13 +94,13 @@ static void number_release(model *m, int index)
     }
 }
 
-/* Number of fixed coordinates, of those fixed because they leave the plane, of unconnected vertices
- * and of coordinates that constraints give. */
+/* Numbers of coordinates that are fixed, that are fixed because they leave the plane, and that
+ * constraints determine; and number of unconnected vertices. */
 typedef struct coordinates_tally {
     int held, across, unused, tied;
 } coordinates_tally;
 
-/* Is the rotation an angle because it is a multiple of another one (mesh.c)? */
+/* Returns 1 if the rotation is an angle because it is a multiple of another rotation (mesh.c). */
 static int is_stretched(const model *m, int index)
 {
     int tied = 0;
@@ -113,7 +114,7 @@ static void number_vertex(model *m, int index, int pass, int used, coordinates_t
 {
     mesh_vertex *v = &m->mesh.vertex[index];
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
-        const int other = c >= SCENE_RX && is_stretched(m, index); /* not an angle: a vector */
+        const int other = c >= SCENE_RX && is_stretched(m, index); /* part of a vector */
         const int motion = v->body == index && !other ? motion_of(m, index, c) : SCENE_HELD;
         const scene_tie *tie = index < m->scene->nodes ? model_tie(m, index, c) : NULL;
         if (tie != NULL && !(tie->node == index && tie->coordinate == c)) {
@@ -146,8 +147,8 @@ static void number_vertex(model *m, int index, int pass, int used, coordinates_t
     }
 }
 
-/* Dependent coordinates share the index of the coordinate they follow. An angle with a ratio is the
- * first one of its node. */
+/* Gives dependent coordinates the index of the coordinate that they follow. An angle with a ratio
+ * is the first angle of its node. */
 static void share_coordinates(model *m)
 {
     for (int i = 0; i < m->scene->nodes; i++)
@@ -215,8 +216,8 @@ static void index_release(const model *m, int node, mesh_element *el)
         el->index[NODE_COORDINATES * node + c] = NONE;
 }
 
-/* Global coordinates of an element's coordinates, after elimination of released ends, rigid offsets
- * and sequences. */
+/* Lists the global coordinates of an element's coordinates, after elimination of released ends,
+ * rigid offsets and sequences. */
 static void index_element(model *m, mesh_element *el)
 {
     el->plain = 1;

@@ -8,7 +8,7 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* A position of a member where pieces meet. */
+/* A position on a member where two pieces meet. */
 typedef struct division_cut {
     int member;
     double place;
@@ -22,7 +22,7 @@ static int in_order(const void *a, const void *b)
     return (p->place > q->place) - (p->place < q->place);
 }
 
-/* Lists all cuts from loads, in order; returns their number. */
+/* Lists all cuts due to loads, in order, and returns their number. */
 static int list_cuts(const scene *s, division_cut out[])
 {
     int count = 0;
@@ -169,10 +169,10 @@ void division_words(const scene *s, int elements, char *text, size_t room)
     division_free(&d);
 }
 
-/* A change from one section of the scene to another in this number of steps, starting at
+/* A transition from one section of the scene to another in `steps` steps, whose sections start at
  * m->section[first]. */
 typedef struct taper {
-    int p, q, steps, even, first; /* even: equal lengths */
+    int p, q, steps, even, first; /* even 1: the steps have equal lengths */
 } taper;
 
 status profile_scene(model *m, fault *f)
@@ -233,7 +233,8 @@ static status fill(model *m, int member, const taper *t, fault *f)
     return STATUS_OK;
 }
 
-/* Index of a member's taper in the list; the length of the list if it is new. */
+/* Returns the index of a member's taper in the list, or the length of the list if this taper is
+ * new. */
 static int find(int tapers, const taper *list, const taper *t)
 {
     for (int i = 0; i < tapers; i++)

@@ -70,7 +70,8 @@ static void sequence_matrix(int n, int at, int angles, double b[3][3], const dou
         }
 }
 
-/* The first angle also moves the body on its arm; F NULL: no force. */
+/* Adds the terms of the first angle, which also moves the body on its arm. F NULL: there is no
+ * force. */
 static void swing_matrix(const model *m, const model_state *s, int body, int n, int at,
                          const double F[3], double K[])
 {

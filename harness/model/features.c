@@ -40,7 +40,8 @@ static unsigned needs_of_analyses(const scene *s)
     return needs;
 }
 
-/* Fibre stresses exert a torque if the fibres are inclined (twisted). */
+/* Returns FEATURE bits of the quantities. Fibre stresses exert a torque if the fibres are inclined
+ * (twisted). */
 unsigned features_of_quantities(const scene *s)
 {
     unsigned needs = 0;
@@ -51,8 +52,8 @@ unsigned features_of_quantities(const scene *s)
     return needs;
 }
 
-/* Do formulations provide their own inertia? A motion in time with lumped mass uses that of the
- * section, the same for all formulations. */
+/* Returns 1 if formulations provide their own inertia. A motion with lumped mass uses that of the
+ * section, which is the same for all formulations. */
 static int elements_have_mass(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -64,7 +65,7 @@ static int elements_have_mass(const scene *s)
     return 0;
 }
 
-/* Is the section used by a member? */
+/* Returns 1 if a member uses the section. */
 static int is_used(const scene *s, int index)
 {
     for (int i = 0; i < s->members; i++)
@@ -73,8 +74,8 @@ static int is_used(const scene *s, int index)
     return 0;
 }
 
-/* Physics under stress and rotation that a section given by constants has, if the analyses have
- * stresses. */
+/* Returns the physics under stress and rotation that a section given by constants has, if the
+ * analyses have stresses. */
 static unsigned needs_of_stresses(const section *c, unsigned needs)
 {
     const double arm = sqrt(c->Ip / c->A), zero = 1e-10;
@@ -99,7 +100,8 @@ static unsigned needs_of_constants(const section *c, unsigned needs)
     return out | (needs & FEATURE_MASS && c->density > 0 ? FEATURE_ROTARY_INERTIA : 0);
 }
 
-/* Section matrices have shear, but do not give warping, trapeze and Wagner effects. */
+/* Returns the physics that section matrices have. They include shear, but not warping, trapeze and
+ * Wagner effects. */
 static unsigned needs_of_matrices(const scene *s, const section *c, unsigned needs, unsigned omits)
 {
     const unsigned rotary = needs & FEATURE_MASS ? FEATURE_ROTARY_INERTIA & ~omits : 0;
@@ -143,7 +145,7 @@ unsigned features_omitted(const scene *s)
     return needed_without(s, 0) & ~needed_without(s, s->omits) & SCENE_OMITTABLE;
 }
 
-/* Physics that a section given by constants declares as zero. */
+/* Returns the physics that a section given by constants declares as zero. */
 static unsigned features_zero(const section_spec *spec)
 {
     const unsigned zeros = spec->zeros, moments = SECTION_ZERO_WAGNER_Y | SECTION_ZERO_WAGNER_Z;
@@ -179,7 +181,7 @@ unsigned features_not_given(const scene *s, int section_index)
     if (!(needs & FEATURE_LARGE))
         out &= ~(unsigned)FEATURE_WAGNER_TORQUE;
     if (s->plane != SCENE_SPACE)
-        out &= FEATURE_SHEAR; /* without torsion */
+        out &= FEATURE_SHEAR; /* the analyses have no torsion */
     return out & ~s->omits;
 }
 
@@ -221,7 +223,7 @@ unsigned features_theory(const scene *s, const element_type *type)
         return SHEAR_OWN;
     if (needs & FEATURE_HARINGX)
         return SHEAR_HARINGX;
-    /* if it has both and none is requested: Engesser's */
+    /* if the type has both and none is requested, Engesser's theory is used */
     return needs & FEATURE_ENGESSER || type->shear_theories & SHEAR_ENGESSER ? SHEAR_ENGESSER
                                                                              : type->shear_theories;
 }
@@ -244,7 +246,7 @@ unsigned features_needed_by_quantity(const scene *s, int quantity)
     return features_needed(s) & (moves ? ~0U : ~inertia);
 }
 
-/* Features that elements with this section require. */
+/* Finds the features that elements with this section require. */
 status features_of_section(const model *m, int index, unsigned *features, fault *f)
 {
     (void)f;
@@ -260,7 +262,7 @@ status features_of_section(const model *m, int index, unsigned *features, fault 
     return STATUS_OK;
 }
 
-/* Does the type have its own inertia, which supports only sections given by constants? */
+/* Returns 1 if the type has its own inertia, which supports only sections given by constants. */
 static int knows_constants_only(const scene *s, const element_type *type)
 {
     int matrices = 0;

@@ -1,4 +1,4 @@
-/* Lines of members with the initial shape of imperfections: imperfect_shape.c makes it. */
+/* Lines of members with the initial shape of imperfections, which imperfect_shape.c creates. */
 #include "harness/model/model_impl.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@ const scene *imperfect_lines(const model *m)
     return m->imperfect != NULL ? &m->imperfect->lines : m->scene;
 }
 
-/* value[points x 3] of a member at a place, linear in between. */
+/* Interpolates value[points x 3] of a member linearly at a place. */
 static void between_points(const model_imperfect *p, int member, double (*value)[3], double place,
                            double out[3])
 {

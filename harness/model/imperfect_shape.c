@@ -8,7 +8,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Rotates the inertia xx, yy, zz, xy, yz, zx. */
+/* Rotates an inertia tensor with the components xx, yy, zz, xy, yz, zx. */
 static void turn_inertia(const double R[9], double inertia[6])
 {
     static const int at[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
@@ -29,7 +29,7 @@ static void rotate(const double q[4], double v[3])
     rotation_apply(q, before, v);
 }
 
-/* Moves the nodes, and rotates bodies and offsets with them. */
+/* Moves the nodes, and rotates the bodies and offsets with them. */
 static void move_nodes(const double increment[], model_imperfect *p)
 {
     scene *s = &p->own;
@@ -98,7 +98,7 @@ static status fill(const model *m, const double x[], model_imperfect *p, fault *
         add_shifts(s, p->lines.node);
         add_shifts(s, p->own.node);
         for (int i = 0; i < s->imperfections; i++)
-            p->own.imperfection[i].nodes = 0; /* the shifts are already in its nodes */
+            p->own.imperfection[i].nodes = 0; /* the nodes already include these shifts */
         for (int i = 0; i < s->members; i++)
             fill_member(m, i, increment, vertex, p);
         move_nodes(increment, p);
@@ -166,8 +166,8 @@ typedef struct piece {
     double line[3];          /* vector between them */
 } piece;
 
-/* Displacement between the two vertices: a cubic with their rotations as slopes; returns its
- * square. */
+/* Computes the displacement between the two vertices, a cubic with their rotations as slopes;
+ * returns the square of its length. */
 static double shift_at(const piece *p, double x, double shift[3])
 {
     const double a = 1 - x * x * (3 - 2 * x), b = x * (1 - x) * (1 - x), c = x * x * (x - 1);
@@ -181,7 +181,7 @@ static double shift_at(const piece *p, double x, double shift[3])
     return square;
 }
 
-/* Position of the largest displacement. */
+/* Returns the position of the largest displacement. */
 static double largest_in(const piece *p)
 {
     enum { SAMPLES = 16, CUTS = 60 };

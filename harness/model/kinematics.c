@@ -21,7 +21,8 @@ void kinematics_offset(const model *m, const model_state *s, int index, double r
     rotation_apply(&s->q[4 * v->body], v->offset, rho);
 }
 
-/* Orientation at the current angles of a sequence, and its spatial axes b (NULL: not needed). */
+/* Computes the orientation at the current angles of a sequence, and its spatial axes b (NULL: not
+ * needed). */
 static void sequence_orientation(const model *m, const model_state *s, int index, double b[][3],
                                  double q[4])
 {
@@ -64,7 +65,7 @@ void kinematics_swing(const model *m, const model_state *s, int vertex, double m
         by[i] = twice * (across[i] * cos(mean) - v->arm[i] * sin(mean));
 }
 
-/* Across the normal of its diaphragm: u = u_master + (R - 1) arm. */
+/* Moves a vertex across the normal of its diaphragm: u = u_master + (R - 1) arm. */
 static void follow_leader(const model *m, model_state *s, int vertex)
 {
     const mesh_vertex *v = &m->mesh.vertex[vertex];
@@ -140,7 +141,7 @@ void kinematics_turn_matrix(const mesh_vertex *v, int n, int at, double K[])
     }
 }
 
-/* Increments (translation, spatial rotation) of a body's frame. */
+/* Computes the increments (translation, spatial rotation) of a body's frame. */
 static void body_increment(const model *m, const model_state *s, int body, const double dx[],
                            double out[6])
 {
@@ -206,11 +207,11 @@ double kinematics_component(const model *m, const model_state *s, int node, int 
     if (v->body == node && v->angles == 0 && v->vector_driver[0] == NONE &&
         m->scene->node[node].angle[component - SCENE_RX] != SCENE_FREE)
         return s->angle[3 * node + component -
-                        SCENE_RX]; /* fixed or prescribed about a fixed axis: valid beyond pi */
+                        SCENE_RX]; /* an angle about a fixed axis, which is valid beyond pi */
     return turns_of_node(s, node)[component - SCENE_RX];
 }
 
-/* R^T (r - r_from) - (r - r_from)_0 = R^T (u - u_from) - (1 - R^T)(..)_0 */
+/* R^T (r - r_from) - (r - r_from)_0 = R^T (u - u_from) - (1 - R^T) (r - r_from)_0 */
 double kinematics_relative(const model *m, const model_state *s, int from, int node, int component)
 {
     double back[4], q[4], t[3], apart[3], first[3], turned[3];
@@ -237,7 +238,7 @@ double kinematics_driver_value(const model *m, const model_state *s, int driver)
     return s->driver[driver];
 }
 
-/* Cosine of the angle between an element's chord and the x axis of one of its nodes. */
+/* Returns the cosine of the angle between an element's chord and the x axis of one of its nodes. */
 static double chord_cosine(const model *m, const model_state *s, const mesh_element *el, int node)
 {
     double p[3], q[3], d[3], axis[3];
@@ -250,8 +251,8 @@ static double chord_cosine(const model *m, const model_state *s, const mesh_elem
     return vec3_dot(d, axis) / vec3_norm(d);
 }
 
-/* Cosine of half the angle between the ends of an element; negative: more than half a revolution,
- * known from the signs of quaternions. */
+/* Returns the cosine of half the angle between the ends of an element. It is negative for more than
+ * half a revolution, which the signs of the quaternions show. */
 static double half_cosine(const model *m, const model_state *s, const mesh_element *el, int chords)
 {
     double turn = 0, least = 1;
@@ -284,7 +285,7 @@ double kinematics_largest_turn(const model *m, const model_state *s, int chords,
     return 2 * acos(fmax(-1, least));
 }
 
-/* Twist about the undeformed axis, of one node relative to the other. */
+/* Returns the twist of one node relative to the other, about the undeformed axis. */
 static double twist_of(const model *m, const model_state *s, const mesh_element *el)
 {
     double back[4], q[4];
@@ -331,8 +332,8 @@ int kinematics_coordinate(const model *m, int node, int component)
     return m->mesh.vertex[node].body == node ? m->mesh.vertex[node].coordinate[component] : NONE;
 }
 
-/* Appends the coordinates of a released end to those of its body: rotations, displacements. Returns
- * their number. */
+/* Appends the coordinates of a released end, rotations then displacements, to those of its body.
+ * Returns their number. */
 static int append_own(const model *m, int vertex, int size, int count, int index[])
 {
     const mesh_release *r = release_of(m, vertex);
@@ -390,7 +391,7 @@ int kinematics_node_jacobian(const model *m, const model_state *s, int node, int
     return count;
 }
 
-/* States of a model: one block of numbers for each state. */
+/* States of a model. Each state has one block of numbers. */
 
 const model_state *kinematics_rest(const model *m)
 {
@@ -407,7 +408,7 @@ const double *kinematics_strains(const model_state *s)
     return s->e;
 }
 
-/* Allocates a state with a block of that many doubles. */
+/* Allocates a state with a block of `size` doubles. */
 static status block_alloc(size_t size, model_state **out, fault *f)
 {
     model_state *s = *out = calloc(1, sizeof *s);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Are there springs that are not symmetric? damped: or dashpots. */
+/* Returns 1 if any spring is not symmetric or, with `damped`, any dashpot. */
 static int has_unsymmetric(const model *m, int damped)
 {
     for (int i = 0; i < m->scene->springs; i++)
@@ -14,8 +14,8 @@ static int has_unsymmetric(const model *m, int damped)
     return 0;
 }
 
-/* Dead moments about fixed axes (loads or reactions) and follower loads: their tangents are stored
- * as full matrices, because symmetry depends on the state. */
+/* Returns 0 if there are dead moments about fixed axes (loads or reactions) or follower loads.
+ * Tangents are then stored as full matrices, because their symmetry depends on the state. */
 int assemble_symmetric(const model *m)
 {
     int whole = has_unsymmetric(m, 1);
@@ -26,14 +26,14 @@ int assemble_symmetric(const model *m)
     return !whole;
 }
 
-/* Is the pair stored, and at which row and column? */
+/* Returns 1 if the pair is stored, and the row and column of its entry. */
 static int stored(const mesh_pattern *p, int row, int column)
 {
     return row >= 0 && column >= 0 && row < p->matrix.n && column < p->matrix.n &&
            (!p->matrix.symmetric || row <= column);
 }
 
-/* Returns NULL if the entry is not stored. */
+/* Returns the address of an entry; NULL: the entry is not stored. */
 static double *place_of(sparse *a, int row, int column)
 {
     int low = a->column[column], high = a->column[column + 1] - 1;
@@ -74,7 +74,7 @@ static size_t collect_of(const mesh_element *el, const mesh_pattern *p, size_t c
     return count;
 }
 
-/* Pairs of the coordinates of two nodes. */
+/* Collects the pairs of the coordinates of two nodes. */
 static size_t collect_nodes(const model *m, const mesh_pattern *p, const int node[2], size_t count,
                             int row[], int column[])
 {
@@ -95,8 +95,8 @@ static size_t collect_nodes(const model *m, const mesh_pattern *p, const int nod
     return count;
 }
 
-/* Pairs of nodes connected by a tension, and of the coordinates on which a load acts and which it
- * measures. */
+/* Collects the pairs of nodes connected by a tension, and the pairs of a coordinate on which a load
+ * acts and a coordinate that it measures. */
 static size_t collect_loads(const model *m, const mesh_pattern *p, size_t count, int row[],
                             int column[])
 {
@@ -115,8 +115,8 @@ static size_t collect_loads(const model *m, const mesh_pattern *p, size_t count,
     return count;
 }
 
-/* Number of pairs of coordinates that elements couple, with repetitions. Stores their rows and
- * columns in row[] and column[] unless these are NULL. */
+/* Returns the number of pairs of coordinates that elements couple, including repetitions. Stores
+ * their rows and columns in row[] and column[] unless these are NULL. */
 static size_t collect(const model *m, const mesh_pattern *p, int row[], int column[])
 {
     size_t count = 0;
@@ -127,7 +127,7 @@ static size_t collect(const model *m, const mesh_pattern *p, int row[], int colu
     return collect_loads(m, p, count, row, column);
 }
 
-/* Sets begin[n + 1] of n lists; the lists contain pairs by their index. */
+/* Sets begin[n + 1], the starts of n lists that contain pairs by their index. */
 static void begin_lists(size_t pairs, const int index[], int n, int begin[])
 {
     memset(begin, 0, ((size_t)n + 1) * sizeof *begin);
@@ -137,7 +137,7 @@ static void begin_lists(size_t pairs, const int index[], int n, int begin[])
         begin[i + 1] += begin[i];
 }
 
-/* Input of compress: pairs in any order, and their columns by rows. */
+/* Input of compress: pairs in any order, and a list of them sorted by rows. */
 typedef struct pairs {
     size_t count;
     int *row, *column, *by_row; /* [count] */
@@ -190,8 +190,8 @@ static status compress(const model *m, mesh_pattern *p, fault *f)
                             p->matrix.n);
 }
 
-/* Positions of the stored entries of an element's matrix: entry[columns^2]; returns their number.
- */
+/* Lists the positions of the stored entries of an element's matrix in entry[columns^2], and returns
+ * their number. */
 static int entries_of(const mesh_element *el, const mesh_pattern *p, mesh_entry entry[])
 {
     const sparse *a = &p->matrix;
@@ -209,8 +209,8 @@ static int entries_of(const mesh_element *el, const mesh_pattern *p, mesh_entry 
     return count;
 }
 
-/* The layout with these entries, if it is among the most recent ones, or NONE. Elements along a
- * member have the same layout except at its ends. */
+/* Returns the layout with these entries if it is among the most recent ones, otherwise NONE.
+ * Elements along a member have the same layout except at its ends. */
 static int find_layout(const mesh_pattern *p, int entries, const mesh_entry entry[])
 {
     const int looked_at = 16;
@@ -301,7 +301,7 @@ static status make(const model *m, assemble_patterns *all, int which, const spar
     const status outcome = fill_pattern(m, p, f);
     p->made = outcome == STATUS_OK;
     if (!p->made)
-        pattern_free(p); /* the next analysis tries again */
+        pattern_free(p); /* so that the next analysis tries again */
     return outcome;
 }
 

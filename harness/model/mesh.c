@@ -14,7 +14,7 @@
 #include "elements/math/scalar.h"
 #include "elements/shared/masses.h"
 
-/* Adds the axis (any length) of the next angle of a sequence. */
+/* Adds the axis, of any length, of the next angle of a sequence. */
 static void add_axis(const double axis[3], mesh_vertex *v)
 {
     const double length = vec3_norm(axis);
@@ -25,7 +25,7 @@ static void add_axis(const double axis[3], mesh_vertex *v)
 
 /* Fixes a node against rotation about an idle axis: if it has one free angle, by fixing that angle;
  * otherwise by restricting its rotation to two axes perpendicular to the idle axis, which the last
- * of them carries along. */
+ * of the two angles rotates. */
 static void hold_idle(const scene *s, int node, mesh_vertex *v)
 {
     double axis[3], across[2][3];
@@ -56,8 +56,8 @@ static int is_free(const scene_node *n)
            n->translation[2] == SCENE_FREE;
 }
 
-/* A coordinate that is a multiple of another has an axis of that length: a rotation about a fixed
- * axis becomes an angle about that axis. */
+/* If a rotation about a fixed axis is a multiple of another coordinate, turns it into an angle
+ * about an axis of that length. */
 static void stretch_axes(const model *m, int node, mesh_vertex *v)
 {
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
@@ -78,7 +78,7 @@ static void stretch_axes(const model *m, int node, mesh_vertex *v)
     }
 }
 
-/* Does a constraint contain one of its translations? */
+/* Returns 1 if a constraint contains one of the node's translations. */
 static int is_tied(const model *m, int node)
 {
     int tied = 0;
@@ -115,7 +115,7 @@ static void scene_vertices(model *m)
             v->vector_driver[k] = n->rotation == SCENE_ROTATION_VECTOR ? n->angle[k] : NONE;
         }
         if (n->rotation == SCENE_ROTATION_FORK) {
-            double normal[3]; /* of the guides */
+            double normal[3]; /* normal of the diaphragm */
             vec3_cross(n->axis[1], n->axis[0], normal);
             add_axis(normal, v);
             add_axis(n->axis[1], v);
@@ -153,7 +153,7 @@ static status set_inner(const model *m, const element_request *request, mesh_kin
     return STATUS_OK;
 }
 
-/* The unstressed state of an element: strains from the scene, and `free` of a kind. */
+/* The unstressed state of an element: its strains from the scene, and `free` of a kind. */
 typedef struct unstressed {
     double strain[3], free[3];
 } unstressed;
@@ -170,8 +170,8 @@ static status unstressed_of(const model *m, int member, int profile, double leng
     return scene_member_elongation(m->scene, member, length, &out->free[0], f);
 }
 
-/* Index of the kind of element with this section, length and curvature; a new one is created if
- * needed. rounding [m]: tolerance of the length. */
+/* Finds the kind of element with this section, length and curvature, or creates a new kind.
+ * rounding [m]: tolerance of the length. */
 static status kind_of(model *m, const unstressed *own, int profile, double length, double rounding,
                       const double curvature[3], int *out, fault *f)
 {
@@ -206,7 +206,8 @@ static status kind_of(model *m, const unstressed *own, int profile, double lengt
     return m->mesh.type->prepare(&request, k->data, f);
 }
 
-/* Arc of an element; if each element has its own section, also its axes. */
+/* Computes the arc of an element and, if each element has its own section, the axes of its
+ * section. */
 static status arc_of_element(const model *m, int member, int profile, const member_arc *along,
                              member_arc *out, fault *f)
 {
@@ -216,7 +217,8 @@ static status arc_of_element(const model *m, int member, int profile, const memb
     return member_arc_of(imperfect_lines(m), member, m->section[profile].axes_angle, out, f);
 }
 
-/* Storage of triad[nodes]; shared with the previous element if they are equal. */
+/* Stores triad[nodes] and returns its storage, which is shared with the previous element if the
+ * triads are equal. */
 static mesh_triad *keep_triads(model *m, mesh_triad triad[])
 {
     const size_t size = (size_t)m->mesh.nodes * sizeof *triad;
@@ -228,8 +230,9 @@ static mesh_triad *keep_triads(model *m, mesh_triad triad[])
     return next;
 }
 
-/* An element between two points of a bow, as an arc with the rotation of the bow between these
- * points; chord: the vector between them and its triad. For a bow on a straight member. */
+/* For a bow on a straight member: returns the arc of an element between two points of the bow, with
+ * the rotation of the bow between these points; chord, triad: length and triad of the vector
+ * between them. */
 static member_arc arc_of_bow(const member_arc *a, const double ends[2], const double start[3],
                              double chord, const double triad[9])
 {
@@ -251,7 +254,8 @@ static member_arc arc_of_bow(const member_arc *a, const double ends[2], const do
     return out;
 }
 
-/* Sets the vertices of one element along an arc: positions, triads; warping is set later. */
+/* Sets the vertices of one element along an arc with their positions and triads; warping is set
+ * later. */
 static status add_element(model *m, const member_arc *along, int member, int number,
                           int inner_vertex, fault *f)
 {
@@ -300,7 +304,8 @@ static status add_element(model *m, const member_arc *along, int member, int num
             memcpy(first, position, sizeof first);
         if (k < last || curved)
             continue;
-        /* Straight, or of nonuniform curvature: one triad along the chord. */
+        /* the element is straight, or its curvature is not uniform: it has a single triad along the
+         * chord */
         const double y_start[3] = {triad[0][1], triad[0][4], triad[0][7]};
         double y[3];
         for (int i = 0; i < 3; i++) {
@@ -350,7 +355,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
     return kind_of(m, &own, profile, a->length * (ends[1] - ends[0]) / each, 0, a->k, &el->kind, f);
 }
 
-/* Warping slot of a member's end: shared by name, its own, or none. */
+/* Returns the warping amplitude of a member's end: one shared by name, its own, or none. */
 static int end_warp(model *m, int name, int *named)
 {
     if (name == SCENE_WARP_FIXED)
@@ -368,7 +373,7 @@ static void add_warps(model *m, int *named)
     for (int member = 0; member < m->scene->members; member++) {
         const scene_member *sm = &m->scene->member[member];
         const int profile =
-            profile_at(m, member, 0); /* the same warping as the other elements: division.c */
+            profile_at(m, member, 0); /* warping as for the other elements: division.c */
         unsigned features;
         features_of_section(m, profile, &features, NULL);
         const int warps = (features & FEATURE_WARPING) != 0 && m->scene->plane == SCENE_SPACE,
@@ -391,9 +396,9 @@ static void add_warps(model *m, int *named)
     }
 }
 
-/* Weights of the end nodes of n equal lengths; the weighted sums integrate cubics. With these,
- * lumped masses have the order of distributed ones in slender bending (Gregory's rule from n = 6
- * on, closed Newton-Cotes below). */
+/* Returns the weight of an end node of n equal lengths. The weighted sums integrate cubics exactly.
+ * With these weights, lumped masses have the same order of convergence as distributed masses in
+ * slender bending (Gregory's rule from n = 6 on, closed Newton-Cotes rules below). */
 static double weight_of(int n, int node)
 {
     static const double closed[][3] = {{0.5, 0, 0},
@@ -407,8 +412,8 @@ static double weight_of(int n, int node)
 }
 
 /* Sets `couple` at an end of the element after node i. Together with the masses at the nodes
- * beyond, its inertia equals the force of all mass beyond the node for a linear acceleration, and
- * the moment for a uniform acceleration. */
+ * beyond, it has the inertia force of all mass beyond the node for an acceleration that varies
+ * linearly, and the moment of this mass for a uniform acceleration. */
 static void set_end(mesh_element *el, int end, int n, int i, double beyond, double first)
 {
     const double length = n - i;
@@ -428,8 +433,8 @@ static void set_shares(mesh_element *el, int count)
     }
 }
 
-/* Are two consecutive elements of a member equal in length, section and mass? The lengths in a bow
- * differ because of its slope, by less than the error of the weights. */
+/* Returns 1 if two consecutive elements of a member are equal in length, section and mass. The
+ * lengths in a bow differ because of its slope, by less than the error of the weights. */
 static int runs_on(const model *m, int first, int next)
 {
     const mesh_element *a = &m->mesh.element[first], *b = &m->mesh.element[next];
@@ -474,8 +479,8 @@ static status allocate(model *m, fault *f)
     double total = 0;
     for (int i = 0; i < s->members; i++)
         total += (double)division_pieces(&m->division, i) * m->division.each[i];
-    const double per_element = 8e3; /* bytes for an element with its share of matrices and factors,
-                                       measured on straight members */
+    const double per_element = 8e3; /* bytes per element, including its share of matrices and
+                                       factors; measured on straight members */
     char what[80];
     snprintf(what, sizeof what, "%.0f elements", total);
     TRY(memory_check(total * per_element, what, "give fewer", f));

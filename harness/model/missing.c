@@ -1,4 +1,4 @@
-/* Physics that a scene requires and a formulation does not support, in words. */
+/* Describes the physics that a scene requires and a formulation does not support. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -9,10 +9,10 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 
-/* largest share of shear in a deflection that may be neglected. A length l
- * whose ends do not rotate deflects by F l^3/(12 EI) in bending and F l/(kGA) in shear: their ratio
- * is Phi = 12 EI/(kGA l^2) (a cantilever: a quarter of that; bending in n half-waves: about n^2
- * times it). Beyond it a section rigid in shear is a different model, not a discretisation. */
+/* largest share of shear in a deflection that may be neglected. A length l whose ends do not rotate
+ * deflects by F l^3/(12 EI) in bending and F l/(kGA) in shear: their ratio is Phi = 12 EI/(kGA l^2)
+ * (a cantilever: a quarter of that; bending in n half-waves: about n^2 times it). Above this limit,
+ * neglecting shear changes the model instead of approximating it. */
 static const double largest_phi = 0.01;
 
 /* Box around members that are connected. */
@@ -40,8 +40,8 @@ static int shares_section(const scene_member *a, const scene_member *b)
 }
 
 /* Diagonal [m] of the box around a member and the connected members of the same section: one beam
- * may be described by several short members. reached [nodes]: must be cleared before; reached nodes
- * are set. */
+ * may be described by several short members. reached[nodes] must be zero on entry; the nodes that
+ * are reached are set to 1. */
 static double extent_of(const scene *s, int member, char *reached)
 {
     const scene_member *first = &s->member[member];
@@ -61,7 +61,7 @@ static double extent_of(const scene *s, int member, char *reached)
     return vec3_norm(size);
 }
 
-/* Largest Phi of bending along y. */
+/* Returns the largest Phi of bending along y. */
 static double phi_along_y(const scene *s)
 {
     double largest = 0;
@@ -92,7 +92,7 @@ int lacks_of(const scene *s, const element_type *type, char *words, int size)
     return phi > largest_phi ? 2 : 1;
 }
 
-/* Are there off-diagonal shear flexibilities beyond round-off of the diagonal? */
+/* Returns 1 if off-diagonal shear flexibilities exceed the round-off of the diagonal. */
 static int is_coupled(const section *c)
 {
     static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
@@ -126,7 +126,7 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
     return 0;
 }
 
-/* Is inertia missing that a motion requires? */
+/* Names inertia that a motion requires and that is missing. */
 static int mass_lacks(const scene *s, const element_type *type, char *words, int size)
 {
     for (int i = 0; i < s->analyses && !type->spreads; i++)
@@ -135,7 +135,7 @@ static int mass_lacks(const scene *s, const element_type *type, char *words, int
     return 0;
 }
 
-/* Are strains changed that a type returning forces does not have? */
+/* Names strains that the scene changes but that a type returning forces does not have. */
 static int strains_lack(const scene *s, const element_type *type, char *words, int size)
 {
     scene_words who;
@@ -145,8 +145,8 @@ static int strains_lack(const scene *s, const element_type *type, char *words, i
     return 1;
 }
 
-/* Curved members can be modelled by straight elements: then the scene requires only the strain of
- * its members. */
+/* Names the missing physics. Curved members can be modelled by straight elements; the scene then
+ * requires only the strain of its members. */
 static void words_of(unsigned missing, char *words, int size)
 {
     const int used = feature_words(missing & ~(unsigned)FEATURE_CURVATURE, words, size);
@@ -171,7 +171,8 @@ int missing_words(const scene *s, const element_type *type, char *words, int siz
     return 0;
 }
 
-/* Features that are not essential: without them loads and supports keep their meaning. */
+/* Returns the features that are not essential: without them loads and supports keep their
+ * meaning. */
 static unsigned can_be_omitted(const scene *s)
 {
     const unsigned physics = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |
@@ -192,7 +193,7 @@ int missing_refused(const scene *s, const element_type *type, char *words, int s
     return mass_lacks(s, type, words, size) || strains_lack(s, type, words, size);
 }
 
-/* Returns the properties of sections that exceed the limits of the type. */
+/* Returns the physics of sections that exceeds the limits of the type. */
 static unsigned omits_of_sections(const scene *s, const element_type *type)
 {
     const int warps = (features_needed(s) & FEATURE_WARPING) != 0;
@@ -288,7 +289,7 @@ static const char *goes_with(const scene *s, const scene_motion *how)
     return weight ? " and weight" : "";
 }
 
-/* Analyses with mass, except motions. */
+/* Returns 1 if an analysis other than a motion has lumped masses. */
 static int is_lumped(const scene *s, const scene_analysis *a)
 {
     return s->lumped && (a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC ||
@@ -367,7 +368,7 @@ static int warp_of(const scene *s, int member, int end)
     return end == 0 ? s->member[member].warp_p : s->member[member].warp_q;
 }
 
-/* Does the section at this end warp? */
+/* Returns 1 if the section at this end warps. */
 static int warps(const scene *s, int member, int end)
 {
     const scene_member *m = &s->member[member];
@@ -376,7 +377,7 @@ static int warps(const scene *s, int member, int end)
            c.Iw > 0;
 }
 
-/* HELD, SHARED or FREE; STATES: not requested. */
+/* Returns HELD, SHARED or FREE; STATES: warping is not requested. */
 static int state_of(const held_ends *e, int member, int end)
 {
     const int warp = warp_of(e->scene, member, end);
@@ -385,11 +386,11 @@ static int state_of(const held_ends *e, int member, int end)
     return warp == SCENE_WARP_FIXED ? HELD : warp >= 0 ? SHARED : FREE;
 }
 
-/* Names of the ends, one state after the other. */
+/* Names of the ends in one state after the other. */
 typedef struct ends_words {
     char *text;
     size_t room, used;
-    int names; /* with this state */
+    int names; /* number of names with this state */
 } ends_words;
 
 static void ends_put(ends_words *w, const char *before, const char *text)
@@ -407,7 +408,7 @@ static void add(ends_words *w, const char *text)
     w->names++;
 }
 
-/* Adds the node if all of its ends have this state, otherwise each of these ends. */
+/* Adds the node if all its ends have this state; otherwise adds each end that has it. */
 static void add_node(const held_ends *e, int node, int state, ends_words *out)
 {
     const scene *s = e->scene;

@@ -8,7 +8,8 @@
 #include "cases/scene/scene.h"
 #include "harness/formulations/formulations.h"
 
-/* In scenes with a motion, loads along members use the displacement field of the mass. */
+/* Returns 1 if the scene has a motion: loads along members then use the displacement field of the
+ * mass. */
 static int takes_loads(const model *m)
 {
     int along = 0, moves = 0;
@@ -70,7 +71,7 @@ static status allocate(model *m, fault *f)
     return kinematics_state_alloc(m, &m->rest, f);
 }
 
-/* Does an analysis depend on rates? */
+/* Returns 1 if an analysis depends on rates. */
 static int has_rates(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -93,7 +94,7 @@ static status note_dashpots(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Does an analysis use the stiffness of springs at rest? */
+/* Returns 1 if an analysis uses the stiffness of springs at rest. */
 static int is_at_rest(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++) {
@@ -118,8 +119,8 @@ static status note_tables(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Notes matrices that are replaced by their symmetric part, and free rotations without stiffness.
- */
+/* Notes the matrices that are replaced by their symmetric part, and the free rotations without
+ * stiffness. */
 static status note_means(model *m, fault *f)
 {
     const scene *s = m->scene;
@@ -155,7 +156,7 @@ static status divide(model *m, fault *f)
     return check_memory(m, f);
 }
 
-/* Finds which nodes constraints join. */
+/* Finds the nodes that constraints join. */
 static status join_nodes(model *m, fault *f)
 {
     const int n = m->scene->nodes;
@@ -256,7 +257,7 @@ status model_alloc(const model_request *request, model **out, fault *f)
     return model_alloc_imperfect(request, NULL, out, f);
 }
 
-/* The same scene with a different number of elements. */
+/* Creates a model of the same scene with a different number of elements. */
 static status again(const model *m, int elements, model **out, fault *f)
 {
     const model_request request = {m->scene, m->given, m->options, elements, m->keep_all, m->omits};

@@ -8,7 +8,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-/* int_0^s exp(t k~) e_x dt in the triad at p. */
+/* Computes c = int_0^s exp(t k~) e_x dt in the triad at p, where k~ is the cross-product matrix of
+ * k. */
 static void chord_of(const double k[3], double s, double c[3])
 {
     const double w = vec3_norm(k), angle = w * s;
@@ -26,7 +27,7 @@ static void chord_of(const double k[3], double s, double c[3])
         c[i] = s * e[i] + a * first[i] + b * second[i];
 }
 
-/* Transforms from the section's description axes, which the scene uses, to its principal axes. */
+/* Rotates from the axes in which the scene describes the section to its principal axes. */
 static void turn_to_principal(double angle, member_arc *a)
 {
     const double c = cos(angle), d = sin(angle), ky = a->k[1];
@@ -119,7 +120,7 @@ void member_arc_at(const member_arc *a, double s, double position[3], double R[9
 
 enum { BALL = 3 }; /* three rotations without order */
 
-/* Does this end of a member have its own vertex? */
+/* Returns 1 if this end of a member has its own vertex. */
 static int is_own(const scene_member *m, int end)
 {
     return m->release[end].count > 0 || scene_is_beside(m, end);
@@ -134,7 +135,7 @@ int release_count(const scene *s)
     return count;
 }
 
-/* Adds the vertex of an end. R: axes of the member there. */
+/* Adds the vertex of an end. R: axes of the member at this end. */
 static void add_end(model *m, int member, int end, const double R[9])
 {
     const scene_member *sm = &m->scene->member[member];
@@ -145,7 +146,7 @@ static void add_end(model *m, int member, int end, const double R[9])
              .element[end ? m->mesh.first_element[member + 1] - 1 : m->mesh.first_element[member]];
     mesh_release *r = &m->mesh.release[m->mesh.releases++];
     r->node = node;
-    m->mesh.vertex[vertex] = m->mesh.vertex[node]; /* its position, and the body that moves it */
+    m->mesh.vertex[vertex] = m->mesh.vertex[node]; /* position and body */
     m->mesh.vertex[vertex].angles = 0;
     for (int k = 0; k < 3; k++) {
         m->mesh.vertex[vertex].vector_driver[k] = NONE;
@@ -182,8 +183,8 @@ status release_build(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Orientation after the rotations of a released end; for a ball joint that of the body. b[turns x
- * 3]: spatial axes of the rotations; for a ball joint the fixed ones. */
+/* Computes the orientation after the rotations of a released end; for a ball joint, that of the
+ * body. b[turns x 3]: spatial axes of the rotations; for a ball joint, the fixed axes. */
 static void follow_turns(const mesh_release *r, const double angle[3], const double body[4],
                          double b[3][3], double q[4])
 {
@@ -358,7 +359,7 @@ void release_widen(const mesh_element *el, double K[])
     memset(&K[n * wide], 0, (size_t)(wide * (wide - n)) * sizeof *K);
 }
 
-/* Row and column `to` <- those of the three at `from`, along v. */
+/* Sets row and column `to` of K to the combination of the three at `from` along v. */
 static void take_along(int n, int from, const double v[3], int to, double K[])
 {
     for (int i = 0; i < n; i++)
@@ -368,14 +369,15 @@ static void take_along(int n, int from, const double v[3], int to, double K[])
             v[0] * K[from * n + j] + v[1] * K[(from + 1) * n + j] + v[2] * K[(from + 2) * n + j];
 }
 
-/* K[a][b] and K[b][a] += value */
+/* Adds the value to K[a][b] and K[b][a]. */
 static void add_pair(int n, int a, int b, double value, double K[])
 {
     K[a * n + b] += value;
     K[b * n + a] += value;
 }
 
-/* F . (theta x along): rotation of the end before its displacement. */
+/* Adds the second derivatives F . (theta x along), because the rotation of the end comes before its
+ * displacement. */
 static void take_slides(const mesh_release *r, double along[3][3], const double apart[3], int n,
                         int at, int own, double force[6], double K[])
 {
@@ -392,8 +394,8 @@ static void take_slides(const mesh_release *r, double along[3][3], const double 
         offset_force(apart, force);
 }
 
-/* M . (theta x b_j)/2 for rotations of the body before those of the end, M . (b_i x b_j)/2 for
- * those of the end. */
+/* Adds the second derivatives M . (theta x b_j)/2 for rotations of the body, which come before
+ * those of the end, and M . (b_i x b_j)/2 for those of the end. */
 static void add_turned_moment(const mesh_release *r, double b[3][3], const double moment[3], int n,
                               int at, int own, double K[])
 {

@@ -1,6 +1,6 @@
 /* A rigid body in a frame that rotates with Omega: with its centre at x from a point on the axis,
  * its inertia I = R I_0 R^T about the centre and h = I Omega, potential = -1/2 (m |Omega x x|^2 +
- * Omega . h). About the centre, for its translations and rotations in the exponential chart:
+ * Omega . h). Terms about the centre, for its translations and rotations in the exponential chart:
  * centrifugal force -m Omega x (Omega x x) and moment h x Omega, softening m Omega~^2 and Omega~ I
  * Omega~ - sym(h Omega^T) + (h . Omega) 1, gyroscopic matrix 2 m Omega~ and I Omega~ + Omega~ I -
  * h~ (also for a body that rotates in the frame). The rigid offset transforms these to the node. */
@@ -13,7 +13,7 @@
 
 enum { N = NODE_COORDINATES };
 
-/* I = R I_0 R^T */
+/* Computes I = R I_0 R^T. */
 static void inertia_now(const double given[6], const double R[9], double I[9])
 {
     const double at_rest[9] = {given[0], given[3], given[5], given[3], given[1],
@@ -25,7 +25,7 @@ static void inertia_now(const double given[6], const double R[9], double I[9])
             I[3 * i + j] = vec3_dot(&half[3 * i], &R[3 * j]);
 }
 
-/* A[7 x 7] = block-diagonal: translations, rotations */
+/* Fills A[7 x 7] with the diagonal blocks of the translations and rotations. */
 static void put_blocks(const double translation[9], const double rotation[9], double A[N * N])
 {
     memset(A, 0, N * N * sizeof *A);
@@ -42,7 +42,7 @@ static void mass_matrix(double mass, const double I[9], double M[N * N])
     put_blocks(translation, I, M);
 }
 
-/* v~ */
+/* Fills A with v~, the cross-product matrix of v. */
 static void cross_matrix(const double v[3], double A[9])
 {
     const double all[9] = {0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0};

@@ -55,8 +55,9 @@ status turns_build(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Near a full revolution, the small difference to it has a direction of round-off if it is parallel
- * to the previous vector. */
+/* Returns 1 if the vector keeps its direction. Near a full revolution the difference from it is
+ * small, and the direction of the difference is round-off if it is parallel to the previous
+ * vector. */
 static int keeps_direction(const double more[3], const double before[3], double length)
 {
     const double near = 1e-3, round_off = 1e-8;
@@ -66,14 +67,15 @@ static int keeps_direction(const double more[3], const double before[3], double 
 }
 
 /* Returns the rotation vector [rad] of q closest to `before`, among all vectors of q and of -q. At
- * a full turn, where the vector has no direction of its own, it keeps the direction of `before`. */
+ * a full revolution, where the vector has no direction of its own, the direction of `before` is
+ * used. */
 static void turns_continue(const double q[4], const double before[3], double out[3])
 {
     const double sine = vec3_norm(q + 1), length = vec3_norm(before);
     double along[3] = {0};
     rotation_log(q, out);
     if (q[0] > 0 && length < PI / 2)
-        return; /* less than half a revolution: no other vector is closer */
+        return; /* less than half a revolution, so that no other vector is closer */
     if (length > PI && keeps_direction(out, before, length)) {
         const int odd = q[0] < 0;
         const double turns = 2 * round((length / (2 * PI) - odd) / 2) + odd;
@@ -103,8 +105,8 @@ static void between_frames(const model_state *s, const mesh_turn *t, double q[4]
     rotation_compose(back, &s->q[4 * t->node], q);
 }
 
-/* Sets the rotation vector of a node whose rotation is one prescribed or fixed angle: that angle,
- * of any size in one step. Returns 0 for other nodes. */
+/* Sets the rotation vector of a node whose rotation is a single prescribed or fixed angle to that
+ * angle, which may change by any amount in one step. Returns 0 for other nodes. */
 static int by_angle(const model *m, const model_state *s, int node, double out[3])
 {
     const mesh_vertex *v = &m->mesh.vertex[node];
@@ -198,7 +200,7 @@ int turns_full(double size, double near)
 int turns_swung(const double from[3], const double to[3])
 {
     const double a = vec3_norm(from), b = vec3_norm(to);
-    const double most = turns_full(b, 1e-6) ? 0.9999 : 0.5; /* cosine */
+    const double most = turns_full(b, 1e-6) ? 0.9999 : 0.5; /* smallest cosine */
     return !(fmax(a, b) < PI || fmin(a, b) < 1 || vec3_dot(from, to) > most * a * b);
 }
 
@@ -211,10 +213,10 @@ void turns_lose(const model *m, const model_state *from, model_state *s)
 }
 
 /* Increments in the axes of p: delta = R_p^T (dr_q - dr_p), alpha = R_p^T dphi_p, beta = R_p^T
- * dphi_q, w = R_p^T (r_q - r_p). Translations: exp(-alpha~) (w + delta).  Rotation vector theta of
+ * dphi_q, w = R_p^T (r_q - r_p). Translations: exp(-alpha~) (w + delta). Rotation vector theta of
  * exp(-alpha~) exp(beta~) Theta, to second order exp(gamma~) Theta with gamma = beta - alpha -
- * alpha x beta/2, and log(exp(gamma~) Theta) has the derivative B = 1 - theta~/2 + c theta~^2, c(x)
- * = (1 - theta/2 cot(theta/2))/x, x = theta^2, and along B gamma the second one (dB[B gamma])
+ * alpha x beta/2, log(exp(gamma~) Theta) has the first derivative B = 1 - theta~/2 + c theta~^2,
+ * c(x) = (1 - theta/2 cot(theta/2))/x, x = theta^2, and the second derivative (dB[B gamma])
  * gamma. */
 
 enum { N = NODE_COORDINATES, SIX = SPRING_STRAINS };
@@ -278,7 +280,8 @@ static void cross_matrix(const double v[3], double A[9])
     memcpy(A, all, sizeof all);
 }
 
-/* c and dc/dx: sums of |B_2k| x^(k-1)/(2k)! where the closed form would cancel. */
+/* Computes c and dc/dx; where the closed form would lose digits by cancellation, from the sums of
+ * |B_2k| x^(k-1)/(2k)!, where B_2k are the Bernoulli numbers. */
 static void coefficient(double x, double *c, double *slope)
 {
     static const double series[] = {1.0 / 12,          1.0 / 720,
@@ -301,7 +304,7 @@ static void coefficient(double x, double *c, double *slope)
     *slope = (-g_x - *c) / x;
 }
 
-/* The rotation vector, B, and the symmetric part of the contribution of s to the second
+/* Computes the rotation vector, B, and the symmetric part of the contribution of s to the second
  * derivatives. */
 static void rotation_part(const double R[9], const double near[3], const double s[3],
                           double theta[3], double B[9], double second[9])
@@ -341,7 +344,7 @@ static void rotation_part(const double R[9], const double near[3], const double 
             second[3 * i + j] = (BW[3 * i + j] + BW[3 * j + i]) / 2;
 }
 
-/* A[n x n] at (row, column) += sign P X P^T, X[3 x 3] in the axes P. */
+/* Adds sign P X P^T to A[n x n] at (row, column); X[3 x 3] is given in the axes P. */
 static void add_block(int n, int row, int column, double sign, const double P[9], const double X[9],
                       double A[])
 {
@@ -352,7 +355,7 @@ static void add_block(int n, int row, int column, double sign, const double P[9]
             A[n * (row + i) + column + j] += sign * vec3_dot(&half[3 * i], &P[3 * j]);
 }
 
-/* J[6 x n] at (row, column) += sign X P^T */
+/* Adds sign X P^T to J[6 x n] at (row, column). */
 static void add_columns(int n, int row, int column, double sign, const double P[9],
                         const double X[9], double J[])
 {
@@ -375,7 +378,7 @@ static void first_derivatives(int nodes, const double P[9], const double w[3], c
         return;
     cross_matrix(w, W);
     add_columns(n, 0, 0, -1, P, one, J);
-    add_columns(n, 0, 3, 1, P, W, J); /* -alpha x w */
+    add_columns(n, 0, 3, 1, P, W, J); /* the term -alpha x w */
     add_columns(n, 3, 3, -1, P, B, J);
 }
 

@@ -9,12 +9,12 @@
 
 enum { N = 6, ALL = 0x3f };
 
-/* Rotation axes have an error of a few eps: smaller parts of unit columns are treated as round-off.
- */
+/* Rotation axes have an error of a few eps. Smaller parts of unit columns are treated as
+ * round-off. */
 static const double round_off = 1e-12;
 
-/* Removes from the column its part along the `count` orthonormal vectors, twice for orthogonality.
- */
+/* Removes from the column its component along the `count` orthonormal vectors; the second pass
+ * ensures orthogonality. */
 static void deflate(int n, int count, double (*basis)[N], double column[])
 {
     for (int pass = 0; pass < 2; pass++)
@@ -25,8 +25,8 @@ static void deflate(int n, int count, double (*basis)[N], double column[])
         }
 }
 
-/* Pivoted Gram-Schmidt: orthonormal vectors that span `count` columns of unit length. Returns the
- * rank. */
+/* Finds orthonormal vectors that span `count` columns of unit length by pivoted Gram-Schmidt
+ * orthogonalisation. Returns the rank. */
 static int orthonormal(int n, int count, double (*column)[N], double (*basis)[N])
 {
     int rank = 0;
@@ -50,8 +50,8 @@ static int orthonormal(int n, int count, double (*column)[N], double (*basis)[N]
     return rank;
 }
 
-/* Columns of T scaled to unit length, displacements in units of `length`. Columns that cancel to
- * round-off are omitted. Returns the number of the others. */
+/* Scales the columns of T to unit length, with displacements in units of `length`. Omits columns
+ * that cancel to round-off. Returns the number of the remaining columns. */
 static int unit_columns(int columns, const double *T, double length, double (*column)[N])
 {
     int count = 0;
@@ -82,8 +82,8 @@ static unsigned components_of(int rank, double (*basis)[N])
     return components;
 }
 
-/* Returns the components that move if every column is a single component, or zero, as for a node
- * that is its own body; ALL + 1: another column exists. */
+/* Returns the components that move if every column is a single component or zero, as for a node
+ * that is its own body; ALL + 1: there is a different column. */
 static unsigned components_alone(int columns, const double *T)
 {
     unsigned components = 0;
@@ -109,7 +109,7 @@ static int count_bits(unsigned bits)
     return count;
 }
 
-/* The motions are those of whole components. */
+/* Sets the motions to those of whole components. */
 static void set_whole(unsigned components, movable *out)
 {
     memset(out, 0, sizeof *out);
@@ -168,8 +168,8 @@ void movable_prescribed(int columns, const double *T, const double m[3], double 
         deflate(3, rank, basis, out);
 }
 
-/* Finds parts of the structure that the supports do not hold: rigid motions of connected parts,
- * from the supports alone, independent of stiffness. */
+/* Finds parts of the structure that the supports do not hold. Only the supports decide whether
+ * connected parts can move rigidly; stiffness is irrelevant. */
 
 enum { SUPPORTS_N = 6 };
 
@@ -220,7 +220,7 @@ void supports_rigid(const double position[3], double length, double G[SUPPORTS_N
     }
 }
 
-/* Motions that the supports of a node allow. */
+/* Finds the motions that the supports of a node allow. */
 static void free_motions(const model *m, int node, movable *out)
 {
     int index[SUPPORTS_N], columns = 0;
@@ -252,7 +252,7 @@ void supports_prevented(const model *m, int node, const double origin[3],
         out[i] = (G[i] - out[i]) * (i / SUPPORTS_N < 3 ? 1 : m->size);
 }
 
-/* Adds the squares of the prevented motions to sum. */
+/* Adds the squares of the motions that the supports of a node prevent to sum. */
 static void add_supports(const model *m, int node, const double origin[3],
                          double sum[SUPPORTS_N * SUPPORTS_N])
 {
@@ -301,7 +301,7 @@ static int has_elements(const model *m, const int part[], int root)
 int supports_loose_part(const model *m, int *node, double motion[6])
 {
     int *part = malloc((size_t)m->mesh.vertices * sizeof *part), found = 0;
-    if (part == NULL || m->mesh.tie != NULL) { /* parts that constraints join: linkage.c */
+    if (part == NULL || m->mesh.tie != NULL) { /* linkage.c examines parts that constraints join */
         free(part);
         return 0;
     }

@@ -52,7 +52,8 @@ static status make_room(candidates *p, int room, fault *f)
     return STATUS_OK;
 }
 
-/* x^T a x from the caller's function, or from the matrix with a x stored in `product`. */
+/* Returns x^T a x from the caller's function, or from the matrix. In the latter case, a x is stored
+ * in `product`. */
 static double form_of(const candidates *p, eigen_form *form, const sparse *a, const double x[],
                       double product[])
 {
@@ -67,8 +68,8 @@ static double K_form(candidates *p, const double x[])
     return form_of(p, p->problem->K_energy, p->problem->K, x, p->form);
 }
 
-/* Root of the sum of the squares of all terms of x^T (K - s A/mu) x, times eps: their rounding
- * errors are independent. */
+/* Returns eps times the square root of the sum of the squares of all terms of x^T (K - s A/mu) x,
+ * because their rounding errors are independent. */
 static double rounding(const candidates *p, double mu, const double x[])
 {
     const sparse *K = p->problem->K, *A = p->problem->A;
@@ -135,8 +136,8 @@ status candidates_refine(candidates *p, int count, fault *f)
                : fault_set(f, STATUS_FAULT, "out of memory for refined solutions");
 }
 
-/* y += K^-1 (s A x - K y), with K y from the elements; each call reduces the residual by the
- * relative error of the assembled K. */
+/* Adds K^-1 (s A x - K y) to y, where K y is computed from the elements. Each call reduces the
+ * residual by a factor equal to the relative error of the assembled K. */
 static void refine(candidates *p, const double x[], double y[])
 {
     const eigen_problem *e = p->problem;
@@ -150,7 +151,7 @@ static void refine(candidates *p, const double x[], double y[])
         y[i] += r[i];
 }
 
-/* y = K^-1 s A x. */
+/* Computes y = K^-1 s A x. */
 static void candidates_apply(candidates *p, const double x[], double y[])
 {
     sparse_mul(p->problem->A, x, y);
@@ -186,7 +187,7 @@ double candidates_scale(candidates *p, long *solutions)
     return candidates_is_rounding(p, largest, x) ? 0 : largest;
 }
 
-/* Makes the vector after the last candidate a candidate if its mu is large enough. */
+/* Makes the vector after the last candidate a candidate if its mu exceeds `least`. */
 static void add_next(candidates *p, double least)
 {
     const eigen_problem *e = p->problem;
@@ -207,7 +208,7 @@ static void add_next(candidates *p, double least)
     sort_last(p);
 }
 
-/* x may be the vectors of the candidates themselves. */
+/* Adds vectors; x may contain the vectors of the candidates themselves. */
 static void add_all(candidates *p, int count, const double x[], double least)
 {
     const size_t n = (size_t)p->n;
@@ -246,10 +247,11 @@ double *candidates_products(const candidates *p)
     return products;
 }
 
-/* Error bound: with x^T K x = 1 and y = K^-1 s A x - mu x, an eigenvalue lies within sqrt(y^T K y)
- * of mu. The component of y along a larger mode k, c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a
+/* Error bound: if x^T K x = 1 and y = K^-1 s A x - mu x, an eigenvalue lies within sqrt(y^T K y) of
+ * mu. The component of y along a larger mode k, c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a
  * part c_k/(mu_k - mu) of that mode in x, which changes the quotient mu by c_k^2/(mu_k - mu), or by
- * mu_k - mu if the two are too close to be distinguished. The rest of y counts in full. */
+ * mu_k - mu if the two are too close to be distinguished. The rest of y contributes its full
+ * length. */
 void candidates_judge(candidates *p, int i, double *residual, double *error)
 {
     const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
@@ -273,9 +275,8 @@ void candidates_judge(candidates *p, int i, double *residual, double *error)
 }
 
 /* By Sylvester's law the number of mu > s > 0 equals the number of negative pivots of K - A/s. The
- * count is right if the distance of s from every eigenvalue exceeds the effect of rounding in the
- * matrices.
- */
+ * count is correct if the distance of s from every eigenvalue exceeds the effect of rounding in the
+ * matrices. */
 
 static const double close =
     1e-9; /* relative distance below which eigenvalues are not distinguished */
@@ -307,8 +308,8 @@ status candidates_count_above(candidates *p, double s, int *above, eigen_result 
     return outcome;
 }
 
-/* Number of candidates above the cluster that contains rank `wanted`, and the largest value of the
- * cluster. */
+/* Returns the number of candidates above the cluster that contains rank `wanted`, and sets *top to
+ * the largest value of the cluster. */
 static int above_cluster(const candidates *p, int wanted, double *top)
 {
     const double *mu = p->matrix_mu;
@@ -320,14 +321,14 @@ static int above_cluster(const candidates *p, int wanted, double *top)
     return q;
 }
 
-/* Counts with the inertia of the matrices, between eigenvalues of the matrices. */
+/* Counts by the inertia of the matrices at a value between two eigenvalues. */
 status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_result *work,
                                 fault *f)
 {
     static const double place[] = {0.5, 0.35, 0.65};
     double low;
     const int q = above_cluster(p, wanted, &low);
-    /* just above the cluster; a larger value could hide missing ones below it */
+    /* just above the cluster, because a larger value could hide missing eigenvalues below it */
     const double told_apart = 2 * close + 32 * p->noise[q], near = 1e-2;
     const double high = q > 0 ? fmin(p->matrix_mu[q - 1], low * (1 + fmax(near, told_apart)))
                               : low * (1 + told_apart);
@@ -355,7 +356,7 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
 
 /* Projections of Y = K^-1 s A X need no product with K, since Y^T K Y = Y^T s A X. */
 
-/* Ax = s A x. */
+/* Computes Ax = s A x. */
 static void signed_product(const candidates *p, const double x[], double Ax[])
 {
     sparse_mul(p->problem->A, x, Ax);
@@ -363,7 +364,7 @@ static void signed_product(const candidates *p, const double x[], double Ax[])
         Ax[i] *= p->sign;
 }
 
-/* Column-major Y^T K Y and Y^T s A Y, upper triangles. */
+/* Computes Y^T K Y and Y^T s A Y, column-major, upper triangles. */
 static void project(candidates *p, const double Y[], double K[], double A[])
 {
     const size_t n = (size_t)p->n, count = (size_t)p->count;
@@ -377,7 +378,7 @@ static void project(candidates *p, const double Y[], double K[], double A[])
     }
 }
 
-/* Y <- Y C, column-major C[count x count]; row[count] is work space. */
+/* Replaces Y by Y C with the column-major C[count x count]; row[count]: workspace. */
 static void combine(size_t n, size_t count, double Y[], const double C[], double row[])
 {
     for (size_t i = 0; i < n; i++) {
@@ -388,8 +389,8 @@ static void combine(size_t n, size_t count, double Y[], const double C[], double
     }
 }
 
-/* Replaces the candidates by the Ritz vectors of Y = K^-1 s A X; if LAPACK fails, they do not
- * change. Y[count x n], small[2 count^2 + count]. */
+/* Replaces the candidates by the Ritz vectors of Y = K^-1 s A X; they do not change if LAPACK
+ * fails. Workspace: Y[count x n], small[2 count^2 + count]. */
 static status replace(candidates *p, double Y[], double small[], long *solutions, fault *f)
 {
     const size_t n = (size_t)p->n, count = (size_t)p->count;

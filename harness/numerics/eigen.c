@@ -6,16 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Adds the first wanted[i] vectors of the most positive (0) and most negative (1) side to the
- * candidates; NULL: that side is not requested. */
+/* Adds to the candidates of each side the first wanted[i] vectors of that side: the most positive
+ * (0) and the most negative (1). side[i] NULL: this side is not requested. */
 static status eigen_dense_add(candidates *const side[2], const int wanted[2], fault *f);
 
 enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
 enum {
     DENSE_AT_LAST_UP_TO = 700
-}; /* largest size solved densely after the iteration ended early; takes seconds */
+}; /* largest size that is solved densely after the iteration ended early; this takes seconds */
 
-/* Iteration ignores eigenvalues below this fraction of the largest one. */
+/* The iteration ignores eigenvalues below this fraction of the largest one. */
 static const double negligible = 1e-9;
 
 static void free_side(eigen_side *s)
@@ -33,7 +33,7 @@ void eigen_free(eigen_result *r)
     memset(r, 0, sizeof *r);
 }
 
-/* Adds candidates from one Lanczos run in the complement of the present ones; mu[count],
+/* Adds candidates from one Lanczos run in the complement of the present candidates; mu[count],
  * Kx[candidates x n]. */
 static status take_lanczos(candidates *p, int count, double mu[], const double Kx[], double least,
                            long *solutions, fault *f)
@@ -59,9 +59,9 @@ static status run_lanczos(candidates *p, int wanted, double least, long *solutio
     return outcome;
 }
 
-/* Number of existing eigenvalues, at most `enough`, counted above smaller and smaller values. At
- * very small values, where K is small compared with A/s, the count may fail for lack of pivoting;
- * the last valid count is then returned. */
+/* Sets *exist to the number of existing eigenvalues, at most `enough`, counted above smaller and
+ * smaller values. At very small values, where K is small compared with A/s, the count may fail for
+ * lack of pivoting; the last valid count is then used. */
 static status count_existing(candidates *p, int enough, double scale, double least, int *exist,
                              eigen_result *r, fault *f)
 {
@@ -79,7 +79,7 @@ static status count_existing(candidates *p, int enough, double scale, double lea
     return STATUS_OK;
 }
 
-/* Solves for both sides (NULL: not requested) from all eigenvectors. */
+/* Solves for both sides from all eigenvectors. NULL: this side is not requested. */
 static status solve_densely(candidates *up, candidates *down, const int wanted[2], eigen_result *r,
                             fault *f)
 {
@@ -148,11 +148,10 @@ static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, e
 }
 
 /* Drops values that are rounding errors of A. If one value is a rounding error, so are all smaller
- * values. The test is made for the largest value, and for values that are small compared with it.
- */
+ * values. The largest value is tested, and all values that are small compared with it. */
 static void drop_rounding(candidates *p, eigen_side *out)
 {
-    const double suspect = 1e-6; /* fraction of the largest */
+    const double suspect = 1e-6; /* fraction of the largest value */
     for (int i = 0; i < p->count; i++)
         if ((i == 0 || p->mu[i] < suspect * p->mu[0]) &&
             candidates_is_rounding(p, p->mu[i] * p->stiffness[i],
@@ -162,7 +161,7 @@ static void drop_rounding(candidates *p, eigen_side *out)
         }
 }
 
-/* Computes residuals and errors of the first `count`; returns the largest error. */
+/* Computes the residuals and errors of the first `count` candidates; returns the largest error. */
 static double judge(candidates *p, int count, eigen_side *out, long *solutions)
 {
     double largest = 0;
@@ -178,8 +177,7 @@ static double judge(candidates *p, int count, eigen_side *out, long *solutions)
 static status improve(candidates *p, int count, eigen_side *out, eigen_result *r, fault *f)
 {
     enum { SWEEPS = 3 };
-    const double bearable =
-        1e-6; /* errors of eigenvalues are the square of this, times the effect of their distance */
+    const double bearable = 1e-6; /* the error of an eigenvalue is about its square */
     const double good = 1e-8;
     if (p->problem->K_product == NULL || candidates_departure(p, count) <= bearable) {
         judge(p, count, out, &r->solutions);
@@ -250,7 +248,7 @@ static status find(const eigen_problem *e, candidates *up, candidates *down, eig
     return one_sparse(down, 1, e->smallest, &r->negative, r, f);
 }
 
-/* The caller, eigen_solve, frees the candidates, also after a failure. */
+/* Solves for both sides. The caller, eigen_solve, frees the candidates, also after a failure. */
 static status solve(const eigen_problem *e, candidates *up, candidates *down, eigen_result *r,
                     fault *f)
 {
@@ -264,8 +262,8 @@ static status solve(const eigen_problem *e, candidates *up, candidates *down, ei
                                       : fault_set(f, worse->status, "%s", worse->reason);
 }
 
-/* Uses the upper triangle of a matrix stored in full. K - A/mu, of which few digits may
- * remain, is then symmetric although rounding makes K and A unsymmetric. */
+/* Uses the upper triangle of a matrix stored in full. K - A/mu, of which few digits may remain, is
+ * then symmetric, even if rounding has made K and A unsymmetric. */
 static status take_upper(const sparse **a, by_numbers **whole, fault *f)
 {
     if ((*a)->symmetric)
@@ -318,7 +316,7 @@ static void fill_dense(const sparse *a, double factor_, double D[])
             D[(size_t)a->row[k] * n + j] = D[j * n + (size_t)a->row[k]] = factor_ * a->value[k];
 }
 
-/* All eigenvalues mu[n], ascending, with their vectors x[n x n], one after the other. */
+/* Computes all eigenvalues mu[n], ascending, with their vectors x[n x n], one after the other. */
 static status solve_dense(const eigen_problem *e, double mu[], double x[], fault *f)
 {
     const int n = e->K->n;
@@ -335,8 +333,8 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
                                  info);
 }
 
-/* Candidates of one or both sides (NULL: not requested), taken from all eigenvectors; mu[n], x[n x
- * n]. */
+/* Takes the candidates of one or both sides from all eigenvectors; side[i] NULL: not requested;
+ * mu[n], x[n x n]. */
 static status take_dense(candidates *const side[2], const int wanted[2], double mu[], double x[],
                          fault *f)
 {
@@ -346,7 +344,7 @@ static status take_dense(candidates *const side[2], const int wanted[2], double 
     const double least = candidates_least(any->n, fmax(fabs(mu[0]), fabs(mu[n - 1])));
     for (int i = 0; i < 2; i++) {
         const size_t count = (size_t)(wanted[i] < any->n ? wanted[i] : any->n);
-        if (side[i] != NULL) /* the most positive ones come last */
+        if (side[i] != NULL) /* the most positive values come last */
             TRY(candidates_add(side[i], (int)count, i == 0 ? x + (n - count) * n : x, least, f));
     }
     return STATUS_OK;

@@ -2,9 +2,9 @@
  * round-off.
  *
  * With x = A^-1 e_i and y = A^-T e_k the number x_k = y^T A x is a sum of terms y_i a_ij x_j.
- * Rounding of A changes it by about eps times the root of the sum of their squares. If that is as
- * large as x_k, A is singular to working precision. (The last pivot of a free beam of n elements is
- * eps n^2, not eps, times its diagonal entry.) */
+ * Rounding of A changes x_k by about eps times the square root of the sum of the squares of these
+ * terms. If this change is as large as x_k, A is singular to working precision. (The last pivot of
+ * a free beam of n elements is eps n^2, not eps, times its diagonal entry.) */
 #include "harness/numerics/numerics_impl.h"
 
 #include <float.h>
@@ -14,22 +14,24 @@
 
 static status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
                                        factor_counts *counts, fault *f);
-/* Returns OK, SINGULAR, or FAULT if memory ran out. The first pivots are used again for all later
- * matrices, without allocation, until pivot growth requires new ones. *row, *column: position of
- * the smallest pivot; *ratio: its size relative to the largest entries of that row and column. */
+/* Returns OK, SINGULAR, or FAULT if memory ran out. The first pivot order is used again for all
+ * later matrices, without allocation, until pivot growth requires new ones. *row, *column: position
+ * of the smallest pivot; *ratio: its size relative to the largest entries of that row and
+ * column. */
 static status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a,
                                          factor_counts *counts, int *row, int *column,
                                          double *ratio);
 
 struct matrix_factor {
     int n;
-    factor_operator by;              /* functions NULL: no operator */
-    factor_symmetric *symmetric;     /* one of the two; both for a matrix with by_numbers */
-    factor_unsymmetric *unsymmetric; /* both NULL: no unknowns */
-    by_numbers *whole;               /* for a matrix with by_numbers, else NULL */
+    factor_operator by; /* with functions NULL: there is no operator */
+    factor_symmetric
+        *symmetric; /* one of the next two is set; both are for a matrix with by_numbers */
+    factor_unsymmetric *unsymmetric; /* KLU; both NULL: there are no unknowns */
+    by_numbers *whole;               /* for a matrix with by_numbers, otherwise NULL */
     int upper;                       /* 1: `symmetric` contains the last factors */
     factor_counts counts, of_upper;  /* of_upper: entries and flops of `symmetric` if both exist */
-    double *residual, *other;        /* [n]; other is for unsymmetric matrices */
+    double *residual, *other;        /* [n] workspace; `other` is for unsymmetric matrices only */
 };
 
 /* Allocates everything except the factors. */
@@ -107,7 +109,7 @@ static void unit_vector(int n, int i, double e[])
     e[i] = 1;
 }
 
-/* Fraction of x_column that is round-off, where x = A^-1 e_row. */
+/* Returns the fraction of x_column that is round-off, where x = A^-1 e_row. */
 static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
 {
     double *x = fa->residual, *y = fa->residual, sum = 0;
@@ -128,7 +130,7 @@ static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
     return DBL_EPSILON * sqrt(sum);
 }
 
-/* Selects LDL^T if the values of the full matrix are symmetric; *a then becomes its upper
+/* Selects LDL^T if the values of a matrix stored in full are symmetric; *a then becomes its upper
  * triangle. */
 static status choose(matrix_factor *fa, const sparse **a, fault *f)
 {
@@ -220,22 +222,22 @@ const sparse *factor_upper(const matrix_factor *fa)
 }
 
 /* Hager's estimate of the 1-norm condition number (W.W. Hager, SIAM J. Sci. Stat. Comput. 5, 1984)
- * from solutions alone.
+ * which needs solutions only.
  *
  * Translations, rotations and warping have different units, and the condition number should not
- * depend on them. Therefore rows and columns are scaled by the root of the diagonal, which for a
- * positive definite matrix is within a factor n of the best scaling (A. van der Sluis, Numer. Math.
- * 14, 1969). */
+ * depend on them. Therefore rows and columns are scaled by the square root of the diagonal, which
+ * for a positive definite matrix is within a factor n of the best scaling (A. van der Sluis, Numer.
+ * Math. 14, 1969). */
 
 enum { MOST_STEPS = 5 };
 
 typedef struct condition {
     matrix_factor *fa;
     int n;
-    const double *scale; /* [n] S: the matrix is S A S */
+    const double *scale; /* [n] diagonal of S; the matrix is S A S */
 } condition;
 
-/* x := (S A S)^-1 x, or its transpose. */
+/* Replaces x by (S A S)^-1 x; transposed 1: by (S A S)^-T x. */
 static void solve_scaled(const condition *c, int transposed, double x[])
 {
     for (int i = 0; i < c->n; i++)
@@ -248,8 +250,8 @@ static void solve_scaled(const condition *c, int transposed, double x[])
         x[i] /= c->scale[i];
 }
 
-/* |(S A S)^-1|_1: searches the largest column sum by steps along the subgradient. x, z: work space
- * [n]. */
+/* Estimates |(S A S)^-1|_1: searches the largest column sum by steps along the subgradient. x, z:
+ * workspace [n]. */
 static double inverse_norm(const condition *c, double x[], double z[])
 {
     const int n = c->n;
@@ -283,7 +285,7 @@ static double inverse_norm(const condition *c, double x[], double z[])
     return norm;
 }
 
-/* Scale of every unknown and the norm of S A S; sum: work space [n]. */
+/* Computes the scale of every unknown and returns the norm of S A S. sum: workspace [n]. */
 static double scaled_norm(const sparse *a, double scale[], double sum[])
 {
     double norm = 0;
@@ -328,7 +330,7 @@ struct factor_unsymmetric {
     klu_common common;
     klu_symbolic *symbolic;
     klu_numeric *numeric;
-    double *largest; /* [n] entry of every column of the scaled matrix */
+    double *largest; /* [n] largest entry of every column of the scaled matrix */
 };
 
 /* The pivot order is reused while the entries of U stay below this factor times those of the
@@ -364,8 +366,7 @@ void factor_unsymmetric_free(factor_unsymmetric *fu)
     free(fu);
 }
 
-/* Returns 1 if the numeric factors of a were computed with the pivot order of an earlier matrix.
- */
+/* Returns 1 if the numeric factors of a were computed with the pivot order of an earlier matrix. */
 static int refactor(factor_unsymmetric *fu, const sparse *a)
 {
     return fu->numeric != NULL &&
@@ -382,13 +383,14 @@ static status factor_anew(factor_unsymmetric *fu, const sparse *a, factor_counts
     if (fu->numeric == NULL)
         return fu->common.status == KLU_SINGULAR ? STATUS_SINGULAR : STATUS_FAULT;
     klu_flops(fu->symbolic, fu->numeric, &fu->common);
-    counts->entries =
-        (long)fu->numeric->lnz + fu->numeric->unz - fu->n; /* both numbers include the diagonal */
+    counts->entries = (long)fu->numeric->lnz + fu->numeric->unz -
+                      fu->n; /* lnz and unz both include the diagonal */
     counts->flops = fu->common.flops;
     return STATUS_OK;
 }
 
-/* Sign of a permutation: a cycle of k members consists of k - 1 exchanges. `done` is work space. */
+/* Returns the sign of a permutation: a cycle of k members consists of k - 1 exchanges. `done`:
+ * workspace. */
 static int sign_of(int n, const int permutation[], double done[])
 {
     int sign = 1;
@@ -402,7 +404,8 @@ static int sign_of(int n, const int permutation[], double done[])
     return sign;
 }
 
-/* P R^-1 A Q is block triangular with the pivots on its diagonal. */
+/* Returns the sign of the determinant. P R^-1 A Q is block triangular and has the pivots on its
+ * diagonal. */
 static int determinant_of(factor_unsymmetric *fu)
 {
     int sign = sign_of(fu->n, fu->numeric->Pnum, fu->largest) *

@@ -1,6 +1,6 @@
-/* The columns of L and the pivots are those of C = P A P^T with P from AMD. A pivot is d_k = a_kk -
- * sum_j l_kj^2 d_j. The digits of A are lost if d_k is as small as a rounding error of these terms,
- * or if the terms are far larger than the whole column of A. */
+/* The columns of L and the pivots are those of C = P A P^T with the permutation P from AMD. A pivot
+ * is d_k = a_kk - sum_j l_kj^2 d_j. The digits of A are lost if d_k is as small as a rounding error
+ * of these terms, or if the terms are far larger than the whole column of A. */
 #include "harness/numerics/numerics_impl.h"
 
 #include <amd.h>
@@ -18,20 +18,20 @@ struct factor_symmetric {
     int lent;             /* 1: another factor owns `integers`, L_row, groups and rest */
     int *integers;        /* one allocation for the next nine arrays */
     int *order, *inverse; /* [n] P: C(i, j) = A(order[i], order[j]) */
-    int *column, *row;    /* [n + 1], [entries] upper triangle of C; row holds positions once its
-                             columns are known */
-    int *source;          /* [entries] of C: position in A */
-    int *L_column;        /* [n + 1] */
+    int *column, *row; /* [n + 1], [entries] upper triangle of C; row holds positions in L once its
+                          columns are known */
+    int *source;       /* [entries] position in A of each entry of C */
+    int *L_column;     /* [n + 1] */
     int *parent, *in_column, *mark; /* [n] elimination tree, and workspace of LDL */
     double *D;                      /* [n]; D is the start of one allocation for these three */
     double *diagonal, *terms;       /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
-    double *rest;                   /* work space of triangular_rows and of solutions */
+    double *rest;                   /* workspace of triangular_rows and of solutions */
     triangular_groups groups;
     int *L_row; /* [L_column[n]] */
     double *L_value;
 };
 
-/* Returns 0 if out of memory, as the functions below do. */
+/* Allocates the arrays of numbers. Returns 0 if out of memory, as the functions below do. */
 static int lay_out_numbers(factor_symmetric *fs, size_t n)
 {
     fs->D = malloc((3 * n + 1) * sizeof *fs->D);
@@ -74,7 +74,7 @@ static int min_int(int a, int b)
     return a < b ? a : b;
 }
 
-/* Upper triangle of P A P^T, and the positions of its entries in A. */
+/* Computes the upper triangle of C = P A P^T, and the positions of its entries in A. */
 static void permute(const sparse *a, factor_symmetric *fs)
 {
     const int n = a->n;
@@ -184,7 +184,8 @@ static double largest_entry(const factor_symmetric *fs, const double a[], int k)
     return largest;
 }
 
-/* Sums the terms of pivots only if one is not positive: otherwise they do not exceed a_kk. */
+/* Sums the terms of the pivots. This is needed only if a pivot is not positive; otherwise the terms
+ * do not exceed a_kk. */
 static void sum_terms(factor_symmetric *fs, int negative_pivots)
 {
     memcpy(fs->terms, fs->diagonal, (size_t)fs->n * sizeof *fs->terms);

@@ -39,7 +39,7 @@ void subspace_free(subspace *b)
     free(b->Gp);
 }
 
-/* y = G x for a skew G with its upper triangle stored. */
+/* Computes y = G x for a skew G whose upper triangle is stored. */
 static void subspace_skew_mul(const sparse *G, const double x[], double y[])
 {
     if (!G->symmetric) {
@@ -65,7 +65,7 @@ int subspace_add(subspace *b, const double x[])
     memcpy(v, x, n * sizeof *v);
     b->S(b->context, v, Sv);
     const double before = sqrt(fmax(0, dense_dot(b->n, v, Sv)));
-    for (int pass = 0; pass < 2; pass++) /* two passes are enough */
+    for (int pass = 0; pass < 2; pass++) /* two passes suffice for orthogonality */
         for (int i = 0; i < b->count; i++) {
             const double c = dense_dot(b->n, b->SV + (size_t)i * n, v);
             for (size_t k = 0; k < n; k++)
@@ -92,7 +92,7 @@ int subspace_add(subspace *b, const double x[])
     return 1;
 }
 
-/* K, M and G times the real and the imaginary part of a vector; its residual. */
+/* Computes K, M and G times the real and the imaginary part of a vector, and its residual. */
 enum { K_RE, K_IM, M_RE, M_IM, G_RE, G_IM, R_RE, R_IM, WORK, PARTS };
 
 status estimate_alloc(int n, motion_estimate *e, fault *f)
@@ -121,7 +121,7 @@ void estimate_stiffness(const gyroscopic_problem *p, const double x[], double y[
         sparse_mul(p->K, x, y);
 }
 
-/* x^H K x, x^H M x and i x^H G x. */
+/* The quadratic forms x^H K x, x^H M x and i x^H G x. */
 typedef struct forms {
     double k, m, g;
 } forms;
@@ -140,7 +140,7 @@ static forms forms_of(const motion_estimate *e, const double re[], const double 
                    -2 * dense_dot(n, re, part(e, G_IM))};
 }
 
-/* Root of k - omega^2 m + omega g = 0 that is closer to the estimated frequency. */
+/* Returns the root of k - omega^2 m + omega g = 0 that is closer to the estimated frequency. */
 static double quotient(const forms *of, double frequency)
 {
     const double root = sqrt(of->g * of->g + 4 * of->k * of->m),
@@ -151,7 +151,7 @@ static double quotient(const forms *of, double frequency)
     return fabs(large - frequency) < fabs(small - frequency) ? large : small;
 }
 
-/* Adds the parts of r = (K + lambda^2 M + lambda G) x. */
+/* Computes the residual r = (K + lambda^2 M + lambda G) x from its parts. */
 static void residual(const motion_estimate *e, double complex lambda)
 {
     const double complex square = lambda * lambda;
@@ -164,7 +164,7 @@ static void residual(const motion_estimate *e, double complex lambda)
     }
 }
 
-/* half^T S^-1 half */
+/* Returns half^T S^-1 half. */
 static double size_of(motion_estimate *e, const double half[])
 {
     double *x = part(e, WORK);
@@ -174,7 +174,7 @@ static double size_of(motion_estimate *e, const double half[])
     return fmax(0, dense_dot(e->basis->n, half, x));
 }
 
-/* w^H (lambda^2 M - K) x and w^H w = x^H x = x^H S x = 1. */
+/* Returns |w^H (lambda^2 M - K) x| for vectors with w^H S w = x^H S x = 1. */
 static double energy(const motion_estimate *e, int i, double complex lambda, int grows)
 {
     const subspace *b = e->basis;
@@ -191,7 +191,7 @@ static double energy(const motion_estimate *e, int i, double complex lambda, int
     return cabs(sum);
 }
 
-/* Square of x_k^H r for another pair k. */
+/* Returns |x_k^H r|^2 for another pair k. */
 static double share(const motion_estimate *e, int k)
 {
     const subspace *b = e->basis;
@@ -205,8 +205,9 @@ static double share(const motion_estimate *e, int k)
     return creal(sum * conj(sum));
 }
 
-/* Twice the missing part of the vector, relative to the eigenvalue: components along other modes
- * that were found, and along modes that were not, whose lowest frequency is known. */
+/* Returns twice the missing part of the vector, relative to the eigenvalue: the components along
+ * other modes that were found, and those along modes that were not found, whose lowest frequency is
+ * known. */
 static double missed(motion_estimate *e, int i, double complex lambda, double own)
 {
     const double size = cabs(lambda);
@@ -227,8 +228,8 @@ static double missed(motion_estimate *e, int i, double complex lambda, double ow
     return 2 * sum;
 }
 
-/* Bound on the rounding of x^H (K + lambda^2 M + lambda G) x. The entries themselves result from a
- * few operations. */
+/* Bound on the rounding of x^H (K + lambda^2 M + lambda G) x. The entries of the matrices are
+ * themselves results of a few operations each. */
 static double rounding(const motion_estimate *e, double size, const double re[], const double im[])
 {
     const double operations = 4;
@@ -253,8 +254,8 @@ void estimate_pair(motion_estimate *e, int i, const double re[], const double im
     *error = missed(e, i, *lambda, own) + fmin(change / own, sqrt(change / of.m) / size);
 }
 
-/* The Hermitian A + i B as a real symmetric matrix of twice the size, [a, -b; b, a] for each entry.
- * Its eigenvalues come in pairs. */
+/* Allocates the pattern of the Hermitian A + i B as a real symmetric matrix of twice the size, with
+ * [a, -b; b, a] for each entry. Its eigenvalues come in pairs. */
 static status doubled_alloc(const sparse *pattern, sparse *out, fault *f)
 {
     const int n = pattern->n, entries = pattern->column[n];
@@ -298,7 +299,8 @@ static void fill(const sparse *K, const sparse *M, const sparse *G, double omega
         }
 }
 
-/* The caller, gyroscopic_count, frees *doubled and *factors, also after a failure. */
+/* Counts the negative eigenvalues. The caller, gyroscopic_count, frees *doubled and *factors, also
+ * after a failure. */
 static status count(const sparse *K, const sparse *M, const sparse *G, double omega,
                     sparse *doubled, matrix_factor **factors, int *below, fault *f)
 {
@@ -321,8 +323,8 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
     return outcome;
 }
 
-/* x^H (K + |lambda|^2 M) x relative to the size of its terms; c^H c = 1 means x^H (K + shift M) x
- * = 1. */
+/* Returns x^H (K + |lambda|^2 M) x relative to the size of its terms; c^H c = 1 means that x^H (K +
+ * shift M) x = 1. */
 static double index_energy(const ritz *r, const subspace *b, double shift, int i)
 {
     const double complex *c = r->c + (size_t)i * (size_t)b->room;
@@ -341,7 +343,7 @@ static double index_energy(const ritz *r, const subspace *b, double shift, int i
 
 /* Energies below this relative size count as zero. */
 static const double no_energy = 1e-6;
-/* A real part above this fraction of |lambda| is growth and not rounding. */
+/* A real part above this fraction of |lambda| is growth, not round-off. */
 static const double clear_growth = 1e-3;
 
 int gyroscopic_index_grows(const ritz *r, const subspace *b, double shift, int i)

@@ -9,16 +9,16 @@
 
 enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
 
-/* relative to x^H K x; the relative error of a frequency is the square of its residual */
+/* relative to x^H K x; the relative error of a frequency is the square of the residual */
 static const double good_residual = 1e-8, bearable_residual = 1e-5;
-/* A pair need not converge if rounding changes its residual by more than this: its mass is then
- * rounding of the largest one. */
+/* A pair need not converge if rounding changes its residual by more than this, because its mass is
+ * then a rounding error of the largest mass. */
 static const double no_digits = 1e-7;
-/* K counts as nearly singular if an eigenvalue of (K, M) is below near_zero times the others, or
- * times the square of the rate of G; the shift is then away_from_zero times them. */
+/* K counts as nearly singular if the smallest eigenvalue of (K, M) is below near_zero times the
+ * others, or times the square of the rate of G. The shift is then away_from_zero times these. */
 static const double near_zero = 1e-4, away_from_zero = 1e-2;
-/* If all pairs have been found, the ratio of any other frequency to the last one is at least this.
- */
+/* If all pairs have been found, the ratio of any other frequency to the last one found is at least
+ * this. */
 static const double far = 1e3;
 
 typedef struct gyroscopic_solver {
@@ -27,11 +27,11 @@ typedef struct gyroscopic_solver {
     double shift; /* [1/s^2] S = K + shift M */
     double least; /* [1/s^2] lower bound of the shift */
     double nearest,
-        furthest;    /* smallest and largest size of the eigenvalues of (K, M) at the start ... */
-    double softest;  /* ... and the smallest of (S, M) */
+        furthest; /* smallest and largest magnitude of the eigenvalues of (K, M) at the start ... */
+    double softest;  /* ... and the smallest eigenvalue of (S, M) */
     int all_known;   /* 1: the start found everything that was searched for */
-    const sparse *S; /* K, or ... */
-    sparse shifted;  /* ... this */
+    const sparse *S; /* points to K, or ... */
+    sparse shifted;  /* ... to this matrix */
     subspace basis;
     ritz pairs;
     double *re, *im, *work, *product; /* [free] */
@@ -47,7 +47,7 @@ void gyroscopic_free(gyroscopic_result *r)
     memset(r, 0, sizeof *r);
 }
 
-/* y = S x */
+/* Computes y = S x. */
 static void basis_product(void *context, const double x[], double y[])
 {
     const gyroscopic_solver *s = context;
@@ -59,7 +59,7 @@ static void basis_product(void *context, const double x[], double y[])
         y[i] += s->shift * s->product[i];
 }
 
-/* Adds a complex multiple of out_re + i out_im = sum_k c_k vector_k. */
+/* Adds a multiple of a combination of vectors to out_re + i out_im: times sum_k c_k vector_k. */
 static void accumulate(const gyroscopic_solver *s, const double *vectors, const double complex c[],
                        double complex times)
 {
@@ -79,7 +79,7 @@ static void clear(const gyroscopic_solver *s)
     memset(s->im, 0, (size_t)s->basis.n * sizeof *s->im);
 }
 
-/* r^H S^-1 r for one half of a residual; the half is replaced by S^-1 times it. */
+/* Returns r^H S^-1 r for one half of a residual, and replaces the half by S^-1 times it. */
 static double solve_half(gyroscopic_solver *s, double half[])
 {
     memcpy(s->work, half, (size_t)s->basis.n * sizeof *half);
@@ -88,7 +88,8 @@ static double solve_half(gyroscopic_solver *s, double half[])
     return fmax(0, dense_dot(s->basis.n, s->work, half));
 }
 
-/* Size of the residual of pair i; if it is large, S^-1 times the residual extends the basis. */
+/* Returns the size of the residual of pair i. If it is large, S^-1 times the residual extends the
+ * basis. */
 static double improve(gyroscopic_solver *s, int i, int *grown)
 {
     const double complex lambda = s->pairs.lambda[i],
@@ -105,8 +106,8 @@ static double improve(gyroscopic_solver *s, int i, int *grown)
     return size;
 }
 
-/* Returns the relative change of lambda^2 of pair i due to rounding, from its mass relative to the
- * largest one. */
+/* Returns the relative change of lambda^2 of pair i due to rounding, estimated from its mass
+ * relative to the largest mass. */
 static double noise(const gyroscopic_solver *s, int i)
 {
     const double size = cabs(s->pairs.lambda[i]);
@@ -116,8 +117,8 @@ static double noise(const gyroscopic_solver *s, int i)
     return size * size * mass * DBL_EPSILON;
 }
 
-/* Extends the basis until `wanted` Ritz pairs have converged. Pairs with too little mass to be
- * accurate end the search when the basis no longer improves. */
+/* Extends the basis until `wanted` Ritz pairs have converged. If pairs have too little mass to be
+ * accurate, the search ends when the basis no longer improves. */
 static status iterate(gyroscopic_solver *s, int wanted, fault *f)
 {
     for (int pass = 0;; pass++) {
@@ -146,8 +147,8 @@ static status iterate(gyroscopic_solver *s, int wanted, fault *f)
     }
 }
 
-/* Starts the basis with the first `count` modes for G = 0, including modes whose value is lost in
- * round-off: the basis improves them. */
+/* Starts the basis with the first `count` modes for G = 0. This includes modes whose eigenvalue is
+ * lost in round-off, because the basis improves them. */
 static status start(gyroscopic_solver *s, int count, fault *f)
 {
     eigen_result e = {0};
@@ -170,14 +171,14 @@ static status start(gyroscopic_solver *s, int count, fault *f)
     return outcome == STATUS_NOT_CONVERGED && isfinite(s->softest) ? STATUS_OK : outcome;
 }
 
-/* Number of negative eigenvalues of K that the pairs found do not account for. */
+/* Returns the number of negative eigenvalues of K for which the pairs found do not account. */
 static int unaccounted(const gyroscopic_solver *s)
 {
     return s->out->negative -
            gyroscopic_index_of(&s->pairs, &s->basis, s->shift, s->found).negative;
 }
 
-/* For indefinite K: checks the first `last` pairs by a count below the gap that follows them. A
+/* For an indefinite K: checks the first `last` pairs by a count below the gap that follows them. A
  * failed count proves nothing. */
 static status prove(gyroscopic_solver *s, int last, status counted, int below, int *number)
 {
@@ -190,8 +191,8 @@ static status prove(gyroscopic_solver *s, int last, status counted, int below, i
     return counted == STATUS_FAULT ? counted : STATUS_OK;
 }
 
-/* Relative change of x^H S x of the pairs found due to the assembly of S. The frequencies of the
- * matrix, which are counted, differ by half of this change. */
+/* Returns the largest relative change of x^H S x, over the pairs found, due to the assembly of S.
+ * The frequencies of the matrix, which are counted, differ by half of this change. */
 static double departure(gyroscopic_solver *s)
 {
     double largest = 0;
@@ -207,11 +208,11 @@ static double departure(gyroscopic_solver *s)
     return largest;
 }
 
-/* Number of frequencies below the first gap after those found, minus the number found. Equal
- * frequencies have no gap between them. */
+/* Sets *number to the number of frequencies below the first gap after those found, minus the number
+ * found. There is no gap between equal frequencies. */
 static status missing(gyroscopic_solver *s, int wanted, int *number, fault *f)
 {
-    const double gap = fmax(1e-6, 4 * departure(s)); /* relative */
+    const double gap = fmax(1e-6, 4 * departure(s)); /* relative gap */
     int last = s->found, below = 0;
     *number = 0;
     s->out->unproven = s->out->negative > 0 ? unaccounted(s) : 0;
@@ -235,7 +236,7 @@ static status missing(gyroscopic_solver *s, int wanted, int *number, fault *f)
     return STATUS_OK;
 }
 
-/* [1/s] Rate of G: its largest entry relative to the masses of its row and column. */
+/* Returns the rate of G [1/s]: its largest entry relative to the masses of its row and column. */
 static double rate_of_turning(const sparse *G, const sparse *M)
 {
     double rate = 0;
@@ -248,7 +249,7 @@ static double rate_of_turning(const sparse *G, const sparse *M)
     return rate;
 }
 
-/* The smallest shift, in powers of ten, that makes K + shift M positive definite. */
+/* Finds the smallest shift, in powers of ten, that makes K + shift M positive definite. */
 static status find_shift(gyroscopic_solver *s, fault *f)
 {
     const sparse *K = s->p->K, *M = s->p->M;
@@ -278,8 +279,8 @@ static status find_shift(gyroscopic_solver *s, fault *f)
     }
 }
 
-/* Shift needed according to the first start, if K or K + shift M is nearly singular, as at a
- * critical speed. Returns the present shift if no larger one is needed. */
+/* Returns the shift needed according to the first start, if K or K + shift M is nearly singular, as
+ * at a critical speed; the present shift if no larger one is needed. */
 static double shift_after(const gyroscopic_solver *s, status started)
 {
     const double rate = rate_of_turning(s->p->G, s->p->M);
@@ -290,7 +291,7 @@ static double shift_after(const gyroscopic_solver *s, status started)
     return nearly ? away_from_zero * scale : 0;
 }
 
-/* Starts the basis, and starts again with a different shift if needed. */
+/* Starts the basis, and starts it again with a different shift if necessary. */
 static status begin(gyroscopic_solver *s, int count, fault *f)
 {
     const status outcome = start(s, count, f);
@@ -304,7 +305,7 @@ static status begin(gyroscopic_solver *s, int count, fault *f)
     return start(s, count, f);
 }
 
-/* Chooses the phase that makes the real part as large as possible. */
+/* Multiplies the vector by the phase that makes its real part as large as possible. */
 static void turn_phase(const gyroscopic_solver *s)
 {
     double complex square = 0;
@@ -375,7 +376,7 @@ static status find(gyroscopic_solver *s, fault *f)
     return hand_over(s, f);
 }
 
-/* The caller, gyroscopic_solve, frees *s, also after a failure. */
+/* Finds the modes. The caller, gyroscopic_solve, frees *s, also after a failure. */
 static status solve(gyroscopic_solver *s, fault *f)
 {
     const gyroscopic_problem *p = s->p;

@@ -15,7 +15,7 @@ enum {
     CONVERGED = 4
 }; /* positions in ARPACK's arrays: result, number of converged values */
 
-/* Error of a vector; the error of its Rayleigh quotient is the square. */
+/* Tolerance for the error of a vector. The error of its Rayleigh quotient is the square of this. */
 static const double tolerance = 1e-10;
 
 typedef struct lanczos_workspace {
@@ -55,7 +55,7 @@ static void workspace_free(lanczos_workspace *w)
     free(w->integers);
 }
 
-/* A fixed starting vector with a component along every mode. */
+/* Sets x to a fixed starting vector with a component along every mode. */
 static void fill_start(int n, double x[])
 {
     unsigned long long seed = 0x9E3779B97F4A7C15ull;
@@ -65,7 +65,7 @@ static void fill_start(int n, double x[])
     }
 }
 
-/* Removes the components of x along X; the dual vectors measure the coefficients. */
+/* Removes the components of x along X. The dual vectors measure the coefficients. */
 static void deflate(int n, int known, const double *dual, const double *measured, const double *X,
                     double x[])
 {
@@ -79,8 +79,8 @@ static void deflate(int n, int known, const double *dual, const double *measured
     }
 }
 
-/* y = OP x; x becomes K y = s A x, as mode 2 requires; the components along X are removed from
- * both. */
+/* Computes y = OP x. As mode 2 requires, x becomes K y = s A x. The components along X are removed
+ * from both. */
 static void apply(const lanczos_problem *p, double x[], double y[])
 {
     const int n = p->K->n;
@@ -114,7 +114,7 @@ static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutio
     }
 }
 
-/* Reverses the order: ARPACK's values ascend, mu[] descends. */
+/* Reverses the order, because ARPACK's values ascend and mu[] descends. */
 static void reverse(size_t n, int count, double x[])
 {
     for (int low = 0, high = count - 1; low < high; low++, high--)
@@ -125,7 +125,7 @@ static void reverse(size_t n, int count, double x[])
         }
 }
 
-/* Copies ARPACK's values and vectors, largest first. *x: the basis, shortened to the vectors. */
+/* Copies ARPACK's values and vectors, largest first. *x: the basis, shortened to these vectors. */
 static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, double mu[],
                            double **x, fault *f)
 {
@@ -144,7 +144,7 @@ static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, d
     return STATUS_OK;
 }
 
-/* The caller, lanczos_largest, frees *w, also after a failure. */
+/* Runs the iteration. The caller, lanczos_largest, frees *w, also after a failure. */
 static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, int *found,
                     double mu[], double **x, long *solutions, fault *f)
 {
@@ -160,8 +160,8 @@ static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, 
     return take_vectors(w, n, wanted, *found, mu, x, f);
 }
 
-/* ARPACK stores its state between calls in static variables, so that only one thread may use it at
- * a time. A process that is forked meanwhile does not have that thread. */
+/* ARPACK stores its state between calls in static variables, so only one thread may use it at a
+ * time. A process that is forked during this time does not have that thread. */
 static pthread_mutex_t arpack = PTHREAD_MUTEX_INITIALIZER;
 static pthread_once_t forks = PTHREAD_ONCE_INIT;
 

@@ -1,7 +1,7 @@
 /* Reduced linear models: static shapes of interface coordinates and motions, and modes with the
  * interface fixed (R. R. Craig, M. C. C. Bampton, AIAA Journal 6 (1968) 1313); without an
- * interface, modes and the static shapes of forces. Shapes and modes are those of the symmetric
- * part of K. */
+ * interface, modes and static shapes of forces. Shapes and modes are those of the symmetric part of
+ * K. */
 #include <complex.h>
 #include <float.h>
 #include <lapacke.h>
@@ -18,13 +18,13 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for a reduced model");
 }
 
-/* A basis under construction; columns of V one after the other. */
+/* A basis under construction, with the columns of V one after the other. */
 typedef struct reduction {
     const second_order *m;
     int inner, edge; /* number of coordinates outside the interface, and in it */
-    int *of;         /* [n] first the inner ones */
+    int *of;         /* [n] coordinates, first the inner ones */
     double *K;       /* [inner^2] symmetric; becomes its Cholesky factor */
-    double *mode;    /* [inner^2] by columns, K-orthonormal; the highest frequency first */
+    double *mode;    /* [inner^2] modes by columns, K-orthonormal, the highest frequency first */
     double *mu;      /* [inner] 1/w^2 of the modes */
     double *V;       /* [columns x n] */
     double *r;       /* [motions x n] static shapes of motions */
@@ -57,7 +57,8 @@ static status decompose(reduction *b, fault *f)
                                  "the modes for a reduced model did not converge");
 }
 
-/* Checks that there are not more modes than coordinates with mass, apart from round-off. */
+/* Checks that the number of modes does not exceed the number of coordinates with mass, apart from
+ * round-off. */
 static status check_modes(const reduction *b, int modes, fault *f)
 {
     const int n = b->inner;
@@ -70,7 +71,7 @@ static status check_modes(const reduction *b, int modes, fault *f)
                            most, b->edge > 0 ? " while the interface is fixed" : "", most);
 }
 
-/* out[n] = -K^-1 of the inner part of force[inner], with `sign`. */
+/* Sets out[n] to -K^-1 times the inner part of force[inner], multiplied by `sign`. */
 static void solve_inner(const reduction *b, double force[], double sign, double out[])
 {
     LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', b->inner, 1, b->K, b->inner, force, b->inner);
@@ -78,7 +79,8 @@ static void solve_inner(const reduction *b, double force[], double sign, double 
         out[b->of[i]] = sign * force[i];
 }
 
-/* Adds the static shape of a force, without the part that V contains, unless nothing remains. */
+/* Adds the static shape of a force without the component that V already contains, unless nothing
+ * remains. */
 static void add_shape(reduction *b, const double force[], double room[])
 {
     const int n = b->inner;
@@ -135,7 +137,7 @@ static void build(reduction *b, int modes, double room[])
     }
 }
 
-/* Right[size x reduced size] with motions, and left without. */
+/* Assembles right[size x reduced size], which includes the motions, and left, which does not. */
 static void assemble(const reduction *b, double left[], double right[])
 {
     const second_order *m = b->m;
@@ -151,7 +153,7 @@ static void assemble(const reduction *b, double left[], double right[])
         left[(n + k) * width + r + k] = right[(n + k) * width + r + k] = 1;
 }
 
-/* out = left^T A right */
+/* Computes out = left^T A right. */
 static void project(const double left[], const double A[], const double right[], size_t N, size_t R,
                     double room[], double out[])
 {

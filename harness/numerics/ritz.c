@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Eigenvalues of a projected mass below this, relative to the largest times the size, count as
- * zero. */
+/* Eigenvalues of a projected mass matrix count as zero below this number times the largest
+ * eigenvalue and the size. */
 static const double no_mass = 8 * DBL_EPSILON;
 
 status ritz_alloc(ritz *r, int room, const subspace *b, fault *f)
@@ -39,7 +39,7 @@ static double complex *left_coefficients(const subspace *b, const ritz *r, int i
     return r->left + (size_t)i * (size_t)b->room;
 }
 
-enum { RITZ_BEHIND = 8 /* columns */ };
+enum { RITZ_BEHIND = 8 /* columns after the end of a matrix */ };
 
 static void normalise(int k, double complex c[])
 {
@@ -50,8 +50,8 @@ static void normalise(int k, double complex c[])
         c[j] /= sqrt(square);
 }
 
-/* R [k x k], row-major, with R^T R the projected M; zero rows where M is only rounding of its
- * largest eigenvalue. */
+/* Computes R[k x k], row-major, with R^T R equal to the projected M. A row is zero if M is there
+ * only a rounding error of its largest eigenvalue. */
 static int root_of_mass(const subspace *b, double R[])
 {
     const int k = b->count;
@@ -70,7 +70,7 @@ static int root_of_mass(const subspace *b, double R[])
     return info;
 }
 
-/* Upper triangle of [-i G, R^T; R, 0], column-major. */
+/* Fills the upper triangle of [-i G, R^T; R, 0], column-major. */
 static void hermitian_matrix(const subspace *b, const double R[], double complex H[])
 {
     const int k = b->count, n = 2 * k, room = b->room;
@@ -81,8 +81,8 @@ static void hermitian_matrix(const subspace *b, const double R[], double complex
         }
 }
 
-/* Stores the pairs of mu[found], ascending. Skips infinite frequencies, whose motion has no mass.
- */
+/* Stores the pairs of mu[found], which ascend. Skips infinite frequencies, whose modes have no
+ * mass. */
 static void take_hermitian(const subspace *b, int found, const double mu[], const double complex *z,
                            ritz *r)
 {
@@ -99,9 +99,9 @@ static void take_hermitian(const subspace *b, int found, const double mu[], cons
     }
 }
 
-/* The largest `most` eigenvalues mu, ascending, with their vectors z. zgemv of some OpenBLAS
- * versions (0.3.21, Haswell) reads a few columns past the end of its matrices; H and the work array
- * are allocated with room for that. */
+/* Computes the largest `most` eigenvalues mu, ascending, with their vectors z. zgemv of some
+ * OpenBLAS versions (0.3.21, Haswell) reads a few columns past the end of its matrices; H and the
+ * work array are allocated with room for that. */
 static int largest_eigenvalues(int n, int most, double complex H[], double mu[], double complex z[],
                                lapack_int support[], lapack_int *found)
 {
@@ -163,7 +163,7 @@ static int is_first_of_its_kind(double complex lambda)
                                 : cimag(lambda) >= -tiny && creal(lambda) > 0;
 }
 
-/* Inserts a pair in order of size; c[2 x basis size]: x and w. */
+/* Inserts a pair in the order of magnitude; c[2 x basis size]: coefficients of x and of w. */
 static void insert(const subspace *b, ritz *r, double complex lambda, const double complex c[])
 {
     int at = r->count;
@@ -185,10 +185,10 @@ static void insert(const subspace *b, ritz *r, double complex lambda, const doub
     normalise(b->count, left_coefficients(b, r, at));
 }
 
-/* nu [Kp, 0; 0, 1] z = [-Gp, -R^T; R, 0] z with nu = 1/lambda, z = (x, lambda R x), Mp = R^T R and
- * Kp = 1 - shift Mp; column-major. A massless motion is a simple nu = 0. With lambda x instead of
- * lambda R x it would be a double eigenvalue, which rounding splits by the square root of its size.
- */
+/* Fills the column-major matrices of nu [Kp, 0; 0, 1] z = [-Gp, -R^T; R, 0] z, where nu = 1/lambda,
+ * z = (x, lambda R x), Mp = R^T R and Kp = 1 - shift Mp. A massless mode is a simple eigenvalue nu
+ * = 0. With lambda x instead of lambda R x it would be a double eigenvalue, which rounding splits
+ * by the square root of the rounding error. */
 static void general_matrices(const subspace *b, double shift, const double R[], double A[],
                              double B[])
 {
@@ -204,8 +204,8 @@ static void general_matrices(const subspace *b, double shift, const double R[], 
         B[(k + i) * n + k + i] = 1;
 }
 
-/* Copies the first half of column i of z[n x n] to c[k]; for conjugate pairs that column has the
- * real part and the next one the imaginary part. */
+/* Copies the first half of column i of z[n x n] to c[k]. For a conjugate pair, this column contains
+ * the real part and the next one the imaginary part. */
 static void take_column(int k, int i, int is_complex, int second, const double *z,
                         double complex c[])
 {
@@ -217,7 +217,7 @@ static void take_column(int k, int i, int is_complex, int second, const double *
 }
 
 /* Stores the first of each conjugate pair of eigenvalues beta/(re + i im) [n]. Their columns of z
- * (right) and w (left) contain real and imaginary parts; c[2 k] is work space. */
+ * (right) and w (left) contain real and imaginary parts; c[2 k]: workspace. */
 static void take_general(const subspace *b, const double re[], const double im[],
                          const double beta[], const double *z, const double *w, double complex c[],
                          ritz *r)

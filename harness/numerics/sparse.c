@@ -36,8 +36,8 @@ void sparse_copy_leading(const sparse *whole, sparse *leading)
                (size_t)(leading->column[j + 1] - leading->column[j]) * sizeof *leading->value);
 }
 
-/* Uses the upper triangle for both halves; the diagonal entry, if stored, is the last of its
- * column. */
+/* Multiplies by a matrix whose upper triangle represents both halves; the diagonal entry, if
+ * stored, is the last one of its column. */
 static void mul_symmetric(const sparse *a, const double x[], double y[])
 {
     for (int j = 0; j < a->n; j++) {
@@ -96,12 +96,12 @@ double sparse_rounding(const sparse *a, const double x[], const double y[])
 
 struct by_numbers {
     sparse upper;
-    int *from,
-        *mirror;      /* [entries of upper] positions in the whole matrix; mirror -1: not stored */
-    double *diagonal; /* [n] */
+    int *from, *mirror; /* [entries of upper] positions in the whole matrix; mirror -1: the mirrored
+                           entry is not stored */
+    double *diagonal;   /* [n] */
 };
 
-/* Position of an entry; -1: not stored. */
+/* Returns the position of an entry; -1: it is not stored. */
 static int place_of(const sparse *a, int row, int column)
 {
     int low = a->column[column], high = a->column[column + 1] - 1;
@@ -232,7 +232,7 @@ status triplets_of(const sparse *a, int skew, triplets *out, fault *f)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             if (!a->symmetric)
                 add(out, a->row[k], j, a->value[k]);
-            else if (!skew || a->row[k] != j) /* mirrors the upper triangle */
+            else if (!skew || a->row[k] != j) /* entry mirrored from the upper triangle */
                 add(out, j, a->row[k], skew ? -a->value[k] : a->value[k]);
         }
     return STATUS_OK;
@@ -272,7 +272,7 @@ void triplets_mul(const triplets *A, const double x[], double y[])
     }
 }
 
-/* Memory of the machine, or the limit of this process [byte]. */
+/* Returns the memory of the machine, or the limit of this process [byte]. */
 static double usable(void)
 {
     struct rlimit own;
@@ -298,7 +298,7 @@ status memory_append(void *list, int *count, const void *entry, size_t size, con
     char *entries;
     memcpy(&entries, list, sizeof entries);
     const size_t n = (size_t)*count;
-    if ((n & (n - 1)) == 0) { /* capacity doubles when the count is a power of two */
+    if ((n & (n - 1)) == 0) { /* the capacity doubles when the count is a power of two */
         char *const grown = realloc(entries, (n == 0 ? 1 : 2 * n) * size);
         if (grown == NULL)
             return fault_set(f, STATUS_FAULT, "out of memory for %s", what);

@@ -14,16 +14,17 @@
 #include "elements/math/dense.h"
 #include "harness/numerics/numerics_impl.h"
 
-/* Matrices of the free coordinates in new coordinates q = T x: with mass [masses], of first order
- * [slow], eliminated [rigid]. */
+/* Matrices of the free coordinates in new coordinates q = T x: first those with mass [masses], then
+ * those of first order [slow], then those that are eliminated [rigid]. */
 typedef struct split {
     const second_order *of;
     int n, masses, slow, rigid;
     double *T;            /* [n x n] */
     double *w;            /* [n] circular frequencies of coordinates with mass, otherwise 1 */
-    double *K, *C, *M;    /* [n x n] T^T K T */
-    double *moved[3], *F; /* [n x motions] forces due to motions by K, C and M; [n x inputs] B */
-    double shift;         /* of squares of frequencies */
+    double *K, *C, *M;    /* [n x n] T^T K T, T^T C T, T^T M T */
+    double *moved[3], *F; /* [n x motions] forces due to motions through K, C and M; [n x inputs]
+                             forces of inputs */
+    double shift;         /* shift of the squares of frequencies */
     double
         *still; /* [rigid x (n + motions + inputs)] eliminated coordinates in terms of the others */
     double *row, *of_input; /* [states x states], [states x inputs] */
@@ -34,7 +35,7 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for a state space");
 }
 
-/* C(m x n) = A(m x k) B(k x n), large. */
+/* Computes C(m x n) = A(m x k) B(k x n) for large matrices. */
 static void product(int m, int k, int n, const double A[], const double B[], double C[])
 {
     memset(C, 0, (size_t)m * (size_t)n * sizeof *C);
@@ -48,7 +49,7 @@ static void product(int m, int k, int n, const double A[], const double B[], dou
         }
 }
 
-/* out = T^T A T of the leading block of A [size x size]. */
+/* Computes out = T^T A T for the leading block of A [size x size]. */
 static status congruence(const split *s, const double A[], int size, double out[], fault *f)
 {
     const size_t n = (size_t)s->n;
@@ -66,7 +67,7 @@ static status congruence(const split *s, const double A[], int size, double out[
     return STATUS_OK;
 }
 
-/* out[n x columns] = T^T of columns `from` on of A [. x size]. */
+/* Computes out[n x columns] = T^T times the columns of A [. x size] that start at `from`. */
 static void turned(const split *s, const double A[], int size, int from, int columns, double out[])
 {
     const size_t n = (size_t)s->n;
@@ -93,9 +94,9 @@ static status project(split *s, fault *f)
     return STATUS_OK;
 }
 
-/* Columns of T by eigenvectors of the symmetric part of A [n x n], scaled by the roots of its
- * diagonal, over columns `from` to s->n: first those with a part above round-off. Returns their
- * number, -1: out of memory. */
+/* Replaces columns `from` to s->n of T by eigenvectors of the symmetric part of A [n x n], scaled
+ * by the square roots of its diagonal. Those whose eigenvalue exceeds round-off come first. Returns
+ * their number; -1: out of memory. */
 static int range_of(split *s, const double A[], const double scale[], int from, fault *f)
 {
     const size_t n = (size_t)s->n, size = n - (size_t)from;
@@ -115,7 +116,7 @@ static int range_of(split *s, const double A[], const double scale[], int from, 
         else
             count = 0;
         const double none = 1e-12 * (size > 0 ? mu[size - 1] : 0);
-        for (size_t k = 0; k < size && count >= 0; k++) { /* the largest first */
+        for (size_t k = 0; k < size && count >= 0; k++) { /* the largest eigenvalue comes first */
             const size_t at = size - 1 - k;
             count += mu[at] > none && mu[at] > 0;
             for (size_t i = 0; i < n; i++) {
@@ -133,7 +134,7 @@ static int range_of(split *s, const double A[], const double scale[], int from, 
     return count;
 }
 
-/* Separates the coordinates with mass; they remain as they are if all have mass. */
+/* Separates the coordinates with mass. The coordinates do not change if all have mass. */
 static status split_masses(split *s, fault *f)
 {
     const size_t n = (size_t)s->n;
@@ -155,7 +156,7 @@ static status split_masses(split *s, fault *f)
     return outcome;
 }
 
-/* Among the others, separates those with damping. */
+/* Separates those with damping among the coordinates without mass. */
 static status split_dampers(split *s, fault *f)
 {
     const size_t n = (size_t)s->n, from = (size_t)s->masses;
@@ -212,8 +213,9 @@ static status eliminate(split *s, fault *f)
                     : STATUS_OK;
 }
 
-/* R L^-T of K + shift M = R^T R, M = L L^T, column by column, for the coordinates with mass; L is
- * the lower triangle [masses x masses]. Returns 0 if K + shift M is not positive definite. */
+/* Computes G = R L^-T from K + shift M = R^T R and M = L L^T, column by column, for the coordinates
+ * with mass; L is the lower triangle [masses x masses]. Returns 0 if K + shift M is not positive
+ * definite. */
 static int relative(const split *s, double L[], double G[])
 {
     const size_t n = (size_t)s->n, p = (size_t)s->masses;
@@ -229,14 +231,14 @@ static int relative(const split *s, double L[], double G[])
     for (size_t i = 0; i < p; i++) {
         const double whole = s->K[i * n + i] + s->shift * s->M[i * n + i];
         if (s->shift == 0 && !(G[i * p + i] * G[i * p + i] > 1e-13 * (double)p * whole))
-            return 0; /* nothing but round-off */
+            return 0; /* only round-off remains */
         for (size_t j = i + 1; j < p; j++)
             G[i * p + j] = 0; /* below the diagonal */
     }
     return 1;
 }
 
-/* Squares of frequencies, shifted, in w[masses]; V[masses x masses] by columns. */
+/* Computes the shifted squares of frequencies in w[masses], and V[masses x masses] by columns. */
 static status decompose(split *s, double L[], double G[], double V[], int *positive, fault *f)
 {
     const int size = s->masses;
@@ -262,8 +264,8 @@ static status decompose(split *s, double L[], double G[], double V[], int *posit
     return STATUS_OK;
 }
 
-/* Undamped modes of the coordinates with mass; a free structure has a shift of the order of the
- * lowest frequency. */
+/* Computes the undamped modes of the coordinates with mass. The stiffness of a
+ * free structure is shifted just enough to become positive definite. */
 static status take_modes(split *s, double L[], double G[], double V[], fault *f)
 {
     const size_t n = (size_t)s->n, p = (size_t)s->masses;
@@ -337,8 +339,8 @@ static status find_modes(split *s, fault *f)
     return STATUS_OK;
 }
 
-/* to[states + inputs] += times the force in the equation of coordinate r, without inertia: F - C q'
- * - K q. */
+/* Adds `times` the force in the equation of coordinate r, without inertia, to to[states + inputs]:
+ * F - C q' - K q. */
 static void force_on(const split *s, size_t r, double times, const double *slow_rows, double to[])
 {
     const second_order *m = s->of;
@@ -365,7 +367,7 @@ static void force_on(const split *s, size_t r, double times, const double *slow_
             of_input[j] -= times * s->moved[2][r * motions + (size_t)m->motion_of[j]];
     }
     for (size_t i = 0; i < (size_t)s->rigid;
-         i++) { /* of eliminated coordinates, in addition to their K */
+         i++) { /* motions and inputs also act through eliminated coordinates */
         const double k = times * s->K[r * n + first + i];
         for (size_t j = 0; j < motions; j++)
             to[first + j] += k * s->still[i * width + first + j];
@@ -374,7 +376,7 @@ static void force_on(const split *s, size_t r, double times, const double *slow_
     }
 }
 
-/* x' = A x + B u: rows [states x (states + inputs)]. */
+/* Fills the rows [states x (states + inputs)] of x' = A x + B u. */
 static void fill_rows(const split *s, double rows[])
 {
     const second_order *m = s->of;
@@ -394,7 +396,7 @@ static void fill_rows(const split *s, double rows[])
             rows[(first + motions + p + (size_t)m->motion_of[j]) * width + states + j] = 1;
 }
 
-/* q = Q x + R u: [(n + motions) x (states + inputs)]. */
+/* Fills q = Q x + R u: [(n + motions) x (states + inputs)]. */
 static void fill_positions(const split *s, double out[])
 {
     const second_order *m = s->of;
@@ -418,7 +420,8 @@ static void fill_positions(const split *s, double out[])
         out[(n + i) * width + first + i] = 1;
 }
 
-/* Does an input act instantaneously on c x + d u, relative to its effect through the modes? */
+/* Returns 1 if an input acts instantaneously on c x + d u, compared with its effect through the
+ * modes. */
 static int passes_through(const split *s, const double rows[], const double c[], int states)
 {
     const size_t p = (size_t)s->masses, rates = p + (size_t)s->slow + (size_t)s->of->motions,
@@ -434,8 +437,8 @@ static int passes_through(const split *s, const double rows[], const double c[],
     return 0;
 }
 
-/* Outputs [outputs x (states + inputs)]: L0 q + L1 q' + L2 q'' + D u, with q' = Q A x + Q B u if R
- * is zero. */
+/* Fills the outputs [outputs x (states + inputs)]: L0 q + L1 q' + L2 q'' + D u, where q' = Q A x +
+ * Q B u if R is zero. */
 static status fill_outputs(const split *s, const double rows[], const double position[],
                            double *work, state_space *out, fault *f)
 {

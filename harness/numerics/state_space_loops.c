@@ -12,7 +12,7 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for a state space");
 }
 
-/* Sizes, and the factors of all loops in terms of states, references, integrals and inputs. */
+/* Sizes, and the factors of all loops as functions of states, references, integrals and inputs. */
 typedef struct closing {
     const state_space *of;
     const state_space_loop *loop;
@@ -21,7 +21,7 @@ typedef struct closing {
     double *u;   /* [loops x wide] */
 } closing;
 
-/* to[wide] += times row y of the outputs without loops. */
+/* Adds `times` row y of the outputs without loops to to[wide]. */
 static void add_output(const closing *c, int y, double times, double to[])
 {
     const size_t states = (size_t)c->of->states, inputs = (size_t)c->inputs;
@@ -31,7 +31,8 @@ static void add_output(const closing *c, int y, double times, double to[])
         to[states + 2 * (size_t)c->loops + j] += times * c->of->D[(size_t)y * inputs + j];
 }
 
-/* to[wide] += times the contribution of the loops through the inputs: row of B or D [inputs]. */
+/* Adds `times` the contribution that the loops make through the inputs to to[wide]. by_input: row
+ * of B or D [inputs]. */
 static void add_loops(const closing *c, const double by_input[], double times, double to[])
 {
     for (int l = 0; l < c->loops; l++)
@@ -40,8 +41,8 @@ static void add_loops(const closing *c, const double by_input[], double times, d
                      c->u[(size_t)l * c->wide + j];
 }
 
-/* Solves for the factors, which may act instantaneously on their measured outputs: (1 + Kp D + Kd
- * D') u = ... */
+/* Solves (1 + Kp D + Kd D') u = ... for the factors, which may act instantaneously on their
+ * measured outputs. */
 static status find_factors(closing *c, fault *f)
 {
     const size_t loops = (size_t)c->loops, states = (size_t)c->of->states;
@@ -76,7 +77,8 @@ static status find_factors(closing *c, fault *f)
                       : STATUS_OK;
 }
 
-/* Position of a loop's integral after states and references; unused integrals are skipped. */
+/* Returns the position of a loop's integral after the states and references. Integrals that are not
+ * used are skipped. */
 static int position(const closing *c, int loop)
 {
     int at = c->of->states + c->loops;
@@ -85,8 +87,8 @@ static int position(const closing *c, int loop)
     return at;
 }
 
-/* Stores a row of the new state space, given in terms of states, references, all integrals and
- * inputs. */
+/* Stores a row of the new state space. The row is given in terms of states, references, all
+ * integrals and inputs. */
 static void keep_row(const closing *c, const double row[], double A[], double B[])
 {
     const size_t known = (size_t)c->of->states + (size_t)c->loops;

@@ -11,7 +11,7 @@ enum { SPINS = 2000 };
 
 typedef struct team_member {
     thread_team *team;
-    int index; /* 1 .. threads - 1; the caller is 0 */
+    int index; /* 1 .. threads - 1; the calling thread is 0 */
     pthread_t thread;
 } team_member;
 
@@ -21,7 +21,7 @@ struct thread_team {
     pthread_mutex_t lock;
     pthread_cond_t wake;
     atomic_int round,
-        left; /* round: changes when there is work; left: number of members still working */
+        left; /* round: changes when there is work; left: number of threads still working */
     int end;
     int count;
     team_work *work;
@@ -121,7 +121,7 @@ void team_run(thread_team *t, int count, team_work *work, void *context)
     int spins = 0;
     while (atomic_load_explicit(&t->left, memory_order_acquire) > 0)
         if (++spins > SPINS)
-            sched_yield(); /* parts are equal, so this wait is short unless there are too few
+            sched_yield(); /* the parts are equal, so this wait is short unless there are too few
                               processors */
 }
 
@@ -134,7 +134,7 @@ typedef struct relay {
     atomic_int filled[TEAM_SLOTS]; /* index of the piece in the slot, plus one */
 } relay;
 
-/* Fills the next piece if there is one and its slot is free. */
+/* Fills the next piece if there is one and its slot is free. Returns 1 if it did. */
 static int fill_next(relay *r)
 {
     int piece = atomic_load(&r->claimed);
@@ -153,7 +153,7 @@ static void wait_a_moment(int *spins)
         sched_yield();
 }
 
-/* Fills pieces as long as any are left. */
+/* Fills pieces as long as there are any left. */
 static void follow(relay *r)
 {
     int spins = 0;
@@ -164,7 +164,7 @@ static void follow(relay *r)
             wait_a_moment(&spins);
 }
 
-/* Uses filled pieces, and fills pieces while none is ready. */
+/* Uses filled pieces in order, and fills further pieces while the next one is not ready. */
 static void lead(relay *r)
 {
     int spins = 0, wanted = 1;
@@ -177,7 +177,7 @@ static void lead(relay *r)
         } else if (!fill_next(r))
             wait_a_moment(&spins);
     }
-    atomic_store(&r->claimed, r->pieces); /* nothing more is wanted */
+    atomic_store(&r->claimed, r->pieces); /* no further piece is needed */
 }
 
 static void relay_member(void *context, int first, int end)

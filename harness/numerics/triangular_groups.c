@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns of row k of L in the order of subtraction: path[top], ..., path[n - 1], by the up-looking
- * algorithm (T.A. Davis, ACM Trans. Math. Softw. 31, 2005, section 2). */
+/* Finds the columns of row k of L in the order of subtraction: path[top], ..., path[n - 1], by the
+ * up-looking algorithm (T.A. Davis, ACM Trans. Math. Softw. 31, 2005, section 2). */
 static int find_row(const triangular_pattern *of, int k)
 {
     int top = of->n;
@@ -21,7 +21,7 @@ static int find_row(const triangular_pattern *of, int k)
     return top;
 }
 
-/* Does column j consist of j + 1 and the rows of column j + 1? */
+/* Returns 1 if the rows of column j are j + 1 and the rows of column j + 1. */
 static int is_nested(const triangular_pattern *of, int j)
 {
     return of->parent[j] == j + 1 &&
@@ -51,8 +51,8 @@ static int split(const triangular_pattern *of, int count, const int column[], tr
     return runs;
 }
 
-/* A row joins the previous one if it has the same columns in the same order, followed by that row.
- */
+/* Returns 1 if row k joins the previous one: it has the same columns in the same order, followed by
+ * the column of that row. */
 static int joins(int rows, int before, const int column_before[], int count, const int column[],
                  int k)
 {
@@ -60,7 +60,7 @@ static int joins(int rows, int before, const int column_before[], int count, con
            memcmp(column, column_before, (size_t)before * sizeof *column) == 0;
 }
 
-/* Finds groups of rows; fills L_row and runs if out->run is allocated. work: [2 n]. */
+/* Finds the groups of rows; also fills L_row and the runs if out->run is allocated. work: [2 n]. */
 static void find(const triangular_pattern *of, int work[], int L_row[], triangular_groups *out)
 {
     int *column_before = work, *filled = work + of->n, runs = 0, before = 0, rows = 0;
@@ -85,7 +85,7 @@ static void find(const triangular_pattern *of, int work[], int L_row[], triangul
     out->run_of_group[out->groups] = runs;
 }
 
-/* work: [n] */
+/* Finds the runs of columns. work: [n]. */
 static int find_columns(const triangular_pattern *of, int work[], triangular_groups *out)
 {
     for (int k = 0; k < of->n; k++)

@@ -6,7 +6,7 @@
 
 enum { ROWS = TRIANGULAR_LANES };
 
-/* One number per row, also at addresses aligned for doubles only. */
+/* One number per row; may be at addresses that are aligned for doubles only. */
 typedef double lanes
     __attribute__((vector_size(ROWS * sizeof(double)), aligned(sizeof(double)), may_alias));
 
@@ -35,8 +35,8 @@ static inline __attribute__((always_inline)) void subtract(const triangular_rows
     }
 }
 
-/* Entries of L in a run, and their contribution to the rows' own block: own[s][r] of row r in
- * column s. The sizes are compile-time constants. */
+/* Computes the entries of L in a run, and their contribution to the rows' own block: own[s][r] for
+ * row r in column s. The sizes are compile-time constants. */
 static inline __attribute__((always_inline)) void use(const triangular_rows *t, int first,
                                                       int columns, int rows, lanes own[ROWS])
 {
@@ -83,7 +83,7 @@ use_run(const triangular_rows *t, triangular_run run, int rows, lanes own[ROWS])
     }
 }
 
-/* The rows' own columns, after all previous ones. Returns 0 if a pivot is zero. */
+/* Computes the rows' own columns, after all previous ones. Returns 0 if a pivot is zero. */
 static inline __attribute__((always_inline)) int factor_own(const triangular_rows *t, int first,
                                                             int rows, lanes own[ROWS])
 {
