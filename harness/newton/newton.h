@@ -20,8 +20,8 @@
 #include "harness/numerics/numerics.h"
 #include "harness/section_forces/section_forces.h"
 
-/* Equations of a model under a loading, and data of a run other than its states. The model and the
- * loading do not change. The data are freed at the end of a solution. */
+/* Equations of a model under a loading, and the data of a run that do not belong to a state. The
+ * model and the loading do not change during a run. The data are freed at the end of a solution. */
 
 /* Work done so far. */
 typedef struct counters {
@@ -41,7 +41,7 @@ typedef struct counters {
 typedef struct run_undeformed {
     int *of;         /* [elements] index of the values of an element, or NONE; NULL: no values
                         yet */
-    int count, room; /* of values */
+    int count, room; /* number of stored elements; capacity */
     int last;        /* element to which the last values belong */
     double *value;   /* [room x (J, C, initial stresses)] */
 } run_undeformed;
@@ -56,23 +56,23 @@ typedef struct linear_memory {
 typedef struct loading {
     int in_time; /* the path parameter is the time, and loads and drivers are functions of it */
     double held_path; /* path parameter for loads and drivers that are not functions of time */
-    int unloaded;     /* no loads, and drivers at zero */
+    int unloaded;     /* 1: no loads, and all drivers are zero */
     int acting;       /* number of the load case or combination (scene_acting_number) */
-    int lumps;        /* LUMPS_* */
+    int lumps;        /* LUMPS_* bits */
     element_rotating_frame frame; /* for a path of rotation, the angular velocity is multiplied by
                                      the path parameter */
     int rotates, rotation_follows_path;
 } loading;
 
-/* Damping in a motion: the stresses of members gain eta S0 e' (eta of the member), those of
- * dashpots C e'. See harness/time/time.h. */
+/* Damping in a motion: the stresses of members gain eta S0 e' (with eta of the member), and
+ * those of dashpots gain C e'. See harness/time/time.h. */
 typedef struct run_damping {
     double *stiffness; /* [kinds x strains^2] S0 */
-    double *none;      /* [model_stresses] zero */
+    double *none;      /* [model_stresses] zeros */
     double *begin;     /* [model_stresses] strains of the state from which rates are computed */
     double g;          /* e' = known + g (e - from) */
     const double *known, *from; /* [model_stresses] */
-    spring_rates springs;       /* the same for springs */
+    spring_rates springs;       /* strain rates of springs */
 } run_damping;
 
 struct run_ahead;
@@ -80,7 +80,7 @@ struct run_free;
 struct element_part;
 
 typedef struct run_state {
-    assemble_patterns *patterns; /* patterns of the matrices of the model, made on request */
+    assemble_patterns *patterns; /* patterns of the model's matrices, created on request */
     counters counters;
     phases phases;
     thread_team *team; /* threads of the loop over elements; NULL: one thread */
@@ -93,7 +93,7 @@ typedef struct run_state {
     run_damping *damping;         /* damping of a motion; NULL: none */
     double *feedback; /* [loads] factors of the loads with feedback in the evaluated state, set by
                          feedback_take (harness/time); NULL: no motion yet */
-    linear_memory memory; /* for callers that linearise one state at a time */
+    linear_memory memory; /* memory for callers that linearise one state at a time */
 } run_state;
 
 typedef struct equations {
@@ -105,8 +105,8 @@ typedef struct equations {
 status linear_memory_alloc(const model *, linear_memory *, fault *);
 void linear_memory_free(linear_memory *);
 
-/* Starts a run of a model. threads: number of threads for the loop over elements; 0, 1: one. Sums
- * keep their order, so that results do not depend on the number of threads. */
+/* Starts a run of a model. threads: number of threads for the loop over elements; 0 or 1: one
+ * thread. Sums keep their order, so that results do not depend on the number of threads. */
 status run_state_begin(run_state *, const model *, int threads, fault *);
 void run_state_end(run_state *);
 
@@ -114,7 +114,7 @@ void run_state_end(run_state *);
 
 /* Largest stresses of all elements [N]. */
 typedef struct advance_stress {
-    double largest, change; /* after the update; change due to it */
+    double largest, change; /* largest stress after the update; its change due to the update */
 } advance_stress;
 
 /* Call after linearise_state with the same memory and after solving K dx = residual. Adds the
@@ -136,8 +136,8 @@ typedef struct applied {
     double arm[3]; /* from the vertex to the point of application; it rotates with the vertex [m] */
 } applied;
 
-/* Factor of the load, including that of its load case, at `path` or at a time (loading_of); and the
- * derivative of the factor. */
+/* Returns the factor of the load at `path` (a path parameter or a time, see loading_of),
+ * including the factor of its load case. applied_rate returns the derivative of this factor. */
 double applied_factor(const equations *, const scene_load *load, double path);
 double applied_rate(const equations *, const scene_load *load, double path);
 /* Calls `take` with each nodal force of the load times `scale`. Loads along members are lumped at
@@ -166,13 +166,13 @@ typedef struct arrival {
  * convergence, so that the iteration ends at the first small correction. elements: with many
  * elements rounding of the positions limits the size of corrections. */
 void arrival_start(double criterion, int differences, int elements, arrival *);
-/* Returns 1 when the state has moved so little since the last linearisation that its tangent is
- * still exact up to rounding. */
+/* Returns 1 when the last change of the state was so small that the tangent of the last
+ * linearisation is still exact up to rounding. */
 int arrival_tangent_stands(const arrival *);
 
 typedef struct condensation condensation;
 
-/* Shape of a vibration or buckling mode. */
+/* Shape of a vibration mode or buckling mode. */
 
 typedef struct mode_shape {
     scene_family family;
@@ -183,8 +183,8 @@ int modes_in_family(const scene_mode *,
                     const mode_shape *); /* Returns 1 when the mode belongs to the family that the
                                             quantity requests. */
 const char *modes_family_name(scene_family);
-/* flexural, torsional or flexural-torsional: do shear centres move across their members, do
- * sections twist? */
+/* Sets *kind to flexural, torsional or flexural-torsional: it depends on whether shear centres
+ * move across their members and whether sections twist. */
 status modes_kind(const model *, const scene *, const double mode[], const char **kind, fault *);
 /* Separates modes with equal value[count], which may be arbitrary mixtures, into modes that move
  * along the z axes of members and modes that do not. They are stored one after the other, each [n =
@@ -194,25 +194,26 @@ status modes_separate(const model *, const scene *, int count, const double valu
 
 /* Results of an analysis, for quantities and for later analyses. */
 
-/* Critical loads of one sign, or frequencies [rad/s], ascending in size, with their modes. */
+/* Critical loads of one sign, or frequencies [rad/s], in ascending order of magnitude, with
+ * their modes. */
 typedef struct outcome_side {
     int count;
-    double *value, *mode; /* [count] NAN: lost in round-off; [count x free] */
+    double *value, *mode; /* [count] NAN: the value was lost in round-off; [count x free] */
     double *error; /* [count] estimated relative error due to iteration and round-off; NULL: none */
     double *growth; /* [count] growth rates of damped modes [1/s]; NULL: undamped. error then refers
                        to growth + i value */
-    status status;  /* NOT_CONVERGED: ... */
-    char reason[FAULT_TEXT]; /* ... why there are no more, or why some are lost */
+    status status;  /* NOT_CONVERGED: some values are missing or lost ... */
+    char reason[FAULT_TEXT]; /* ... and the reason for it */
 } outcome_side;
 /* Small motions about one state of a stationary rotation. */
 typedef struct rotation_modes {
     int count;
-    double *frequency, *growth; /* [count] [rad/s], [1/s] */
+    double *frequency, *growth; /* [count] frequencies [rad/s]; growth rates [1/s] */
     double *error;     /* [count] estimated relative error of lambda = growth + i frequency due to
                           iteration and round-off */
     mode_shape *shape; /* [count] */
     int negative;      /* number of negative eigenvalues of the stiffness, and ... */
-    int unproven;      /* ... of those that the modes do not account for */
+    int unproven;      /* ... the number of them that the modes do not account for */
 } rotation_modes;
 void outcome_modes_free(rotation_modes *);
 
@@ -223,17 +224,17 @@ typedef struct outcome_spectrum {
     char meaning[OUTCOME_MEANING];   /* with or without the damping of members, or the kind of
                                         instability; "": no damping, and loads have a potential */
     double growth; /* [1/s] largest growth rate about a state whose loads have no potential; 0:
-                      stable */
+                      the state is stable */
     const char *growth_meaning; /* as `meaning`, for the growth rate; NULL: the same as `meaning` */
     double *strained; /* [free + driven] displacements due to initial strains alone, about which
                          modes without loads are computed; NULL: none */
 } outcome_spectrum;
 
-/* Stations of a path: results of a static analysis, and first member of the three structures below.
- */
+/* Stations of a path: results of a static analysis, and the first member of the three structures
+ * below. */
 typedef struct outcome_path {
     int stations, reached; /* number of stations; the first `reached` have been computed */
-    double *value;         /* [stations] of the path parameter or the control coordinate */
+    double *value;         /* [stations] path parameter or control coordinate */
     model_state **state;   /* [stations]; NULL: for a compliance */
 } outcome_path;
 
@@ -248,7 +249,8 @@ typedef struct outcome_compliance {
     /* compliance for the six components of the node at every station [stations x 36]; rows of fixed
      * components are zero, columns that are not requested NaN; owned by the result */
     const double *matrix;
-    station_matrices *taken; /* [stations] computed during the solution of the path; NULL: none */
+    station_matrices *taken; /* [stations] matrices computed during the solution of the path;
+                                NULL: none */
 } outcome_compliance;
 
 typedef struct outcome_rotation {
@@ -256,7 +258,7 @@ typedef struct outcome_rotation {
     rotation_modes *modes; /* [stations]; NULL if no quantity requires them */
 } outcome_rotation;
 
-/* State of a motion at one instant; balance: from scene_balance. */
+/* State of a motion at one instant, with its energies and momenta (balance, see scene_balance). */
 typedef struct outcome_instant {
     double *rate,
         *acceleration; /* [free + driven], as in harness/time/time_impl.h; in one memory block */
@@ -266,15 +268,16 @@ typedef struct outcome_instant {
 /* Extremum or crossing of one quantity during a motion, including times between stations. */
 enum { PASSING_LOST = 2 }; /* a rotation vector has lost its direction (harness/model/model.h) */
 typedef struct outcome_passing {
-    int known;    /* 1, 0: no value, or PASSING_LOST */
-    double value; /* as extracted, or a time [s], or crossings per second */
-    double time;  /* [s] of a maximum or minimum */
+    int known;    /* 1: known, 0: no value, or PASSING_LOST */
+    double value; /* value before factor and offset, or a time [s], or a number of crossings per
+                     second */
+    double time;  /* [s] time of a maximum or minimum */
     double error; /* estimated error due to interpolation between the ends of steps */
 } outcome_passing;
 
 /* End of an accepted step of a motion; the first record is the initial state. */
 typedef struct outcome_step {
-    double time, step; /* [s] end and size of the step; size 0 for the initial state */
+    double time, step; /* [s] end of the step, and its size; size 0 for the initial state */
     double error; /* estimated error of positions due to the step, in the measure of model.h; 0: not
                      requested */
     int iterations, rejected; /* rejected: number of longer steps that failed before this one */
@@ -284,10 +287,10 @@ typedef struct outcome_step {
 /* End of a motion, with all data needed for its continuation. */
 typedef struct outcome_end {
     int analysis;                        /* index in the scene */
-    double time, step;                   /* [s] step: next step size */
+    double time, step;                   /* [s] time of the end, and next step size */
     double path;                         /* path parameter of the state */
-    double work, dissipated;             /* [J] since t = 0 */
-    double largest, origin;              /* [J] largest energy so far; that at t = 0 */
+    double work, dissipated;             /* [J] work and dissipated energy since t = 0 */
+    double largest, origin;              /* [J] largest energy so far; energy at t = 0 */
     double turned;                       /* [J] sum of the absolute work of all steps */
     double scale, extent, rate, density; /* see time_impl.h */
     double stress, contraction;          /* convergence history of Newton's method */
@@ -299,19 +302,20 @@ typedef struct outcome_end {
                       rates of released ends in conserving steps; relative rotations of nodes
                       (model.h) */
 } outcome_end;
-/* Number of entries of `value`. */
+/* Returns the number of entries of `value`. */
 size_t outcome_end_values(const outcome_end *);
 void outcome_end_free(outcome_end *);
 
-/* Small motions about an instant that other analyses name, with the coefficients of that instant:
- * M x'' + (C + G) x' + K x, x as increments of the coordinates, rotations in fixed axes. [free +
- * driven] in both directions, stored whole. */
+/* Small motions about an instant of a motion that other analyses refer to, with the coefficients
+ * of that instant: M x'' + (C + G) x' + K x, where x contains the increments of the coordinates,
+ * rotations in fixed axes. All matrices have free + driven rows and columns and are stored
+ * whole. */
 typedef struct outcome_about {
     double time; /* [s] */
     model_state *state;
     double *rate, *acceleration; /* [free + driven]; one memory block */
-    sparse K, M, C, G; /* K includes the forces of inertia and damping, C is damping, G the rest of
-                          what rates do */
+    sparse K, M, C, G;           /* K includes the derivatives of the inertia and damping forces; C:
+                                    damping; G: all other forces that depend on rates */
 } outcome_about;
 
 typedef struct outcome_motion {
@@ -320,42 +324,45 @@ typedef struct outcome_motion {
     int steps;                /* number of records, including the initial state */
     outcome_step *step;       /* [steps] */
     outcome_passing *passing; /* [quantities of the scene] */
-    unsigned char *undefined; /* [quantities of the scene] 1: an acceleration without inertia */
-    double *slope;            /* [quantities of the scene x stations] of quantities that are
-                                 slopes inside steps; NULL: none */
-    outcome_path frames;      /* for pictures, at equal intervals */
-    int abouts;               /* instants that other analyses are about, ascending */
-    outcome_about *about;     /* [abouts] those reached have a state */
+    unsigned char *undefined; /* [quantities of the scene] 1: the quantity reads an acceleration
+                                 of a coordinate without inertia */
+    double *slope;            /* [quantities of the scene x stations] values of quantities that
+                                 are slopes inside steps; NULL: none */
+    outcome_path frames;      /* states for pictures, at equal intervals */
+    int abouts;               /* instants that other analyses refer to, ascending */
+    outcome_about *about;     /* [abouts] those that were reached have a state */
     double origin;            /* [J] energy at t = 0 of the first motion in a chain */
     outcome_end end;
 } outcome_motion;
 
-/* Extreme of a response between the frequencies of the analysis. */
+/* Extreme of a response between two frequencies of the analysis. */
 typedef struct outcome_peak {
     int known;     /* 0: the extreme is at a frequency of the analysis */
-    int unbounded; /* 1: nothing damps the resonance at hertz */
+    int unbounded; /* 1: the resonance at `hertz` is undamped */
     double hertz, value, bound;
 } outcome_peak;
 
 typedef struct outcome_harmonic {
     outcome_path path;  /* path of frequencies [Hz]; without states */
-    double *response;   /* [quantities of the scene x stations] as extracted */
+    double *response;   /* [quantities of the scene x stations] values before factor and offset */
     double *bound;      /* [quantities of the scene x stations] upper bound of the error due to
                            omitted modes */
     outcome_peak *peak; /* [quantities of the scene] for quantities that request the largest or the
                            smallest value */
 } outcome_harmonic;
 
-/* Displacements under each load case and combination that quantities read. */
+/* Displacements under each load case and combination that the quantities refer to. */
 typedef struct outcome_linear {
-    int solutions, *acting; /* [solutions] their numbers */
+    int solutions, *acting; /* number of solutions; [solutions] numbers of their load cases or
+                               combinations */
     size_t coordinates;
     double *x; /* [solutions x coordinates] of all coordinates; NULL: none */
 } outcome_linear;
 
 typedef struct outcome_continuation {
     outcome_path path;
-    int points;               /* number of points of the path, the first without load */
+    int points;               /* number of points of the path; the first one is the state without
+                                 load */
     double *factor, *control; /* [points] load factor and control value [m] */
     int undecided; /* 1: the number of critical points between these load factors is unknown; only
                       earlier events are listed */
@@ -383,7 +390,8 @@ typedef struct analysis_outcome {
 
 /* Return the results of an analysis of the given kind; any other kind ends the program. */
 const outcome_linear *outcome_linear_of(const analysis_outcome *);
-/* Displacements of a linear solution under that load case or combination; NULL: there is none. */
+/* Returns the displacements of a linear solution under that load case or combination; NULL: not
+ * solved. */
 const double *outcome_displacements(const analysis_outcome *, int acting);
 const outcome_spectrum *outcome_spectrum_of(const analysis_outcome *);
 /* Returns the path of any analysis along a path. */
@@ -391,12 +399,12 @@ const outcome_path *outcome_path_of(const analysis_outcome *);
 const outcome_compliance *outcome_compliance_of(const analysis_outcome *);
 const outcome_rotation *outcome_rotation_of(const analysis_outcome *);
 const outcome_motion *outcome_motion_of(const analysis_outcome *);
-/* The instant of a motion; NULL: it was not reached. */
+/* Returns the instant of a motion at that time; NULL: it was not reached. */
 const outcome_about *outcome_about_at(const analysis_outcome *, double time);
 /* Returns the outcome of a motion, to be filled in. */
 outcome_motion *outcome_motion_in(analysis_outcome *);
 const outcome_continuation *outcome_continuation_of(const analysis_outcome *);
-/* Returns a static path, or that of a stationary rotation, to be filled in. */
+/* Returns a static path, or the path of a stationary rotation, to be filled in. */
 outcome_path *outcome_walk(analysis_outcome *);
 int outcome_has_path(const analysis_outcome *);
 int outcome_has_spectrum(const analysis_outcome *);
@@ -405,7 +413,7 @@ void outcome_free(analysis_outcome *);
 void outcome_take(eigen_side *from, outcome_side *to);
 /* Allocates the states of that many stations. */
 status outcome_stations(outcome_path *, int stations, fault *);
-/* Copies the state to the next station; whole 0: only the states of its nodes
+/* Copies the state to the next station. whole 0: copies only the states of its nodes
  * (kinematics_nodes_alloc). */
 status outcome_keep(outcome_path *, const model *, const model_state *, int whole, double path,
                     fault *);
@@ -429,7 +437,7 @@ typedef struct shape_state {
 } shape_state;
 
 typedef struct shapes {
-    int states, members, points, nodes; /* states 0: not requested */
+    int states, members, points, nodes; /* states 0: shapes were not requested */
     int *first;                         /* [members + 1] index of the first point of each member */
     shape_state *state;                 /* [states] */
     centreline_point *point;            /* [states x points] */
@@ -438,23 +446,23 @@ typedef struct shapes {
 
 enum { SHAPES_ALL = 1 << 30, SHAPES_MODES = 6, SHAPES_FRAMES = 60, SHAPES_FEW = 5 };
 
-/* Allocates empty arrays of these sizes; FAULT: out of memory. */
+/* Allocates empty arrays with the sizes given in the structure. FAULT: out of memory. */
 status shapes_alloc(shapes *, fault *);
 void shapes_free(shapes *);
 const char *shapes_kind_name(shape_kind);
-/* Number of frames of a motion if at most `most` states of a path are stored: `most`, or
- * SHAPES_FRAMES if `most` stands for all or only a few. */
+/* Returns the number of frames of a motion if at most `most` states of a path are stored:
+ * `most`, or SHAPES_FRAMES if `most` requests all states or only a few. */
 int shapes_frames(int most);
 
-/* Degrees of freedom of the rows of a model's matrices. */
+/* Degree of freedom that belongs to a row of a model's matrices. */
 
 typedef struct row_label {
     int node;     /* index in the scene; SCENE_NONE: inside a member, or a released end */
     int member;   /* SCENE_NONE: the row belongs to the node alone */
     double along; /* position on the member relative to its length; NAN: row of a node alone */
-    double position[3];    /* undeformed [m] */
-    const char *component; /* "ux", ..., "rz", "angle 1" of a sequence, "turn 1" and "shift 1" of a
-                              released end, "warping" */
+    double position[3];    /* undeformed position [m] */
+    const char *component; /* "ux", ..., "rz"; "angle 1" of a sequence of angles; "turn 1" and
+                              "shift 1" of a released end; "warping" */
     const char *unit;      /* unit of the coordinate: "m", "rad", "rad/m" */
 } row_label;
 
@@ -465,19 +473,20 @@ void rows_label(const model *, row_label out[]);
  *   M q'' + (C + G) q' + K q = B u,
  * with the free coordinates q in the order of the rows and the changes u of the load factors. */
 
-/* A linear model: second_order and state_space as triplets. */
+/* A linear model: its second-order and state-space forms as triplets. */
 typedef struct linear_model {
     triplets K, C, M, B, L[3], D;
     struct {
         triplets A, B, C, D;
     } state;
-    int eliminated; /* coordinates without mass and damping */
-    int loops;      /* of feedback that are closed in `state`; in the others they are open */
-    double apart;   /* harmonic analysis: largest difference from its responses, relative ... */
+    int eliminated; /* number of eliminated coordinates, which have neither mass nor damping */
+    int loops;      /* number of feedback loops; they are closed in `state` and open in
+                       `second_order` */
+    double apart;   /* harmonic analysis: largest relative difference from its responses ... */
     int farthest;   /* ... and the quantity with this difference */
 } linear_model;
 
-/* A reduced linear model, q = T x, next to the full one. */
+/* A reduced linear model with q = T x, and its comparison with the full model. */
 typedef struct reduced_model {
     linear_model of;
     triplets T;
@@ -488,26 +497,28 @@ typedef struct reduced_model {
                                 and its frequency [Hz]; NULL: no harmonic analysis */
 } reduced_model;
 
-/* A load with factor 1, a rate of 1 of the reference of its feedback, a force or moment of 1 at a
- * node, or an acceleration of 1 of a motion. */
+/* An input of a linear model: a load with factor 1, a rate of 1 of the reference value of a
+ * feedback load, a force or moment of 1 at a node, or an acceleration of 1 of a driver. */
 typedef struct system_input {
-    int load, driver, node, component; /* SCENE_NONE: not this */
-    int reference;                     /* 1: of the load */
+    int load, driver, node, component; /* SCENE_NONE: the input is not of this kind */
+    int reference;                     /* 1: the input is the reference value of the load */
 } system_input;
 
 typedef struct system_output {
-    int quantity; /* first quantity that reads it */
+    int quantity; /* first quantity that refers to this input */
     scene_response as;
 } system_output;
 
 typedef struct state_matrices {
     int analysis;             /* index in the scene; SCENE_NONE: the undeformed structure at rest */
-    int station;              /* station of its path, from zero; SCENE_NONE: it has no path */
+    int station;              /* station of its path, from zero; SCENE_NONE: the analysis has no
+                                 path */
     double path;              /* path parameter of the loads and drivers */
     int turns;                /* 1: the axes rotate, and G exists */
-    triplets K, M, G, C;      /* C: only if something is damped */
-    triplets inside;          /* of the undeformed structure: effect of the mass inside elements on
-                                 frequencies: q.K q = lambda q.M q + lambda^2 q.inside q */
+    triplets K, M, G, C;      /* C has entries only if something is damped */
+    triplets inside;          /* matrix of the undeformed structure for the effect of the mass
+                                 inside elements on frequencies: q.K q = lambda q.M q + lambda^2
+                                 q.inside q */
     triplets B;               /* [rows x loads] generalised force of each load at factor 1 */
     int modes;                /* number of modes of a modal analysis, ascending; else 0 */
     double *frequency, *mode; /* [modes] [rad/s]; [modes x rows] */
@@ -516,11 +527,11 @@ typedef struct state_matrices {
 } state_matrices;
 
 typedef struct system_matrices {
-    int rows;         /* free coordinates */
+    int rows;         /* number of free coordinates */
     row_label *label; /* [rows] */
-    int states, room; /* 0: not requested */
+    int states, room; /* number of states, 0: not requested; capacity */
     state_matrices *state;
-    int inputs, outputs; /* of linear models */
+    int inputs, outputs; /* numbers of inputs and outputs of linear models */
     system_input *input;
     system_output *output;
 } system_matrices;
@@ -534,24 +545,26 @@ typedef struct solve_options {
     newton_form newton;
     double criterion;   /* relative size of the last corrections; 0: default */
     int max_iterations; /* per step; 0: default */
-    int steps_between;  /* replaces the number in the scene; 0: as in the scene */
-    int condition; /* 1: estimate the condition of the tangents (on a static path: at its stations)
-                    */
+    int steps_between;  /* number of load steps between stations, instead of that in the scene;
+                           0: as in the scene */
+    int condition;      /* 1: estimate the condition of the tangents (on a static path only at its
+                           stations) */
     int condensed; /* number of elements at and above which a member is condensed to its ends; 0:
                       default
                     */
-    int phases;    /* 1: read the clock between the parts of an iteration */
+    int phases;    /* 1: measure the time of each part of an iteration */
     int sample;    /* N > 0: only N iterations of each static path, to measure their time, without
                       results */
     int shapes;    /* largest number of path states with stored centre lines; 0: no shapes */
     int systems; /* 1: store the matrices of small motions about all states; 2: also state space */
-    const char *reduce; /* "MODES" or "MODES:NODE,NODE" of reduced models; NULL: none */
+    const char *reduce; /* number of modes and interface nodes of reduced models, as "MODES" or
+                           "MODES:NODE,NODE"; NULL: none */
     int whole_steps;    /* 1: a time step that fails ends the motion; 0: it is halved */
-    int keep_ends;      /* 1: store the ends of motions, from which another run can continue */
+    int keep_ends;      /* 1: store the ends of motions, from which another run can continue them */
     int restarts;
-    const outcome_end
-        *restart;     /* [restarts] ends of motions in another run, from which motions continue */
-    int all_analyses; /* 1: also run analyses that no quantity reads */
+    const outcome_end *restart; /* [restarts] ends of motions of another run, from which motions of
+                                   this run continue */
+    int all_analyses;           /* 1: also run analyses that no quantity reads */
     int looks; /* 1: check the stability of static paths where pivots are not conclusive, and within
                   their steps */
     int values_only; /* 1: do not compute values needed only for curves and matrices */
@@ -563,17 +576,17 @@ typedef struct curve {
 } curve;
 
 typedef struct quantity_result {
-    status status;   /* OK: value is a number */
-    double value;    /* NAN where it does not exist */
+    status status;   /* OK: the value is finite */
+    double value;    /* NAN if there is no value */
     double x;        /* abscissa where a maximum or minimum was found */
-    double rounding; /* estimated |error| relative to the value (for a curve: to its largest value).
-                        Critical loads and frequencies: due to round-off; motions: due to
-                        interpolation between steps; responses by modes: upper bound for the omitted
-                        modes; else 0 */
+    double rounding; /* estimated |error| relative to the value (for a curve, to its largest
+                        value): for critical loads and frequencies due to round-off, for motions
+                        due to interpolation between steps, for responses by modes an upper bound
+                        for the omitted modes; otherwise 0 */
     double change;   /* change from the previously solved mesh, relative to the value (for a curve:
                         to its largest value); NAN: unknown */
-    curve curve;     /* of a SCENE_CURVE; 0 points for other quantities */
-    char reason[FAULT_TEXT];       /* why there is no value */
+    curve curve;     /* curve of a SCENE_CURVE; 0 points for other quantities */
+    char reason[FAULT_TEXT];       /* reason why there is no value */
     char meaning[OUTCOME_MEANING]; /* see outcome_spectrum */
 } quantity_result;
 
@@ -589,8 +602,8 @@ typedef struct iteration_record {
 /* Stability of a state under small disturbances, with fixed and prescribed coordinates unchanged.
  */
 typedef enum step_stability {
-    STEP_OPEN, /* the signs of pivots are not conclusive: the tangent is not symmetric, or axes
-                  rotate */
+    STEP_OPEN,          /* the signs of the pivots are not conclusive, because the tangent is not
+                           symmetric or the axes rotate */
     STEP_NO_DIVERGENCE, /* the tangent is not symmetric and there is no mass: no eigenvalue has
                            crossed zero */
     STEP_STABLE,
@@ -606,26 +619,27 @@ int result_is_unstable(step_stability);
 
 typedef struct step_record {
     int analysis;             /* index in the scene */
-    step_stability stability; /* stability at its end */
+    step_stability stability; /* stability at the end of the step */
     double path, increment;
     int iterations, rejected,
         negative_pivots;   /* rejected: number of longer steps that failed before this one */
-    int by_eigenvalues;    /* 1: the tangent is not symmetric, and its eigenvalues were followed. In
-                              that case: */
+    int by_eigenvalues;    /* 1: the tangent is not symmetric, and its eigenvalues were followed;
+                              the two members below are then set */
     int passed;            /* number of eigenvalues that have crossed zero */
-    step_stability judged; /* result from the frequencies of small motions; STEP_OPEN: not computed
-                              or unknown */
+    step_stability judged; /* stability found from the frequencies of small motions; STEP_OPEN:
+                              not computed or unknown */
     double residual, correction, incompatibility; /* values of the last iteration */
     double remaining; /* predicted size of the next correction; NAN: unknown */
-    int first;        /* index of its first iteration in solve_result.iteration */
-    double energy;    /* r . K^-1 r of the first iteration [J] */
+    int first;        /* index of the first iteration of the step in solve_result.iteration */
+    double energy;    /* r . K^-1 r in the first iteration [J] */
 } step_record;
 
-/* Compliance and stiffness [6 x 6] (ux uy uz thx thy thz by Fx Fy Fz Mx My Mz; SI) of a node, at
- * stations of a path. */
+/* Compliance and stiffness of a node at stations of a path: [6 x 6] matrices in SI units, with
+ * rows and columns ux uy uz thx thy thz for the displacements and Fx Fy Fz Mx My Mz for the
+ * forces. */
 typedef struct nodal_matrices {
     int node;
-    scene_moments moments; /* convention */
+    scene_moments moments; /* convention for moments */
     int stations;
     double *path; /* [stations] */
     double *compliance,
@@ -634,7 +648,7 @@ typedef struct nodal_matrices {
 /* Event on a continued path. */
 typedef enum event_kind {
     EVENT_LIMIT_POINT, /* the load has an extremum */
-    EVENT_BIFURCATION, /* other branches start here; the present one is followed */
+    EVENT_BIFURCATION, /* other branches start at this point; the analysis stays on its branch */
     EVENT_BRANCH_JUMP, /* a step converged to another branch, which was detected and rejected */
     EVENT_KINDS
 } event_kind;
@@ -644,17 +658,18 @@ typedef struct path_event {
     int analysis, negative_before,
         negative_after; /* number of negative pivots of the tangent stiffness after the event; -1:
                            not symmetric */
-    double factor, control; /* at the point; for a jump: where both branches have this value of the
-                               control coordinate [m] */
-    double other_factor;    /* for a jump: on the rejected branch; else NAN */
-    double measure; /* for a point: |phi . f|/(|phi| |f|) with null vector phi and load f; for a
-                       jump: distance of the branches */
+    double factor, control; /* at the point; for a branch jump: where both branches have this
+                               value of the control coordinate [m] */
+    double other_factor;    /* for a branch jump: factor on the rejected branch; else NAN */
+    double measure; /* for a critical point: |phi . f|/(|phi| |f|) with null vector phi and load
+                       f; for a branch jump: distance between the branches */
 } path_event;
 
 /* One row of a transient analysis: the initial state, or the end of a step. */
 typedef struct motion_record {
     int analysis; /* index in the scene */
-    double path;  /* path parameter of the state from which the motion starts; NAN: none */
+    double path;  /* path parameter of the state from which the motion starts; NAN: it starts
+                     from no path */
     outcome_step at;
 } motion_record;
 
@@ -662,29 +677,31 @@ typedef struct solve_result {
     status status;
     char reason[FAULT_TEXT];
     int quantities;
-    quantity_result *quantity; /* [quantities of the scene], in the same order */
+    quantity_result *quantity; /* [quantities of the scene] in the order of the scene */
     int steps;
     step_record *step;
-    int iterations; /* total number in all accepted steps */
+    int iterations; /* number of iterations in all accepted steps */
     iteration_record *iteration;
     int matrix_sets;
     nodal_matrices *matrices;
     int events;
     path_event *event;
     int motions;
-    motion_record *motion; /* [motions] records of one motion after the other */
+    motion_record *motion; /* [motions] records, grouped by motion */
     int ends;
     outcome_end *end; /* [ends] ends of motions that no other motion of the scene continues */
-    double seconds_setup, seconds_solve; /* time for scene, sections, quadrature, mesh, analysis of
-                                            the pattern; time for the rest */
-    counters counters;                   /* work, without that for shapes and matrices */
-    double phase[PHASES];                /* [s] parts of seconds_solve, if requested */
+    double seconds_setup, seconds_solve; /* [s] time for the scene, the sections, quadrature, the
+                                            mesh and the analysis of the pattern; time for
+                                            everything else */
+    counters counters;                   /* counted work, excluding the work for shapes and
+                                            matrices */
+    double phase[PHASES];                /* [s] times of the parts of seconds_solve, if requested */
     shapes shapes;
     system_matrices systems;
 } solve_result;
 
-const char *result_event_name(event_kind); /* "limit point", ... */
-/* Number of eigenvalues of the tangent that cross zero at the event, for one load. */
+const char *result_event_name(event_kind); /* Returns "limit point", ... */
+/* Returns how many eigenvalues of the tangent cross zero together at the event. */
 int result_event_multiplicity(const path_event *);
 void result_free(solve_result *);
 
@@ -692,43 +709,48 @@ void result_free(solve_result *);
 
 /* Data that one analysis of a solution leaves for later ones. */
 typedef struct context_work {
-    double setup; /* [s] spent on patterns and symbolic factorisation */
-    int singular; /* 1: the last factorisation failed */
-    matrix_factor
-        *left; /* factor for the pattern of the free coordinates, no longer in use; NULL: none */
+    double setup;        /* [s] spent on patterns and symbolic factorisation */
+    int singular;        /* 1: the last factorisation failed */
+    matrix_factor *left; /* factor for the pattern of the free coordinates that an earlier analysis
+                            left for reuse; NULL: none */
 } context_work;
 
 typedef struct analysis_context {
     const scene *scene;
     const model *model;
-    run_state *run; /* run of that model */
-    equations eq;   /* equations of that model under the loading of the analysis: context_of */
+    run_state *run; /* run of the model */
+    equations eq;   /* equations of the model under the loading of the analysis: see context_of */
     const solve_options *options;
     solve_result *result;       /* receives the step records */
-    analysis_outcome *outcomes; /* [analyses]; those before the present one are complete */
+    analysis_outcome *outcomes; /* [analyses] outcomes; those before the present analysis are
+                                   complete */
     context_work *work;
-    /* With imperfections: contexts of the imperfect and of the perfect structure (context_of);
-     * NULL: none */
+    /* With imperfections: contexts of the imperfect and of the perfect structure (see
+     * context_of); otherwise NULL. */
     const struct analysis_context *const *sides;
 } analysis_context;
 
-/* Is the analysis required by quantities, by other analyses or by the options? */
+/* Returns 1 when the analysis is required by quantities, by other analyses or by the options. */
 int context_runs(const analysis_context *, int analysis);
 /* Returns the context of an analysis, with its loading. In a motion, loads without a function of
- * time keep the value of the initial state. */
+ * time keep the value that they have in the initial state. */
 analysis_context context_of(const analysis_context *, int analysis);
-/* As context_of, under a load case or a combination. */
+/* As context_of, with only the loads of a load case or a combination. */
 analysis_context context_under(const analysis_context *, int acting);
-/* As context_of, with no loads and drivers at zero: only initial strains of members remain. */
+/* As context_of, with no loads and all drivers at zero: only the initial strains of members
+ * remain. */
 analysis_context context_unloaded(const analysis_context *);
 /* Factors K numerically, and records whether the factors exist. */
 status context_factor(analysis_context *, matrix_factor *, const sparse *K, fault *);
-/* REFUSED: the factored matrix is not symmetric, which `what` (critical loads) requires. */
+/* Returns REFUSED if the factored matrix is not symmetric; `what` names the result that requires
+ * symmetry, for the message. */
 status context_symmetric(const matrix_factor *, const char *what, fault *f);
-/* If requested, adds the condition of a matrix just factored to the counters. */
+/* If requested, updates the counters with the condition estimate of a matrix that has just been
+ * factored. */
 void context_count_condition(const analysis_context *, matrix_factor *, const sparse *K);
-/* Adds the work of a solution with a factor to the counters; fresh 0: with earlier numeric factors.
- * *counted: number of its factorisations that are already counted; updated. */
+/* Adds the work of a solution with a factor to the counters. fresh 0: the numeric factors are
+ * those of an earlier solution. *counted: number of factorisations of this factor that are
+ * already counted; updated. */
 void context_count_solution(const analysis_context *, const matrix_factor *, int fresh,
                             long *counted);
 /* Adds the work of an eigenvalue problem to the counters. */
@@ -739,7 +761,7 @@ void context_count_eigen(const analysis_context *, const eigen_result *);
 
 enum { TANGENT_COMPONENTS = 6, TANGENT_BORDER = 12 };
 
-/* Released coordinates: prescribed ones that are treated as free. */
+/* Released coordinates: prescribed coordinates that are treated as free. */
 typedef struct border {
     int count;
     int coordinate[TANGENT_BORDER];
@@ -747,56 +769,63 @@ typedef struct border {
     double W[TANGENT_BORDER * TANGENT_BORDER];
 } border;
 
-/* Tangent of a deformed structure about one node, where some prescribed components of the node are
- * released: their reaction acts as a load. */
+/* Tangent of a deformed structure about one node. Some prescribed components of the node are
+ * released, and their reactions act as loads. */
 
 typedef struct node_tangent {
-    condensation *condensed; /* NULL: no member is condensed; else K is not assembled, and released
-                                coordinates are among the unknowns */
-    sparse K;         /* on all coordinates when something is released, else on the free ones */
-    sparse inside;    /* free x free */
-    sparse geometric; /* as K, if solutions are refined: see stiffness_parts_geometric */
-    int refined;      /* 1: the condition number requires refinement */
-    /* condition of `inside`, as last estimated (0: never), and ratio of its pivots at that time */
+    condensation *condensed; /* NULL: no member is condensed. Otherwise K is not assembled, and
+                                released coordinates are unknowns */
+    sparse K;                /* on all coordinates if a component is released, else on the free
+                                coordinates */
+    sparse inside;           /* matrix of the free coordinates [free x free] */
+    sparse geometric;        /* part of K on the same pattern, for refined solutions: see
+                                stiffness_parts_geometric */
+    int refined;             /* 1: solutions need refinement because of the condition number */
+    /* condition of `inside` as last estimated (0: not estimated yet), and the ratio of its
+     * pivots at that time */
     double condition, apart;
-    matrix_factor *own;    /* own factor; NULL: not needed so far */
-    matrix_factor *factor; /* factor of `inside`: `own`, or that of the iteration */
+    matrix_factor *own;    /* factor that this structure owns; NULL: not needed so far */
+    matrix_factor *factor; /* factor of `inside`: `own`, or the factor of the Newton iteration */
     border border;
     int free, all;
     double *residual;
-    const model_state *state;                   /* of K */
-    int index[TANGENT_COMPONENTS], coordinates; /* the node's */
+    const model_state *state;                   /* state to which K belongs */
+    int index[TANGENT_COMPONENTS], coordinates; /* indices of the node's coordinates; their
+                                                   number */
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
 } node_tangent;
 
-/* members: a condensation with the same chains, which are taken from an iteration; NULL: none. */
+/* Allocates the tangent. members: a condensation of an iteration, whose condensed members are
+ * reused; NULL: none. */
 status tangent_alloc(analysis_context *c, const scene_compliance *a, const condensation *members,
                      node_tangent *t, fault *f);
 void tangent_free(node_tangent *t);
-/* reaction[6]: force and moment on the node due to its prescribed motion [N, N m]. */
+/* Computes the tangent in a state. reaction[6]: force and moment on the node due to its
+ * prescribed motion [N, N m]. */
 status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
                   const double reaction[6], node_tangent *t, fault *f);
-/* As tangent_at, from K of an iteration that ended at the state [pattern of all coordinates when
- * something is released, else of the free ones], and its factors. */
+/* As tangent_at, but takes K and its factors from an iteration that ended at the state. The
+ * pattern of K contains all coordinates if a component is released, else the free coordinates. */
 status tangent_take(analysis_context *c, const scene_compliance *a, const model_state *s,
                     const double reaction[6], const sparse *K, const sparse *inside,
                     matrix_factor *, node_tangent *t, fault *f);
-/* As tangent_at, from the condensed members of an iteration. */
+/* As tangent_at, but takes the condensed members of an iteration. */
 status tangent_take_condensed(analysis_context *c, const scene_compliance *a, const model_state *s,
                               const double reaction[6], const condensation *members,
                               node_tangent *t, fault *f);
-/* Of the moment on a node that rotates by angles, keeps that of the driven ones, which counts as a
- * load: guides exert that of held angles and rotate with the node, and constraints exert that of
- * angles which others follow. Other nodes: no change. */
+/* For a node that rotates by a sequence of angles, reduces the moment to the part that belongs
+ * to prescribed angles, which counts as a load. The guides of fixed angles, and the constraints
+ * of angles that others follow, exert the rest and rotate with the node. Other nodes: the moment
+ * does not change. */
 status tangent_driven_moment(analysis_context *c, const model_state *s, int node, node_tangent *t,
                              double moment[3], fault *f);
-/* Removes the moment about axes of free rotation from the reaction, since no support exerts that
- * moment. */
+/* Removes from the reaction the moment about axes of free rotation, since no support exerts it. */
 void tangent_prescribed(const node_tangent *t, double moment[3]);
-/* Components in which the node can move. */
+/* Finds the components in which the node can move. */
 void tangent_movable(const model *m, const node_tangent *t, movable *out);
-/* C[6 x 6] of the node, with the reaction moment in the given convention. Columns outside `wanted`,
- * and rows and columns of components that cannot move, are zero. */
+/* Computes the compliance C[6 x 6] of the node, with the reaction moment in the given
+ * convention. Columns outside `wanted`, and rows and columns of components that cannot move, are
+ * zero. */
 status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
                           unsigned components, double C[36], fault *f);
 
@@ -814,27 +843,26 @@ typedef struct element_part {
  * drivers are functions of it; a load without such a function acts in full. The axes rotate as in
  * the analysis or its base analysis. */
 loading loading_of(const model *, int analysis);
-/* Value of a known driver [m or rad]. */
+/* Returns the value of a known driver [m or rad]. */
 double loads_driver_value(const equations *, const scene_driver *d, double path);
-/* In a motion, also computes the first two derivatives; at the end of a piece, those of the next
- * piece. A driver without a function of time keeps its last value, and such a load keeps its full
- * value. */
+/* In a motion, computes the value and its first two derivatives; at the end of a piece, those of
+ * the next piece. A driver without a function of time keeps its last value. */
 void loads_driver_rates(const equations *, const scene_driver *d, double path, double out[3]);
-/* out[free + driven] += the load times `scale` in a state. */
+/* out[free + driven] += forces of the load times `scale` in a state. */
 void loads_add_one(const equations *, const model_state *, const scene_load *, double scale,
                    double out[]);
-/* out[free + driven] += forces that a temperature load times `scale` exerts on nodes held in the
- * positions of a state. */
+/* out[free + driven] += forces that a temperature load times `scale` exerts on nodes that are
+ * fixed in the positions of a state. */
 void loads_add_temperature(const equations *, const model_state *, const scene_load *, double scale,
                            double out[]);
-/* Derivative of the loads with respect to the path parameter in a state, out[free + driven]. */
+/* out[free + driven]: derivative of the loads with respect to the path parameter in a state. */
 void loads_rate(const equations *, const model_state *, double path, double out[]);
-/* Is there a load or a nonzero driver at path 0? */
+/* Returns 1 when a load or a known driver is not zero at path parameter 0. */
 int loads_begin(const equations *);
 
-/* An unknown driver: the prescribed coordinate `unknown` moves so that the free coordinate
- * `coordinate` moves by `increment`. The force on `coordinate` contains no reaction; the force on
- * the driver results from the solution. */
+/* Unknown driver: the prescribed coordinate `unknown` moves so that the free coordinate
+ * `coordinate` moves by `increment`. No reaction acts on `coordinate`; the solution gives the
+ * force on the driver. */
 enum { MODEL_MAX_CONDITIONS = 4 };
 typedef struct model_condition {
     int unknown, coordinate;
@@ -843,32 +871,34 @@ typedef struct model_condition {
 int loads_conditions(const equations *, const model_state *, double path,
                      model_condition out[MODEL_MAX_CONDITIONS]);
 
-/* Force and spatial moment of the loads at `path` on the frame of a node: F[6] [N, N m]. */
+/* Force and spatial moment of the loads at path parameter `path` on the frame of a node: F[6]
+ * [N, N m]. */
 void loads_at_node(const equations *, const model_state *, double path, int node, double F[6]);
-/* Reaction force or moment on a component of a node, in the axes of its supports, from the forces
- * that elements and loads exert there. */
+/* Returns the reaction force or moment on a component of a node, in the axes of its supports.
+ * elements, loads: forces that the elements and the loads exert on the node. */
 double loads_reaction(const model *, int node, int component, const double elements[6],
                       const double loads[6]);
 
 /* Newton's equations of a state. */
 
-/* In equilibrium, internal minus external forces are zero on the free coordinates. Mixed
- * linearisation (simultaneous in coordinates, strains and stresses; N section 4), condensed per
- * element:
- *   K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i
+/* In equilibrium, internal minus external forces are zero on the free coordinates. The
+ * linearisation is mixed: coordinates, strains and stresses are unknowns at the same time (N
+ * section 4). Strains and stresses are condensed per element:
+ * K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i
  * The prescribed part of dx is known; its contribution is moved to the right-hand side here. */
 typedef struct model_linearisation {
     double path;
     int displacement; /* 1: displacement-only Newton: e and sigma are first set from D(x) */
     const double
         *drive;     /* [free + driven] increments; only the prescribed part is used; NULL: none */
-    int conditions; /* columns of K required for the unknowns of conditions ... */
+    int conditions; /* number of unknown drivers ... */
     const model_condition *condition;
-    double *column;   /* ... [conditions x (free + driven)] */
-    sparse *K;        /* on a pattern of assemble_pattern; may be NULL */
+    double *column;   /* ... and the columns of K that belong to them [conditions x (free +
+                         driven)] */
+    sparse *K;        /* matrix on a pattern of assemble_pattern; NULL: not requested */
     double *residual; /* [free + driven] right-hand side; for prescribed coordinates, minus their
-                         reaction */
-    double incompatibility; /* out: max |D(x) - e|/l over elements */
+                         reactions */
+    double incompatibility; /* output: max |D(x) - e|/l over all elements */
 } model_linearisation;
 /* Data of one element in a linear_memory between linearise_state and advance_state. */
 typedef struct model_slot {
@@ -891,26 +921,28 @@ static inline model_slot linearise_slot(const model *m, const linear_memory *mem
 /* Fills the memory for advance_state. */
 status linearise_state(const equations *, const linear_memory *, const model_state *,
                        model_linearisation *, fault *);
-/* Replaces the independent strains and stresses by e = D(x), sigma = P'(e). */
+/* Replaces the independent strains by e = D(x), and the independent stresses by sigma = P'(e). */
 status linearise_make_compatible(const equations *, model_state *, fault *);
 /* External force and spatial moment (loads and reactions) on the frame of a node in the state: F[6]
  * [N, N m]. sigma: as for internal_state. */
 void linearise_node_force(const equations *, const model_state *, const double sigma[], int node,
                           double F[6]);
-/* out[free + driven] += forces in equilibrium with the stresses of these elements, and of all
- * springs. */
+/* out[free + driven] += forces in equilibrium with the stresses of the listed elements and of
+ * all springs. */
 void linearise_add_internal(const equations *, const model_state *, int elements,
                             const int element[], double out[]);
 
 enum {
     CHUNK_MOST = 8,   /* largest number of elements in a batch */
-    CHUNK_WINDOW = 32 /* number of elements among which elements of one kind are searched */
+    CHUNK_WINDOW = 32 /* number of elements among which elements of the same kind are searched
+                         for */
 };
 
-/* Number of elements in a batch; 1 if they are evaluated one after the other. */
+/* Returns the number of elements in a batch; 1 if elements are evaluated one at a time. */
 int chunk_size(const model *m);
-/* Writes the next batch from [first, end), end - first <= CHUNK_WINDOW, to index[]; returns its
- * size, 0: none left. done[end - first] must be zero before the first call. */
+/* Writes the indices of the next batch from [first, end) to index[], where end - first <=
+ * CHUNK_WINDOW, and returns its size; 0: no elements are left. done[end - first] must be zero
+ * before the first call. */
 int chunk_next(const model *m, int first, int end, unsigned char done[], int index[CHUNK_MOST]);
 
 /* Stiffness of a moment m on a node that rotates, by convention. K: the stiffness of the
@@ -922,8 +954,8 @@ int chunk_next(const model *m, int first, int end, unsigned char done[], int ind
  * one at a node that is fixed about one axis only, whose moment keeps its direction
  * (coordinates_held_turn), else the semitangential one. */
 
-/* Does the convention change the stiffness given by the tangent? If so, one column of the
- * compliance depends on all others. */
+/* Returns 1 when the convention changes the stiffness given by the tangent. One column of the
+ * compliance then depends on all others. */
 int convention_changes(scene_moments of_tangent, scene_moments convention, const double m[3]);
 
 /* Converts C[6 x 6] of the tangent, complete in the components that can move, to the convention,
@@ -935,30 +967,31 @@ status convention_apply(scene_moments of_tangent, scene_moments convention, cons
 
 /* Initial guess for the next state of a path. */
 
-/* Extrapolates the state at `path` from the last `count` states (two: a line, three: a parabola,
- * ...), oldest first. Returns 0 and leaves `out` unchanged when prescribed motions are nonlinear or
- * the step is too long. */
+/* Extrapolates the state at `path` from the last `count` states, oldest first, by a polynomial
+ * (a line through two states, a parabola through three, ...). Returns 0 and leaves `out`
+ * unchanged when prescribed motions are nonlinear or the step is too long. */
 enum { MODEL_EXTRAPOLATED = 12 };
 int extrapolate_state(const equations *, int count, const model_state *const at[], double path,
                       model_state *out);
 
-/* Record of Newton's method: the iterations of every accepted load step. */
+/* Record of Newton's method: the iterations of all accepted load steps. */
 
 /* Removes the iterations of a rejected step. */
 void history_drop_step(solve_result *r, const step_record *step);
 
-/* Sets the analysis of the steps from `first` on, and the stability of their final states. */
+/* Sets the analysis of the steps from index `first` on, and the stability of their final states. */
 void history_judge_steps(solve_result *, const scene *, int analysis, int first);
-/* Sets the stability shown by the modes at a station where pivots are not conclusive. */
+/* Sets the stability that the modes show at a station where pivots are not conclusive. */
 void history_judge_station(solve_result *, int analysis, double path, step_stability);
-/* Stability of the step that ended at that path parameter; STEP_OPEN: there is none. */
+/* Returns the stability at the end of the step that ended at that path parameter; STEP_OPEN:
+ * there is no such step. */
 step_stability history_stability_at(const solve_result *, int analysis, double path);
 status history_add_step(solve_result *, const step_record *, fault *);
-/* All steps of a motion. */
+/* Adds all steps of a motion to the record. */
 /* path: path parameter of the initial state; NAN: none. */
 status history_add_motion(solve_result *, int analysis, double path, const outcome_motion *,
                           fault *);
-/* Position in the record; history_go_back removes later entries. */
+/* Position in the record; history_go_back removes all later entries. */
 typedef struct history_mark {
     int steps, iterations, ends;
 } history_mark;
@@ -966,8 +999,8 @@ history_mark history_here(const solve_result *);
 void history_go_back(solve_result *, const history_mark *);
 status history_add_event(solve_result *, const path_event *, fault *);
 
-/* Identifies models with equal results: formulations that differ only in physics that the scene
- * does not contain give equal results. */
+/* Identifies models with equal results. For example, formulations that differ only in physics
+ * that the scene does not contain give equal results. */
 
 /* Hash of all data that were added, in order. */
 typedef struct identity {
@@ -976,9 +1009,9 @@ typedef struct identity {
 
 identity identity_begin(void);
 void identity_add(identity *, const void *bytes, size_t size);
-/* Adds the functions of a model's elements, their data and the eliminated coordinates. Two models
- * of one scene with the same identity have bit-for-bit equal results. Returns 0 when the identity
- * is unknown, because a formulation in another process may fail. */
+/* Adds the functions of a model's elements, their data and the eliminated coordinates. If two
+ * models of one scene have the same identity, their results are bit-for-bit equal. Returns 0
+ * when the identity is unknown, because a formulation in another process may fail. */
 int identity_add_model(identity *, const model *);
 
 /* Resultants of the stresses on the sections of a member.
@@ -988,14 +1021,14 @@ int identity_add_model(identity *, const model *);
  * formulation assumes inside. Between the ends harness/section_forces/section_forces.h computes
  * them in the same way for all formulations. */
 
-/* Which state. */
+/* State whose resultants are computed. */
 typedef struct internal_state {
     const model_state *s;
     const double *sigma; /* [elements x strains] stresses; NULL: stresses of the state */
     const double *x;     /* displacements [free + driven] of a linear solution about the undeformed
                             state s; NULL: s is in equilibrium */
     double path;         /* path parameter of the loads */
-    /* for a motion, else NULL */
+    /* inertia forces of a motion; NULL: no motion */
     const struct internal_inertia *moving;
 } internal_state;
 
@@ -1015,8 +1048,8 @@ typedef struct internal_inertia {
  * m], bimoment [N m^2] (conjugate to the rate of the warping amplitude). end: 0 from, 1 to. */
 void internal_at_end(const equations *, const internal_state *, int member, int end, double out[7]);
 
-/* A position on a member, 0 (from) .. 1 (to) of its initial length; before 1: where a value jumps,
- * take the side of `from`. */
+/* A position on a member, from 0 (start node) to 1 (end node) of its initial length. before 1:
+ * where a value jumps, the value on the side of the start node is used. */
 typedef struct internal_place {
     int member;
     double place;
@@ -1031,9 +1064,9 @@ typedef struct internal_place {
 status internal_at(const equations *, const internal_state *, const internal_place *, double out[],
                    fault *);
 
-/* Displacement of the centroid and rotation vector of the section since the undeformed state, at a
- * place: out[6], in fixed axes, along the line of section_forces.h. NO_VALUE: a rotation beyond 3
- * rad; else as internal_at. */
+/* Displacement of the centroid, and rotation vector of the section, from the undeformed state to
+ * the present state at a position: out[6], in fixed axes, along the line of section_forces.h.
+ * NO_VALUE: the rotation exceeds 3 rad; other statuses as internal_at. */
 status internal_moved(const equations *, const internal_state *, int member, double place,
                       double out[6], fault *);
 
@@ -1045,8 +1078,8 @@ status internal_largest(const equations *, const internal_state *, int member, i
 
 /* Stresses at the points of a section of a member, from the resultants there. */
 
-/* At a position of a member, 0 (from) .. 1 (to) [Pa]. REFUSED: a section given by constants, which
- * has no points; else as internal_at. */
+/* Stress at a position of a member, from 0 (start node) to 1 (end node) [Pa]. REFUSED: the
+ * section is given by constants and therefore has no points; other statuses as internal_at. */
 status internal_stress_at(const equations *, const internal_state *, const internal_place *,
                           stress_measure, double *out, fault *);
 /* Largest stress over all sections of the member. */
@@ -1055,21 +1088,22 @@ status internal_stress_largest(const equations *, const internal_state *, int me
 
 /* Subtracts the free strains from e[strains], the strains due to the node positions. */
 void free_strain_subtract(const equations *, int element, double path, double e[]);
-/* Data for the stresses of an element: the data of its kind, or modified by its type; valid until
- * the next call for the element. */
+/* Returns the data for the stresses of an element: those of its kind, or those that its type has
+ * modified. Valid until the next call for the element. */
 const element_data *free_strain_data(const equations *, int element, double path);
-/* Energy supplied by temperatures that change in time: at an instant [W], and between two states
- * [J]. */
+/* Energy supplied by temperatures that change with time: the power at an instant [W], and the
+ * energy between two states [J]. */
 double free_strain_power(const equations *, const model_state *, double time);
 double free_strain_work(const equations *, const model_state *from, double begin,
                         const model_state *to, double end);
 
 /* Linear analyses about the undeformed state. */
 status linear_stiffness(const equations *, sparse *K, fault *); /* J^T S J at e = 0 */
-/* Largest initial strain of a member; 0: none. */
+/* Returns the largest size of the initial strains of a member, with curvatures multiplied by the
+ * length of the model; 0: there are none. */
 double linear_initial(const model *);
-/* Stresses, including those due to initial strains and to temperatures at `path`; for the whole
- * structure, not in a motion. */
+/* Stresses of the whole structure, including those due to initial strains and to temperatures at
+ * `path`. Not for motions. */
 status linear_whole_stresses(const equations *, const double x[], double path, double sigma[],
                              fault *);
 status linear_geometric_stiffness(const equations *, const double sigma[], double path, sparse *G,
@@ -1077,21 +1111,21 @@ status linear_geometric_stiffness(const equations *, const double sigma[], doubl
 
 /* Linear solutions about the undeformed state. */
 
-/* A linear solution about the undeformed state: x[free + driven] with K x = f; the caller may reuse
- * the factors of K. */
+/* A linear solution about the undeformed state: x[free + driven] with K x = f. The caller may
+ * reuse the factors of K. */
 typedef struct linear_system {
     sparse K;
     matrix_factor *factor;
 } linear_system;
 status linear_system_alloc(analysis_context *, linear_system *, fault *);
 void linear_system_free(linear_system *);
-/* Loads and drivers at `path`. */
+/* Solves for the loads and drivers at `path`. */
 status linear_system_solve(analysis_context *, linear_system *, double path, double x[], fault *);
 
 /* The last states of a path, oldest first, for extrapolation. */
 
 typedef struct predictor {
-    int count, iterations; /* iterations: in the last step */
+    int count, iterations; /* iterations: number in the last step */
     int most;              /* largest number of states used for an extrapolation */
     model_state *at[MODEL_EXTRAPOLATED + 1]; /* NULL: not allocated yet */
     /* [m] error that an extrapolation of the last state from k states would have had; k = 1: the
@@ -1103,7 +1137,7 @@ status predictor_alloc(const model *, predictor *, fault *); /* contains the und
 void predictor_free(predictor *);
 status predictor_add(const equations *, const model_state *, int iterations, predictor *, fault *);
 void predictor_forget(predictor *);
-/* Moves the last state s to an extrapolation for `path`, or leaves s unchanged. */
+/* Moves the last state s to an extrapolation for `path`; leaves s unchanged if there is none. */
 void predictor_guess(const equations *, const predictor *, double path, model_state *s);
 
 /* Newton's method in coordinates, strains and stresses together (N section 4), used by every
@@ -1115,7 +1149,7 @@ typedef struct newton_run {
     predictor *predictor;    /* NULL: every step starts from the last state */
     condensation *condensed; /* NULL: no member is condensed; else K is not assembled */
     sparse K;
-    sparse whole; /* including the prescribed coordinates; no values: not requested */
+    sparse whole; /* matrix including the prescribed coordinates; without values: not requested */
     matrix_factor *factor;
     double *residual, *dx;   /* [free + driven] */
     double *dense, *unknown; /* for the uncondensed system, allocated on request */
@@ -1130,10 +1164,10 @@ typedef struct newton_run {
     long counted; /* number of factorisations already in the model's counters */
 } newton_run;
 
-/* condense 1: condenses members with many elements. */
+/* condense 1: members with many elements are condensed. */
 status newton_alloc(analysis_context *, int condense, newton_run *, fault *);
 void newton_free(newton_run *);
-/* From here on K also contains the prescribed coordinates. */
+/* After this call K also contains the prescribed coordinates. */
 status newton_keep_driven(newton_run *, fault *);
 
 /* One correction of a Newton iteration. */
@@ -1147,14 +1181,15 @@ typedef struct newton_correction {
 /* Computes K, its factors and dx = K^-1 residual in the present state for the loads and drivers at
  * `path`; dx includes the drivers. */
 status newton_direction(newton_run *, double path, step_record *, fault *);
-/* Updates the state by dx, at that path parameter. */
+/* Updates the state by dx; `path` is the new path parameter. */
 void newton_advance(newton_run *, double path, newton_correction *);
-/* NOT_CONVERGED: the initial rise of an element's arc exceeds the range of the formulation. */
+/* Returns NOT_CONVERGED if the initial rise of a curved element exceeds the range of the
+ * formulation. */
 status newton_judge_rest(const model *m, fault *f);
-/* Checks every accepted state against the previous one. NOT_CONVERGED names an element that rotates
- * beyond the range of its formulation, a spring whose rotation vector has lost its direction, or a
- * prescribed coordinate that moves too far in one step. The rotation vector of a node that has lost
- * its direction is NaN from then on. */
+/* Checks an accepted state against the previous one. NOT_CONVERGED names an element that rotates
+ * beyond the range of its formulation, a spring whose rotation vector has lost its direction, or
+ * a prescribed coordinate that moves too far in one step. If the rotation vector of a node loses
+ * its direction, it is NaN from then on. */
 status newton_accept(const model *, const model_state *from, model_state *, fault *);
 
 /* Parts of Newton's method that depend on the analysis. */
@@ -1163,15 +1198,16 @@ typedef struct newton_use {
     newton_run *on;  /* for a path: newton_accept checks the states, and a state far from its first
                         correction, possibly another equilibrium, does not count as converged; NULL:
                         for a motion */
-    int least, most; /* iterations */
+    int least, most; /* smallest and largest number of iterations */
     /* Solves the equations of the present state and applies the correction. */
     status (*correct)(void *of, int iteration, newton_correction *, step_record *, fault *);
     void (*prepare)(void *of, int iteration,
-                    double correction);  /* called before another iteration; NULL: nothing */
-    status (*accept)(void *of, fault *); /* called after convergence; NULL: always accepted */
+                    double correction);  /* called before another iteration; may be NULL */
+    status (*accept)(void *of, fault *); /* called after convergence; NULL: every state is
+                                            accepted */
 } newton_use;
 
-/* Newton's method for states on a path. */
+/* Newton's method for the states of a path. */
 newton_use newton_on_path(newton_run *, void *of,
                           status (*correct)(void *of, int iteration, newton_correction *,
                                             step_record *, fault *));
@@ -1181,31 +1217,33 @@ newton_use newton_in_time(const analysis_context *, void *of,
                                             step_record *, fault *),
                           void (*prepare)(void *of, int iteration, double correction));
 
-/* Newton's method for every nonlinear step, with common limits. Returns OK, or NOT_CONVERGED with
- * the reason. Counters, records and `arrival` receive each correction. */
+/* Newton's method for every nonlinear step, with common limits. Returns OK, or NOT_CONVERGED
+ * with the reason. Each correction is added to the counters, to the records and to `arrival`. */
 status newton_iterate(analysis_context *, const newton_use *, arrival *, step_record *, fault *);
 
-/* Newton's method to `path`: OK, or NOT_CONVERGED with the reason. */
+/* Moves the state to `path` by Newton's method. Returns OK, or NOT_CONVERGED with the reason. */
 status newton_to(newton_run *, double path, step_record *, fault *);
 
-/* Quadratic forms of the undeformed structure and of the stresses of a linear solution, computed
- * from the element strains. Unlike assembled matrices, they do not lose digits of soft motions. */
+/* Quadratic forms of the undeformed structure and of the stresses of a linear solution. They are
+ * computed from the element strains. Unlike products with assembled matrices, they do not lose
+ * the digits of soft motions. */
 
 typedef struct quadratic_forms {
     const equations *eq;
     int free;
-    double *load_x;    /* [free + driven] displacements due to the loads, zero: no prestress ... */
+    double *load_x;    /* [free + driven] displacements due to the loads; all zero: there is no
+                          prestress ... */
     double *sigma;     /* ... and their stresses [elements x strains] */
     sparse loads;      /* contribution of the loads to K */
-    double *x, *force; /* [free + driven] prescribed coordinates of x: zero */
+    double *x, *force; /* [free + driven] x has zeros for the prescribed coordinates */
     double *stress, *product; /* [elements x strains], [free] */
 } quadratic_forms;
 
 status quadratic_forms_alloc(const equations *eq, const sparse *pattern, quadratic_forms *p,
                              fault *f);
 void quadratic_forms_free(quadratic_forms *p);
-/* Sets the loads at `path` and their stresses, after load_x; whole: including those of initial
- * strains. */
+/* Sets the loads at `path` and their stresses, after load_x has been set. whole 1: includes the
+ * stresses due to initial strains. */
 status quadratic_forms_load(const equations *, quadratic_forms *p, double path, int whole,
                             fault *f);
 
@@ -1219,7 +1257,8 @@ void quadratic_forms_product(quadratic_forms *p, const double x[], double y[]);
 
 /* A quantity that has been extracted from an outcome. */
 
-/* If the outcome is STATUS_OK but lacks the value, the status becomes STATUS_NO_VALUE. */
+/* Marks the quantity as having no value. An outcome with STATUS_OK that lacks the value gives
+ * STATUS_NO_VALUE; any other status is kept. */
 void quantity_no_value(quantity_result *, status, const char *reason);
 /* Returns the value times the factor of the quantity, plus its offset. */
 double quantity_scaled(const scene_quantity *, double value);
@@ -1250,10 +1289,10 @@ typedef enum refinement_state {
     REFINEMENT_LOST
 } refinement_state;
 
-/* Initialise with {0}. */
+/* Initialise the structure with {0}. */
 typedef struct solution_refinement {
-    int corrections; /* number; the first is the solution itself */
-    double last;     /* relative to the solution */
+    int corrections; /* number of corrections; the first one is the solution itself */
+    double last;     /* last correction, relative to the solution */
 } solution_refinement;
 
 /* Decides from the size of a correction relative to the solution whether to continue: at least two
@@ -1267,11 +1306,11 @@ refinement_state refinement_next(solution_refinement *, double correction);
 status rotating_frame_inertia(const equations *, const model_state *, double path, sparse *M,
                               sparse *G, fault *);
 
-/* x^T B x of the undeformed structure, x[free + driven]: effect of the mass inside elements on a
- * mode, k = lambda m + lambda^2 b (field/field.h). */
+/* Returns x^T B x of the undeformed structure for x[free + driven]: the effect of the mass
+ * inside elements on a mode, k = lambda m + lambda^2 b (elements/field/field.h). */
 double rotating_frame_inner(const model *, const double x[]);
-/* B on the pattern of a symmetric K. Returns 0 when B is zero because no element has such a
- * matrix. */
+/* Computes B on the pattern of a symmetric K. Returns 0 when B is zero because no element has
+ * such a matrix. */
 int rotating_frame_inner_matrix(const equations *, sparse *out);
 
 /* Explains why a stiffness matrix cannot be factored. */
@@ -1280,9 +1319,9 @@ int rotating_frame_inner_matrix(const equations *, sparse *out);
  * mechanism; otherwise returns `otherwise` and leaves f unchanged. */
 status singular_mechanism(const analysis_context *c, status otherwise, fault *f);
 
-/* Call after the last factorisation failed. Sets the fault with its cause: a part without supports;
- * digits lost in round-off, due to many elements or very different stiffnesses; else a critical
- * point. The work for this is not counted. */
+/* Call after a factorisation has failed. Sets the fault with the cause: a part without supports;
+ * digits lost in round-off because of many elements or very different stiffnesses; otherwise a
+ * critical point. The work of this search is not counted. */
 void singular_explain(analysis_context *c, fault *f);
 
 /* The tangent of a state as a sum of two parts. */
@@ -1294,7 +1333,7 @@ void singular_explain(analysis_context *c, fault *f);
  * rotation. */
 void stiffness_parts_material_product(const model *, const linear_memory *, const model_state *,
                                       const double x[], double y[]);
-/* Bound of the rounding error of x^T K x of the material part. */
+/* Returns a bound of the rounding error of x^T K x for the material part. */
 double stiffness_parts_material_rounding(const model *, const linear_memory *, const model_state *,
                                          const double x[]);
 status stiffness_parts_geometric(const equations *, const linear_memory *, const model_state *,

@@ -11,53 +11,56 @@
 /* Loads along members that are lumped at the ends of elements. */
 enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
 
-/* NULL: at rest, or no dashpot. */
+/* Returns the strain rates of springs; NULL: the structure is at rest or has no dashpot. */
 static inline const spring_rates *damping_of_springs(const run_damping *d)
 {
     return d != NULL ? &d->springs : NULL;
 }
 
-/* Rotation of the frame at a path parameter. */
+/* Returns the rotation of the frame at a path parameter. */
 element_rotating_frame loading_frame(const loading *, double path);
 
 /* Forces of a load on the vertices of a mesh, in a given state. */
 
-/* Returns 1 for a uniform load on the whole length of a member without lumping of its own: it is
- * distributed to the nodes in the same shares as the mass. */
+/* Returns 1 for a uniform load on the whole length of a member that specifies no lumping itself.
+ * Such a load is distributed to the nodes in the same shares as the mass. */
 int applied_with_mass(const scene_load *);
-/* As applied_each, for a load along the member of an element, but only on this element. */
+/* As applied_each for a load along the member of an element, but only for the part on this
+ * element. */
 void applied_element(const model *, const model_state *, const scene_load *, double scale,
                      int element, void (*take)(void *context, const applied *), void *context);
-/* Range [from, to] of an element on which a load along its member acts; for a point load, both are
- * its position (between two elements, in the second). Returns 0 when the load acts elsewhere. */
+/* Finds the range [from, to] of an element on which a load along its member acts. For a point
+ * load both limits are its position; a load between two elements belongs to the second one.
+ * Returns 0 when the load acts on other elements only. */
 int applied_part(const model *, int element, const scene_load *, double part[2]);
 /* Returns 1 when x is inside the element, not at an end. */
 int applied_inside(double x);
-/* Vector of a load along the member at x in [0, 1] of an element, as given in the scene. */
+/* Vector of a load along the member at x in [0, 1] of an element, in the components of the
+ * scene. */
 void applied_vector(const model *, int element, const scene_load *, double x, double vector[3]);
-/* Axes of the undeformed member, with y as given in the scene, from a triad on it, whose y and z
- * are the principal axes of the section. */
+/* Computes the axes of the undeformed member, with y as given in the scene. triad: axes on the
+ * member whose y and z are the principal axes of the section. */
 void applied_member_axes(const double triad[9], const section *, double axes[9]);
 
-/* Adds the load times `scale` to K, entry by entry; entries may be zero, and several may have the
- * same position. */
+/* Adds `value` to entry (row, column) of a stiffness matrix. Entries may be zero, and an entry
+ * may be added several times. */
 typedef void (*loads_entry)(void *context, int row, int column, double value);
 void applied_stiffness(const model *, const model_state *, const scene_load *, double scale,
                        loads_entry take, void *context);
 
 /* Condenses members to their ends before the tangent is solved, and expands the solution.
  *
- * For members with many elements the assembled tangent loses digits with the fourth power of their
- * number. Flexibilities of members (chain.c) do not, and the remaining system is as small as with
- * one element per member. */
+ * For members with many elements the assembled tangent loses accuracy in proportion to the
+ * fourth power of the number of elements. Flexibilities of members (chain.c) do not, and the
+ * remaining system is as small as with one element per member. */
 
-/* Minimum number of elements of a condensed member: with fewer, the assembled tangent costs less
- * and is accurate enough. */
+/* Minimum number of elements of a condensed member. With fewer elements, the assembled tangent
+ * costs less and is accurate enough. */
 enum { CONDENSATION_ELEMENTS = 1000 };
 
-/* *out is NULL if members have fewer elements than `from`, if a load between their ends has a
- * stiffness, or if frames rotate. released[count]: prescribed coordinates that are also
- * unknowns. */
+/* *out is NULL if all members have fewer elements than `from`, if a load between the ends of a
+ * member has a stiffness, or if frames rotate. released[count]: prescribed coordinates that are
+ * also unknowns. */
 status condensation_alloc(const equations *, int from, int count, const int released[],
                           condensation **out, fault *);
 /* Allocates a condensation with the members of `of`, which must outlive it, and other released
@@ -71,32 +74,33 @@ void condensation_free(condensation *);
 status condensation_at(condensation *, const model_state *, double path, fault *);
 /* Computes the tangent in the state of `of`, which owns the members. */
 void condensation_take(condensation *, const condensation *of, const model_state *);
-/* Matrix on all end coordinates, which the caller may change before it is factored. */
+/* Returns the matrix on all end coordinates, which the caller may change before it is factored. */
 sparse *condensation_ends(condensation *);
-/* SINGULAR: see factor_numeric, or a member is in a critical state. */
+/* Factors the matrix of the unknowns. SINGULAR: see factor_numeric; or a member is in a critical
+ * state. */
 status condensation_factor(condensation *, fault *);
 /* x[free + driven] := K^-1 x on the unknowns; transposed: K^-T x. */
 void condensation_solve(condensation *, int transposed, double x[]);
 factor_counts condensation_count(const condensation *);
-/* Makes a factor that solves by means of the condensation and owns it. */
+/* Creates a factor that solves by means of the condensation and owns it. */
 status condensation_as_factor(condensation *, matrix_factor **, fault *);
 
-/* Condenses members with many elements. *out NULL: there are none, or the condition of the tangent
- * of all coordinates was requested. See condensation_alloc. */
+/* Condenses members with many elements (see condensation_alloc). *out is NULL if there are none,
+ * or if the condition of the tangent of all coordinates was requested. */
 status context_condensation(const analysis_context *, int count, const int released[],
                             condensation **out, fault *);
 /* As context_factor, for a tangent with condensed members. */
 status context_factor_condensed(analysis_context *, condensation *, fault *);
-/* NULL: none was kept. */
+/* Returns a factor that an earlier analysis left for reuse; NULL: there is none. */
 matrix_factor *context_take_factor(analysis_context *);
 
-/* Released coordinates of the node of the analysis; allocates matrices without values. */
+/* Finds the released coordinates of the node of the analysis; allocates matrices without values. */
 status border_alloc(const analysis_context *, const scene_compliance *, border *, fault *);
 void border_free(border *);
 
-/* Loads along members between vertices. They act by their work on the displacements inside elements
- * (elements/field), or through the element's own equilibrium. Also loads that act through
- * sections. */
+/* Loads along members between vertices, and loads that act through sections. Their work on the
+ * displacements inside elements (elements/field) gives nodal forces, or they enter the element's
+ * own equilibrium. */
 
 /* Loads along one element at a path parameter. */
 typedef struct distributed_loads {
@@ -106,50 +110,53 @@ typedef struct distributed_loads {
     double path;
 } distributed_loads;
 
-/* Does the load act by its work inside elements? Otherwise half of it is lumped at each end. */
+/* Returns 1 when the load acts by its work inside elements. Otherwise half of the load is lumped
+ * at each end of an element. */
 int distributed_spreads(const equations *, const scene_load *);
 
-/* Does the element include the load in its own equilibrium (element_type.along)? This is supported
- * only for dead forces along the whole line of an element, without a motion. */
+/* Returns 1 when the element includes the load in its own equilibrium (element_type.along). This
+ * is supported only for dead forces along the whole line of an element, and not in a motion. */
 int distributed_takes(const equations *, int element, const scene_load *);
 /* Sum of the loads that an element includes in its own equilibrium. */
 typedef struct distributed_taken {
     int acts;
     double force[3 * ELEMENT_ALONG_POINTS], mixed[3 * ELEMENT_MAX_STRAINS],
         H[ELEMENT_ALONG_COORDINATES * ELEMENT_ALONG_COORDINATES];
-    along_output out; /* writes to the arrays above; its stresses are added to those of a slot */
+    along_output out; /* output that points to the arrays above; its stresses are added to those
+                         of a slot */
 } distributed_taken;
-/* Fills *out for the loads at `path`; out->acts 0: none. */
+/* Computes *out for the loads at `path`; out->acts is 0 if there are none. */
 void distributed_take(const equations *, int element, double path, distributed_taken *out);
-/* forces[14] += part of the loads that J^T sigma does not contain, K[14 x 14] -= its derivative,
- * from `out`. gap[strains]: D(x) - e. */
+/* forces[14] += the part of the loads that J^T sigma does not contain; K[14 x 14] -= its
+ * derivative. Both follow from `out`. gap[strains]: D(x) - e. */
 void distributed_add_taken(const model *, const along_output *out, const double J[],
                            const double gap[], double forces[], double K[]);
 
 /* forces[7 nodes] += forces of a load along a member on one of its elements, times `scale`; K[7
- * nodes x 7 nodes] -= its derivative (may be NULL). Returns 0 when there is none. For a load in the
- * element's own equilibrium: the derivative of its forces with respect to the load, and K does not
- * change. */
+ * nodes x 7 nodes] -= their derivative (K may be NULL). Returns 0 when the load exerts none. If
+ * the element includes the load in its own equilibrium, the forces added are their derivative
+ * with respect to the load, and K does not change. */
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
-/* As distributed_add_one, for all loads at `path`. Of loads in the element's own equilibrium it
+/* As distributed_add_one, for all loads at `path`. For loads in the element's own equilibrium it
  * adds only the part that J^T sigma does not contain; in a linear solution about `rest` it adds
- * them fully. field 1: excludes those loads. */
+ * their full forces. field 1: excludes these loads. */
 int distributed_add(const equations *, const model_state *, const node_state x[], int element,
                     double path, double forces[], double K[]);
-/* As distributed_add, only for loads in the element's own equilibrium. */
+/* As distributed_add, but only for loads in the element's own equilibrium. */
 int distributed_add_own(const equations *, const model_state *, const node_state x[], int element,
                         double path, double forces[], double K[]);
-/* Stresses of a state under the loads at `path` (sigma, C of stress_output); returns 0 if the
- * element has no loads of this kind. */
+/* Computes the stresses of a state under the loads at `path` (sigma and C of stress_output).
+ * Returns 0 if the element includes no loads in its own equilibrium. */
 int distributed_stress(const equations *, const model_state *, const node_state x[], int element,
                        double path, const stress_output *, status *outcome);
 int distributed_add_field(const equations *, const node_state x[], int element, double path,
                           double forces[], double K[]);
 
-/* Does any load act along the element? */
+/* Returns 1 when any load acts along the element. */
 int distributed_acts(const distributed_loads *);
-/* Index of a load that starts, ends or acts inside the element, or SCENE_NONE. */
+/* Returns the index of a load that starts, ends or acts at a point inside the element;
+ * SCENE_NONE: there is none. */
 int distributed_jumps(const distributed_loads *);
 /* Load per initial length on the section with this frame at x in [0, 1] of the element: loads of
  * its member and inertia of a rotating frame (with active rotary inertia). context: a
@@ -163,58 +170,59 @@ void distributed_at(void *context, double x, const span_frame *, span_load *out)
 status rotating_frame_add(const equations *eq, const node_state x[], int element, double path,
                           double force[], double K[], fault *f);
 
-/* loads.c: out[free + driven] += all loads, or only those on vertices. */
+/* loads.c: out[free + driven] += all loads; loads_add_at_vertices adds only those on vertices. */
 void loads_add(const equations *eq, const model_state *s, double path, double out[]);
 void loads_add_at_vertices(const equations *eq, const model_state *s, double path, double out[]);
-/* Stiffness of the loads on vertices, entry by entry. */
+/* Calls the function for each entry of the stiffness of the loads on vertices. */
 void loads_stiffness_at_vertices(const equations *eq, const model_state *s, double path,
                                  loads_entry, void *context);
 void loads_subtract_at_vertices(const equations *eq, const model_state *s, double path, sparse *K);
-/* Stiffness of all loads, on a pattern of model.h. */
+/* Subtracts the stiffness of all loads from K, which has a pattern of model.h. */
 void loads_subtract_stiffness(const equations *eq, const model_state *s, double path, sparse *K);
-/* REFUSED: a moment whose stiffness is not symmetric, so that a symmetric matrix cannot contain it.
- */
+/* REFUSED: the stiffness of a moment is not symmetric, so that a symmetric matrix cannot contain
+ * it. */
 status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f);
 
-/* Elements and loads give the derivatives of work in the exponential chart of a node's rotation. At
- * a node fixed about one axis h, equilibrium is that of the moments about the two others, and its
- * derivatives differ by the reaction moment R: K_ij += R/2, K_ji -= R/2 with h, i, j in cyclic
- * order. */
+/* Elements and loads give derivatives of work in the exponential chart of a node's rotation. At
+ * a node fixed about one axis h, only the moments about the other two axes are in equilibrium.
+ * The derivatives of these moments differ by the reaction moment R: K_ij += R/2, K_ji -= R/2,
+ * with h, i, j in cyclic order. */
 void linearise_add_held_moments(const equations *eq, const model_state *s, double path, sparse *K);
-/* REFUSED: such a moment exists; it has no potential. */
+/* REFUSED: such a reaction moment exists; it has no potential. */
 status linearise_held_have_potential(const equations *eq, const double sigma[], double path,
                                      fault *f);
 
-/* Loads on the undeformed state at `path`, f[free + driven]. */
+/* f[free + driven]: loads at `path` on the undeformed state. */
 void loads_reference(const equations *, double path, double f[]);
 
 /* Increments of the prescribed coordinates (dx[free .. free+driven)) from the state to `path`;
  * other entries of dx do not change. */
 void loads_drive(const equations *, const model_state *, double path, double dx[]);
 
-/* Changes K for a node rotated by a sequence of angles, when the moment M of the prescribed angles
- * becomes a load that is conservative in the exponential chart: removes the second derivatives of
- * the angles. */
+/* Changes K for a node that rotates by a sequence of angles when the moment M of the prescribed
+ * angles becomes a load. This load is conservative in the exponential chart; therefore the
+ * second derivatives of the angles are removed. */
 void loads_release_moment(const model *, const model_state *, int node, const double M[3],
                           sparse *K);
 
-/* Batches of a few elements that are evaluated together: elements of one kind if the type has lanes
- * (element_type.lanes); otherwise one element after the other. */
+/* Batches of a few elements that are evaluated together. If the type has lanes
+ * (element_type.lanes), a batch contains elements of one kind; otherwise it contains a single
+ * element. */
 
 /* Evaluation of one element. */
 typedef struct chunk_element {
     int index;     /* input: index of the element */
-    double *force; /* input: [7 nodes] */
-    double *K;     /* input: [7 nodes x 7 nodes] sum sigma_i H_i; may be NULL */
+    double *force; /* input: array for the forces [7 nodes] */
+    double *K;     /* input: array for sum sigma_i H_i [7 nodes x 7 nodes]; may be NULL */
     node_state x[ELEMENT_MAX_NODES];
-    distributed_taken along; /* loads that are included in the stresses */
+    distributed_taken along; /* loads that the stresses include */
     status outcome;
     int complete; /* 1: force is J^T sigma of the slot, and K also contains J^T C J ... */
     double present[ELEMENT_MAX_COORDINATES]; /* ... and `present` is J^T sigma of the state */
 } chunk_element;
 
-/* Evaluates strains and stresses of `count` elements into their slots (linearise_slot), and the
- * outputs of chunk_element. */
+/* Evaluates strains and stresses of `count` elements into their slots (linearise_slot), and sets
+ * the outputs of chunk_element. */
 void chunk_evaluate(const equations *eq, const linear_memory *memory, const model_state *s,
                     double path, int count, chunk_element element[]);
 
@@ -223,26 +231,27 @@ void chunk_evaluate(const equations *eq, const linear_memory *memory, const mode
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
                              double energy, fault *f);
 
-/* Stress-free strains of elements in addition to those of the undeformed state: due to
- * temperatures, which are loads, and initial strains of members. Either the strains of a state are
- * measured from them, or stresses are computed with element data that include them; in both cases
- * the strains are mechanical. */
+/* Stress-free strains of elements, in addition to those of the undeformed state. Causes are
+ * temperatures, which are loads, and initial strains of members. Either the strains of a state
+ * are measured from them, or stresses are computed with element data that include them. In both
+ * cases the strains are mechanical strains. */
 
 /* Adds the elongation and the curvatures about principal axes of the free strain. */
 void free_strain_amounts(const equations *, int element, double path, double strain[3],
                          double curvature[3]);
 /* out[strains]: free strains to first order about the undeformed state, due to temperatures at
- * `path`; due to initial strains of members. */
+ * `path` (free_strain_linear), or due to initial strains of members (free_strain_own). */
 void free_strain_linear(const equations *, int element, double path, double out[]);
 void free_strain_own(const model *, int element, double out[]);
-/* Largest strain due to temperatures; curvatures are multiplied by the length of the model. */
+/* Returns the largest strain due to temperatures; curvatures are multiplied by the length of the
+ * model. */
 double free_strain_size(const equations *, double path);
-/* out[strains]: change of the free strains in a state due to a temperature load times `scale`;
- * returns 0 if there is none. */
+/* out[strains]: change of the free strains in a state due to a temperature load times `scale`.
+ * Returns 0 if the load does not act on the element. */
 int free_strain_by_load(const equations *, const model_state *, int element, const scene_load *,
                         double scale, double out[]);
 
-/* About the undeformed state. */
+/* Linear stresses and forces about the undeformed state. */
 
 status linear_stresses(const equations *, const double x[], double sigma[],
                        fault *); /* sigma = S J x, [model_stresses] */
@@ -258,24 +267,26 @@ double linear_strain_energy2(const equations *, const double x[]); /* x^T K x = 
 double linear_strain_rounding(const equations *,
                               const double x[]); /* bound of the rounding error */
 double linear_geometric_energy2(const equations *, const double sigma[], const double x[]);
-/* Size of the rounding error of the geometric form, with the stresses sigma of the displacements
- * load_x[free + driven]. */
+/* Returns the size of the rounding error of the geometric form, for the stresses sigma of the
+ * displacements load_x[free + driven]. */
 double linear_geometric_rounding(const equations *, const double load_x[], const double sigma[],
                                  const double x[]);
 
-/* Is the accuracy sufficient, given the last correction or another measure of the error? */
+/* Returns REFINEMENT_ENDS if the accuracy is sufficient, else REFINEMENT_LOST. correction: the
+ * last correction, or another measure of the error. */
 refinement_state refinement_judge(solution_refinement *, double correction);
-/* SINGULAR, with the remaining accuracy of `what` and the remedy. */
+/* Returns SINGULAR; the message contains the remaining accuracy of `what` and a remedy. */
 status refinement_refuse(const solution_refinement *, const char *what, fault *);
-/* |change|/|x| in a metric of n weights, with |x| at least `least`; 0: no change. */
+/* Returns |change|/|x| in a metric of n weights, where |x| is taken as at least `least`; 0: no
+ * change. */
 double refinement_part(int n, const double weight[], const double change[], const double x[],
                        double least);
 
 /* Returns 1 when mass is lumped at nodes, as specified by the scene or by a motion that starts
- * there. */
+ * from this state. */
 int rotating_frame_lumps(const equations *);
 
-/* Stiffness of loads on offsets and of moments. */
+/* Computes the stiffness of the loads, for example on offsets and of moments. */
 void rotating_frame_load_stiffness(const equations *, const model_state *, double path,
                                    sparse *out);
 
@@ -286,7 +297,7 @@ void rotating_frame_load_stiffness(const equations *, const model_state *, doubl
 
 /* Strains and stresses evaluated for all elements in one call. */
 typedef struct run_ahead {
-    int what, stresses; /* which strains, and whether the stresses, are valid */
+    int what, stresses; /* AHEAD_* bits of the valid strain outputs; 1: the stresses are valid */
     const element_data **data;
     const double **at, **inner;
     node_state *x;
@@ -298,10 +309,10 @@ typedef struct run_ahead {
 
 enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* values of `what` */
 
-/* Evaluates strains in batches at the nodes of s; sigma[elements x strains] for H. Valid until
- * ahead_end. */
+/* Evaluates strains of all elements at the nodes of s. sigma[elements x strains] is used for H.
+ * The values are valid until ahead_end. */
 void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[]);
-/* Evaluates sigma and C at e[elements x strains] (NULL: at the strains evaluated before). */
+/* Evaluates sigma and C at e[elements x strains]; NULL: at the strains evaluated before. */
 void ahead_stresses(const equations *eq, const double e[], const double inner[]);
 void ahead_end(const equations *eq);
 
@@ -327,7 +338,7 @@ static inline status ahead_stress(const equations *eq, int i, const element_data
     return model_type(eq->m)->stress(data, e, inner, out);
 }
 
-/* For a run: see free_strain_data. */
+/* Allocates the data of a run: see free_strain_data. */
 status free_strain_begin(const model *, struct run_free **, fault *);
 void free_strain_end(struct run_free *);
 
@@ -338,7 +349,7 @@ typedef struct bordered {
     double *Z; /* [count x free] K^-1 U */
     double S[TANGENT_BORDER * TANGENT_BORDER];
     int pivot[TANGENT_BORDER];
-    double *solution;                 /* [TANGENT_COMPONENTS x all] for unit loads */
+    double *solution;                 /* [TANGENT_COMPONENTS x all] solutions for unit loads */
     double *x, *load, *rest, *weight; /* [all] work space for refinement */
 } bordered;
 
@@ -392,7 +403,7 @@ void chain_reduce(chain *, const double r[], double ends[]);
  * joint is an end. x may be r. */
 void chain_expand(chain *, const double r[], const double ends[], double x[]);
 
-/* Members of a chain: chain.c builds the chain and solves with it. */
+/* Internals of a chain: chain.c builds the chain and solves with it. */
 
 /* Size of a symmetric matrix whose rows are stored up to the diagonal. */
 static inline int chain_packed(int n)
@@ -400,15 +411,15 @@ static inline int chain_packed(int n)
     return n * (n + 1) / 2;
 }
 
-/* For each link, its A and F are stored; for its junction with the previous row, Z, B Z and Z F. */
+/* Stored values: A and F of each link; Z, B Z and Z F of its junction with the preceding row. */
 struct chain {
-    int links, count; /* count: number added so far */
-    int c, y, inside; /* number of coordinates of a joint; of a link; inside = y - c */
+    int links, count; /* count: number of links added so far */
+    int c, y, inside; /* c, y: number of coordinates of a joint and of a link; inside = y - c */
     int negative;
     double *kept;
-    double *a; /* [(links + 1) x c] displacements of joints without later forces; then the forces on
-                  the joints */
-    double F[CHAIN_JOINT * CHAIN_JOINT]; /* of the row so far */
+    double *a; /* [(links + 1) x c] displacements of the joints without later forces; afterwards
+                  the forces on the joints */
+    double F[CHAIN_JOINT * CHAIN_JOINT]; /* flexibility of the links joined so far */
     double A[CHAIN_JOINT * CHAIN_JOINT], B[CHAIN_JOINT * CHAIN_JOINT];
 };
 
@@ -433,7 +444,7 @@ static inline kept_link chain_kept(const chain *s, int link, int c, int y)
     return k;
 }
 
-/* Members of condensation. */
+/* Internals of a condensation. */
 
 /* Structures with more end coordinates than this are not condensed, because the pattern is built
  * densely. */
@@ -452,7 +463,7 @@ struct condensation {
     const model *m;
     const model_state *at;
     int members, all, unknowns;
-    int lent; /* 1: another condensation owns chains and r */
+    int lent; /* 1: another condensation owns `chains` and `r` */
     condensed_member *member;
     int *number;   /* [all] index of a coordinate among the end coordinates; NONE: not an end
                       coordinate */
@@ -461,7 +472,7 @@ struct condensation {
     sparse inside; /* matrix of the unknowns */
     int *from;     /* [entries of inside] positions in K */
     matrix_factor *factor;
-    double *r;      /* of the longest member: loads, then displacements, [links x y] */
+    double *r;      /* work space for the longest member: loads, then displacements, [links x y] */
     double *small;  /* [unknowns] */
     double *driven; /* [driven] */
     double *end;    /* [members x MEMBER_COLUMNS] forces of the ends */
@@ -482,7 +493,7 @@ double linear_springs_energy2(const model *, const double x[]);
 double linear_springs_rounding(const model *, const double x[]);
 double linear_springs_geometric_energy2(const model *, const double sigma[], const double x[]);
 
-/* An element as a link of a chain. */
+/* Makes an element a link of a chain. */
 
 /* Tangent J^T C J + H of an element in the coordinates of its nodes (element.h). */
 typedef struct link_element {
@@ -491,28 +502,30 @@ typedef struct link_element {
     const double *r;           /* [nodes x 3] positions of the nodes [m] */
 } link_element;
 
-/* The rigid motion R of the element causes strains E = J R, which are rounding errors except for
- * warping; the element follows by R + d, d = -F (J_y^T C E + (H R)_y), and B = (E + J_y d)^T C (E +
- * J_y d) + (R + d)^T H (R + d): no entries of the size of K are subtracted from each other.
- * SINGULAR: the element, clamped at its first node, is in a critical state. */
+/* Makes the element a link. The rigid motion R of the element causes strains E = J R, which are
+ * rounding errors except for warping. The element follows by R + d with d = -F (J_y^T C E + (H
+ * R)_y), and B = (E + J_y d)^T C (E + J_y d) + (R + d)^T H (R + d). No entries of the size of K
+ * are subtracted from each other. SINGULAR: the element, clamped at its first node, is in a
+ * critical state. */
 status link_of(const link_element *, chain_link *, fault *);
 
-/* Members as rigid parts of a linkage with joints at released ends. */
+/* Finds mechanisms: members are the rigid parts of a linkage with joints at released ends. */
 
-/* Returns 1 when released ends make the undeformed structure with its supports a mechanism. Gives
- * the node that moves most, or -1 and a member between nodes at rest, and its motion (displacement
- * [m], rotation [rad], arbitrary scale). Structures of more than 200 parts are not searched. */
+/* Returns 1 when released ends make the undeformed structure with its supports a mechanism. Sets
+ * *node to the node that moves most; if all nodes are at rest, sets *node to -1 and *member to a
+ * member that moves. motion: displacement [m] and rotation [rad], with arbitrary scale.
+ * Structures of more than 200 parts are not searched. */
 int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
 
 /* Small symmetric matrices whose rows may have different units. */
 
 enum { SYMMETRIC_MOST = 14 };
 
-/* inverse[n x n]; returns the number of negative eigenvalues, or -1: singular. */
+/* Computes inverse[n x n]. Returns the number of negative eigenvalues, or -1 if A is singular. */
 int symmetric_inverse(int n, const double A[], double inverse[]);
 
-/* Derivatives of elements in the undeformed state, which never changes: evaluated once and stored.
- */
+/* Derivatives of elements in the undeformed state. This state never changes; therefore they are
+ * evaluated once and stored. */
 
 /* de/dx [strains x 7 nodes], dsigma/de [strains x strains] and, for a member with initial strains,
  * the stresses [strains] of an element with fixed nodes, to first order (NULL: none). Valid until
@@ -524,7 +537,7 @@ typedef struct undeformed_element {
 /* In large models, consecutive elements of one kind with equal orientation, up to the rounding of
  * their positions, share one set of derivatives. FAULT: out of memory. */
 status undeformed_of(const equations *, int element, undeformed_element *, fault *);
-/* Evaluates missing elements together, if the formulation can; valid until ahead_end. */
+/* Evaluates missing elements together, if the formulation supports it; valid until ahead_end. */
 void undeformed_begin(const equations *);
 
 #endif
