@@ -884,7 +884,7 @@ double loads_reaction(const model *, int node, int component, const double eleme
 /* In equilibrium, internal minus external forces are zero on the free coordinates. The
  * linearisation is mixed: coordinates, strains and stresses are unknowns at the same time (N
  * section 4). Strains and stresses are condensed per element:
- * K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i
+ *     K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i
  * The prescribed part of dx is known; its contribution is moved to the right-hand side here. */
 typedef struct model_linearisation {
     double path;

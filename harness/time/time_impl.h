@@ -26,20 +26,21 @@ status between_alloc(const equations *, step_between *, fault *);
 void between_free(step_between *);
 /* Sets the step; both instants must not change while the polynomial is in use. */
 void between_take(step_between *, between_degree, const instant *from, const instant *to);
-/* A kinematic quantity at a time of the step; `at`: work space. A jerk is the slope of a polynomial
- * of fourth degree through five accelerations of the step. */
+/* Returns a kinematic quantity at a time inside the step. at: work space. A jerk is the slope of
+ * a polynomial of fourth degree through five accelerations of the step. */
 double between_reading(const step_between *, const scene_quantity *, double time, instant *at);
 
-/* Power [W] for `along` = rates v, or work [J] for `along` = increments, with rotations as vectors
- * in the axes of the frames. The forces are those of the state with rates v and accelerations a at
- * `time`. */
+/* Returns the power [W] if `along` contains the rates v, or the work [J] if `along` contains
+ * increments, with rotations as vectors in the axes of the frames. The forces are those in the
+ * state with rates v and accelerations a at `time`. */
 double work_power(outer_work *, const model_state *, const double v[], const double a[],
                   double time, const double along[]);
-/* Work of a step: mean of the forces at its start and end times its increment inc[free + driven].
- * This is exact for constant forces, and of second order otherwise. */
+/* Returns the work of a step: the mean of the forces at its start and end, times its increment
+ * inc[free + driven]. The result is exact for constant forces, and of second order otherwise. */
 double work_trapezoid(outer_work *, const instant *from, const instant *to, const double inc[]);
 
-/* [J] allowed energy-balance error: the given fraction of account_size, plus rounding. */
+/* Returns the allowed energy-balance error [J]: the given fraction of account_size, plus
+ * rounding. */
 double account_most(const account *, double part, double rounding);
 
 /* NOT_CONVERGED: the motion gained more energy than account_gained without cause, or lost more than
@@ -48,23 +49,24 @@ double account_most(const account *, double part, double rounding);
 status account_judge(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
-/* Stiffness-proportional damping: stresses gain eta S0 e', with the strain rates and the stiffness
- * S0 of the undeformed element. Rigid motions are not damped. Dashpots use the same form with the
- * deformations of their spring and a given matrix. */
+/* Stiffness-proportional damping: stresses gain eta S0 e', where e' are the strain rates and S0
+ * is the stiffness of the undeformed element. Rigid motions are not damped. Dashpots use the
+ * same form, with the deformations of their spring and a given matrix. */
 
-/* Present strain rates: known + g (e - strains of `from`); known[model_stresses]. from NULL: g is
- * 0. */
+/* Sets the present strain rates to known + g (e - strains of `from`), with
+ * known[model_stresses]. from NULL: g is 0. */
 void damping_follow(const equations *, double g, const double known[], const model_state *from);
 /* Copies the strains of elements and springs to e[model_stresses]. */
 void damping_strains(const model *, const model_state *, double e[]);
-/* e' = J x' for rates v[free + driven] -> rate[model_stresses]. */
+/* Computes e' = J x' for the rates v[free + driven]: rate[model_stresses]. */
 status damping_rates(const model *, const model_state *, const double v[], double rate[], fault *);
-/* Subtracts the forces of dashpots at rates v from out[free + driven]; returns the power that they
- * dissipate [W]. room[dashpots_room]. */
+/* dashpots_subtract subtracts the forces of dashpots at the rates v from out[free + driven] and
+ * returns the power that they dissipate [W]. room[dashpots_room]: work space. */
 size_t dashpots_room(const model *);
 double dashpots_subtract(const model *, const model_state *, const double v[], double room[],
                          double out[]);
-/* Power absorbed by springs without a potential [W]; room as above. */
+/* Returns the power absorbed by springs without a potential [W]. room[dashpots_room]: work
+ * space. */
 double springs_circulating_power(const model *, const model_state *, const double v[],
                                  double room[]);
 /* Adds the force of dashpots to F[6] on the frame of a node. */
@@ -72,7 +74,7 @@ status dashpots_at_node(const model *, const model_state *, const double v[], in
                         fault *);
 /* Computes strain rates from the rates of the coordinates; does nothing without damping. */
 status damping_now(const equations *, instant *, fault *);
-/* Power dissipated by strain rates [W]. */
+/* Returns the power dissipated by strain rates [W]. */
 double damping_power(const equations *, const double rate[]);
 
 /* Generalized-alpha on the group of rotations (Chung & Hulbert 1993; Bruls, Cardona & Arnold 2012):
@@ -84,11 +86,11 @@ double damping_power(const equations *, const double rate[]);
  * - alpha_f)/2 - 1/6| (a1 - a). */
 status alpha_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* A side step gives the values of the scheme at an instant inside a step. The motion does not
- * continue from there. */
+/* A side step computes the state of the motion at an instant inside a step. The motion does not
+ * continue from this state. */
 
-/* Makes a side step from the beginning of the motion's step. Its work is counted, but its
- * iterations are not recorded. */
+/* Makes a side step from the start of the motion's step. Its work is counted, but its iterations
+ * are not recorded. */
 status aside_step(analysis_context *, motion_scheme *, const instant *from, double time,
                   instant *at, fault *);
 
@@ -97,18 +99,21 @@ status aside_step(analysis_context *, motion_scheme *, const instant *from, doub
 /* out[SCENE_BALANCES]; the initial energy is not yet subtracted from the energy-balance error. */
 status balance_of(const equations *, const carried_masses *, const instant *,
                   double out[SCENE_BALANCES], fault *);
-/* Strain energy [J] due to rounding errors of all coordinates; smaller energies count as zero. */
+/* Returns the strain energy [J] due to rounding errors of all coordinates; smaller energies
+ * count as zero. */
 double balance_rounding(const model *);
 
-/* Mass matrix of one body, of those that constraints join to it, and everything that moves with
- * them: their coordinates and those of member ends that are released from it. */
+/* Mass matrix of a body, of the bodies that constraints join to it, and of everything that moves
+ * with them. Its rows are their coordinates and those of member ends that are released from
+ * them. */
 
 typedef struct body_mass {
     int count, *index; /* free coordinates of the body [count] */
-    double *M; /* [count x count] for spatial increments; rotations are scaled by the length of the
-                  model */
-    double *unit;         /* [count] scale: 1; for a rotation 1/length of the model [rad/m] */
-    int *used;            /* room [count] */
+    double *M;    /* [count x count] for spatial increments; rotations are scaled by the length of
+                     the model */
+    double *unit; /* [count] scale of a coordinate: 1; for a rotation 1/length of the
+                     model [rad/m] */
+    int *used;    /* capacity; [count] */
     double *rest, *value; /* work space [count x count], [count] */
     double *zero;         /* [free + driven] rates */
 } body_mass;
@@ -116,13 +121,13 @@ typedef struct body_mass {
 /* Allocates work space for any body of the model. */
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
-/* Computes the mass matrix of one body (of joined bodies, the first one) in a state; returns its
- * largest mass [kg]. */
+/* Computes the mass matrix of one body in a state, or of all bodies joined to it if it is the
+ * first of them. Returns its largest mass [kg]. */
 double body_mass_of(const model *, const carried_masses *, int body, const model_state *,
                     body_mass *);
 /* Returns the mass of a warping amplitude [kg m^4]. */
 double body_mass_warps(const model *, const carried_masses *, int warp, const model_state *);
-/* Rank of M, where values up to `none` count as zero. */
+/* Returns the rank of M, where values up to `none` count as zero. */
 int body_mass_rank(body_mass *, double none);
 
 /* Splits the step of one element into a common rotation, which is removed exactly, and a relative
@@ -133,12 +138,12 @@ int body_mass_rank(body_mass *, double none);
  *   dr^_j = S (dD_j - c x Dm_j),   c^_j = T (c_j - c)/(kappa (1 + c.c_j/4)),   phi_j = psi_j c^_j:
  * zero for every rigid motion. A spring to the ground has no common rotation: c = 0, D_j = r_j. */
 
-/* Cayley vector 2 tan(|t|/2) t/|t| of a rotation vector, and back. */
+/* Cayley vector 2 tan(|t|/2) t/|t| of a rotation vector t, and the inverse of this function. */
 void cayley_of_vector(const double t[3], double c[3]);
 void cayley_to_vector(const double c[3], double t[3]);
-/* T_c = (1 + c~/2)/(1 + c.c/4): the spatial rotation increment at the end is T_c dc. */
+/* T = (1 + c~/2)/(1 + c.c/4): the spatial rotation increment at the end is T dc. */
 void cayley_tangent(const double c[3], double T[9]);
-/* v~ */
+/* A = v~, the matrix of the cross product with v. */
 void cayley_skew(const double v[3], double A[9]);
 
 typedef struct cayley_step {
@@ -153,11 +158,12 @@ typedef struct cayley_step {
     const node_state *from;
 } cayley_step;
 
-/* dr, c of the nodes [nodes x 3], da[nodes]; the memory of `from` must stay valid. */
+/* Starts from dr[nodes x 3], c[nodes x 3] and da[nodes] of the nodes. The memory of `from` must
+ * stay valid. */
 void cayley_begin(int nodes, int ground, const node_state from[], double dr[][3], double c[][3],
                   const double da[], cayley_step *);
 
-/* The relative motion at s in [0, 1]: r(s), R(s), a(s), and exp(s phi) for every node. */
+/* The relative motion at s in [0, 1]: r(s), R(s) and a(s), and exp(s phi) for every node. */
 typedef struct cayley_point {
     double at;
     double turn[ELEMENT_MAX_NODES][9];
@@ -165,8 +171,8 @@ typedef struct cayley_point {
 } cayley_point;
 void cayley_between(const cayley_step *, double at, cayley_point *);
 
-/* Transforms forces f on the relative motion, the columns of f[7 nodes x columns], to forces on dr,
- * c, da: F_j = S f_j, M_j = z_j T m_j - mean (z_i T m_i + Dm_i x S f_i). */
+/* Transforms forces f on the relative motion, the columns of f[7 nodes x columns], to forces on
+ * dr, c and da: F_j = S f_j, M_j = z_j T m_j - mean (z_i T m_i + Dm_i x S f_i). */
 void cayley_forces(const cayley_step *, int columns, double f[]);
 
 /* Updates the strains to match the stresses of the state, when the stress function P' of elements
@@ -176,27 +182,28 @@ void cayley_forces(const cayley_step *, int columns, double f[]);
  * changed to satisfy P'(e) = sigma, and D(x) - e contains the difference: the same equations in
  * complementary (Hellinger-Reissner) form. The solution does not change. */
 
-typedef struct complement complement; /* of one state */
+typedef struct complement complement; /* data for one state */
 
-/* NULL: no update is needed or possible: all stresses are linear in the strains; or they depend on
- * inner unknowns of the element; or the type evaluates all elements in one call (another process),
- * which would require many requests. */
+/* Sets *out to NULL if no update is needed or possible: all stresses are linear in the strains,
+ * or they depend on inner unknowns of the element, or the type evaluates all elements in one
+ * call (another process), so that updates would require many requests. */
 status complement_alloc(const equations *, complement **out, fault *);
 void complement_free(complement *);
 
-/* Call before advance_state. NULL: does nothing. */
+/* Call before advance_state. Does nothing for NULL. */
 void complement_keep(complement *, const model_state *);
-/* Call after advance_state. Sets e of every element along the path of stresses from the kept ones
- * to sigma, which does not change. An element does not change if its stresses already agree to a
- * tenth, or if no strains with these stresses are found. iteration: from 1; once all elements
- * agree, smaller corrections are not checked again in the same step. NULL: does nothing. */
+/* Call after advance_state. Sets e of every element by following its stresses from the stored
+ * ones to sigma, which does not change. An element does not change if its stresses already agree
+ * to a tenth, or if no strains with these stresses are found. iteration: starts at 1. Once all
+ * elements agree, smaller corrections are not checked again in the same step. Does nothing for
+ * NULL. */
 void complement_strains(complement *, model_state *, int iteration, double correction);
 
 /* Derivatives of increments and rates with respect to the state. */
 
-/* Change of the rates and their derivatives with the state: dv = g dx, da = b dx for translations,
- * warping and angles. For a rotation in the axes of the frame dx is replaced by d inc = X R^T times
- * the spatial increment, with X = turning_inverse at inc[free + driven]. */
+/* Change of the rates and their derivatives with the state: dv = g dx and da = b dx for
+ * translations, warping and angles. For a rotation in the axes of the frame, dx is replaced by d
+ * inc = X R^T times the spatial increment, where X = turning_inverse at inc[free + driven]. */
 typedef struct inertia_relation {
     double b, g; /* [1/s^2], [1/s] */
     const double *inc;
@@ -205,11 +212,11 @@ typedef struct inertia_relation {
  * after inc; R: orientation of the vertex in that state. */
 void inertia_chart(const model *, int vertex, const double inc[], const double R[9], double N[9]);
 
-/* R N: the same in global axes. */
+/* E = R N: the same derivative in global axes. */
 void inertia_turn(const model *, int vertex, const model_state *, const double inc[], double E[9]);
 
-/* Columns: spatial rotation of a body per rotation coordinate; angular velocity per rate of each.
- */
+/* Columns of turn: spatial rotation of a body per unit of each rotation coordinate; columns of
+ * rate: angular velocity per unit rate of each. */
 void inertia_turns(const model *, const model_state *, int vertex, double turn[9], double rate[9]);
 
 /* Rates of the rotation of a frame, and the rates of all coordinates of a model: derivatives for
@@ -229,8 +236,8 @@ typedef enum rotation_form {
 status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
-/* Velocity and acceleration of the frame of a node, in global axes [m/s, rad/s, m/s^2, rad/s^2],
- * from rates v[free + driven] and their derivatives a (NULL: zero). */
+/* Velocity and acceleration of the frame of a node in global axes [m/s, rad/s, m/s^2, rad/s^2].
+ * They follow from the rates v[free + driven] and their derivatives a (NULL: zero). */
 typedef struct frame_rates {
     double R[9];
     double v[3], w[3], a[3], wd[3];
@@ -238,39 +245,42 @@ typedef struct frame_rates {
 void forms_rates(const model *, const model_state *, int vertex, const double v[], const double a[],
                  frame_rates *out);
 
-/* Adds F[6] (force, moment) on the frame of a node to the rows of the coordinates that move it. */
+/* Adds F[6] (force and moment) on the frame of a node to the rows of the coordinates that move
+ * it. */
 void forms_add_force(const model *, const model_state *, int vertex, const double F[6],
                      double out[]);
 
 /* Inertia forces of the masses at frames, in global axes. For a mass with first moment c and tensor
  * J about the frame: force m a + w' x c + w x (w x c), moment c x a + J w' + w x J w. */
 
-/* F[6]: force and moment about the frame that accelerate a mass. */
+/* Computes the force and the moment about the frame that accelerate a mass: F[6]. */
 void inertia_force_at(const carried_mass *, const frame_rates *, double F[6]);
 void inertia_force(const model *, const carried_mass *, const model_state *, const double v[],
                    const double a[], double F[6]);
-/* out[free + driven] -= inertia forces at rates v and their derivatives a (NULL: zero, so that only
- * the velocity terms remain). */
+/* out[free + driven] -= inertia forces at the rates v and their derivatives a. a NULL: zero, so
+ * that only the terms in the velocities remain. */
 void inertia_subtract(const model *, const carried_masses *, const model_state *, const double v[],
                       const double a[], double out[]);
 
-/* S += derivative of the inertia forces with respect to the coordinates; for rotations in the
- * exponential chart, as for all parts of a tangent. */
+/* S += derivative of the inertia forces with respect to the coordinates. Rotations are in the
+ * exponential chart, as in all parts of a tangent. */
 void inertia_add_tangent(const equations *, const carried_masses *, const model_state *,
                          const double v[], const double a[], const inertia_relation *, sparse *S);
 
 /* Derivatives of the inertia force and moment of one frame [6 x 6, row-major]. */
 typedef struct inertia_parts {
-    double place[36]; /* by spatial increments, at fixed rates in the axes of the frame; exponential
-                         chart */
-    double velocity[36], acceleration[36]; /* by velocities and accelerations in global axes */
-    double turn[9];                        /* columns: spatial rotation per rotation coordinate */
-    double rate[9];                        /* columns: angular velocity per rate */
+    double place[36]; /* with respect to spatial increments, at fixed rates in the axes of the
+                         frame; exponential chart */
+    double velocity[36], acceleration[36]; /* with respect to velocities and accelerations in
+                                              global axes */
+    double turn[9];                        /* columns: spatial rotation per unit of each rotation
+                                              coordinate */
+    double rate[9];                        /* columns: angular velocity per unit of each rate */
 } inertia_parts;
 void inertia_frame(const model *, const carried_masses *, int index, const model_state *,
                    const double v[], const double a[], inertia_parts *out);
-/* out = A diag(translation 1, B), then transforms the rotation rows to coordinates: K <- diag(1,
- * turn^T) K. */
+/* inertia_times: out = A diag(translation 1, B). inertia_rows transforms the rows of rotations
+ * to coordinates: K <- diag(1, turn^T) K. */
 void inertia_times(const double A[36], double translation, const double B[9], double out[36]);
 void inertia_rows(const double turn[9], double K[36]);
 typedef struct inertia_balance {
@@ -287,8 +297,8 @@ void inertia_of(const model *, const carried_masses *, const model_state *, cons
 double inertia_damping_power(const model *, const carried_masses *, const model_state *,
                              const double v[]);
 
-/* Errors of coordinates with inertia. An error estimate must not use the accelerations of massless
- * coordinates, which are their positions divided by the square of the step. */
+/* Coordinates with inertia, for error estimates. An estimate must not use the accelerations of
+ * massless coordinates, because these are positions divided by the square of the step. */
 
 typedef struct massive {
     int ready;
@@ -296,14 +306,14 @@ typedef struct massive {
                       inertia, rotations in the axes of the frames; NULL: all have inertia */
 } massive;
 
-/* Computes the lumped masses in a state, for the functions below. */
+/* Evaluates the lumped masses in a state, for the functions below. */
 status massive_of(const model *, const carried_masses *, const model_state *, massive *, fault *);
 void massive_free(massive *);
-/* Removes motions without inertia from e. Returns the root of the sum of weight[c] e[c]^2 over the
- * free coordinates. */
+/* Removes motions without inertia from e. Returns the square root of the sum of weight[c] e[c]^2
+ * over the free coordinates. */
 double massive_norm(const massive *, const model *, const double weight[], double e[]);
 
-/* Internals of the conserving step. */
+/* Internals of a conserving step. */
 
 typedef struct evaluation evaluation;
 
@@ -313,13 +323,13 @@ typedef struct conserving {
     int free, all;
     sparse S;
     matrix_factor *factor;
-    double *step; /* [free + driven] dr, Cayley vectors c, da; increments of single angles and of
-                     released coordinates, c of ball joints */
+    double *step; /* [free + driven] dr, Cayley vectors c and da; increments of single angles and
+                     of released coordinates; c of ball joints */
     double *residual, *column, *row, *dx; /* [free + driven]; the tangent is S + column row^T */
     double *weight;
     massive massive;
     int strains;     /* largest number of strains of an element or a spring */
-    double *W;       /* [deformables x strains^2] mean of P'' at both ends of the step */
+    double *W;       /* [deformables x strains^2] mean of P'' over the two ends of the step */
     double *C;       /* [deformables x strains^2] P''(e_n) */
     double *energy;  /* [deformables] P(e_n) */
     double *d;       /* [deformables x strains] */
@@ -332,26 +342,28 @@ typedef struct conserving {
     int slot_size;
     complement *complement;
     evaluation *evaluation; /* [CHUNK_MOST] work space */
-    double h;               /* [s] of the step */
+    double h;               /* [s] size of the step */
     double k, denominator,
         missing; /* missing: residual of the equation for k: sum k_e . gap_e + k_d . gap_d */
     int settled; /* 1: the remaining gaps are rounding errors and cause no stresses */
-    int wild;    /* 1: k was too large and is not used */
+    int wild;    /* 1: k was too large and was not used */
     double largest, change; /* stresses */
     arrival arrival;
     long counted;
 } conserving;
 
 /* conserving_strain.c: functions for all elements and springs. */
-/* Computes energies and springs at the start of the step; d is zero. */
+/* Computes the energies and the springs at the start of the step, and sets d to zero. */
 status conserving_begin(conserving *, const instant *from, fault *);
-/* Stresses of the present strains, and k; k = 0 until it is reliable. */
+/* Computes the stresses of the present strains, and k. k is 0 until it is reliable. */
 status conserving_stresses(conserving *, const instant *from, model_state *now, int iteration,
                            fault *);
-/* Updates the strains at the end and d by dx; returns the largest inner change. */
+/* Updates the strains at the end of the step and d by dx. Returns the largest change of an inner
+ * unknown. */
 double conserving_update(conserving *, const instant *from, model_state *now);
 
-/* conserving_forces.c: residual -= forces; adds their tangent, column and row to S. */
+/* conserving_forces.c: residual -= forces of elements and springs; adds their tangent to S, and
+ * their column and row. */
 void conserving_forces(conserving *, const instant *from, model_state *now,
                        double *incompatibility);
 
@@ -363,13 +375,14 @@ void conserving_inertia(conserving *, const instant *from, const model_state *no
 void conserving_loads(conserving *, const instant *from, const model_state *now, double h,
                       double out[]);
 
-/* conserving_strain.c: initial guess of the step, as increments of coordinates. */
+/* conserving_strain.c: computes an initial guess of the step, as increments of coordinates. */
 void conserving_predict(conserving *, const instant *from, double h);
 void conserving_increment(const conserving *, const model_state *from, double inc[]);
 
-/* conserving_forces.c: sets work and dissipation of `to`. */
+/* conserving_forces.c: sets the work and the dissipated energy of `to`. */
 status conserving_work(conserving *, const instant *from, instant *to, double h, fault *);
-/* Strain rates at the end; adds eta S0 e' to the stresses of damped members. */
+/* Computes strain rates at the end of the step, and adds eta S0 e' to the stresses of damped
+ * members. */
 void conserving_damped(const conserving *, const instant *from, double h, instant *to);
 
 /* A frame and its mass during a step. */
@@ -377,26 +390,28 @@ void conserving_damped(const conserving *, const instant *from, double h, instan
 typedef struct carried_step {
     double Rn[9], R1[9];
     double centre[3], before[3], after[3],
-        mean[3]; /* position relative to the frame; centre: in the axes of the frame */
-    double J[9]; /* about the centre, in the axes of the frame */
-    double v0[3], v1[3], W0[3],
-        W1[3]; /* velocity of the centre; angular velocity in the axes of the frame */
+        mean[3]; /* position of the centre relative to the frame: in the axes of the frame; at
+                    the start and end of the step; mean of the two */
+    double J[9]; /* moment of inertia about the centre, in the axes of the frame */
+    double v0[3], v1[3], W0[3], W1[3]; /* velocities of the centre, and angular velocities in the
+                                          axes of the frame, at the start and end of the step */
     double c[3];
-    int rides;      /* 1: some but not all translations of the frame are fixed: */
-    double held[9]; /* projects onto these */
-    double g[3], behind[3], turned[3], late[3]; /* of these (carried.c) */
+    int rides;      /* 1: some but not all translations of the frame are fixed ... */
+    double held[9]; /* ... and this matrix projects onto the fixed ones */
+    double g[3], behind[3], turned[3], late[3]; /* terms due to the fixed translations: see
+                                                   carried.c */
 } carried_step;
 
-/* Centre of a mass relative to the frame, and its tensor about the centre, in the axes of the
- * frame. For a frame that only rotates the frame counts as the centre. */
+/* Computes the centre of a mass relative to the frame, and its tensor about the centre, both in
+ * the axes of the frame. If a frame only rotates, the origin of the frame is used as the centre. */
 void carried_step_centre(const model *, const carried_mass *, double centre[3], double J[9]);
 void carried_step_of(const conserving *, const instant *from, const model_state *now, double h,
                      const carried_mass *, carried_step *);
 
-/* carried.c: frames with fixed and free translations. */
-/* Computes v1 of the fixed translations, and the moment `late`. */
+/* carried.c: frames for which some translations are fixed and others are free. */
+/* Computes v1 of the fixed translations, and the moment `late` of their forces. */
 void carried_step_follow(const carried_mass *, carried_step *);
-/* sway[9] = -h/2 dv1/dc; swept: minus d(centre)/dc, T: cayley_tangent. */
+/* Computes sway[9] = -h/2 dv1/dc. swept: minus d(centre)/dc; T: see cayley_tangent. */
 void carried_step_sway(const carried_step *, double h, const double T[9], const double swept[9],
                        double sway[9]);
 /* K[6 x 6] += derivative of `late`. */
@@ -406,8 +421,8 @@ void carried_step_late(const carried_mass *, const carried_step *, double h, con
 /* Closed-form derivatives of the relative motion of a step (cayley_step) with respect to dr, c, da
  * of the nodes. */
 
-/* d phi_j = own_j dc_j + common_j dc, d z_j likewise, where c is the mean; spin dc: derivative of
- * G. */
+/* d phi_j = own_j dc_j + common_j dc, and likewise d z_j, where c is the mean. spin dc is the
+ * derivative of G. */
 typedef struct cayley_slopes {
     double kappa[3], b[3], spin[9];
     double own[ELEMENT_MAX_NODES][9], common[ELEMENT_MAX_NODES][9];
@@ -445,11 +460,13 @@ status checks_massless(const analysis_context *, const carried_masses *, const s
  * stresses inside an element depend on its bending, the stiff directions change with the strains,
  * and k W d would have a component along them. */
 
-/* REFUSED: a node has several successive angles; no rotation has inertia; constraints that its
- * rates do not follow. Rates of massless coordinates are mean rates of a step. */
+/* REFUSED: a node has several successive angles; no rotation has inertia; or there are
+ * constraints that its rates do not follow. Rates of massless coordinates are mean rates over a
+ * step. */
 status conserving_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* An element or a spring during a step; they differ only in the function that evaluates them. */
+/* An element or a spring during a step. Elements and springs differ only in the function that
+ * evaluates them. */
 
 enum {
     DEFORMABLE_POINTS = 2, /* number of points between the ends of the step */
@@ -460,26 +477,28 @@ enum {
 typedef struct deformable {
     const mesh_element *el;
     const mesh_discrete *spring; /* NULL: an element */
-    int index;                   /* index of the element */
+    int index;                   /* index of the element or spring */
     int strains, coordinates;    /* 7 nodes */
-    const double *before;        /* sigma_n */
-    double *W, *C_before;        /* mean of P'' at both ends of the step; P''(e_n) */
+    const double *before;        /* sigma_n, at the start of the step */
+    double *W, *C_before;        /* mean of P'' over the two ends of the step; P''(e_n) */
     double *e, *sigma, *d;       /* values of the present iteration */
-    double *first;               /* [strains] e_n of a spring */
-    /* Stored by the evaluation of one iteration for its update. */
+    double *first;               /* [strains] e_n of a spring; NULL: an element */
+    /* Values that the evaluation of one iteration stores for the update. */
     double *J;             /* [strains x coordinates] de/dx at the end, with respect to dr, c, da */
-    double *C, *memory;    /* P''(e) [strains x strains]; of stress */
+    double *C, *memory;    /* [strains x strains] P''(e); memory of the stress function */
     double *present;       /* [strains] P'(e) */
-    double *gap_e, *gap_d; /* [strains] D(x_1) - e, A (dr, c, da) - d */
-    const double *S;       /* S0 of a damped member, matrix of a dashpot, or NULL */
+    double *gap_e, *gap_d; /* [strains] D(x_1) - e, and A (dr, c, da) - d */
+    const double *S;       /* S0 of a damped member, or matrix of a dashpot; NULL: no damping */
     double damping;        /* eta [s] of a damped member; 1 for a dashpot */
     double length;         /* [m] reference length of the incompatibilities */
 } deformable;
 
-/* Number of deformables (elements, then springs); data of one of them. */
+/* deformable_count returns the number of deformables (elements, then springs); deformable_at
+ * returns the data of one of them. */
 int deformable_count(const conserving *);
 deformable deformable_at(const conserving *, const instant *from, model_state *now, int i);
-/* Number of elements from `first` on that are evaluated together: of one kind, or 1. */
+/* Returns the number of elements from index `first` on that are evaluated together: elements of
+ * one kind, or 1. */
 int deformable_together(const conserving *, int first);
 
 /* Values of one element that one iteration evaluates. */
@@ -492,7 +511,12 @@ struct evaluation {
     double middle[DEFORMABLE_STRAINS];     /* (sigma_n + P'(e))/2 + k W d */
     double D[DEFORMABLE_STRAINS];
     double J[DEFORMABLE_POINTS][DEFORMABLE_STRAINS * ELEMENT_MAX_COORDINATES];
-    double H[DEFORMABLE_POINTS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES]; /* middle */
+    double H[DEFORMABLE_POINTS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES]; /* second
+                                                                                       derivatives
+                                                                                       at the
+                                                                                       points
+                                                                                       between
+                                                                                       the ends */
     /* Equations of a deformable: forces on dr, c, da of the coordinates, its tangent, the column
      * A^T W d and the row k_e + k_d. */
     double force[DEFORMABLE_COORDINATES], column[DEFORMABLE_COORDINATES],
@@ -507,9 +531,10 @@ void deformable_evaluate(const conserving *, const instant *from, const model_st
 
 /* Prescribed coordinates as functions of time: increments, rates and their derivatives. */
 
-/* REFUSED: an unknown driver has no function of time. */
+/* REFUSED: an unknown driver has no function of time, which it needs in a motion. */
 status drive_check(const model *, fault *);
-/* Entries [free, free + driven) of inc (from the state), v and a at `time`; NULL: not requested. */
+/* Computes entries [free, free + driven) of inc (measured from the state), v and a at `time`;
+ * NULL: not requested. */
 void drive_at(const equations *, const model_state *from, double time, double inc[], double v[],
               double a[]);
 
@@ -535,46 +560,50 @@ typedef struct explicit_scheme {
     double *memory,
         *still; /* memory of one element, whose size its type defines; zero increment of strains */
     double power;        /* [W] power of dashpots */
-    double *weight;      /* [free + driven] weights: model.h */
+    double *weight;      /* [free + driven] weights as in model.h */
     const instant *from; /* start of the present step */
-    double end;          /* [s] time up to which loads are read */
+    double end;          /* [s] latest time at which loads are read */
     instant *at;         /* the state of the last evaluation */
-    status outcome;      /* of it */
+    status outcome;      /* its status */
     fault why;
 } explicit_scheme;
 
-/* Extent and rate of the motion so far. The tolerance of a step is relative to the largest motion
- * so far, but at least to an estimate of the largest motion: initially 2 % of the size of the
- * structure. If a motion reaches less than half of the estimate, it is integrated again. */
+/* Extent and rate of the motion so far. The tolerance of a step is relative to the largest
+ * motion so far, but at least to an estimate of the largest motion, which is initially 2 % of
+ * the size of the structure. If the motion reaches less than half of the estimate, it is
+ * integrated again with a smaller one. */
 
 typedef struct extent {
     model_state *begin; /* initial state */
-    double bent;        /* its distance from the undeformed state, whose rounding is the noise */
-    double scale;   /* the estimate, in the measure of model.h: 1 is the size of the structure */
-    double largest; /* largest distance from `begin` so far, over coordinates with inertia */
-    double rate;    /* [1/s] largest mean rate of a step, over the same coordinates */
+    double bent;        /* distance of that state from the undeformed state; its rounding error
+                           is the noise */
+    double scale;       /* estimate of the largest motion, in the measure of model.h: 1 is the size
+                           of the structure */
+    double largest;     /* largest distance from `begin` so far, over coordinates with inertia */
+    double rate;        /* [1/s] largest mean rate of a step, over the same coordinates */
     double
         density;  /* error of a step divided by its size to the order of the scheme: extent_error */
     double worst; /* largest error of an accepted step, relative to its allowed fraction */
 } extent;
 
-/* Initial estimate. */
+/* Initial estimate of the largest motion. */
 extern const double extent_guess;
 
 void extent_begin(extent *, const model *);
 /* Returns the extent after a step of h [s]. */
 extent extent_with(const extent *, const model *, const motion_scheme *, const instant *from,
                    const instant *to, double h, double error);
-/* If the errors of steps add up, this is the error of a step of h [s] from the largest estimate
- * within the last ten radians of the motion. The reason is that, where rates change sign, the error
- * of positions vanishes while that of rates is largest. */
+/* Returns the estimated error of a step of h [s]. If the errors of steps add up, the result
+ * follows from the largest estimate within the last ten radians of the motion. The reason is
+ * that, where rates change sign, the error of positions vanishes while the error of rates is
+ * largest. */
 double extent_error(const extent *, const motion_scheme *, double h, double error);
-/* Allowed error of a part of the motion for a tolerance of the whole; excludes rounding of
- * coordinates. */
+/* Returns the allowed error of a part of the motion, given the tolerance of the whole motion. It
+ * is at least the rounding error of the coordinates. */
 double extent_allows(const extent *, double part, double tolerance);
-/* Returns 1 when the completed motion was less than half of the estimate, its steps are too long
- * for a tolerance relative to its size, and the motion exceeds the rounding of its initial state.
- * *scale: a better estimate. */
+/* Returns 1 when three conditions hold: the completed motion was less than half of the estimate,
+ * its steps are too long for a tolerance relative to its size, and the motion exceeds the
+ * rounding of its initial state. *scale: a better estimate. */
 int extent_is_less(const extent *, double tolerance, double *scale);
 
 /* States of a motion for pictures, at equal intervals, including times inside steps. */
@@ -595,11 +624,12 @@ void frames_free(frames *);
 status frames_begin(frames *, const instant *now, fault *);
 status frames_step(frames *, between_degree, const instant *from, const instant *to, fault *);
 
-/* Increment between the states at two instants: inc[free + driven], a difference for translations,
- * warping and angles, the rotation vector in the axes of the frame for rotations of FORM_BODY. */
+/* Increment between the states at two instants: inc[free + driven]. It is a difference for
+ * translations, warping and angles, and a rotation vector in the axes of the frame for rotations
+ * of FORM_BODY. */
 
-/* Moves the frames of `to` from those of `from` by inc; strains, stresses and inner unknowns do not
- * change. */
+/* Moves the frames of `to` from those of `from` by inc. Strains, stresses and inner unknowns do
+ * not change. */
 void increment_apply(const model *, const model_state *from, const double inc[], double time,
                      model_state *to);
 /* Composes inc with the spatial increments dx; `now` is the state before dx. */
@@ -613,9 +643,10 @@ void integrator_free(motion_scheme *);
 
 /* Slope discontinuities and jumps of loads and prescribed motions. No step crosses one. */
 
-/* Time of the first discontinuity after `time` [s]; INFINITY: none. */
+/* Returns the time of the first discontinuity after `time` [s]; INFINITY: none. */
 double kinks_next(const model *, double time);
-/* Time just before a discontinuity, at which a step that ends there evaluates its loads. */
+/* Returns a time just before a discontinuity. A step that ends at the discontinuity evaluates
+ * its loads at this time. */
 double kinks_before(const model *, double time);
 
 /* One instant of a motion by mixed Newton iteration (Nijenhuis et al., section 4), starting from
@@ -624,10 +655,11 @@ double kinks_before(const model *, double time);
  * Strains and stresses of elements are unknowns, so that stiff elements need no additional
  * iterations. */
 
-/* Returns 1 when the last factors may be used again. Their error is the product of both
- * corrections; in stiff members the corrections of the stresses (newton.h) show it. Measured with
- * elongations 1e6 times stiffer: above 2e-4 corrections stop contracting and steps of 0.2 s fail;
- * below, the number of iterations is the same as with new factors. */
+/* Returns 1 when the last factors may be used again. The error that they cause is the product of
+ * two successive corrections; in stiff members the corrections of the stresses (newton.h) show
+ * it. Measured with members that are 1e6 times stiffer in elongation: above 2e-4 corrections
+ * stop contracting and steps of 0.2 s fail; below, the number of iterations is the same as with
+ * new factors. */
 int stage_stands(const arrival *);
 
 typedef struct motion_stage {
@@ -639,7 +671,7 @@ typedef struct motion_stage {
     arrival arrival;
     complement *complement;
     int all, free;
-    int begins; /* 1: at a discontinuity, loads after it apply; 0: loads before it */
+    int begins; /* at a discontinuity, 1: the loads after it apply; 0: the loads before it */
     long counted;
 } motion_stage;
 
@@ -649,72 +681,74 @@ void stage_free(motion_stage *);
 /* Solves S dx = residual; fresh 0: with the existing factors. */
 status stage_direction(motion_stage *, int fresh, fault *);
 
-/* All arrays [free + driven]. h [s]: of the integrals of feedback, by the trapezoidal rule. */
+/* All arrays have [free + driven] entries. h [s]: step size of the trapezoidal rule for the
+ * integrals of feedback. */
 typedef struct stage_rates {
     double b, g, h;
     const double *a0, *v0;
     double *inc, *v, *a; /* input: inc is the initial guess; prescribed coordinates are exact */
 } stage_rates;
 /* `now` starts with the strains and stresses of `from`, or better ones, and becomes the state at
- * `time`. NOT_CONVERGED: f gives the reason, and `now` is invalid. */
+ * `time`. NOT_CONVERGED: the fault gives the reason, and `now` is invalid. */
 status stage_solve(motion_stage *, const model_state *from, double time, stage_rates *,
                    model_state *now, step_record *, fault *);
 
-/* Initial conditions of a motion: requested velocities, with consistent accelerations and massless
- * coordinates. */
+/* Initial conditions of a motion: the requested velocities, with consistent accelerations and
+ * massless coordinates. */
 
-/* Consistent accelerations and massless coordinates after a discontinuity of the loads; velocities
- * do not change. */
+/* Computes consistent accelerations and massless coordinates after a discontinuity of the loads;
+ * velocities do not change. */
 status launch_again(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
                     instant *room, fault *);
-/* `now` contains the state and the time; `room` is work space. frame: angular velocity of the axes
- * in which the state is at rest [rad/s, m]; omega zero: these axes do not rotate. REFUSED: a fixed
- * or prescribed coordinate does not follow this rotation. */
+/* `now` contains the state and the time; `room` is work space. frame: angular velocity [rad/s]
+ * and centre [m] of the axes in which the state is at rest; omega zero: these axes do not
+ * rotate. REFUSED: a fixed or prescribed coordinate does not follow this rotation. */
 status launch_turning(analysis_context *, const carried_masses *, const scene_motion *,
                       const scene_rotating_frame *frame, instant *now, instant *room, fault *);
-/* For axes at rest. */
+/* As launch_turning, for axes at rest. */
 status launch(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
               instant *room, fault *);
 
-/* Motions, with and without inertia, of a body and of the ends released from it. Positions without
- * inertia follow from equilibrium at every instant. */
+/* Separates motions with inertia from motions without inertia, for a body and the ends released
+ * from it. Positions without inertia follow from equilibrium at every instant. */
 
-/* Number of free coordinates minus the rank of their masses in the state. */
+/* Computes the number of free coordinates minus the rank of their masses in the state. */
 status massless_count(const model *, const carried_masses *, const model_state *, int *count,
                       fault *);
-/* Removes from force[free], or dx[free] (spatial increments of rotations), all but the component on
- * motion without inertia. */
+/* Removes the motions with inertia from force[free], or from dx[free] (spatial increments of
+ * rotations): only the part along motions without inertia remains. */
 status massless_forces(const model *, const carried_masses *, const model_state *, double force[],
                        fault *);
 status massless_motion(const model *, const carried_masses *, const model_state *, double dx[],
                        fault *);
-/* Notes which quantities of the analysis read the acceleration or the jerk of a node that moves
- * without inertia: *undefined [quantities of the scene], which the caller frees. Accelerations of
- * massless coordinates are not known (see settle). REFUSED: nothing else is to be computed. */
+/* Finds the quantities of the analysis that read the acceleration or the jerk of a node that
+ * moves without inertia: *undefined[quantities of the scene], which the caller frees.
+ * Accelerations of massless coordinates are not known (see settle). REFUSED: the analysis has no
+ * other quantities to compute. */
 status massless_readings(const model *, const carried_masses *, const model_state *, int analysis,
                          unsigned char **undefined, fault *);
-/* Removes the motion without inertia from a[free], given in the coordinates of forms_rates. */
+/* Removes motions without inertia from a[free], given in the coordinates of forms_rates. */
 status massless_drop(const model *, const carried_masses *, const model_state *, double a[],
                      fault *);
-/* Acceleration a[free] due to forces, in the coordinates of forms_rates; 0 for coordinates without
- * inertia. */
+/* Computes the acceleration a[free] due to forces, in the coordinates of forms_rates; 0 for
+ * coordinates without inertia. */
 status massless_accelerate(const model *, const carried_masses *, const model_state *,
                            const double force[], double a[], fault *);
 
-/* Extrema of reactions, resultants, stresses, energies and momenta of a motion. At the ends of
- * steps the values are those of the scheme. Between them, a cubic through four consecutive ends
- * shows where a value may be larger (order 4), and a side step computes the value there. The value
- * of the cubic counts only if the two differ by less than its gain, so that an extremum that the
- * steps do not resolve is rejected. */
+/* Extrema of reactions, resultants, stresses, energies and momenta during a motion. At the ends
+ * of steps the values are those of the scheme. Between the ends, a cubic through four
+ * consecutive ends shows where a value may be larger (order 4), and a side step computes the
+ * value there. The value of the cubic counts only if it differs from the value of the side step
+ * by less than the gain. An extremum that the steps do not resolve is therefore rejected. */
 
-enum { PEAKS_ENDS = 4 }; /* of consecutive steps */
+enum { PEAKS_ENDS = 4 }; /* number of consecutive ends of steps */
 
 /* One quantity. */
 typedef struct peak {
     const scene_quantity *q;
     outcome_passing *out;
     double sign, from, until; /* 1: largest, -1: smallest; window [s] */
-    double value[PEAKS_ENDS]; /* the last ones */
+    double value[PEAKS_ENDS]; /* values at the last ends of steps */
 } peak;
 
 typedef struct peaks {
@@ -734,45 +768,47 @@ typedef struct peaks {
 status peaks_alloc(peaks *, fault *);
 void peaks_free(peaks *);
 /* Adds the end of a step, with its energies. last 1: the step is the last one before a
- * discontinuity of the loads or of the motion. */
+ * discontinuity of the loads, or the last one of the motion. */
 status peaks_here(peaks *, const instant *, const double balance[SCENE_BALANCES], int last,
                   fault *);
-/* Starts again after a discontinuity. */
+/* Starts again after a discontinuity of the loads. */
 void peaks_jump(peaks *);
 /* Call at the end of the motion. */
 void peaks_end(peaks *);
 
 /* Motion of a frame during a step, from the coordinates of its body and of a released end. It is
- * exact, so that forces do the same work in both sets of coordinates. With means m of both ends of
- * the step:
- *   moved by a body:      dr = dr_b + c x rho_m,   forces f, m + rho_m x f;
- *   angles and released rotations, each about b, with tau = 2 tan(d angle/2):
- *                         c_k = c_(k-1) + tau_k x_k,  x = [b + c x b/2 + c (c.b)/4]/(1 - tau c.b/4)
- *                         with b at the start: along the mean axis, about which no moment acts;
- *   released sliding:     dr = .. + c x (a s)_m + [a_m - c x (a_1 - a_n)/4] ds. */
+ * exact, so that forces do the same work in both sets of coordinates. Subscript m denotes the mean
+ * of the values at the two ends of the step, subscripts n and 1 denote the start and the end.
+ * Frame moved by a body:  dr = dr_b + c x rho_m, with forces f and m + rho_m x f.
+ * Angles and released rotations, each about an axis b, with tau = 2 tan(d angle/2):
+ *     c_k = c_(k-1) + tau_k x_k,  x = [b + c x b/2 + c (c.b)/4]/(1 - tau c.b/4),
+ * where b is taken at the start; x lies along the mean axis, about which no moment acts.
+ * Released sliding s along an axis a adds c x (a s)_m + [a_m - c x (a_1 - a_n)/4] ds to dr. */
 
 enum { PLACE_MOST = 6 + SCENE_RELEASED };
 
 typedef struct frame_place {
-    int columns; /* six of the node, then released rotations, then released slides */
+    int columns; /* number of coordinates: six of the node, then released rotations, then
+                    released slides */
     double work[6 * PLACE_MOST];  /* [6 x columns] forces F on the frame become work^T F in these
                                      coordinates */
     double moved[6 * PLACE_MOST]; /* derivative of (dr, c) of the frame with respect to them */
     double curved[PLACE_MOST * PLACE_MOST]; /* derivative of work^T F at fixed F */
-    double measure[PLACE_MOST]; /* coordinates of which work gives (dr, c): the conjugates of the
-                                   forces */
+    double measure[PLACE_MOST]; /* coordinates from which `work` computes (dr, c); they are the
+                                   conjugates of the forces */
 } frame_place;
 
-/* Returns 1 when the frame moves by its own dr, c; then nothing else is set. F[6]: NULL: zero. */
+/* Returns 1 when the frame moves by its own dr and c; then nothing else is set. F[6]: force on
+ * the frame; NULL: zero. */
 int place_plain(const model *, int vertex);
 void place_of(const conserving *, const model_state *from, const model_state *now, int vertex,
               const double F[6], frame_place *);
-/* dr, c of a frame. */
+/* Computes dr and c of a frame. */
 void place_step(const conserving *, const model_state *from, const model_state *now, int vertex,
                 double dr[3], double c[3]);
 
-/* Transforms forces[n] of a frame (six at `at`, its own at `own`) to its coordinates; likewise
- * rows, and K[n x n] on both sides. */
+/* Transforms forces[n] of a frame to its coordinates: the six of its body start at index `at`,
+ * its own ones at index `own`. The other functions transform rows, and K[n x n] on both sides. */
 void place_forces(const frame_place *, int at, int own, double forces[]);
 void place_row(const frame_place *, int at, int own, double row[]);
 void place_matrix(const frame_place *, int n, int at, int own, double K[]);
@@ -780,9 +816,9 @@ void place_matrix(const frame_place *, int n, int at, int own, double K[]);
 void place_add(conserving *, const model_state *from, const model_state *now, int vertex,
                const double F[6], const double K[36], double out[]);
 
-/* Radau IIA with three stages (Hairer & Wanner II, IV.8), order 5, for q' = v, v' = a: the
- * positions of the stages are the unknowns, rotations by their vectors in the frame's axes,
- *   t_i' = 1/h sum_j B_ij t_j,  W_i = Jr(t_i) t_i',  a_i = 1/h sum_j B_ij (v_j - v),  B = A^-1.
+/* Radau IIA with three stages (Hairer & Wanner II, IV.8), order 5, for q' = v, v' = a. The
+ * positions of the stages are the unknowns, with rotations as vectors in the frame's axes:
+ *     t_i' = 1/h sum_j B_ij t_j,  W_i = Jr(t_i) t_i',  a_i = 1/h sum_j B_ij (v_j - v),  B = A^-1.
  * The mixed Newton iteration (Nijenhuis et al., section 4) solves all three stages together. */
 
 /* Allocates the integrator; an additional factorisation in each step gives an error estimate of
@@ -795,12 +831,12 @@ status radau_alloc(const scheme_request *, motion_scheme **, fault *);
 enum { STAGES = 3 };
 
 typedef struct stages_matrix {
-    sparse whole; /* 3 n; owns its pattern */
+    sparse whole; /* matrix with 3 n rows; owns its pattern */
     int n;
-    int *diagonal; /* [STAGES x n] where the column of the diagonal block begins */
+    int *diagonal; /* [STAGES x n] index where the column of the diagonal block starts */
 } stages_matrix;
 
-/* single: pattern of one block; whole: of all three stages. */
+/* Creates the pattern of all three stages. single: pattern of one block. */
 status stages_alloc(const equations *, const carried_masses *, const sparse *single,
                     stages_matrix *, fault *);
 void stages_free(stages_matrix *);
@@ -840,15 +876,15 @@ typedef struct radau {
     int free, all;
     long counted, counted_single;
 } radau;
-/* Integrals of feedback in all stages. */
+/* Computes the integrals of feedback in all stages. */
 void radau_integrate(radau *, const instant *from, double h, const step_record *);
 
-/* radau_equations.c */
+/* Functions of radau_equations.c. */
 /* Sets nodes, weights and B of the scheme. */
 void radau_coefficients(radau *);
 /* Time of a stage [s]; for the last stage exactly the requested end of the step. */
 double radau_time(const radau *, const instant *from, double h, int stage, const step_record *);
-/* v and a of all stages from their increments. */
+/* Computes v and a of all stages from their increments. */
 void radau_rates(radau *, const instant *from, double h);
 /* Derivatives of the rates (rate) and accelerations of stage i with respect to spatial increments
  * of a vertex in stage k: scalars for translations, [3 x 3] for its rotation, in the axes of its
@@ -862,17 +898,19 @@ void radau_relate(const radau *, int vertex, double h, int i, int k, radau_relat
 /* Computes the residual of all stages in their present states, and S if fresh is 1. */
 status radau_equations(radau *, int fresh, const instant *from, double h, step_record *, fault *);
 
-/* Energy dissipated by damping in a solved step [J]; room[elements x strains]. */
+/* Returns the energy that damping dissipates in a solved step [J]. room[elements x strains]:
+ * work space. */
 double radau_dissipated(const radau *, const instant *from, double h, double room[]);
 /* Adds damping to the stresses of the model for radau_error, with strain rates -sum e_i (strains
  * gained)/h and tangent g, until damping_follow changes it. room[elements x strains]. */
 void radau_damp_error(const radau *, const instant *from, double h, const double e[STAGES],
                       double g, double room[]);
 
-/* Masses of member ends that are released from their nodes. They move with the coordinates of the
- * node's body and with the released rotations and shifts (harness/model/model.h). */
+/* Masses of member ends that are released from their nodes. These masses move with the
+ * coordinates of the node's body and with the released rotations and shifts
+ * (harness/model/model.h). */
 
-/* Coordinates that such an end, or any other vertex, depends on. */
+/* Coordinates on which the motion of a released end, or of any other vertex, depends. */
 typedef struct released_masses {
     int count, own; /* own: index of the first of its own coordinates */
     int body, ball; /* first of three rotations whose rates are an angular velocity: in the axes of
@@ -882,18 +920,18 @@ typedef struct released_masses {
 } released_masses;
 void released_columns(const model *, const model_state *, int vertex, released_masses *);
 
-/* As forms_rates and forms_add_force for nodes. */
+/* As forms_rates and forms_add_force, for released ends. */
 void released_rates(const model *, const model_state *, int vertex, const double v[],
                     const double a[], frame_rates *);
 void released_add_force(const model *, const model_state *, int vertex, const double F[6],
                         double out[]);
 
-/* Velocities of the frame, given own[6] of its mass (velocity of the centre, angular velocity in
- * the axes of the frame) and the first moment [kg m]. */
+/* Computes the velocities of the frame from own[6] of its mass (velocity of the centre, angular
+ * velocity in the axes of the frame) and the first moment of the mass [kg m]. */
 void released_moving(const double own[6], double mass, const double moment[3], frame_rates *);
 
-/* out[6 x count]: T with its columns multiplied by `plain`, and those of rotations in the axes of
- * body and end multiplied from the right by matrices [3 x 3]. */
+/* out[6 x count]: T with its columns multiplied by `plain`. Columns of rotations in the axes of
+ * the body and of the end are instead multiplied from the right by matrices [3 x 3]. */
 void released_motion(const released_masses *, double plain, const double body[9],
                      const double ball[9], double out[6 * KINEMATICS_MOST]);
 /* out[count x count] += T^T A motion */
@@ -911,24 +949,24 @@ typedef struct resume_control {
     extent extent;
 } resume_control;
 
-/* Stores the end for a motion of the scene that continues this one, or, after the last motion, for
- * another run (solve_options.keep_ends). Otherwise does nothing. */
+/* Stores the end of a motion: for a later motion of the scene that continues this one or, after
+ * the last motion, for another run (solve_options.keep_ends). Otherwise does nothing. */
 status resume_keep(const analysis_context *, int analysis, const instant *now,
                    const resume_control *, outcome_motion *, fault *);
-/* The stored end of another run from which the motion continues; NULL: none. */
+/* Returns the stored end of another run from which the motion continues; NULL: none. */
 const outcome_end *resume_given(const analysis_context *, int analysis);
-/* The end of an earlier motion of the scene. NOT_CONVERGED: that motion stopped early. */
+/* Finds the end of an earlier motion of the scene. NOT_CONVERGED: that motion stopped early. */
 status resume_before(const analysis_context *, int before, const outcome_end **, fault *);
 /* Sets the instant and the step control from that end. REFUSED: the end belongs to another mesh. */
 status resume_take(const analysis_context *, const outcome_end *, instant *now, resume_control *,
                    fault *);
 
-/* Consistent state of coordinates without inertia from positions and rates at one instant. */
+/* Consistent state of coordinates without inertia, from positions and rates at one instant. */
 
-/* Brings massless coordinates into equilibrium with the present loads and the gyroscopic moments of
- * the other rates, then computes accelerations (0 for massless coordinates). Coordinates whose
- * damping time exceeds a fraction of the step h [s] keep their positions; their rates establish
- * equilibrium. zero[free + driven]. NOT_CONVERGED: no equilibrium was found. */
+/* Brings massless coordinates into equilibrium with the present loads and the gyroscopic moments
+ * of the other rates, then computes accelerations (0 for massless coordinates). Coordinates
+ * whose damping time exceeds a fraction of the step h [s] keep their positions, and their rates
+ * establish equilibrium. zero[free + driven]: zeros. NOT_CONVERGED: no equilibrium was found. */
 status settle(motion_stage *, const double zero[], double h, instant *now, fault *);
 
 /* Inertia forces for reactions and section forces. */
@@ -939,11 +977,12 @@ typedef struct shares_motion {
     int spread;          /* 1: consistent masses of elements (element_spreads) */
 } shares_motion;
 
-/* F[6] += force and moment (about the node's frame) that accelerate the masses moved by a node. */
+/* F[6] += force and moment (about the node's frame) that accelerate the masses that the node
+ * moves. */
 status shares_node(const model *, const model_state *, const shares_motion *, int node, double F[6],
                    fault *);
-/* density[nodes][6]: force that accelerates the mass of one element if it moves as each of its
- * nodes does, per initial length, with the moment about that node. */
+/* density[nodes][6]: for each node, the force per initial length that accelerates the mass of
+ * one element if the whole element moves as that node does, with the moment about the node. */
 void shares_along(const model *, const model_state *, const shares_motion *, int element,
                   double density[ELEMENT_MAX_NODES][6]);
 /* ends[e][7] += inertia force on the share of one element's mass at its first (0) and last (1)
@@ -951,21 +990,21 @@ void shares_along(const model *, const model_state *, const shares_motion *, int
 void shares_ends(const model *, const model_state *, const shares_motion *, int element,
                  double ends[2][7]);
 
-/* Consistent masses of elements (element_type.spreads) instead of masses lumped at their nodes. The
- * inertia forces at the nodes of an element are transferred to the bodies that move the nodes, and
- * to released ends. If an element cannot be evaluated, all of its values are NaN. */
+/* Consistent masses of elements (element_type.spreads), used instead of masses lumped at their
+ * nodes. The inertia forces at the nodes of an element are transferred to the bodies that move
+ * the nodes, and to released ends. If an element cannot be evaluated, all of its values are NaN. */
 
 struct mesh_element;
 
 /* F[7 nodes]: inertia forces on the nodes of an element. */
 void spread_force(const model *, int element, const model_state *, const double v[],
                   const double a[], double F[]);
-/* As inertia_subtract, inertia_add_tangent and inertia_of for masses at frames. */
+/* As inertia_subtract, inertia_add_tangent and inertia_of, for consistent masses of elements. */
 void spread_subtract(const model *, const model_state *, const double v[], const double a[],
                      double damping, double out[]);
 void spread_add_tangent(const equations *, const model_state *, const double v[], const double a[],
                         double damping, const inertia_relation *, sparse *S);
-/* S += what K of the elements omits (inertia_output). */
+/* S += the terms that K of the elements omits (inertia_output). */
 void spread_add_omitted(const equations *, const model_state *, const double v[], const double a[],
                         double damping, sparse *S);
 void spread_add_balance(const model *, const model_state *, const double v[], double *kinetic,
@@ -985,18 +1024,18 @@ typedef struct spread_parts {
 } spread_parts;
 void spread_element(const model *, int element, const model_state *, const double v[],
                     const double a[], double damping, spread_parts *);
-/* The masses alone, in the undeformed state. */
+/* Computes the mass matrices alone, in the undeformed state. */
 void spread_masses(const model *, int element, const model_state *, spread_parts *);
 /* Motion of a body as a function of the coordinates: a factor for translations and warping, a
- * matrix for rotations; for a released end, spatial rotations of its body and of a ball joint,
- * factors for the rest. */
+ * matrix for rotations. For a released end: spatial rotations of its body and of a ball joint as
+ * matrices, and factors for the other coordinates. */
 typedef struct spread_motion {
     double plain, turn[9], ball[9];
 } spread_motion;
-/* For spatial increments of the coordinates. */
+/* Computes the motions for spatial increments of the coordinates. */
 void spread_place(const model *, const spread_parts *, spread_motion place[]);
-/* out[columns x columns] += A diag(motions); then transforms the rows of rotations to their
- * coordinates. */
+/* out[columns x columns] += A diag(motions). spread_rows transforms the rows of rotations to
+ * their coordinates. */
 void spread_times(const model *, const spread_parts *, const double A[],
                   const spread_motion motion[], double out[]);
 void spread_rows(const spread_parts *, double K[]);
