@@ -30,14 +30,14 @@
 
 /* Limit of a sequence of values on successively finer meshes, with its uncertainty.
  *
- * The limit is Richardson's extrapolation with the observed order of the last three meshes. If two
- * observed orders agree, its uncertainty is 1.25 times the change of the limit due to the last
- * mesh; otherwise it is 3 times the largest of the last changes. Of two estimates the larger one is
- * always used. Sources: Roache, Verification and Validation in Computational Science and
- * Engineering (1998), grid convergence index and its factors 1.25 and 3; Eca and Hoekstra, J.
- * Comput. Phys. 262 (2014) 104-130, range of the data, poor orders, noise; Phillips and Roy, J.
- * Fluids Eng. 136 (2014) 121401, limits of extrapolated limits; Oberkampf and Roy, Verification and
- * Validation in Scientific Computing (2010), chapter 8. */
+ * The limit is Richardson's extrapolation with the observed order of the last three meshes. If
+ * two observed orders agree, its uncertainty is 1.25 times the change in the limit when the last
+ * mesh is added. Otherwise the uncertainty is 3 times the largest of the last changes. Where
+ * there are two estimates, the larger one is used. Sources: Roache, Verification and Validation
+ * in Computational Science and Engineering (1998), grid convergence index and its factors 1.25
+ * and 3; Eca and Hoekstra, J. Comput. Phys. 262 (2014) 104-130, range of the data, poor orders,
+ * noise; Phillips and Roy, J. Fluids Eng. 136 (2014) 121401, limits of extrapolated limits;
+ * Oberkampf and Roy, Verification and Validation in Scientific Computing (2010), chapter 8. */
 
 /* Kind of a sequence, for information. A verdict depends only on the value and its uncertainty. */
 typedef enum limit_kind {
@@ -55,7 +55,7 @@ typedef struct limit_sequence {
     int count;           /* at most LIMIT_MESHES */
     const int *n;        /* [count] numbers of elements, in any order */
     const double *value; /* [count] values; those that are not finite are ignored */
-    double noise;        /* relative; NAN: not measured */
+    double noise;        /* relative noise of the values; NAN: not measured */
     /* the lowest and the highest possible order for the formulation and quantity */
     double nominal_order, highest_order;
     /* [unit of value] reference size if the limit may be zero; 0: relative to the limit */
@@ -65,12 +65,12 @@ typedef struct limit_sequence {
 typedef struct mesh_limit {
     limit_kind kind;
     double limit, limit_uncertainty; /* NAN, INFINITY: none */
-    /* NAN: no order observed; uncertainty: difference of the last two orders */
+    /* NAN: no order was observed; uncertainty: difference between the last two orders */
     double order, order_uncertainty;
     double earlier_order; /* order of the three meshes before the last two; NAN: none */
-    int order_turns;      /* 1: the middle one of these three orders is clearly the smallest or the
-                             largest */
-    double noise;         /* [unit of value] noise that was used */
+    int order_turns;      /* 1: the middle one of the last three orders is clearly the smallest
+                             or the largest */
+    double noise;         /* [unit of value] noise that was used for the limit */
     double last_change;   /* |last value - previous value|; NAN: only one mesh */
     /* coarsest mesh that was used, 0: none; number of meshes after thinning */
     int from, meshes;
@@ -79,14 +79,14 @@ typedef struct mesh_limit {
 mesh_limit limit_of(const limit_sequence *s);
 const char *limit_kind_name(limit_kind kind);
 
-/* A cell is one run: case, parameter point, formulation with options, and mesh. */
+/* A cell is one run of a case: a parameter point, a formulation with its options, and a mesh. */
 
 typedef struct cell_request {
-    const scene *
-        scene; /* valid, shared by all cells of a point; NULL: to be built from the members below */
+    const scene *scene; /* valid scene, shared by all cells of a point; NULL: to be built from the
+                           three members below */
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
-    scene_edit edit; /* ... these three */
+    scene_edit edit; /* ... the last of these members */
     const element_type *formulation;
     double option[ELEMENT_MAX_OPTIONS];
     solve_options solve;
@@ -94,16 +94,16 @@ typedef struct cell_request {
     int keep_all;
     unsigned omit; /* physics that the model omits: model_request */
     int threads;   /* threads for the loop over elements; 0, 1: one */
-    /* Called when the model is complete; returns 1 when the same problem has been solved. May be
-     * NULL. */
+    /* Called when the model is complete. Returns 1 when the same problem has already been
+     * solved. May be NULL. */
     int (*is_known)(void *context, const model *);
     void *context;
 } cell_request;
 
 typedef struct cell_result {
-    scene scene; /* the scene, if the cell built it; else empty */
+    scene scene; /* the scene, if the cell built it; otherwise empty */
     model_size size;
-    double mass; /* of the members [kg] */
+    double mass; /* mass of the members [kg] */
     counters counters;
     int left_out_lines;
     char **left_out;
@@ -117,8 +117,8 @@ void cell_formulation(cell_request *, const formulation *chosen);
 status cell_scene(const case_type *type, const double parameter[], const scene_edit *edit,
                   scene *out, fault *f);
 status cell_run(const cell_request *, cell_result *, fault *);
-/* Number of quantities with a value, also after a failed analysis: a missing value does not affect
- * the others. */
+/* Returns the number of quantities with a value, even if the analysis failed: a missing value
+ * does not affect the others. */
 int cell_values(const cell_result *);
 void cell_result_free(cell_result *);
 
@@ -130,11 +130,11 @@ enum { IMPORTED_UNIT = 48, IMPORTED_FILE = 256, IMPORTED_WORD = 48 };
 /* A value in the units of the case: value = factor * (value in the file). */
 typedef struct imported_row {
     int line;               /* line of the file */
-    int elements, unknowns; /* unknowns: 0: not given */
+    int elements, unknowns; /* numbers of elements and of unknowns; 0: not given */
     char quantity[SCENE_NAME];
-    char unit[IMPORTED_UNIT]; /* as in the file */
+    char unit[IMPORTED_UNIT]; /* unit given in the file */
     double factor;
-    double seconds;            /* time of the solution as given in the file; NAN: not given */
+    double seconds;            /* time of the solution that the file gives; NAN: not given */
     double x;                  /* [SI] abscissa of a curve; NAN: no curve */
     double value, uncertainty; /* [unit of the quantity]; uncertainty NAN: not given */
 } imported_row;
@@ -142,11 +142,11 @@ typedef struct imported_row {
 typedef struct imported {
     char program[FORMULATION_KEY]; /* name of the program, used like the key of a formulation */
     char file[IMPORTED_FILE];
-    /* "beam": the same model as the beams; else a different model, whose difference is a model
-     * error */
+    /* "beam": the same model as the beams; any other word: a different model, whose difference
+     * from the beams is a model error */
     char model[IMPORTED_WORD];
     char convention[IMPORTED_WORD]; /* convention of moments; empty: not given */
-    char version[IMPORTED_WORD];    /* of the program; empty: not given */
+    char version[IMPORTED_WORD];    /* version of the program; empty: not given */
     int gates;                      /* 1: verdicts on these values affect the exit status */
     int rows;
     imported_row *row;
@@ -162,27 +162,29 @@ void imported_free(imported *); /* may be NULL */
 
 typedef struct omission {
     unsigned what;          /* FEATURE_* and OMIT_* bits (model.h); 0: nothing */
-    char words[OMIT_WORDS]; /* the same in words, as stored in results */
-    int other;              /* 1: another model */
-    int exact;     /* 1: sections have no such physics, or the analyses do not depend on it */
+    char words[OMIT_WORDS]; /* the same as text, as stored in results */
+    int other;              /* 1: the formulation solves another model */
+    int exact;     /* 1: the values do not change, because the sections have no such physics or
+                      the analyses do not depend on it */
     double change; /* upper bound of the relative change of values of the scene; NAN: unknown */
     char quantity[SCENE_NAME]; /* quantity with the largest change; empty: none */
     char why[FAULT_TEXT];      /* why the bound is unknown */
 } omission;
 
-/* Finds the physics of a scene that the type omits. If no formulation of the program includes all
- * of it, or the one that does finds no values, the bound is unknown and the model counts as another
- * one. */
+/* Finds the physics of a scene that the type omits, and bounds the resulting change. If no
+ * formulation of the program includes all of this physics, or if the one that does finds no
+ * values, the bound is unknown and the model counts as another one. */
 void omission_of(const scene *, const element_type *, omission *out);
-/* "without shear: changes no value by more than 2e-06", "another model: shear is not modelled
- * (changes frequency_1 by about 16 %)". */
+/* Writes "without shear: changes no value by more than 2e-06", or "another model: shear is not
+ * modelled (changes frequency_1 by about 16 %)". */
 enum { OMISSION_TEXT = OMIT_WORDS + SCENE_NAME + FAULT_TEXT + 80 };
 void omission_words(const omission *, char text[OMISSION_TEXT]);
 
 /* The list of known deviations (reference/findings.csv): expected verdicts other than pass, one
  * rule for each cause. */
 
-/* Lists are words separated by blanks, with * and ? as wildcards; at least one word must match. */
+/* Lists are words separated by blanks, with * and ? as wildcards; a list matches if one of its
+ * words does. */
 typedef struct rule {
     char *name;         /* one word */
     char *formulations; /* list: name with options ("beamw:mass=lumped"), or the bare name */
@@ -192,24 +194,24 @@ typedef struct rule {
     char *verdicts;     /* "wrong limit|undecided" */
     char *predicted;    /* list of "case/quantity" with a derived limit; empty: none */
     char *cause, *proof;
-    /* largest relative difference of the limit from the derived limit, or from the reference value
-     * if none was derived; the rule does not cover larger differences */
+    /* largest relative difference between the limit and the derived limit, or the reference
+     * value if no limit was derived; the rule does not cover larger differences */
     double largest_error;
     char *from;   /* of a user's table: "file:line"; NULL: of the list of known deviations */
     int missed;   /* set by judgement: 1: the run should have shown this deviation but did not */
     int observed; /* set by judgement: number of verdicts that the rule explains */
-    unsigned foretold; /* set by judgement: bits of the derived limits that were confirmed */
+    unsigned foretold; /* set by judgement: bits of the derived limits that verdicts confirmed */
 } rule;
 
 /* Attributes by which rules are matched. */
 typedef struct rule_subject {
     const case_type *type;
     const double *parameter;
-    unsigned features; /* enum element_feature: physics that the scene requires */
+    unsigned features; /* enum element_feature: bits of the physics that the scene requires */
     const char *formulation, *quantity, *verdict;
 } rule_subject;
 
-/* Is the formulation (given by its key) among those of the rule? */
+/* Returns 1 when the formulation (given by its key) is among those of the rule. */
 int rules_speak_of(const rule *, const char *formulation);
 
 /* The packed reference values and findings (reference/pack.py). */
@@ -220,41 +222,44 @@ typedef struct truth {
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
     int any[CASE_MAX_PARAMETERS]; /* 1: valid for any value of the parameter */
-    char *formulation;            /* "": value of the continuum */
-    int elements;                 /* 0: value of the continuum, or a limit (kind predicted) */
+    char *formulation;            /* "": value of the continuum; otherwise the formulation to
+                                     which the value belongs */
+    int elements;                 /* 0: value of the continuum, or a limit (kind predicted);
+                                     otherwise the number of elements to which the value belongs */
     char *theory, *quantity, *unit, *kind, *model, *convention, *source;
     int on_curve; /* 1: a point of a curve at abscissa `at` */
     double at;
     double value, uncertainty;
-    /* set by judgement: 1: the quantity of the row exists; 1: at least one formulation evaluates
-     * it */
+    /* set by judgement: met is 1 if the quantity of the row exists; judged is 1 if at least one
+     * formulation evaluates it */
     int met, judged;
 } truth;
 
 typedef struct truths {
-    int rows, rules, room; /* room: capacity in rows */
+    int rows, rules, room; /* numbers of rows and rules; capacity in rows */
     truth *row;
-    /* index of study_impl.h: first row of each case and quantity, and next row of the same
-     * quantity */
-    int indexed, places; /* number of rows in the index: the first ones */
+    /* index of study_impl.h: the first row of each case and quantity, and for each row the next
+     * one with the same quantity */
+    int indexed, places; /* number of indexed rows, which are the first ones */
     int *first, *next;   /* [places], [indexed] */
     rule *rule;          /* known deviations */
-    int strangers;       /* number of cases in the file that the program does not have */
+    int strangers;       /* number of cases in the file that this program does not have */
     char stranger[64];
 } truths;
 
-/* Reads all reference values. FAULT: a missing, truncated or foreign file, or a stale row (the
- * defaults of its case have changed since). Registers the formulations that affect the exit status
- * (formulations_accept). */
+/* Reads all reference values. FAULT: the file is missing, truncated or foreign, or a row is
+ * stale (the defaults of its case have changed since it was made). Registers the formulations
+ * that affect the exit status (formulations_accept). */
 status truths_read(const char *path, truths *out, fault *f);
 /* As truths_read, for one case (NULL: all). */
 status truths_read_case(const char *path, const case_type *type, truths *out, fault *f);
-/* As truths_read, only the known deviations and the formulations that affect the exit status. */
+/* As truths_read, but reads only the known deviations and the formulations that affect the exit
+ * status. */
 status truths_read_rules(const char *path, truths *out, fault *f);
 /* Adds the exact values at the extremes, which no verification runs. After a failure the previous
  * reference values remain. */
 status truths_read_extremes(const char *path, truths *out, fault *f);
-/* Adds a row of zeros; NULL: out of memory. */
+/* Adds a row of zeros and returns it; NULL: out of memory. */
 truth *truths_add(truths *, fault *f);
 void truths_free(truths *t);
 
@@ -267,13 +272,13 @@ typedef struct sweep_point {
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
     char text[PARAMETERS_TEXT]; /* parameters that differ from the defaults */
-    char name[16];              /* "default" or the first digits of the hash */
+    char name[16];              /* "default", or the first digits of the hash of the parameters */
     scene_edit edit;            /* edit that was applied to the scene */
     int steps;                  /* load steps between stations; 0: as in the scene */
     int condition;              /* 1: estimate the condition of the tangents */
     int shapes;                 /* largest number of states with stored centre lines; 0: none */
     int whole_steps;            /* 1: time steps are not halved on finer meshes */
-    scene scene;                /* scene of all its cells, with their quantities */
+    scene scene;                /* scene of all cells of the point, with their quantities */
     status status;              /* result of building the scene */
     char reason[FAULT_TEXT];
 } sweep_point;
@@ -281,22 +286,23 @@ typedef struct sweep_point {
 typedef struct series {
     int point;
     formulation formulation;
-    /* required features that the formulation does not support; empty: the formulation runs ... */
+    /* required features that the formulation does not support; if empty, the formulation runs
+     * ... */
     char missing[200];
     omission without; /* ... without this physics, as a different model if that matters */
     int meshes, mesh[SERIES_MAX_MESHES];
-    cell_result *cell; /* [meshes]; their scenes are empty, see the point */
-    /* [quantities] relative scatter on the finest mesh; NULL: not measured */
+    cell_result *cell; /* [meshes]; their scenes are empty: the point owns the scene */
+    /* [quantities] relative scatter of the values on the finest mesh; NULL: not measured */
     double *noise;
     struct cell_timing *timing; /* [meshes] times of a benchmark, else NULL */
     imported *imported;         /* results of another program, whose cells are not run; else NULL */
 } series;
 
 typedef struct sweep {
-    /* selection of the request; unselected quantities are not evaluated; NULL: all are selected */
+    /* selection in the request; unselected quantities are not evaluated; NULL: all are selected */
     const char *select;
-    /* arrays of the request, not copied: its cases (NULL: planned by hand), and its formulations if
-     * restricted */
+    /* arrays of the request, not copied: its cases (NULL: the sweep was planned by hand), and
+     * its formulations if it restricts them */
     const case_type *const *cases;
     const formulation *given;
     int givens;
@@ -307,9 +313,9 @@ typedef struct sweep {
     int values_only;  /* 1: values needed only for curves and matrices are not computed */
     int doublings;    /* as in the request */
     int threads;      /* threads for the loop over elements in every cell; 0, 1: one */
-    int unfinished;   /* number of cells that an interrupted run did not finish; their series have
-                         been removed */
-    int partial;      /* 1: batches are missing; the run was not interrupted */
+    int unfinished;   /* number of cells that an interrupted run did not finish; their series
+                         were removed */
+    int partial;      /* 1: batches are missing, although the run was not interrupted */
     int points, seriess;
     sweep_point *point;
     series *series;
@@ -360,12 +366,12 @@ enum { SWEEP_TEXT = PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT };
 void sweep_text(const sweep_point *, const formulation *, const char *quantity,
                 char text[SWEEP_TEXT]);
 
-/* Returns 1 when the verdicts of a series affect the exit status: this holds for accepted, named or
- * loaded formulations and, on request, for other programs. */
+/* Returns 1 when the verdicts of a series affect the exit status. This holds for accepted, named
+ * or loaded formulations and, on request, for other programs. */
 int sweep_gates(const sweep *, const series *);
-/* Request for one mesh of a series. */
+/* Returns the request for one mesh of a series. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
-int sweep_cells(const sweep *s); /* number of cells that are run here */
+int sweep_cells(const sweep *s); /* returns the number of cells that are run here */
 void sweep_series_free(series *);
 void sweep_free(sweep *s);
 
@@ -375,7 +381,7 @@ typedef enum verdict_kind {
     VERDICT_PASS,
     VERDICT_BIASED,      /* within the tolerance, but a significantly different limit */
     VERDICT_WRONG_LIMIT, /* a limit significantly outside the tolerance */
-    /* the same two if the limit equals the one derived for the formulation */
+    /* the preceding two, if the limit equals the limit derived for the formulation */
     VERDICT_BIASED_AS_PREDICTED,
     VERDICT_WRONG_AS_PREDICTED,
     VERDICT_LOW_ORDER,
@@ -393,7 +399,7 @@ typedef struct verdict {
     verdict_kind kind, expected;
     /* reference value of the same model and shear theory; NULL: none */
     const truth *truth;
-    /* for information only, if there is no such reference value: a value of another model or
+    /* if there is no such reference value, for information only: a value of another model or
      * theory, or a cross-formulation agreement; NULL: none */
     const truth *model_truth;
     const truth *theory_truth; /* if there is no such reference value: that of another shear
@@ -406,8 +412,8 @@ typedef struct verdict {
     /* (limit - truth)/truth, or relative to near_zero if the reference value is near zero; NAN:
      * none */
     double error;
-    double departure;   /* relative difference of the limit from the derived limit, or from the
-                           reference value if none was derived */
+    double departure;   /* relative difference between the limit and the derived limit, or the
+                           reference value if no limit was derived */
     double model_error; /* relative difference from the reference value of another model */
     /* absolute, including the uncertainty of the reference value and the effect of omitted
      * physics */
@@ -423,23 +429,23 @@ typedef struct verdict {
 } verdict;
 
 const char *verdict_name(verdict_kind kind);
-/* Limit of a quantity of a series, without its `left_out` finest meshes. */
-/* Number of meshes up to the finest one with a value of the quantity: another program may give the
- * quantity on fewer meshes. */
+/* Computes the limit of a quantity of a series without its `left_out` finest meshes. */
+/* Returns the number of meshes up to the finest one that has a value of the quantity. Another
+ * program may give the quantity on fewer meshes. */
 int verdict_meshes(const series *, int quantity);
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
-/* Reference value by which a formulation is evaluated, for the same model and its shear theory;
- * NULL: none. */
+/* Returns the reference value by which a formulation is evaluated, for the same model and the
+ * shear theory of the formulation; NULL: none. */
 const truth *verdict_truth(const truths *t, const sweep_point *p, const formulation *chosen,
                            int quantity);
-/* As verdict_truth; if there is none, the cross-formulation agreement, which is informative and
- * never affects the exit status. */
+/* As verdict_truth. If there is none, returns the cross-formulation agreement, which is
+ * informative and never affects the exit status. */
 const truth *verdict_reference(const truths *t, const sweep_point *p, const formulation *chosen,
                                int quantity);
-/* Evaluates the quantity and series of v: sets kind, fit and errors, and `matches` if the verdict
- * is as expected without known deviations. */
+/* Evaluates the quantity and series of v. Sets its kind, fit and errors, and sets `matches` if
+ * the verdict is as expected without known deviations. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
-/* Relative error of a value of a quantity with respect to a reference value. */
+/* Returns the relative error of a value of a quantity with respect to a reference value. */
 double verdict_error(const scene_quantity *q, double value, double truth_value);
 
 /* Evaluation of all runs (case, point, formulation, quantity) against reference values and expected
@@ -467,20 +473,22 @@ typedef struct breach {
 
 /* A mesh or a series with worse results than in a previous run. */
 typedef struct regression {
-    char of[FAULT_TEXT]; /* case/parameters/formulation and mesh */
+    char of[FAULT_TEXT]; /* case/parameters/formulation, and mesh */
     char why[FAULT_TEXT];
 } regression;
 
 enum { COVERAGE_MESHES = 4 };
 
-/* How often the limits of a formulation on a case, computed without the k finest meshes, lie within
- * their uncertainty of an exact reference value. This checks the uncertainties. A formulation with
- * biased limits has a low coverage for that reason, which is not a fault of the uncertainties. */
+/* Counts how often the limits of a formulation on a case, computed without the k finest meshes,
+ * are within their uncertainty of an exact reference value. This is a check of the
+ * uncertainties. If a formulation has biased limits, its coverage is low for that reason, and
+ * the uncertainties are not at fault. */
 typedef struct coverage {
     const case_type *of;
     const element_type *type;
     int point; /* first point of the case in the sweep */
-    /* [k] number of series with at least three meshes left, and of covered limits */
+    /* [k] number of series with at least three meshes left, and number of their limits that are
+     * covered */
     int series[COVERAGE_MESHES], covered[COVERAGE_MESHES];
 } coverage;
 
@@ -495,49 +503,51 @@ typedef struct judgement {
     int regressions;
     regression *regression; /* [regressions] */
     int by_kind[VERDICT_KINDS];
-    int unexpected; /* verdicts that differ from the expected one */
+    int unexpected; /* number of verdicts that differ from the expected one */
     int is_new;   /* number of verdicts of new formulations, which do not affect the exit status ...
                    */
     int proposed; /* ... and how many of them would need a known deviation */
     int disagreements;
     int judged; /* number of verdicts with a reference value */
-    /* number of rules that no verdict matched, or whose derived limits no verdict confirmed: in the
-     * built-in list (complete runs only), in user tables (study_impl.h) */
+    /* number of rules that no verdict matched, or whose derived limits no verdict confirmed: in
+     * the built-in list (complete runs only), and in user tables (study_impl.h) */
     int unobserved;
-    int unmet; /* number of reference values without a case, point or quantity (complete runs only)
-                */
-    /* number of reference values that every formulation skips, or whose formulation is not loaded
-     * (complete runs only) */
+    int unmet; /* number of reference values whose case, point or quantity does not exist
+                  (complete runs only) */
+    /* number of reference values that every formulation skips, or whose formulation is not
+     * loaded (complete runs only) */
     int waiting;
-    int unread; /* number of reference values of motions at instants that the run does not evaluate
-                   (complete runs only) */
+    int unread; /* number of reference values at instants of a motion that the run does not
+                   evaluate (complete runs only) */
 } judgement;
 
-/* Returns 1 when verdicts of the series may depend on the scatter of its finest mesh, which should
+/* Returns 1 when verdicts on the series may depend on the scatter of its finest mesh, which must
  * then be measured. */
 int judgement_doubts(const sweep *s, const truths *t, int series_index);
 /* Starts an evaluation; the planned series are evaluated in order after they have run. FAULT: the
  * unit of a reference value is not that of its quantity. */
 status judgement_begin(const sweep *s, truths *t, judgement *out, fault *f);
 status judgement_add(const sweep *s, truths *t, int series_index, judgement *out, fault *f);
-/* whole: 1 when no selection was made; then unobserved rules and reference values without a
- * quantity are failures. */
+/* whole 1: no selection was made. Unobserved rules, and reference values whose quantity does not
+ * exist, are then failures. */
 void judgement_end(const sweep *s, truths *t, int whole, judgement *out);
 /* Calls judgement_begin, judgement_add for every series, and judgement_end. */
 status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f);
 void judgement_free(judgement *j);
 enum { JUDGED_AS_EXPECTED = 0, JUDGED_DIFFERS = 1, JUDGED_NOTHING = 3 };
-/* Exit status: 0 as expected, 1 some verdict that counts differs from the expected one, 3 nothing
- * was evaluated. No other function determines the exit status. */
+/* Returns the exit status: 0 if all verdicts are as expected, 1 if a verdict that counts differs
+ * from the expected one, 3 if nothing was evaluated. No other function determines the exit
+ * status. */
 int judgement_exit(const judgement *j);
-/* "pass", "fail", "nothing was evaluated". */
+/* Returns "pass", "fail" or "nothing was evaluated". */
 const char *judgement_outcome(const judgement *j);
 
-/* Largest extent of the positions of nodes [m]. */
+/* Returns the largest extent of the positions of nodes [m]. */
 double change_size(const scene *);
-/* Scale of a quantity [its unit]. Round-off is small compared with this scale, which is 1e-14 for
- * strains, 1e-12 for rotations and (times the size of the structure) for lengths, and 1e-9 of other
- * values in the same unit. */
+/* Returns the scale of a quantity [its unit], below which values may be round-off. It is the
+ * largest of the quantity's near_zero, 1e-9 times the other values in the same unit, and a
+ * physical scale: 1e-14 for strains, 1e-12 for rotations, 1e-12 times the size of the structure
+ * for lengths. */
 double change_scale(const scene *s, int quantity, const solve_result *r);
 
 /* Last line of a beamwork file, with its length and checksum. The checksum reveals truncated,
@@ -550,7 +560,7 @@ void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1]
 /* Computes the checksum line of a file that does not contain one. FAULT: the file cannot be
  * read. */
 status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f);
-/* FAULT: the file is missing, foreign, or altered. */
+/* FAULT: the file is missing, is not a beamwork file, or was altered. */
 status checksum_check(const char *path, fault *f);
 
 /* A child process that works for its parent. The child ends when its parent ends, and enforces its
@@ -561,13 +571,13 @@ status checksum_check(const char *path, fault *f);
 void child_begin(pid_t parent);
 /* Sets the remaining time of the child [s]; 0: no limit. */
 void child_alarm(int seconds);
-/* Call in the parent. Returns 1 when the child has ended; does not reap it. */
+/* Call in the parent. Returns 1 when the child has ended; the child is not reaped. */
 int child_is_gone(pid_t process);
-/* Call in the parent. Waits for at most two seconds, then kills the child; reaps the child and
+/* Call in the parent. Waits for at most two seconds, then kills the child. Reaps the child and
  * returns its status from waitpid. */
 int child_reap(pid_t process);
-/* Call in the parent: describes in words how the child ended (status from waitpid); late: it was
- * killed after the time limit. Returns 1 when the time limit was the reason. */
+/* Call in the parent. Describes how the child ended. how: status from waitpid. late 1: the child
+ * was killed after the time limit. Returns 1 when the time limit was the reason. */
 int child_ended(int how, int late, int seconds, char *words, size_t size);
 
 typedef struct claims claims;
@@ -584,41 +594,43 @@ typedef struct table_columns {
 
 typedef struct columns_field {
     const char *column;
-    int is_text; /* 1: char *, allocated by malloc; 0: double */
+    int is_text; /* 1: char *, allocated with malloc; 0: double */
     size_t offset;
 } columns_field;
 
-/* FAULT: the column is missing or damaged. */
+/* Returns FAULT: the column is missing or damaged. */
 status columns_broken(const table_columns *r, const char *column);
-/* Number of rows of a column, or -1. */
+/* Returns the number of rows of a column, or -1 if there is no such column. */
 int columns_length(hid_t group, const char *column);
-/* Reads one column into a member of an array of structs base[rows]. After a failure it contains the
- * strings read so far. */
+/* Reads one column into a member of an array of structs base[rows]. After a failure the array
+ * contains the strings read so far. */
 status columns_read(const table_columns *r, const columns_field *field, void *base, size_t stride);
 
-/* Difference between curves of one quantity: of several meshes, or of two formulations. */
+/* Difference between two curves of one quantity, of two meshes or of two formulations. */
 
-/* Largest difference over the common points, relative to the largest value of the second curve; at
- * (may be NULL): the point where it occurs. Points of a path with given stations are matched by
- * number, other points by abscissa. NAN: no common points, or `one` does not reach the end. */
+/* Returns the largest difference over the common points, relative to the largest value of the
+ * second curve; NAN: there are no common points, or `one` does not reach the end. at (may be
+ * NULL): point of the largest difference. Points of a path with given stations are matched by
+ * number, other points by abscissa. */
 double curve_error_between(const scene *s, int quantity, const solve_result *one,
                            const solve_result *two, int *at);
-/* Finest mesh of a series that has the whole curve; -1: none. */
+/* Returns the index of the finest mesh of a series that has the whole curve; -1: none. */
 int curve_error_finest(const series *, int quantity);
-/* Series with which the others are compared: the one whose curve changed least when its last mesh
- * was added; -1: none. */
+/* Returns the index of the series with which the others are compared: the one whose curve
+ * changed least when its last mesh was added; -1: none. */
 int curve_error_reference(const sweep *, int quantity);
 
 /* Location of data files: reference values, and programs that compute them. */
 
-/* Searches next to the program or shared library, in the folder above (a clone), in share/beamwork
- * of the installation prefix, and of the prefix set at build time. Returns 0 when none exists; the
- * path is then next to the program. */
+/* Finds a data file or folder. Searches next to the program or shared library, in the folder
+ * above it (a clone), in share/beamwork of the installation prefix, and in that of the prefix
+ * set at build time. Returns 0 if it is in none of these; the path is then the one next to the
+ * program. */
 int data_place(const char *name, char path[PATH_MAX]);
-/* Path of the packed reference values: BEAMWORK_TRUTHS, or from data_place. */
+/* Path of the packed reference values: that in BEAMWORK_TRUTHS, or else from data_place. */
 void data_place_truths(char path[PATH_MAX]);
-/* Makes beamwork_element.py available to processes that are started later: appends its folder, if
- * it exists, to PYTHONPATH. Python then writes no compiled files. */
+/* Makes beamwork_element.py available to Python processes that are started later: appends its
+ * folder, if it exists, to PYTHONPATH. Also prevents Python from writing compiled files. */
 void data_place_modules(void);
 
 /* Reference values at new parameter points, computed on demand by the programs of reference/derive,
@@ -629,45 +641,47 @@ typedef struct derived_value {
     double value, uncertainty; /* [unit] */
 } derived_value;
 
-/* Path of a program of reference/derive: in BEAMWORK_REFERENCE, or with the data. FAULT: the path
- * is too long. */
+/* Path of a program of reference/derive, in the folder BEAMWORK_REFERENCE or with the other
+ * data. FAULT: the path is too long. */
 status derive_script(const char *name, char out[PATH_MAX], fault *f);
-/* Runs `script CASE PARAMETERS`. REFUSED: no program computes the case or the parameters; f
- * contains its message. FAULT: the script could not be run, or its output is invalid. *out:
- * allocated by malloc. */
+/* Runs `script CASE PARAMETERS`. *out: the values, allocated with malloc. REFUSED: no program
+ * computes the case, or its parameters are not supported; the fault contains the message of the
+ * program. FAULT: the script could not be run, or its output is invalid. */
 status derive_values(const char *script, const char *case_name, const char *parameters,
                      derived_value **out, int *count, fault *f);
-/* As derive_values, with a scene in the form of write_scene on the standard input of `script`. The
- * script lists what it cannot compute on standard error, one per line. */
+/* As derive_values, with a scene in the format of write_scene on the standard input of `script`.
+ * The script lists what it cannot compute on standard error, one item per line. */
 status derive_scene(const char *script, FILE *scene_text, derived_value **out, int *count,
                     fault *f);
 
 enum { WORKERS_MOST = 64 };
 
-/* Estimated cost [s]; elements: per member. */
+/* Returns the estimated cost [s]; elements: number per member. */
 double expense_of_scene(const scene *s, int steps, const element_type *type, int elements);
 double expense_of_cell(const sweep *s, int index, int mesh);
 
-/* Writes why there is no agreement, and which formulation could provide one. */
+/* Writes the reason why there is no agreement, and which formulation could provide one. */
 void families_why(FILE *to, const sweep *s, int point_index, int quantity, const truths *);
-/* Adds a reference value of kind agreement for every quantity of a point that has no reference
- * value of its model. files_only 1: for scene files only, not for built-in cases. */
+/* For every quantity of a point without a reference value of its model, adds the
+ * cross-formulation agreement as a reference value of kind agreement. files_only 1: only for
+ * scene files, not for built-in cases. */
 status families_add_truths(const sweep *s, int files_only, truths *t, fault *f);
-/* As families_add_truths for one point, when all its series are complete. */
+/* As families_add_truths, for one point; call when all its series are complete. */
 status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f);
-/* Reserves memory for all rows that can be added, because verdicts refer to rows by address. */
+/* Reserves memory for all rows that can be added, because verdicts point to rows. */
 status families_reserve(const sweep *s, int files_only, truths *t, fault *f);
 
 /* Follows modes over a parameter of a case.
  *
- * Modes of neighbouring values are matched by the modal assurance criterion with the mass matrix M
- * at the new value, (v^T M w)^2/((v^T M v)(w^T M w)), which is 1 for equal shapes. If a match is
- * below 0.9 the step is halved. Shapes of equal frequencies are not unique: the previous shape is
- * projected into their space. Frequencies of followed modes then cross, or veer: they avoid each
- * other while their shapes are exchanged. */
+ * Modes at neighbouring values are matched by the modal assurance criterion with the mass matrix
+ * M at the new value, (v^T M w)^2/((v^T M v)(w^T M w)), which is 1 for equal shapes. If a match
+ * is below 0.9, the step is halved. Shapes of equal frequencies are not unique; the previous
+ * shape is therefore projected onto their space. Frequencies of followed modes may cross, or
+ * they may veer: they approach and separate again while their shapes are exchanged. */
 
 typedef struct follow_request {
-    cell_request cell; /* with the type and its parameters; the analyses to solve are set here */
+    cell_request cell; /* cell with the type and its parameters; follow_run sets the analyses to
+                          solve */
     int parameter;     /* index of the parameter that varies */
     double from, to;
     int parts; /* minimum number of equal intervals */
@@ -675,13 +689,13 @@ typedef struct follow_request {
 
 typedef struct follow_sample {
     double value;      /* value of the parameter */
-    int asked;         /* 0: a value added between two requested ones */
+    int asked;         /* 1: requested; 0: added between two requested values */
     double *frequency; /* [modes] [Hz] */
     double *match;     /* [modes] match with the previous sample; 1 for the first */
 } follow_sample;
 
 typedef struct follow_event {
-    int crossing; /* 0: veering */
+    int crossing; /* 1: crossing; 0: veering */
     int mode[2];
     double value;     /* value of the parameter */
     double frequency; /* [Hz] mean of both modes */
@@ -695,8 +709,8 @@ typedef struct follow_curves {
 } follow_curves;
 
 /* Follows as many modes as the first modal analysis has frequency quantities, starting with the
- * lowest at `from`. REFUSED: no modal analysis, or the coordinates change with the parameter;
- * NOT_CONVERGED: a mode cannot be followed even with small steps. */
+ * lowest ones at `from`. REFUSED: there is no modal analysis, or the coordinates change with the
+ * parameter. NOT_CONVERGED: a mode cannot be followed even with small steps. */
 status follow_run(const follow_request *, follow_curves *, fault *);
 void follow_free(follow_curves *);
 
@@ -721,12 +735,12 @@ enum { GLOSSARY_WORD = 128 };
 /* FAULT: the packed reference values are missing or damaged, or contain no glossary. */
 status glossary_read(const char *path, glossary *out, fault *f);
 void glossary_free(glossary *);
-/* Finds the entry with this term or alternative name. Ignores case, and treats '_' and '-' as
+/* Finds the entry with this term or alternative name. Case is ignored, and '_' and '-' count as
  * blanks. NULL: none. */
 const glossary_entry *glossary_find(const glossary *, const char *word);
-/* Does glossary_find treat the two words as equal? */
+/* Returns 1 when glossary_find treats the two words as equal. */
 int glossary_same(const char *a, const char *b);
-/* Copies part `index` of "a|b|c"; returns 0 when there are fewer parts. */
+/* Copies part number `index` of "a|b|c"; returns 0 when there are not that many parts. */
 int glossary_part(const char *list, int index, char word[GLOSSARY_WORD]);
 
 /* HDF5 handles. */
@@ -739,65 +753,65 @@ static inline void handles_close(int count, const hid_t handle[])
             H5Idec_ref(handle[i]);
 }
 
-/* Makes requests to end (Ctrl-C, SIGTERM, SIGHUP) available as a descriptor on which a process can
- * wait together with its workers. */
+/* Makes requests to stop (Ctrl-C, SIGTERM, SIGHUP) available on a descriptor, on which a process
+ * can wait for them and for its workers at the same time. */
 
 typedef struct interrupt {
     int descriptor;  /* becomes readable when a request arrives; -1: none */
     sigset_t before; /* signal mask that interrupt_end restores */
 } interrupt;
 
-/* From here on requests are held until read, in this process and in those that it starts. Ignored
- * signals (nohup) stay ignored. */
+/* After this call, requests stay pending until they are read, in this process and in those that
+ * it starts. Signals that were ignored (nohup) stay ignored. */
 void interrupt_begin(interrupt *);
-/* Restores the mask: another request then ends the process at once. */
+/* Restores the signal mask: another request then ends the process at once. */
 void interrupt_end(interrupt *);
 
-/* Compares two formulations at equal error: the number of elements that each needs. */
+/* Compares two formulations at equal error: how many elements each one needs. */
 
 /* Result for series 0 and 1 of a sweep with one point. */
 typedef struct meeting {
-    int mesh[2];     /* index of the coarsest mesh at and above which all quantities meet the error
-                        target;     -1: none */
+    int mesh[2];     /* index of the coarsest mesh from which on all quantities meet the error
+                        target; -1: none */
     double error[2]; /* largest relative error on that mesh; NAN: none */
 } meeting;
 
-/* Does the comparison include the quantity? Both series need a reference value or an agreement, and
- * the quantity must not be a curve. */
+/* Returns 1 when the comparison includes the quantity. Both series need a reference value or an
+ * agreement, and the quantity must not be a curve. */
 int meeting_asks(const sweep *s, const truths *t, int quantity);
-/* Number of quantities in the comparison. */
+/* Returns the number of quantities in the comparison. */
 int meeting_asked(const sweep *s, const truths *t);
 /* Compares at the relative error target `level`, for all quantities in the comparison. */
 meeting meeting_at(const sweep *s, const truths *t, double level);
-/* Do both series meet the target? */
+/* Returns 1 when both series meet the target. */
 int meeting_holds(const meeting *);
 
 /* Reduces the last point of a planned sweep to the selected quantities and formulations. */
 
 /* Call before the run. Keeps the quantities and the formulations that appear in at least one
- * selected combination (formulations/formulations.h; NULL: all). REFUSED: the selection is
- * malformed, has a word that matches no name, or selects nothing. */
+ * selected combination (formulations/formulations.h). select NULL: keeps all. REFUSED: the
+ * selection is malformed, has a word that matches no name, or selects nothing. */
 status narrow_to(sweep *s, const char *select, fault *f);
-/* As narrow_to, for a scene before planning. Its formulation may be undecided (type NULL): words
- * that may name a formulation then change nothing. */
+/* As narrow_to, for a scene before planning. If its formulation is undecided (type NULL), words
+ * that may name a formulation change nothing. */
 status narrow_scene(scene *, const case_type *, const double parameter[], const formulation *,
                     const char *select, fault *);
 
-int noise_cells(const sweep *s); /* number of cells run to measure scatter */
+int noise_cells(const sweep *s); /* returns the number of cells run to measure scatter */
 
 /* Overview of a run: the worst verdict for each case and formulation over all parameter points, and
  * the number of quantities that have it. */
 
 /* In increasing order of severity. */
 typedef enum overview_mark {
-    OVERVIEW_NOTHING, /* skipped, or no reference value */
+    OVERVIEW_NOTHING, /* nothing was evaluated: skipped, or no reference value */
     OVERVIEW_OTHER_MODEL,
     OVERVIEW_PASS,
     OVERVIEW_LOW_ORDER,
     OVERVIEW_UNDECIDED,
     OVERVIEW_BIASED,
     OVERVIEW_WRONG,
-    OVERVIEW_NO_VALUE, /* no solution, or not applicable */
+    OVERVIEW_NO_VALUE, /* no value: no solution, or not applicable */
     OVERVIEW_FLAW,     /* an inconsistent run record, or a deviation from its stored value */
     OVERVIEW_MARKS
 } overview_mark;
@@ -814,7 +828,7 @@ typedef struct overview {
     int accepted; /* number of columns before those of new formulations, which do not affect the
                      exit status */
     const case_type **row;
-    const char **column; /* names; valid as long as the sweep */
+    const char **column; /* [columns] names; valid as long as the sweep */
     overview_cell *cell; /* [rows*columns] */
 } overview;
 
@@ -826,19 +840,21 @@ void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
 /* Returns 1 when the row has an evaluated run. */
 int overview_judged(const overview *, int row);
-/* Does the row get a line of its own? All rows do if there are few; otherwise passing cases share
- * lines, so that the table fits on one screen. */
+/* Returns 1 when the row gets a line of its own. All rows do if there are few. Otherwise passing
+ * cases share lines, so that the table fits on one screen. */
 int overview_shown(const overview *, int row);
-/* "ok", "~3", "!#2": readable without colour. utf8 1: uses characters outside ASCII. */
+/* Writes the mark as "ok", "~3" or "!#2", which is readable without colour. utf8 1: uses
+ * characters outside ASCII. */
 void overview_text(const overview_cell *, int utf8, char text[OVERVIEW_TEXT]);
-/* Description of the mark. */
+/* Returns a description of the mark. */
 const char *overview_words(overview_mark mark);
 
 /* Known deviations of the user's project: rules in addition to the built-in list, with the same
  * columns. */
 
-/* Adds the rules of a file to those of t; run: the cases of the run, NULL-terminated. Errors of the
- * file are reported to `m`, and their rows are skipped. FAULT: the file cannot be read. */
+/* Adds the rules of a file to those of t. run: the cases of the run, NULL-terminated. Errors in
+ * the file are reported to `m`, and the rows that contain them are skipped. FAULT: the file
+ * cannot be read. */
 status own_findings_read(const char *path, const case_type *const run[], truths *t, mistakes *m,
                          fault *f);
 
@@ -857,24 +873,24 @@ typedef struct own_table {
     own_table_row *row;
 } own_table;
 
-/* columns: their names in order, separated by commas, as the first line must list them. Errors in
- * lines are reported to `m`, and these lines are skipped. FAULT: the file cannot be read. The
- * caller frees *out in any case. */
+/* Reads a user table. columns: the column names in order, separated by commas, as the first line
+ * must list them. Errors in lines are reported to `m`, and these lines are skipped. FAULT: the
+ * file cannot be read. The caller frees *out in any case. */
 status own_table_read(const char *path, const char *columns, own_table *out, mistakes *m, fault *f);
 void own_table_free(own_table *);
 
 /* Reference values of the user's project in addition to the packed ones, with the columns of
  * reference/tables. */
 
-/* Adds the rows of a file to those of t; run: the cases of the run, NULL-terminated. only: the only
- * case to read; NULL: all cases. Errors of the file are reported to `m`, and their rows are
- * skipped. FAULT: the file cannot be read. */
+/* Adds the rows of a file to those of t. run: the cases of the run, NULL-terminated. only: the
+ * single case to read; NULL: all cases. Errors in the file are reported to `m`, and the rows
+ * that contain them are skipped. FAULT: the file cannot be read. */
 status own_truths_read(const char *path, const case_type *const run[], const case_type *only,
                        truths *t, mistakes *m, fault *f);
 
 /* Plans the cells of a verification. */
 
-/* Plans the default point and every point with a reference value. */
+/* Plans the default point and every point that has a reference value. */
 status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fault *f);
 /* Plans one point with the given formulations and meshes. */
 status plan_one(const case_type *type, const double value[], const formulation those[], int count,
@@ -886,14 +902,14 @@ status plan_add(sweep *s, const case_type *type, const double value[], const sce
 /* Adds a series to the last point, with the meshes of its scene. */
 status plan_extend(sweep *s, const formulation those[], int count, fault *f);
 
-/* Default formulation and mesh: a formulation that is right for the scene as far as is known
- * without a solution, and a number of elements with which its values have converged. */
+/* Default formulation and mesh: a formulation that is suitable for the scene as far as can be
+ * known without a solution, and a number of elements for which its values have converged. */
 
 /* Chooses a formulation that supports everything the scene requires, has the scene's shear
- * theory, and has no rule that says its limit of a quantity here is wrong or biased. Preference:
+ * theory, and has no rule by which the limit of a quantity here is wrong or biased. Preference:
  * fewest such rules for other quantities, then highest order in the requested quantities, then
- * name. rules NULL: no list of known deviations. REFUSED: no formulation supports what the scene
- * requires. why: one line that explains the choice. */
+ * name. rules NULL: no list of known deviations. REFUSED: no formulation supports everything the
+ * scene requires. why: one line with the reason for the choice. */
 status preference_formulation(const scene *, const rule_subject *where, const rule *rules,
                               int count, formulation *out, char why[FAULT_TEXT], fault *f);
 
@@ -903,9 +919,9 @@ status preference_formulation(const scene *, const rule_subject *where, const ru
 typedef struct preference {
     formulation chosen;
     int elements;
-    int short_of; /* 1: values of the finest mesh still change by more than requested */
-    double *
-        change; /* [quantities of the scene] relative change from the previous mesh; NAN: unknown */
+    int short_of;   /* 1: values still change by more than requested on the finest mesh */
+    double *change; /* [quantities of the scene] relative change from the previous mesh to the
+                       chosen one; NAN: unknown */
     char why_formulation[FAULT_TEXT], why_elements[FAULT_TEXT];
 } preference;
 void preference_free(preference *);
@@ -916,16 +932,16 @@ void preference_free(preference *);
 status preference_elements(const cell_request *, const formulation *chosen, double asked,
                            preference *out, fault *f);
 
-/* Chooses formulation and mesh together: of the formulations that preference_formulation ranks
- * equal to the first (at most five, two per family), takes the first one that converges. The mesh
- * with the lowest counted work is always solved next. request: the cell without formulation and
- * elements. */
+/* Chooses formulation and mesh together. Candidates are the formulations that
+ * preference_formulation ranks equal to the first one (at most five, two per family); the first
+ * candidate that converges is chosen. The mesh with the lowest counted work is always solved
+ * next. request: the cell without formulation and elements. */
 status preference_both(const cell_request *, const rule_subject *where, const rule *rules,
                        int count, double asked, preference *out, fault *f);
 
-/* Cost of a cell: its counted work, each count times a cost coefficient. Counts, and therefore
- * costs, are equal in every run and on every machine. Formulations are ranked by cost instead of
- * measured times, which scatter.
+/* Cost of a cell: each count of its work times a cost coefficient, summed. Counts, and therefore
+ * costs, are equal in every run and on every machine. Formulations are ranked by cost and not by
+ * measured times, because times scatter.
  *
  * The coefficients are fitted once to measured times (`make lab L=prices`) and stored in
  * harness/study/prices.csv, from which the build generates the table. A formulation without
@@ -933,10 +949,10 @@ status preference_both(const cell_request *, const rule_subject *where, const ru
 
 /* Counted work; the names are those of the columns of the table `cells`. */
 typedef enum price_count {
-    PRICE_one, /* a cell */
+    PRICE_one, /* one per cell */
     PRICE_elements_total,
     PRICE_element_kinds,
-    PRICE_strains, /* strains of an element, plus its inner unknowns */
+    PRICE_strains, /* number of strains of an element, plus its inner unknowns */
     PRICE_free,
     PRICE_strain_evaluations,
     PRICE_stress_evaluations,
@@ -953,13 +969,14 @@ typedef enum price_count {
 } price_count;
 
 typedef struct price_row {
-    /* "": all; "*": formulations without coefficients; else a name, with options if they matter */
+    /* "": the row applies to all formulations; "*": to formulations without coefficients; else a
+     * name, with options if they matter */
     const char *formulation;
     price_count first, second; /* the cost is proportional to the product of both counts */
-    double seconds;            /* on the reference machine */
+    double seconds;            /* [s] per unit of the product, on the reference machine */
 } price_row;
 
-extern const price_row price_rows[]; /* generated; ends with a row without formulation */
+extern const price_row price_rows[]; /* generated table; its last row has no formulation */
 /* Smallest ratio of costs that shows which formulation is faster; the cost coefficients are not
  * accurate enough for smaller ones. */
 extern const double price_noise;
@@ -974,15 +991,15 @@ int price_own(const price_row *rows, const formulation *chosen);
 typedef struct progress {
     FILE *to;           /* NULL: no output */
     const char *things; /* "cells" */
-    int count;          /* of them */
+    int count;          /* number of things in the run */
     double begun;       /* [s] start, by clock_wall_seconds */
     double last;        /* [s] last output */
     int width;          /* width of the present line in columns */
 } progress;
 
-/* now: [s] of clock_wall_seconds, also below. */
+/* now: present time [s] of clock_wall_seconds; likewise below. */
 progress progress_begin(FILE *to, const char *things, int count, double now);
-/* Is the next output due? */
+/* Returns 1 when the next output is due. */
 int progress_is_due(const progress *, double now);
 /* Prints "cells 12 of 40, 25 %, about 3 min left: WHAT". share: completed fraction of the work, 0
  * to 1; the remaining time is estimated from it once it is large enough. */
@@ -992,16 +1009,16 @@ void progress_end(progress *);
 
 /* Known deviations that a new formulation would require (reference/findings.csv). */
 
-/* Writes CSV with the columns of the list of known deviations, including the header: one rule for
- * each formulation, case and verdict, with all its quantities, 4/3 of the largest error seen, and a
- * placeholder for the cause. Returns the number of rules. */
+/* Writes CSV with the columns of the list of known deviations, including the header. There is
+ * one rule for each formulation, case and verdict, with all its quantities, 4/3 of the largest
+ * error found as largest_error, and a placeholder for the cause. Returns the number of rules. */
 int proposal_write(FILE *to, const sweep *s, const judgement *j);
 
-/* Determines which formulations meet an error target, and with which mesh. A formulation meets the
- * target from the coarsest mesh on for which the errors of that mesh and all finer ones are below
- * it. Formulations are ranked by their counted work on that mesh with the committed cost
- * coefficients, without measured times. Formulations with a known deviation in the requested
- * quantity come last. */
+/* Determines which formulations meet an error target, and on which mesh. A formulation meets the
+ * target from the coarsest mesh for which its own error and the errors of all finer meshes are
+ * below the target. Formulations are ranked by their counted work on that mesh with the
+ * committed cost coefficients, not by measured times. Formulations with a known deviation in the
+ * requested quantity come last. */
 
 enum { REACH_LEVELS = 4, REACH_EVERY = -1 };
 extern const double reach_level[REACH_LEVELS]; /* 10 %, 1 %, 0.1 %, 0.01 % */
@@ -1010,60 +1027,60 @@ extern const double reach_level[REACH_LEVELS]; /* 10 %, 1 %, 0.1 %, 0.01 % */
 typedef struct reached {
     int series, mesh;      /* index of the series, and of the coarsest mesh that meets the target */
     double cost;           /* [s] cost of the counted work; INFINITY: derivatives are computed by
-                              differences, or the formulation runs in another process. It is then ranked
-                              after all others. */
-    const verdict *defect; /* first verdict other than pass; NULL: all pass */
+                              finite differences, or the formulation runs in another process; it
+                              is then ranked after all others */
+    const verdict *defect; /* first verdict other than pass; NULL: all verdicts are pass */
 } reached;
 
 typedef struct reach_question {
     const sweep *s;
-    const verdict *verdict; /* [verdicts] of all its series; quantities without a reference value
-                               are ignored */
+    const verdict *verdict; /* [verdicts] verdicts on all series; quantities without a reference
+                               value are ignored */
     int verdicts, point;
     int quantity; /* index, or REACH_EVERY: all quantities of the point for which some formulation
                      has a reference value */
     double level; /* relative error */
 } reach_question;
 
-/* Reason why a type is not ranked by its work: "by differences", "in another process"; "": it is
- * ranked. */
+/* Returns the reason why a type is not ranked by its work, "by differences" or "in another
+ * process"; "": the type is ranked. */
 const char *reach_unranked(const element_type *type);
-/* Index of the coarsest mesh for which its own error and those of all finer meshes meet the target,
- * or -1. */
+/* Returns the index of the coarsest mesh for which its own error and those of all finer meshes
+ * meet the target; -1: none. */
 int reach_mesh(const sweep *s, const verdict *v, double level);
-/* Describes a formulation that meets the target despite such a verdict. */
+/* Describes a formulation that meets the target in spite of a verdict of this kind. */
 const char *reach_defect_words(verdict_kind kind);
-/* Ranks the formulations that meet the target: formulations without a defect first, each group by
- * cost, then by name. Returns the number of formulations; out: room for all series. Other programs
- * are omitted, because their work is not counted. */
+/* Ranks the formulations that meet the target: those without a defect first, each group by cost,
+ * then by name. Returns the number of formulations. out must have room for all series. Other
+ * programs are excluded, because their work is not counted. */
 int reach_ranking(const reach_question *q, reached out[]);
-/* Number of tied formulations at the head of the list: none has a defect, and their costs differ by
- * less than the uncertainty of the cost coefficients. 0: no ranked formulation is without a defect;
- * 1: the first one has the lowest cost. */
+/* Returns the number of tied formulations at the start of the list: none has a defect, and their
+ * costs differ by less than the uncertainty of the cost coefficients. 0: no ranked formulation
+ * is without a defect; 1: the first one has the lowest cost. */
 int reach_ties(const reached list[], int count);
 /* Returns how the series of the point is included: 1: every quantity has a reference value of its
  * theory; 0: some quantities have none; -1: the series does not run. */
 int reach_asks(const reach_question *q, int series_index);
-/* Verdicts of every series and quantity of a sweep without judgement. If there is no reference
- * value, the cross-formulation agreement is used. The caller frees the array; NULL: out of
- * memory. */
+/* Computes the verdicts on every series and quantity of a sweep that has no judgement. If there
+ * is no reference value, the cross-formulation agreement is used. The caller frees the array;
+ * NULL: out of memory. */
 verdict *reach_verdicts(const sweep *s, const truths *t, int *count);
 
 /* Formats numbers with their significant digits, as text. */
 
-enum { ROUNDING_TEXT = 32, ROUNDING_MOST = 11 /* digits */ };
+enum { ROUNDING_TEXT = 32, ROUNDING_MOST = 11 /* largest number of digits */ };
 
-/* Rounds to the given number of digits, "-" if not finite. Uses no exponent if the result is short:
- * "0.0031", "3.1e-9". */
+/* Formats a number with the given number of digits; "-" if it is not finite. No exponent is used
+ * if the result is short: "0.0031", but "3.1e-9". */
 void rounding_digits(double value, int digits, char text[ROUNDING_TEXT]);
-/* Formats a value to the second digit of its uncertainty (same unit; 0: exact; not finite: seven
- * digits). */
+/* Formats a value to the second digit of its uncertainty, which has the same unit (0: exact; not
+ * finite: seven digits). */
 void rounding_known(double value, double uncertainty, char text[ROUNDING_TEXT]);
 /* Formats a relative error in percent: "-2.7801 %", "+2.1e-9 %". At most 11 characters. */
 void rounding_percent(double error, char text[ROUNDING_TEXT]);
 
-/* Time of a cell: the shortest of enough repetitions, in rounds that alternate with the other cells
- * in the comparison. The differences between rounds give the scatter. */
+/* Run time of a cell: the shortest time of enough repetitions, in rounds that alternate with the
+ * other cells in the comparison. The differences between rounds give the scatter. */
 
 /* Two cells differ if all rounds of one are faster than all rounds of the other. For equal
  * distributions the probability of this is 2 (5! 5!)/10! = 0.8 %. */
@@ -1075,31 +1092,33 @@ typedef struct rounds_reading {
     int rounds, repeats;
 } rounds_reading;
 
-double rounds_least(const rounds_reading *); /* [s], INFINITY: never run */
-double rounds_most(const rounds_reading *);  /* [s] of the slowest round */
-/* -1: every round of a is faster than every round of b; 1: every round is slower; 0: undecided. */
+double rounds_least(const rounds_reading *); /* returns the shortest round [s]; INFINITY: never
+                                                run */
+double rounds_most(const rounds_reading *);  /* returns the longest round [s] */
+/* Returns -1 if every round of a is faster than every round of b, 1 if every round of a is
+ * slower, and 0 if the comparison is undecided. */
 int rounds_compare(const rounds_reading *a, const rounds_reading *b);
 
-/* The published algorithm for comparison: all coordinates, strains and stresses as unknowns of one
- * system, dense Gaussian elimination (newton=dense). */
+/* The published algorithm, for comparison: all coordinates, strains and stresses are unknowns of
+ * one system, which is solved by dense Gaussian elimination (newton=dense). */
 typedef struct dense_reference {
-    int unknowns;         /* unknowns of the dense system; 0: not measured */
+    int unknowns;         /* number of unknowns of the dense system; 0: not measured */
     double iteration;     /* [s] shortest time of one iteration */
-    rounds_reading whole; /* times of whole runs, if short enough; else rounds = 0 */
+    rounds_reading whole; /* times of whole runs, if they are short enough; otherwise rounds = 0 */
 } dense_reference;
 
-/* [s] of a run: measured, or the time of one iteration times the number of iterations (the same as
- * in the other solution); INFINITY: not measured. */
+/* Returns the time of a run [s]: measured, or the time of one iteration times the number of
+ * iterations, which is that of the other solution; INFINITY: not measured. */
 double dense_reference_seconds(const dense_reference *b, long iterations);
 
-/* Repeated runs of a cell: unchanged, and with all degrees of freedom kept (--all-dofs). */
+/* Run times of a cell: unchanged, and with all degrees of freedom kept (--all-dofs). */
 typedef struct cell_timing {
     rounds_reading as_is, keep_all; /* rounds = 0: not measured */
     int free_keep_all;              /* number of unknowns when all are kept */
-    /* [s] times of the parts of the iterations, from an additional run in which the clock is read
-     * between them */
+    /* [s] times of the parts of the iterations, from an additional run in which the time of each
+     * part is measured */
     double phase[PHASES];
-    dense_reference dense; /* when requested */
+    dense_reference dense; /* measured on request */
 } cell_timing;
 
 /* Runs all cells of a sweep in several processes. */
@@ -1118,13 +1137,13 @@ status scene_truths_add_all(const scene_file *, truths *t, fault *f);
 
 /* Verdicts in words. */
 
-/* The verdict in words: "converges to a wrong limit: +0.115 %". */
+/* Writes the verdict in words: "converges to a wrong limit: +0.115 %". */
 void sentence_of_verdict(const verdict *v, double least_order, char *text, size_t size);
 enum { SENTENCE_OF_RUN = 1000 };
 
-/* Summary of the whole run in one sentence. It begins with PASS or FAIL (INTERRUPTED after an
- * interruption, INCOMPLETE if batches are missing) and names expected verdicts other than pass.
- * Empty if nothing was evaluated. */
+/* Writes a summary of the whole run in one sentence. It begins with PASS or FAIL (INTERRUPTED
+ * after an interruption, INCOMPLETE if batches are missing) and names expected verdicts other
+ * than pass. The text is empty if nothing was evaluated. */
 void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size);
 
 /* Result of a cell as bytes, for transfer to the parent process. */
@@ -1135,12 +1154,13 @@ enum { SERIALISE_DAMAGED = -1, SERIALISE_NO_MEMORY = -2 };
 int serialise_read(FILE *from, cell_result *cell);
 
 int truth_holds(const truth *row, const case_type *type, const double value[]);
-/* Values of truth.kind. A verdict uses the first kind for which there is a value; truth_gates
- * returns whether a verdict may depend on a row. "predicted": the derived limit of a formulation.
- */
+/* Values of truth.kind. A verdict uses the first kind in this list for which there is a value.
+ * truth_gates returns whether a verdict may depend on a row. "predicted" is the derived limit of
+ * a formulation. */
 extern const char truth_kinds[];
-/* Reference value of the continuum for that model (exact before published; not a point of a curve),
- * or NULL. Verdicts against the same model affect the exit status. */
+/* Returns the reference value of the continuum for that model (an exact one before a published
+ * one, never a point of a curve), or NULL. Verdicts against the same model affect the exit
+ * status. */
 const truth *truth_of(const truths *t, const case_type *type, const double value[],
                       const char *quantity, const char *model);
 
