@@ -813,8 +813,8 @@ typedef struct stock {
 } stock;
 
 /* Reads and checks every byte of the requested batches (wanted NULL: all). If a batch is in two
- * folders, the first one is used. tell: stream that receives one line about each damaged batch,
- * which counts as missing; may be NULL. REFUSED: a batch belongs to another build, request or
+ * folders, the first one is used. Writes one line about each damaged batch, which counts as
+ * missing, to the stream (may be NULL). REFUSED: a batch belongs to another build, request or
  * plan; a file has the name of a batch but is none; or two versions of a batch differ. FAULT: a
  * folder cannot be read. Call stock_free also after a failure. */
 status stock_take(const shard_work *w, const char *const folder[], int folders, const char *wanted,
@@ -1045,7 +1045,7 @@ status restart_write(const char *path, const solution_request *, const sweep *, 
 status restart_read(const char *path, restart *, fault *);
 void restart_free(restart *);
 /* Prepares the scene for continuation: only the stations after the stored state remain. REFUSED:
- * the scene (apart from stations and quantities), the formulation or the mesh is another one, or
+ * the scene (apart from stations and quantities), the formulation or the mesh differs, or
  * there is no later station. */
 status restart_begin(const restart *, solution_request *, scene *, fault *);
 

@@ -90,7 +90,8 @@ static inline double claims_share(double apart, double size)
 int claims_counted(const claims *c, claim_outcome outcome);
 int claims_compared(const claims *c);
 
-/* Sets the section with lengths in units of `unit` metres, force in newtons and time in seconds. */
+/* Computes a section. Lengths are in units of `unit` metres, force in newtons, and mass in
+ * kilograms. */
 status profiles_section(profiles_form form, double unit, section *out, fault *f);
 
 /* Returns the features for a straight element: all that the type supports, except `without`. */
@@ -551,10 +552,10 @@ void ranges_table_map(FILE *to, const tally *t, int every);
  * physics.
  *
  * Among the limits, the one with the smallest uncertainty U is used. Its uncertainty is U or, if
- * larger, its difference from another limit less the uncertainty of that limit. An uncertainty
- * above half of the tolerance is too large. A reference value with such an uncertainty is
- * ignored. A limit with such an uncertainty counts as disputed or, if U itself is too large, as
- * unknown. */
+ * larger, the part of its difference from another limit that exceeds the uncertainty of that
+ * limit. An uncertainty above half of the tolerance is too large. A reference value with such an
+ * uncertainty is ignored. A limit with such an uncertainty counts as disputed or, if U itself is
+ * too large, as unknown. */
 
 typedef struct point_reference {
     rows_reference kind;
