@@ -11,13 +11,13 @@
 #include "harness/exchange/exchange.h"
 #include "harness/study/study.h"
 
-/* The cross-section of a solid: a lattice of rectangles in the y and z axes of the section, some of
- * which are filled.
+/* The cross-section of a solid: a lattice of rectangles along the y and z axes of the section, some
+ * of which are filled.
  *
- * A straight wall is a strip along its centre line. Where walls meet at right angles, each extends
- * by half the thickness of the other: an L has its whole corner, and the area is that of the walls.
- * Where a wall ends on the side of another (I, T), the walls count half of the thickness there
- * twice; the solid counts it once. */
+ * A straight wall is a strip along its centre line. Where walls meet at right angles, each one
+ * is extended by half the thickness of the other: an L has its whole corner, and the area is
+ * that of the walls. Where a wall ends on the side of another one (I, T), the section counts
+ * half of the thickness there twice, but the solid counts it once. */
 
 enum {
     FACE_WALLS = 8, /* minimum number of elements along the longer side of a section of walls */
@@ -25,49 +25,52 @@ enum {
 };
 
 typedef struct face {
-    int elements[2];                            /* along y, z */
-    double corner[2][FACE_MOST + 1];            /* ascending, from the centroid of the beam [m] */
-    unsigned char filled[FACE_MOST][FACE_MOST]; /* [elements along y][along z] 1: brick */
+    int elements[2];                            /* number along y and z */
+    double corner[2][FACE_MOST + 1];            /* positions of the lattice lines, ascending,
+                                                   from the centroid of the beam [m] */
+    unsigned char filled[FACE_MOST][FACE_MOST]; /* [elements along y][elements along z] 1: filled
+                                                   by a brick */
 } face;
 
-/* Area that is filled [m^2]. */
+/* Returns the filled area [m^2]. */
 double face_area(const face *);
 
 /* A member as a structured mesh of C3D20R: bricks with 20 nodes and reduced integration. */
 
 enum { BRICK_ALONG, BRICK_Y, BRICK_Z };
 
-/* Nodes are on a lattice with two steps per element, numbered from its first corner; the numbers of
- * positions without a node are not used. */
+/* Nodes are on a lattice with two steps per element, numbered from its first corner. Numbers
+ * that belong to positions without a node are not used. */
 typedef struct brick {
-    int elements[3];               /* along x, y, z of the member */
-    int first_node, first_element; /* starting at 1 */
-    double origin[3], axes[9];     /* centre of the first face [m]; columns: axes x, y, z */
+    int elements[3];               /* number along x, y and z of the member */
+    int first_node, first_element; /* numbers, starting at 1 */
+    double origin[3], axes[9];     /* centre of the first face [m]; the columns of axes are the
+                                      axes x, y, z */
     double length;                 /* [m] */
-    face face;                     /* cross-section, equal along the member */
+    face face;                     /* cross-section, which is the same along the whole member */
 } brick;
 
-/* Numbers begin at first_node and first_element. along: number of elements along the member;
- * numbers across the member come from its face. REFUSED: a section without a face. */
+/* Numbers start at first_node and first_element. along: number of elements along the member; the
+ * numbers across the member come from its face. REFUSED: the section has no face. */
 status brick_init(brick *out, const scene *s, int member, int along, int first_node,
                   int first_element, fault *f);
-/* First node number and first element number that the bricks leave free. */
+/* Return the first node number and the first element number that the brick does not use. */
 int brick_next_node(const brick *);
 int brick_next_element(const brick *);
-/* Write the lines below *NODE and *ELEMENT. */
+/* Write the lines that follow the keywords *NODE and *ELEMENT. */
 void brick_write_nodes(const brick *, FILE *to);
 void brick_write_elements(const brick *, FILE *to);
 /* Writes the node numbers of the first (end 0) or last face, one per line. */
 void brick_write_face(const brick *, int end, FILE *to);
 
-/* Rigid bodies of a deck. A body has all faces at a node and at nodes attached to it; two reference
- * nodes move it, one by translations [m, N], one by rotations [rad, N m]. */
+/* Rigid bodies of a deck. A body joins all faces at a node and at the nodes attached to it. Two
+ * reference nodes move it: one by translations [m, N], one by rotations [rad, N m]. */
 
 typedef struct body_numbers {
-    int first; /* first of two node numbers per scene node, for the body of node 0 */
+    int first; /* first number of the body of node 0; each scene node has two node numbers */
 } body_numbers;
 
-/* Node in the deck for a component SCENE_UX .. SCENE_RZ, and its direction 1..3. */
+/* Returns the node in the deck for a component SCENE_UX .. SCENE_RZ, and its direction 1..3. */
 int body_node(const body_numbers *, int node, int component);
 int body_direction(int component);
 
@@ -81,10 +84,10 @@ int body_direction(int component);
 /* Quantities and loads of a scene that a deck of solids supports. All others are rejected, so that
  * none is omitted without notice. */
 
-/* The static analysis, if there is exactly one; else SCENE_NONE. */
+/* Returns the index of the static analysis if there is exactly one, else SCENE_NONE. */
 int carried_static(const scene *s);
-/* REFUSED: names the part of the structure or its analyses that a deck cannot express, and the
- * remedy. */
+/* REFUSED: the message names the part of the structure or of its analyses that a deck cannot
+ * express, and the remedy. */
 status carried_check(const scene *s, fault *f);
 /* As carried_check, for the quantities. */
 status carried_asked_check(const scene *s, fault *f);
@@ -95,7 +98,8 @@ status carried_asked_check(const scene *s, fault *f);
  * "%". Symbols: m mm cm um km in ft, N kN MN mN lbf, Pa kPa MPa GPa, kg g t, s ms us min, Hz kHz,
  * rad mrad deg, rpm, 1. Angles have no dimension. */
 
-/* factor: 1 `from` = factor `to`. REFUSED: an unknown unit, or one of another dimension. */
+/* Computes the factor in 1 `from` = factor `to`. REFUSED: a unit is unknown, or the two have
+ * different dimensions. */
 status conversion_factor(const char *from, const char *to, double *factor, fault *f);
 
 /* Values of another program as a series of a sweep, whose cells are not run here. */
@@ -107,7 +111,7 @@ status import_cells_add(sweep *s, int point_index, imported *found, fault *f);
 /* Reads entries of a map in YAML (strings, numbers), and reports unknown keys and other errors with
  * their positions. */
 
-/* String of an entry; `otherwise` if the entry is missing. */
+/* Returns the string of an entry, or `otherwise` if the entry is missing. */
 const char *map_keys_text(mistakes *m, const document_node *map, const char *key,
                           const char *otherwise);
 double map_keys_number(mistakes *m, const document_node *map, const char *key, double otherwise);
@@ -124,11 +128,14 @@ void path_points_free(path_points *);
 
 /* Nodes of a scene that move independently and carry faces of solids. */
 
-/* Node of the body that a node belongs to; the node itself if it is not attached to another. */
+/* Returns the node of the body to which a node belongs; the node itself if it is not attached to
+ * another one. */
 int rigid_body(const scene *s, int node);
-/* Is the node a body, or an independent node, at which a member ends? */
+/* Returns 1 when the node is not attached to another one, and a member ends at it or at a node
+ * attached to it. */
 int rigid_moves(const scene *s, int node);
-/* Axis 0, 1 or 2 of a node that rotates only about x, y or z; SCENE_NONE: it rotates otherwise. */
+/* Returns the axis 0, 1 or 2 of a node that rotates only about x, y or z; SCENE_NONE for other
+ * nodes. */
 int rigid_single_axis(const scene_node *n);
 
 #endif

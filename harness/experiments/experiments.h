@@ -675,7 +675,7 @@ typedef struct rows {
                                formulation solves another model, which is not counted; 0: the model of
                                the scene */
     int32_t *least;         /* [points, formulations, quantities] number of elements of the coarsest
-                               mesh from which on all meshes are within the tolerance; 0: none */
+                               mesh such that it and all finer meshes are within the tolerance; 0: none */
     uint8_t *kind;          /* [points, quantities] values of rows_reference */
     uint8_t *status;        /* [points, formulations, meshes] */
 } rows;

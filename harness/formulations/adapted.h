@@ -1,5 +1,5 @@
-/* Data of an element whose interface an adapter completes: the adapter's data first, then the data
- * of the type. */
+/* Data of an element whose interface an adapter completes: first the adapter's data, then the
+ * data of the type. */
 #ifndef BEAMWORK_ADAPTED_H
 #define BEAMWORK_ADAPTED_H
 
@@ -10,7 +10,7 @@
 
 struct element_data {
     const element_type *given;
-    int nodes, strains; /* of the completed type */
+    int nodes, strains; /* numbers of the completed type */
     double length;      /* [m] */
     field_mass mass;    /* used when the type has no `inertia` */
     max_align_t own[];  /* element_data of the type */
@@ -21,8 +21,8 @@ static inline const element_data *adapted_own(const element_data *d)
     return (const element_data *)d->own;
 }
 
-/* Largest number of elements whose own data are passed on in one call; passes on the data and
- * returns their number. */
+/* Copies the pointers to the elements' own data, for one call of the type, and returns their
+ * number, at most this limit. */
 enum { ADAPTED_TOGETHER = 1024 };
 static inline int adapted_owns(int count, const element_data *const data[],
                                const element_data *own[ADAPTED_TOGETHER])
@@ -33,26 +33,27 @@ static inline int adapted_owns(int count, const element_data *const data[],
     return part;
 }
 
-/* differences.c: Jacobian J and second derivatives H by differences, for a type that gives e, or e
- * and J. */
+/* differences.c: computes the Jacobian J and the second derivatives H by finite differences, for
+ * a type that computes e, or e and J. */
 void differences_strain(const element_data *d, const node_state x[], strain_output *out);
-/* Strains of many elements with one call of strain_many for all perturbed states. Requires
- * strain_many. */
+/* Computes the strains of many elements, with one call of strain_many for all perturbed states.
+ * Requires strain_many. */
 void differences_strain_many(int count, const element_data *const data[], const node_state x[],
                              strain_output out[]);
-/* Second derivatives H [7n x 7n] of the strains by differences of the Jacobian; jacobian(d, x, J)
- * fills J [strains x 7n]. */
+/* Computes the second derivatives H [7n x 7n] of the strains by finite differences of the
+ * Jacobian. jacobian(d, x, J) fills J [strains x 7n]. */
 typedef void differences_jacobian(const element_data *d, const node_state x[], double J[]);
 void differences_curvature(const element_data *d, const node_state x[], differences_jacobian *,
                            const double s[], double H[]);
 
-/* relative.c: stresses of a type that gives forces or an energy. */
+/* relative.c: stresses of a type that computes forces or an energy. */
 /* Requires force_many. */
 void relative_stress_many(int count, const element_data *const data[], const double *const e[],
                           const double *const inner[], stress_output out[], status outcome[]);
 status relative_stress(const element_data *d, const double e[], const double inner[],
                        stress_output *out);
-/* Derivative of C along the strains of this prestress, in the undeformed state, by differences. */
+/* Computes the derivative of C in the direction of the strains of this prestress, in the
+ * undeformed state, by finite differences. */
 void relative_geometric(const element_data *d, const double sigma[], double G[]);
 
 #endif

@@ -10,31 +10,31 @@
 #include "elements/shared/parameter.h"
 #include "elements/shared/status.h"
 
-/* Completes the interface of a formulation: derivatives by differences, strains and stresses from a
- * force or an energy. */
+/* Completes the interface of a formulation: derivatives by finite differences, strains and
+ * stresses from a force or an energy. */
 
 /* *out: the complete interface of the same beam, or `given` itself if nothing is missing. REFUSED:
  * the type is inconsistent. */
 status adapters_complete(const element_type *given, const double options[], element_type *out,
                          fault *f);
 
-/* Relative error of the stiffness due to differences, as measured on beams (test/adapters_test.c).
- * Returns 0 when the type needs no differences. */
+/* Returns the relative error of the stiffness due to finite differences, as measured on beams
+ * (test/adapters_test.c); 0: the type needs no finite differences. */
 double adapters_error(const element_type *given);
 
-/* Lists what is computed by differences for the type; returns "" if nothing is. */
+/* Returns a list of what is computed by finite differences for the type; "": nothing is. */
 const char *adapters_words(const element_type *given);
 
 /* Text form NAME=VALUE of all user choices: parameters of a case and options of a formulation. */
 
-/* Consecutive parameter tables, and the words that error messages use for them. */
+/* Consecutive parameter tables, and the words for them in error messages. */
 typedef struct assignment_list {
     const parameter_type *part[PARAMETER_PARTS];
     const char *what;     /* "parameter" */
-    const char *owner;    /* the case or the formulation */
-    const char *option;   /* option of `beamwork list` before that argument: "--scene " or "" */
+    const char *owner;    /* name of the case or the formulation */
+    const char *option;   /* option of `beamwork list` before that name: "--scene " or "" */
     const char *shown_by; /* argument of `beamwork list` that shows the parameters */
-    char separator;       /* between assignments */
+    char separator;       /* character between assignments */
 } assignment_list;
 
 enum { ASSIGNMENT_SHOWN = 256 };
@@ -52,11 +52,11 @@ status assignment_set(const assignment_list *, const char *text, double value[],
  * keep their values. "" sets nothing. */
 status assignment_parse(const assignment_list *, const char *text, double value[], int any[],
                         fault *f);
-/* Writes the parameters in the same form: only values that differ from their defaults, in the order
- * of the tables. */
+/* Writes the parameters in the same form: only values that differ from their defaults, in the
+ * order of the tables. */
 void assignment_text(const assignment_list *, const double value[], char *text, int size);
 
-/* Reads a number, whatever its size, or the index of a choice. Returns 0 when the text is
+/* Reads a number of any size, or the name of a choice as its index. Returns 0 when the text is
  * neither. */
 int assignment_value(const parameter_type *, const char *text, double *value);
 /* Writes the shortest text that gives the same value when read, or the name of the choice. */
@@ -64,8 +64,8 @@ void assignment_value_text(const parameter_type *, double value, char *text, int
 
 /* Cases by their names. */
 
-const case_type *case_find(const char *name,
-                           fault *f); /* NULL: unknown name; f gives the nearest known one */
+const case_type *case_find(const char *name, fault *f); /* returns NULL for an unknown name; the
+                                                           message gives the nearest known one */
 
 /* Moves node states by increments, as the derivatives of element.h are defined: positions and
  * warping amplitudes are added, rotations R <- exp(dphi~) R. */
@@ -73,32 +73,33 @@ const case_type *case_find(const char *name,
 /* out = x moved by step[7 nodes] (dr [m], dphi [rad], da [rad/m] of each node). */
 void chart_move(const node_state x[], int nodes, const double step[], node_state out[]);
 
-/* Size of a small step of coordinate c [m, rad, rad/m], scaled so that beams of all lengths deform
- * equally. */
+/* Returns the size of a small step of coordinate c [m, rad, rad/m], scaled so that the strains
+ * it causes do not depend on the length of the beam. */
 double chart_unit(int c, double length);
 
-/* dexp(psi): d(exp(psi)) exp(-psi) = dexp(psi) dpsi, the spatial increment due to a change of the
- * rotation vector, row major; and its inverse for |psi| < 2 pi. */
+/* dexp(psi): d(exp(psi)) exp(-psi) = dexp(psi) dpsi, the spatial increment due to a change of
+ * the rotation vector, row-major. chart_dexp_inverse computes the inverse for |psi| < 2 pi. */
 void chart_dexp(const double psi[3], double T[9]);
 void chart_dexp_inverse(const double psi[3], double T[9]);
 
 /* Program, machine and libraries that computed a result. */
 
 typedef struct environment {
-    const char *version, *released /* 2026-11-21 */, *commit, *compiler, *flags;
-    char libraries[256], processor[128], clock[32]; /* ISO 8601, UTC */
+    const char *version, *released /* version, and its date as 2026-11-21 */, *commit, *compiler,
+        *flags;
+    char libraries[256], processor[128], clock[32]; /* clock: ISO 8601, UTC */
     int threads;
 } environment;
 
 environment environment_now(int threads);
-const char *environment_version(void); /* of the program, "0.12.0" */
+const char *environment_version(void); /* returns the version of the program as "0.12.0" */
 
 /* A formulation with its options: -f name:key=value,... */
 
 enum { FORMULATION_KEY = 128, FORMULATION_OPTIONS = ELEMENT_MAX_OPTIONS + 1 };
 
-/* Form of the mixed Newton iteration: condensed in each element, in displacements only (for
- * comparison), or uncondensed with dense elimination. */
+/* Form of the Newton iteration: mixed and condensed in each element; in displacements only (for
+ * comparison); or mixed and uncondensed, with dense elimination. */
 typedef enum newton_form {
     NEWTON_MIXED,
     NEWTON_DISPLACEMENT,
@@ -126,33 +127,34 @@ void formulation_default(const element_type *type, formulation *out);
 /* Builds the default formulation with choice `choice` of option `index`. Returns 0 when there is no
  * such choice, or when it is the default. */
 int formulation_choice(const element_type *type, int index, int choice, formulation *out);
-/* Features that the options with non-default values affect (element_judged). */
+/* Returns the features that are affected by the options with non-default values
+ * (element_judged). */
 unsigned formulation_bears_on(const formulation *chosen);
 
 /* List of formulations. */
 
-/* Adds a formulation in the form of -f, or "all". REFUSED: unknown, given twice, or more than
- * `most`. */
+/* Adds a formulation given as for -f, or "all". REFUSED: a formulation is unknown or given
+ * twice, or there are more than `most`. */
 status formulation_list_add(const char *text, int most, formulation list[], int *count, fault *f);
 
 /* All formulations: first those of elements/, then those loaded at run time. */
 
 enum { FORMULATIONS_MOST_LOADED = 16 };
 
-/* Formulation number i, or NULL after the last one. */
+/* Returns formulation number i; NULL after the last one. */
 const element_type *formulations_at(int i);
 /* Returns the element type of this name, or NULL. */
 const element_type *formulations_named(const char *name, size_t length);
-/* Was the type loaded at run time? */
+/* Returns 1 when the type was loaded at run time. */
 int formulations_is_loaded(const element_type *t);
 /* Returns 1 for a formulation that the project has not accepted: it was loaded at run time, or
- * formulations_accept has accepted others but not this one. Its verdicts affect the exit status
- * only if the user loaded or named it (sweep_gates). */
+ * formulations_accept has accepted others but not this one. The verdicts on such a formulation
+ * affect the exit status only if the user loaded or named it (sweep_gates). */
 int formulations_is_new(const element_type *t);
 /* Marks a formulation as accepted (reference/accepted.csv); an unknown name is ignored. */
 void formulations_accept(const char *name);
-/* Adds a type. Rejects a name that exists, and words with another meaning ("all"). The caller keeps
- * ownership of the type and of `from`, the value of --element (NULL if none). */
+/* Adds a type. REFUSED: the name exists already, or is a word with another meaning ("all"). The
+ * caller keeps ownership of the type and of `from`, the value of --element (NULL if none). */
 status formulations_add(const element_type *t, const char *from, fault *f);
 /* Returns the value of --element that loaded the type, or NULL if the type was not loaded. */
 const char *formulations_element(const element_type *t);
@@ -161,7 +163,7 @@ const char *formulations_element(const element_type *t);
 
 enum { PROCESS_MOST = 16 };
 
-/* Is this type computed by another process? */
+/* Returns 1 when another process computes this type. */
 int process_serves(const element_type *);
 /* Sets the time limit of an answer [s], initially 120; 0: no limit. */
 void process_limit(int seconds);
@@ -173,23 +175,23 @@ enum { PARAMETERS_TEXT = 512 };
 assignment_list parameters_list(const case_type *c);
 int parameters_count(const case_type *c);
 void parameters_default(const case_type *c, double value[]);
-/* assignment: "NAME=VALUE". */
+/* Sets a parameter. assignment: "NAME=VALUE". */
 status parameters_set(const case_type *c, const char *assignment, double value[], fault *f);
 /* Reads "NAME=VALUE;NAME=VALUE". Other parameters keep their defaults. A value "*" is skipped and
  * marked in any[] (may be NULL); "*" alone marks all parameters of the source. */
 status parameters_parse(const case_type *c, const char *text, double value[], int any[], fault *f);
 /* Writes the parameters in the same form; writes nothing for the defaults. */
 void parameters_text(const case_type *c, const double value[], char *text, int size);
-/* As parameters_text, but only parameters of the original source: programs that compute reference
- * values are called with these. */
+/* As parameters_text, but writes only parameters of the original source. Programs that compute
+ * reference values are called with these parameters. */
 void parameters_source_text(const case_type *c, const double value[], char *text, int size);
 int parameters_of_source(const case_type *c); /* number of parameters of the original source; they
                                                  come first in the table */
-/* FNV-1a of "name=%.17g;" over all parameters in table order, choices by index, "name=*;" where
- * any. */
+/* Returns the FNV-1a hash of "name=%.17g;" over all parameters in table order. Choices enter by
+ * their index; parameters marked in `any` enter as "name=*;". */
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[]);
 
-/* Words of the previous point; most of them do not change between neighbouring rows of a table. */
+/* Words of the previous point. Between neighbouring rows of a table most of them do not change. */
 typedef struct parameters_words {
     int known; /* number of known words; 0: none */
     double value[CASE_MAX_PARAMETERS];
@@ -204,9 +206,10 @@ uint64_t parameters_hash_next(const case_type *c, const double value[], const in
 /* External formulations: a shared object with the symbol beamwork_element or the function
  * beamwork_element_type (element.h), or a process (exec:COMMAND). */
 
-/* Loads a formulation, which stays until the program ends. REFUSED, with one line that names the
- * file and the remedy: not a shared object, no such symbol, not a command, another interface
- * version (ABI, size), or an incomplete description. */
+/* Loads a formulation, which stays loaded until the program ends. REFUSED: the file is not a
+ * shared object, has no such symbol, has another interface version (ABI, size) or an incomplete
+ * description, or the text is not a command. The message is one line that names the file and the
+ * remedy. */
 status plugin_load(const char *path, const element_type **out, fault *f);
 
 /* Generated lists of all formulations in elements/ and all cases in cases/, NULL-terminated. */
@@ -219,12 +222,12 @@ extern const case_type *const registry_cases[];
 /* Limits of an expression: number of words, length of a word, depth of nested brackets and nots. */
 enum { SELECT_WORDS = 256, SELECT_WORD = 128, SELECT_DEPTH = 64 };
 
-/* Evaluates an expression for a text: words joined by and, or, not and brackets. A word matches
- * anywhere in the text; =NAME matches a whole part between slashes. Returns 1 or 0; -1: malformed.
- */
+/* Evaluates an expression for a text. The expression consists of words joined by and, or, not
+ * and brackets. A word matches anywhere in the text; =NAME matches a whole part between slashes.
+ * Returns 1 or 0; -1: the expression is malformed. */
 int select_matches(const char *expression, const char *text);
-/* Does the expression hold for every text that contains `part`? Returns 0 for an expression with
- * `not`, 1 for NULL. */
+/* Returns 1 when the expression is true for every text that contains `part`, and for expression
+ * NULL; 0 for an expression with `not`. */
 int select_covers(const char *expression, const char *part);
 
 /* Records which words of an expression have matched a name, so that a misspelt word is reported. */
@@ -232,43 +235,46 @@ typedef struct select_words {
     char met[SELECT_WORDS];
 } select_words;
 
-/* REFUSED: malformed. Names of cases and formulations count as matched, even if no run has them.
- * expression NULL selects everything. */
+/* expression NULL selects everything. Names of cases and formulations count as matched, even if
+ * no run has them. REFUSED: the expression is malformed. */
 status select_begin(const char *expression, select_words *, fault *);
 void select_meet(const char *expression, const char *text, select_words *);
-/* Returns the first word that matched no name, or 0 when all did. */
+/* Finds the first word that matched no name. Returns 0 when all words did. */
 int select_unmet(const char *expression, const select_words *, char word[SELECT_WORD]);
-/* REFUSED: names the first word that matched nothing, and the nearest name. */
+/* REFUSED: a word matched no name; the message names the first such word and the nearest name. */
 status select_all_met(const char *expression, const select_words *, fault *);
 
-/* Central differences of sixth order for functions whose arguments have magnitude one. */
+/* Central finite differences of sixth order, for functions whose arguments have magnitude one. */
 
-enum { STENCIL_MOST = 576 }; /* values of a function */
+enum { STENCIL_MOST = 576 }; /* largest number of values of a function */
 
-/* Step size h in units. Truncation error: h^6/140 times the seventh derivative, h^6/560 times the
- * eighth; round-off: eps/h and 4 eps/h^2. */
+/* Step size h in units of the argument. Truncation error of the first and the second derivative:
+ * h^6/140 times the seventh derivative, and h^6/560 times the eighth. Round-off: eps/h and 4
+ * eps/h^2. */
 static const double stencil_first_step = 2e-3, stencil_second_step = 1e-3;
 
-/* Evaluates values[count] with arguments i and j moved by si and sj units (i == j: by si + sj).
- * Returns 0, or another number when the function has no value there. */
+/* Computes values[count] with argument i moved by si units and argument j by sj units (if i ==
+ * j, by si + sj). Returns 0, or another number when the function has no value there. */
 typedef int stencil_function(const void *context, int i, double si, int j, double sj,
                              double values[]);
 
-/* d values/d argument i per unit. Returns 0, or what the function returned. */
+/* Computes the derivatives of the values with respect to argument i, per unit. Returns 0, or the
+ * nonzero number that the function returned. */
 int stencil_first(stencil_function *f, const void *context, int count, int i, double out[]);
-/* Mixed second derivative with respect to arguments i and j; uses its symmetry. */
+/* Computes the second derivatives with respect to arguments i and j, which are symmetric in i
+ * and j. */
 int stencil_second(stencil_function *f, const void *context, int count, int i, int j, double out[]);
 
 /* Splits a command line into words. */
 
 enum { WORDS_MOST = 63 };
 
-/* *words: NULL-terminated; one free() releases the list and its words. Blanks separate words;
- * quotes ' and " protect blanks. REFUSED: no word, too many words, or a quote that does not end;
- * FAULT: out of memory. */
+/* *words: NULL-terminated; one call of free() releases the list and its words. Blanks separate
+ * words; the quotes ' and " protect blanks. REFUSED: there is no word, there are too many words,
+ * or a quote does not end. FAULT: out of memory. */
 status words_split(const char *command, char ***words, fault *f);
 
-/* Prints a word for a shell, in quotes if it needs them. */
+/* Prints a word for a shell, with quotes if necessary. */
 void words_quote(FILE *to, const char *word);
 /* As words_quote, into a string of at most `size` bytes. */
 void words_quoted(const char *word, char *out, size_t size);

@@ -19,14 +19,14 @@
 /* Settings of the host, and the destination of error messages. */
 typedef struct call {
     fault fault;
-    char *text; /* allocated by malloc; replaces the message of the fault; NULL: none */
+    char *text; /* allocated with malloc; replaces the message of the fault; NULL: none */
     char **why;
     locale_t locale;
     fenv_t arithmetic;
 } call;
 
-/* Until call_end, numbers are read, written and rounded as in a C program with the default locale,
- * rounding to nearest and no traps, and the library handles the errors of GSL. */
+/* Until call_end, numbers are read, written and rounded as in a C program with the default
+ * locale, with rounding to nearest and without traps. The library handles the errors of GSL. */
 void call_begin(call *, char **why);
 /* Restores the settings of the host, and sets *why. */
 bw_status call_end(call *, status outcome);
@@ -43,8 +43,8 @@ status known_read(const case_type *type, truths *out, fault *f);
 /* Reads the reference values of all cases. */
 status known_read_all(truths *out, fault *f);
 
-/* Locks HDF5 only. If two threads need the same reference values, only one of them reads; no
- * process is forked during the reading. */
+/* Locks HDF5 only. known_hold and known_let_go enclose the reading of shared reference values:
+ * if two threads need the same ones, only one thread reads, and no process is forked meanwhile. */
 void known_hold(void);
 void known_let_go(void);
 /* Locks HDF5 for all other calls; known_unlock restores the host's error handling. */
@@ -58,21 +58,21 @@ typedef enum call_option_kind {
     OPTION_WHOLE,  /* in the range least .. most, stored in an int */
     OPTION_FILE,   /* descriptor of an open file, stored in an int */
     OPTION_SHARE,  /* between 0 and 1, stored in a double */
-    OPTION_WORDS   /* stored in a const char *, whose text *kept owns */
+    OPTION_WORDS   /* stored in a const char *; *kept owns the text */
 } call_option_kind;
 
 typedef struct call_option {
-    const char *name; /* NULL ends the table */
+    const char *name; /* key; NULL ends the table */
     call_option_kind kind;
-    void *to; /* unchanged if the key is missing */
+    void *to; /* receives the value; unchanged if the key is missing */
     int least, most;
 } call_option;
 
-/* Reads options. json NULL: no options. *kept: release with json_decref. REFUSED: not an object, an
- * unknown key, or a value of the wrong type or out of range. */
+/* Reads options. json NULL: no options. *kept: to be released with json_decref. REFUSED: the
+ * text is not a JSON object, a key is unknown, or a value is of the wrong type or out of range. */
 status options_read(const char *json, const call_option table[], json_t **kept, fault *f);
 
-/* Data shared by a bw_scene and its results; exists as long as any of them. */
+/* Data that a bw_scene and its results share; they exist as long as one of these does. */
 
 typedef struct source source;
 
@@ -81,12 +81,12 @@ struct bw_scene {
     double parameter[CASE_MAX_PARAMETERS];
 };
 
-/* Makes the source of a built-in case, or of a file (name: used in messages). Takes ownership of
+/* Makes the source of a built-in case, or of a file. name: used in messages. Takes ownership of
  * file and name, also after a failure. */
 status source_new(const case_type *type, scene_file *file, char *name, source **out, fault *f);
-void source_release(source *); /* NULL: nothing */
+void source_release(source *); /* NULL: does nothing */
 const case_type *source_case(const source *);
-const scene_file *source_file(const source *); /* NULL for a built-in case */
+const scene_file *source_file(const source *); /* returns NULL for a built-in case */
 
 /* Contents of a bw_result. */
 
@@ -94,9 +94,9 @@ enum { RESULT_COLUMNS = 32 };
 
 struct bw_result {
     source *from;
-    sweep sweep;                    /* with one point, series and mesh */
-    truths own;                     /* reference values of a scene file */
-    const truths *truths;           /* NULL: none */
+    sweep sweep;                    /* sweep with one point, series and mesh */
+    truths own;                     /* reference values in the scene file */
+    const truths *truths;           /* reference values used; NULL: none */
     double *error;                  /* [quantities] NAN: no reference value */
     double *step[RESULT_COLUMNS];   /* [steps] columns of the steps, filled on request */
     double *motion[RESULT_COLUMNS]; /* [motions] columns of the motions, filled on request */
@@ -122,8 +122,8 @@ typedef struct document_text {
 } document_text;
 
 status text_begin(document_text *, fault *f);
-/* Ends the text. *out: allocated by malloc; NULL if `written` is a failure or the stream had an
- * error. */
+/* Ends the text. *out: allocated with malloc; NULL if `written` is a failure or the stream had
+ * an error. */
 status text_end(document_text *, status written, char **out, fault *f);
 
 #endif

@@ -4,46 +4,50 @@
 
 #include "elements/element.h"
 
-/* Chebyshev points of an element, including its ends, on [0, 1]: integrals, derivatives and
- * interpolation of functions given there. */
+/* Grid of Chebyshev points on an element, with its ends, on [0, 1]. It gives integrals,
+ * derivatives and interpolated values of functions that are known at these points. */
 
 enum {
     SPAN_GRID_POINTS = 24,
-    SPAN_GRID_GAUSS = 3 /* Gauss points between two neighbouring points */
+    SPAN_GRID_GAUSS = 3 /* number of Gauss points between two neighbouring grid points */
 };
 
 typedef struct span_grid {
     double x[SPAN_GRID_POINTS];
-    double weight[SPAN_GRID_POINTS];                       /* barycentric */
+    double weight[SPAN_GRID_POINTS];                       /* barycentric weights */
     double integral[SPAN_GRID_POINTS][SPAN_GRID_POINTS];   /* integral from 0 to x[i] */
-    double derivative[SPAN_GRID_POINTS][SPAN_GRID_POINTS]; /* at x[i] */
-    double gauss[SPAN_GRID_POINTS - 1][SPAN_GRID_GAUSS][SPAN_GRID_POINTS]; /* values there */
+    double derivative[SPAN_GRID_POINTS][SPAN_GRID_POINTS]; /* derivative at x[i] */
+    double gauss[SPAN_GRID_POINTS - 1][SPAN_GRID_GAUSS][SPAN_GRID_POINTS]; /* values at the Gauss
+                                                                              points */
 } span_grid;
 
 void span_grid_make(span_grid *g);
 
-/* Line of centroids and triads of the sections between two frames, computed from the strains. */
+/* Line of centroids of an element, and triads of its sections, between two frames. They follow
+ * from the strains. */
 
 typedef struct span_curve {
-    double r[SPAN_GRID_POINTS][3], R[SPAN_GRID_POINTS][9]; /* columns: x along the line, y and z */
+    double r[SPAN_GRID_POINTS][3], R[SPAN_GRID_POINTS][9]; /* r: centroid; R: columns are the
+                                                              axes x (along the line), y and z of
+                                                              the section */
 } span_curve;
 
 typedef struct span_frame {
     double r[3], R[9];
 } span_frame;
 
-/* Section forces of an element, from the forces at its ends and the loads between.
+/* Section forces of an element, from the forces at its ends and the loads between the ends.
  *
- * The ends of elements are in equilibrium, whatever a formulation assumes inside. Between them the
- * line is that of the exact beam (Simo-Reissner with warping, the constants of the section, the
- * active physics) between the end frames. It satisfies F' = -q, m' = -r' x F - mu, N = R^T F, M =
- * R^T m, and the torsion equations of section_forces_impl.h. The solution that starts at p with the
- * forces at p is blended, in proportion to x, with the solution that starts at q with the forces at
- * q. The only error is that of the end forces: values inside converge like the end forces, and
- * agree with them at the ends. */
+ * The end forces of elements are in equilibrium, whatever a formulation assumes inside. Between
+ * the ends the line is that of the exact beam (Simo-Reissner with warping, the constants of the
+ * section, the active physics) between the end frames. It satisfies F' = -q, m' = -r' x F - mu,
+ * N = R^T F, M = R^T m, and the torsion equations of section_forces_impl.h. The solution that
+ * starts at the first end p with the forces there is blended, in proportion to x, with the
+ * solution that starts at the second end q with the forces there. The only error is that of the
+ * end forces: values inside converge like the end forces, and agree with them at the ends. */
 
-/* Action of the part towards q on the part towards p, in the principal axes of the rotated section;
- * moments about the centroid. */
+/* Action of the part towards q on the part towards p, in the principal axes of the rotated
+ * section. Moments are about the centroid. */
 enum span_value {
     SPAN_N,
     SPAN_QY,
@@ -58,12 +62,12 @@ enum span_value {
     SPAN_MX_SAINT_VENANT,
     SPAN_MX_WARPING,
     SPAN_MX_WAGNER,
-    SPAN_TWIST, /* kappa_x minus the initial value of kappa_x [1/m] */
+    SPAN_TWIST, /* kappa_x minus its initial value [1/m] */
     SPAN_VALUES
 };
 
 typedef struct span_end {
-    span_frame frame;           /* [m] */
+    span_frame frame;           /* frame of an end, with its position [m] */
     double force[3], moment[3]; /* in global axes [N, N m] */
     double bimoment, amplitude; /* [N m^2, 1/m] */
 } span_end;
@@ -74,36 +78,37 @@ typedef struct span_load {
 
 typedef struct span_problem {
     const element_request
-        *request; /* section, length, active physics, initial curvature and strain */
+        *request; /* section, length, active physics, initial curvature and initial strain */
     span_end end[2];
-    int linear; /* 1: equilibrium on the frames of the undeformed element */
-    /* Load at x in [0, 1], at position r with triad R; NULL: none. */
+    int linear; /* 1: equilibrium is that of the undeformed element */
+    /* Computes the load at x in [0, 1], on a section with this frame; NULL: there is no load. */
     void (*load)(void *context, double x, const span_frame *, span_load *out);
     void *context;
 } span_problem;
 
 typedef struct span_fields {
     double value[SPAN_GRID_POINTS][SPAN_VALUES];
-    span_curve curve; /* in lengths of the element, from p */
-    double shear[SPAN_GRID_POINTS][3], bend[SPAN_GRID_POINTS][3]; /* strains, of that length */
+    span_curve curve; /* lengths relative to the length of the element, measured from p */
+    double shear[SPAN_GRID_POINTS][3], bend[SPAN_GRID_POINTS][3]; /* strains; curvatures are
+                                                                     relative to that length */
 } span_fields;
 
-/* Since the undeformed state, in fixed axes. */
+/* Motion of a section from the undeformed state, in fixed axes. */
 typedef struct span_move {
     double displacement[3]; /* [m] */
     double turn[3];         /* rotation vector [rad] */
 } span_move;
 
-/* NOT_CONVERGED: no line between the ends was found. */
+/* Computes the section forces. NOT_CONVERGED: no line between the ends was found. */
 status span_recover(const span_grid *g, const span_problem *problem, span_fields *out, fault *f);
 
-/* Displacement and rotation of the section at x, from those of the ends. begin: the undeformed
- * frames of the ends, with the initial curvature between. */
+/* Computes the displacement and the rotation of the section at x from those of the ends. begin:
+ * the undeformed frames of the ends; the line between them has the initial curvature. */
 void span_moved(const span_grid *, const span_problem *, const span_fields *,
                 const span_frame begin[2], const double curvature[3], const span_move end[2],
                 double x, span_move *out);
 
-/* out[SPAN_VALUES] at x in [0, 1]. */
+/* Computes the values at x in [0, 1]: out[SPAN_VALUES]. */
 void span_at(const span_grid *g, const span_fields *fields, double x, double out[]);
 
 #endif

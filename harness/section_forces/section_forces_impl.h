@@ -8,7 +8,7 @@
 
 enum { FIXED_POINT_MAX = 160 };
 
-/* out = g(x), [n] each. Returns 0, or 1 when g(x) cannot be evaluated. */
+/* Computes out = g(x) for x[n]. Returns 0, or 1 when g(x) cannot be evaluated. */
 typedef int (*fixed_point_map)(void *context, const double x[], double out[]);
 
 /* Non-uniform torsion between two sections whose bimoments and warping amplitudes are known.
@@ -21,9 +21,9 @@ typedef int (*fixed_point_map)(void *context, const double x[], double out[]);
  * any K >= 0. */
 
 typedef struct span_torsion {
-    double EIw;                         /* 0: no warping */
+    double EIw;                         /* 0: the section has no warping */
     double flexibility;                 /* F_w */
-    double bimoment[2], amplitude[2];   /* at p, q */
+    double bimoment[2], amplitude[2];   /* values at p and q */
     double torque[SPAN_GRID_POINTS];    /* M_s */
     double stiffness[SPAN_GRID_POINTS]; /* K */
     double shear[SPAN_GRID_POINTS];     /* f */
@@ -35,13 +35,13 @@ typedef struct span_twist {
 } span_twist;
 
 /* span_grid.c */
-/* share[SPAN_GRID_POINTS]: weight of each grid point in the value at x. */
+/* Computes share[SPAN_GRID_POINTS], the weights of the grid points in the value at x. */
 void span_grid_at(const span_grid *g, double x, double share[]);
-/* out[i][k] = integral from 0 to x[i] of component k; values [points x count], row-major. */
+/* out[i][k]: integral of component k from 0 to x[i]. values, out: [points x count], row-major. */
 void span_grid_integrate(const span_grid *g, int count, const double values[], double out[]);
 /* Starts from x[n], n <= FIXED_POINT_MAX. Stops when no entry changes by more than `enough`, or
- * when the change no longer decreases. Returns the largest last change; INFINITY when the map
- * failed. */
+ * when the change no longer decreases. x becomes the iterate with the smallest change. Returns
+ * the largest change of an entry in that iterate; INFINITY when the map failed. */
 double fixed_point_find(int n, fixed_point_map map, void *context, double enough, double x[]);
 
 #endif

@@ -771,7 +771,7 @@ void interrupt_end(interrupt *);
 
 /* Result for series 0 and 1 of a sweep with one point. */
 typedef struct meeting {
-    int mesh[2];     /* index of the coarsest mesh from which on all quantities meet the error
+    int mesh[2];     /* index of the coarsest mesh at and above which all quantities meet the error
                         target; -1: none */
     double error[2]; /* largest relative error on that mesh; NAN: none */
 } meeting;
