@@ -128,8 +128,8 @@ typedef struct import_left {
     char first[256]; /* case/parameters/program of the first series without a point; empty: none */
 } import_left;
 
-/* For each program, adds a series to every point that has series. gates 1: verdicts on these
- * series affect the exit status. FAULT: the file is missing, damaged or foreign. REFUSED: the
+/* For each program, adds a series to every point that has series. With a nonzero flag, verdicts on
+ * these series affect the exit status. FAULT: the file is missing, damaged or foreign. REFUSED: the
  * file has no imported values, or the run already has them. */
 status import_store_read(const char *path, int gates, sweep *s, import_left *left, fault *f);
 
