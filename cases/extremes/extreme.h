@@ -1,5 +1,5 @@
-/* An extreme: a named case with a parameter varied to values at which numerical errors become
- * critical. Pure data. */
+/* An extreme: a case in which a variable x takes values at which numerical errors become critical.
+ * Data only. */
 #ifndef BEAMWORK_EXTREME_H
 #define BEAMWORK_EXTREME_H
 
@@ -24,7 +24,7 @@ typedef enum extreme_knob {
     EXTREME_ELEMENTS,   /* x is the number of elements per member */
     EXTREME_STEPS,      /* x is the number of load steps between two stations */
     EXTREME_SPLIT,      /* the first member is split at fraction x of its length */
-    EXTREME_REVERSE,    /* 1: every member is reversed; 0: unchanged */
+    EXTREME_REVERSE,    /* x is 1: every member is reversed; 0: unchanged */
     EXTREME_WHOLE       /* the steps of a motion are not halved */
 } extreme_knob;
 
@@ -35,7 +35,7 @@ typedef enum extreme_judge {
 
 typedef struct extreme {
     const char *name;    /* NULL ends the table */
-    const char *group;   /* extremes of the same kind on several cases: one column of a map */
+    const char *group;   /* extremes of the same kind for several cases; one column of a map */
     const char *summary; /* one line */
     const char *base;    /* name of the base case */
     const char *fixed;   /* "name=value;..." for parameters that differ from the defaults */
@@ -47,7 +47,7 @@ typedef struct extreme {
     int values;
     double value[EXTREME_MAX_VALUES]; /* of x */
     extreme_judge judge;
-    double same_as;   /* x of the value with which the others are compared */
+    double same_as;   /* value of x with which the others are compared */
     double tolerance; /* relative; a value within it is neither under-resolved nor wrong */
 } extreme;
 

@@ -9,7 +9,7 @@
 #include "cases/scene/scene.h"
 #include "elements/shared/status.h"
 
-/* Memory that is released together; holds everything made from a scene file. */
+/* Memory that is released as a whole; it holds all data made from a scene file. */
 
 typedef struct arena {
     struct arena_block *block;
@@ -17,8 +17,8 @@ typedef struct arena {
     int failed;         /* 1: out of memory, or above the limit for a file */
 } arena;
 
-/* Makes room for one more entry in a list of `count` entries. Returns the list, or a copy with
- * twice the room; NULL if out of memory. */
+/* Makes room for another entry in a list of `count` entries. Returns the list or a copy with twice
+ * the room, or NULL if out of memory. */
 void *arena_grow(arena *a, void *list, int count, size_t size);
 void arena_free(arena *a);
 
@@ -39,7 +39,7 @@ typedef struct mistakes {
     mistake list[MISTAKES_MOST]; /* ordered by position */
 } mistakes;
 
-/* Adds an error, unless there is already one at that position. */
+/* Adds an error, unless the list already contains an error at that position. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
@@ -48,8 +48,8 @@ void mistakes_add(mistakes *m, int line, int column, const char *format, ...);
 /* Returns "; did you mean 'near'?", or the remedy if near is NULL. */
 const char *mistakes_remedy(const char *near, const char *remedy, char text[FAULT_TEXT]);
 
-/* Returns OK if there are none, otherwise REFUSED or FAULT (out of memory), with the first error in
- * f. */
+/* Returns OK if there are no errors, otherwise REFUSED, or FAULT if out of memory, with the first
+ * error in f. */
 status mistakes_status(const mistakes *m, fault *f);
 
 /* Prints "file:line:column: what", one error per line, then the number of further errors. */
@@ -60,7 +60,7 @@ status mistakes_json(const mistakes *m, FILE *to, fault *f);
 
 /* A YAML document as a tree of maps, lists and strings, each with its position in the file.
  *
- * Every scalar is a string until a number or a word is read from it: there are no implicit types.
+ * Every scalar is a string until a number or a word is read from it; there are no implicit types.
  * Anchors, aliases, tags, merge keys, several documents, duplicate keys, and documents that are too
  * deep or too large are rejected. */
 
@@ -71,9 +71,9 @@ typedef enum document_kind { DOCUMENT_TEXT, DOCUMENT_LIST, DOCUMENT_MAP } docume
 typedef struct document_node {
     document_kind kind;
     int line, column; /* position of the first character, starting at 1 */
-    /* For a string that appears unchanged in the file: number of columns from `column` to its start
-     * (a quote). -1: its characters have no positions of their own (several lines, escapes, an
-     * inserted name). */
+    /* For a string that appears unchanged in the file: number of columns from `column` to its first
+     * character (1 after a quote). -1: its characters do not correspond to columns of the file
+     * (several lines, escapes, an inserted name). */
     int inset;
     const char *text;            /* without control characters */
     int count;                   /* number of entries of a list or map */
@@ -81,11 +81,12 @@ typedef struct document_node {
     struct document_node **key;  /* [count] strings; NULL for a list */
 } document_node;
 
-/* Reads the bytes into a tree, which the arena owns; NULL after an error. */
+/* Reads the bytes into a tree, which the arena owns. Returns NULL after an error. */
 document_node *document_read(const char *bytes, size_t size, arena *a, mistakes *m);
-/* Returns the entry of a map; NULL if there is none or `map` is not a map. */
+/* Returns the value of a key; NULL if the key is missing or `map` is not a map. */
 const document_node *document_find(const document_node *map, const char *key);
-/* Adds an error at character `offset` of the string, or at the start of the node. */
+/* Adds an error at character `offset` of the string; at the start of the node if characters have no
+ * positions. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
@@ -99,8 +100,8 @@ extern const char *const key_list_head[2];
 /* Receives a key: its depth below the root (0), its form ("NAME: {...}") and its description. */
 typedef void key_list_take(void *context, int depth, const char *name, const char *form,
                            const char *text);
-/* Keys that every entry may have (loops), and all other keys, each after its parent. Keys that are
- * not implemented yet are omitted. */
+/* Pass the keys that every entry may have (loops), or all other keys, each after its parent. Keys
+ * that are not implemented yet are omitted. */
 void key_list_loops(key_list_take *take, void *context);
 void key_list_all(key_list_take *take, void *context);
 
@@ -111,31 +112,32 @@ void key_list_write(FILE *to, key_list_say *say);
 
 /* Reads lines of other programs' files as text, fields and numbers. Every line is checked. */
 
-/* Opens a text file and skips a byte order mark at its start. Returns NULL with errno after a
+/* Opens a text file and skips a byte order mark at its start. Returns NULL and sets errno after a
  * failure. */
 FILE *line_open(const char *path);
 /* Skips the byte order mark of an open stream. */
 void line_skip_mark(FILE *from);
 /* Removes blanks at both ends, in place. */
 char *line_trim(char *line);
-/* UTF-8 without control characters? */
+/* Returns 1 if the line is UTF-8 without control characters. */
 int line_is_text(const char *line);
-/* Splits fields at commas and trims them. Fields may be in quotes ("" inside is one quote). Returns
- * their number, or more than `most` if there are too many. Changes the line. */
+/* Splits a line at commas, in place, and trims the fields. Fields may be in quotes, in which ""
+ * stands for one quote. Returns the number of fields, or more than `most` if there are too many. */
 int line_split(char *line, char *field[], int most);
 /* Like line_split, for words separated by blanks. */
 int line_words(char *line, char *word[], int most);
-/* Reads a finite number that fills the text; its exponent may be marked D. */
+/* Reads a finite number that fills the text; its exponent may be written with D. Returns 1, or 0 if
+ * the text is not such a number. */
 int line_number(const char *text, double *value);
 
 /* Description of a quantity of a scene, made from the data of the scene. */
 
 enum { MEANING_ROOM = 512 };
 
-/* Writes one line without a full stop: kind, component, node or member with its position, station,
- * and the analysis if the line would otherwise be ambiguous. Quantities that differ in any of these
- * have different lines. Nodes and members are named as by write_scene. The text is truncated if it
- * does not fit. */
+/* Writes one line without a full stop: the kind, the component, the node or member with its
+ * position, the station, and the analysis if the line would otherwise be ambiguous. Quantities that
+ * differ in one of these have different lines. Nodes and members have the names that write_scene
+ * writes. Text that does not fit is truncated. */
 void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size);
 
 /* A scene file as a case: parameters, a function that builds the scene, and reference values. */
@@ -155,46 +157,47 @@ typedef status scene_truth_taker(void *to, const scene_truth *, fault *);
  * with all errors in m (and the first in f), or FAULT if the file cannot be read. path must outlive
  * m and the file. */
 status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f);
-/* Reads only the form and the parameters, for use with values other than the defaults;
- * scene_file_check then checks the scene at these values. */
+/* Reads the file but checks only the form and the parameters, for use with values other than the
+ * defaults. scene_file_check then checks the scene at these values. */
 status scene_file_read_form(const char *path, scene_file **out, mistakes *m, fault *f);
 /* Checks the scene at these parameter values. REFUSED: all errors are in m, the first in f. */
 status scene_file_check(const scene_file *, const double value[], mistakes *m, fault *f);
-/* Like scene_file_read, from memory (for the fuzzer); path: used in messages. */
+/* Like scene_file_read, but reads from memory (for the fuzzer). path: used in messages. */
 status scene_file_read_bytes(const char *bytes, size_t size, const char *path, scene_file **out,
                              mistakes *m, fault *f);
 void scene_file_free(scene_file *);
 
 /* Returns the case, which is valid as long as the file. */
 const case_type *scene_file_case(const scene_file *);
-/* Returns the path of the file from which a case was made; NULL: none. */
+/* Returns the path of the file from which a case was made, or NULL if it is built-in. */
 const char *scene_file_path(const case_type *type);
 const struct document_node *scene_file_document(const scene_file *);
-/* Does the file contain this key? */
+/* Returns 1 if the root of the file contains this key. */
 int scene_file_states(const scene_file *, const char *key);
-/* Passes the reference values that apply at a parameter point to `taker`, with their values
- * there. */
+/* Passes the reference values that apply at a parameter point to `taker`, evaluated at that
+ * point. */
 status scene_file_truths(const scene_file *, const double value[], scene_truth_taker *, void *to,
                          fault *f);
-/* Like scene_file_truths, at the defaults and at every point that a reference value names; values
- * may repeat. */
+/* Like scene_file_truths, for the defaults and for every parameter point that a reference value
+ * names. A value may be passed more than once. */
 status scene_file_truths_all(const scene_file *, scene_truth_taker *, void *to, fault *f);
 
 /* Writes the keys of scene files as JSON Schema, for completion and checks in editors. */
 
 status schema_file_write(FILE *to, fault *f);
 
-/* Writes a scene as a scene file that reads back as the same scene, bit for bit. */
+/* Writes a scene as a scene file. Reading this file gives the same scene, bit for bit. */
 
 typedef struct write_head {
     const char *name, *summary, *source;
 } write_head;
 
-/* Writes the scene with loops and expressions expanded; numbers have as many digits as necessary.
- * REFUSED: the scene contains something that a file cannot express. */
+/* Writes the scene with loops and expressions expanded; numbers have as many digits as are needed
+ * to reproduce them.
+ * REFUSED: the scene contains data that a file cannot express. */
 status write_scene(FILE *to, const scene *s, const write_head *head, fault *f);
-/* Like write_scene, in memory; the caller frees the string. Returns "" if there is no scene (NULL)
- * or a file cannot express it, and NULL if out of memory. */
+/* Like write_scene, but returns a string, which the caller frees. Returns "" if s is NULL or a file
+ * cannot express the scene, and NULL if out of memory. */
 char *write_scene_text(const scene *s, const write_head *head);
 
 #endif

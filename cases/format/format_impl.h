@@ -9,15 +9,15 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* Returns zeroed memory, aligned for every type; NULL if out of memory, which `failed` records. {0}
- * is an empty arena. */
+/* Returns zeroed memory, aligned for every type. If out of memory, returns NULL and sets `failed`.
+ * An arena initialised with {0} is empty. */
 void *arena_take(arena *a, size_t size);
 /* Copies the first `length` bytes of a text, and adds a zero. */
 const char *arena_copy(arena *a, const char *text, size_t length);
 
 /* Names that expressions may use: parameters, derived values, loop names. */
 
-/* The name added last; earlier ones remain visible. NULL: no names. */
+/* The name added last; earlier names remain visible. NULL: no names. */
 typedef struct scope {
     const char *name;
     double number;           /* NAN: its expression has an error that has been reported */
@@ -27,35 +27,36 @@ typedef struct scope {
     const struct scope *before;
 } scope;
 
-/* Adds a name for a number or a word; returns the same scope if out of memory. */
+/* Adds a name for a number. Returns the new scope, or `names` if out of memory. */
 const scope *scope_number(const scope *names, const char *name, double number, arena *a);
 const scope *scope_word(const scope *names, const char *name, const char *word, arena *a);
-/* Adds a word of a parameter with these choices. */
+/* Adds a name for a word of a parameter with these choices. */
 const scope *scope_choice(const scope *names, const char *name, const char *word,
                           const char *choices, arena *a);
 /* Adds the constants of a section as names. */
 const scope *scope_constants(const scope *names, const char *name, const double value[], arena *a);
-/* Returns the entry of a name of that length, or NULL. */
+/* Returns the entry of the name, of `length` characters, or NULL. */
 const scope *scope_find(const scope *names, const char *name, size_t length);
-/* Returns the known name, constant or function that is nearest to a misspelt one, or NULL. */
+/* Returns the known name, constant or function that is nearest to a misspelt name, or NULL. */
 const char *scope_nearest(const scope *names, const char *name);
-/* Can `key` be a new name: a letter followed by letters, digits and _, at most 40 characters, not
- * used by another name or function? Reports an error otherwise. */
+/* Returns 1 if `key` can be a new name: at most 40 letters, digits and underscores, starting with a
+ * letter, and not used by another name or function. Otherwise reports an error and returns 0. */
 int scope_accepts(const scope *names, const document_node *key, mistakes *m);
 
 /* Builds a scene from a checked tree and parameter values. */
 
 /* Builds the scene. names: the parameters. The scene is valid if no error was found. The caller
- * frees it in any case. */
+ * frees the scene in either case. */
 void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out);
 
-/* Reads only the sections, with their constants as names, into a builder with root and names. */
+/* Reads only the sections into a builder with root and names, and adds their constants to the
+ * names. */
 struct builder;
 void build_sections(struct builder *b);
 
 /* Expands loops and local names: the entries of a map or list with `for` and `let`. */
 
-/* One expanded entry: $i is replaced in its name and texts, and its names are known. */
+/* An expanded entry: $i is replaced in its name and strings, and its local names have values. */
 typedef struct unrolled {
     const char *name;           /* for an entry of a map; NULL for a list */
     const document_node *place; /* position for messages: the key, or the entry itself */
@@ -68,11 +69,11 @@ typedef struct unrolled {
 
 enum { UNROLL_MOST = 10000 };
 
-/* Returns the number of entries, in the order of the file; the first loop of an entry is the
- * outermost. An error in a loop is reported, and the entry is omitted. */
+/* Expands all entries in the order of the file and returns their number. The first loop of an entry
+ * is the outermost. An entry with an error in a loop is reported and omitted. */
 int unroll_entries(const document_node *collection, const scope *names, arena *a, mistakes *m,
                    unrolled **out);
-/* Reads NAME: EXPR in order; each name is known to the following ones. */
+/* Reads NAME: EXPR in order. Each expression may contain the names before it. */
 const scope *unroll_let(const document_node *let, const scope *names, arena *a, mistakes *m);
 
 /* Parts and their instances: sub-assemblies described once in their own axes, and placed in the
@@ -91,19 +92,23 @@ enum { PLACEMENT_LISTS = 4 };
 /* Lists of a part: "nodes", "members", "springs", "loads". */
 extern const char *const placement_list[PLACEMENT_LISTS];
 
-/* Adds the entries of all instances after list[k] of count[k], in the order of placement_list. */
+/* Appends the entries of all instances to each list[k] with its count[k]; k is in the order of
+ * placement_list. */
 void placement_unroll(const document_node *root, const scope *names, arena *a, mistakes *m,
                       unrolled *list[], int count[]);
 
-/* v <- R v; p <- origin + R p. NULL: no change. */
+/* Transforms a vector (v <- R v) or a position (p <- origin + R p) to the axes of the scene. NULL:
+ * no change. */
 void placement_turn(const placement *, double v[3]);
 void placement_move(const placement *, double p[3]);
-/* Returns the node of the scene connected to a port of the instance; NULL: not a port. */
+/* Returns the node of the scene that is connected to a port of the instance, or NULL if `name` is
+ * not a port. */
 const document_node *placement_port(const placement *, const char *name);
 
-/* Units: SI throughout; others are rejected with the correct form. */
+/* Units. All values are in SI or in the units of the scene; other units are rejected with the
+ * correct form. */
 
-/* Reports an error if the text is not one of the allowed units. */
+/* Reports an error if the text is not an allowed unit. */
 void units_check(const document_node *unit, mistakes *m);
 
 /* Units of a scene: length and force; those of stress and mass (force s^2/length) follow. */
@@ -114,15 +119,16 @@ typedef struct unit_system {
     char name_of_stress[16];
 } unit_system;
 
-/* Reads "mm, N, MPa" or [mm, N, MPa]; n NULL: SI. Reports units that are not consistent. */
+/* Reads "mm, N, MPa" or [mm, N, MPa]; n NULL: SI. Reports inconsistent units. */
 void units_read(const document_node *n, mistakes *m, unit_system *out);
-/* Translates an SI unit to the system: "N m" becomes "N mm"; seconds and angles do not change. */
+/* Translates an SI unit to the unit system: "N m" becomes "N mm". Seconds and angles do not
+ * change. */
 void units_translate(const unit_system *, const char *unit, size_t size, char out[]);
 
 /* Builds a scene from a checked tree, and reads values of its maps by key.
  *
  * The keys of the tree have been checked: a requested value is a number, a word, or a list if one
- * is required. An invalid value is reported, and some value is returned. */
+ * is required. An invalid value is reported, and an arbitrary value is returned. */
 
 typedef struct builder {
     arena *arena;
@@ -141,11 +147,11 @@ typedef struct builder {
     int unsaid_warping; /* number of ends without a specified warping condition */
 } builder;
 
-/* One map: an entry, or a map inside one. */
+/* A map: an entry, or a map inside an entry. */
 typedef struct fields {
     builder *b;
     const scope *names;
-    const document_node *map; /* NULL: missing, without entries */
+    const document_node *map; /* NULL: the map is missing and is treated as empty */
     const document_node *place;
     const placement *placed; /* NULL: in the axes of the scene */
 } fields;
@@ -153,35 +159,37 @@ typedef struct fields {
 fields fields_of(builder *b, const unrolled *entry);
 fields fields_below(const fields *f, const char *key);
 int fields_have(const fields *f, const char *key);
-/* Reads all values of the table into the struct of the entry; values of a missing map do not
+/* Reads all values of the table into the struct of the entry. Values of a missing map do not
  * change. */
 void fields_read(const fields *f, const entry_field *table, void *entry);
 double fields_number(const fields *f, const char *key, double otherwise);
 int fields_whole(const fields *f, const char *key, int otherwise, int least, int most);
-/* Leaves out[count] unchanged and returns 0 if the key is missing. */
+/* Reads a vector. Returns 1, or 0 if the key is missing; out[count] then does not change. */
 int fields_vector(const fields *f, const char *key, int count, double out[]);
-/* Reads a list or range. Returns the count, or 0 if the key is missing or after an error; *out
- * belongs to the arena. */
+/* Reads a list or range. Returns the number of values, or 0 if the key is missing or after an
+ * error. *out belongs to the arena. */
 int fields_values(const fields *f, const char *key, double **out);
 const char *fields_text(const fields *f, const char *key, const char *otherwise);
-/* Returns the index in "a|b|c" of a word, or of the word of a parameter with that name. */
+/* Returns the index in "a|b|c" of a word, or of the word that a parameter of that name has;
+ * `otherwise` if the key is missing. */
 int fields_word(const fields *f, const char *key, const char *choices, int otherwise);
 int fields_word_of(const fields *f, const document_node *word, const char *what,
                    const char *choices, int otherwise);
-/* Returns the bits of one word or of a list. */
+/* Returns the bits of a word or of a list of words. */
 unsigned fields_words(const fields *f, const char *key, const char *choices);
-/* Returns the index of the named entry; SCENE_NONE: none. */
+/* Returns the index of the entry that the key names, or SCENE_NONE. */
 int fields_entry(const fields *f, const char *key, scene_list list);
 int fields_entry_of(const fields *f, const document_node *name, scene_list list);
-/* Returns the name in a text: the text itself, or the word of a name. */
+/* Returns the name that a string denotes: the string itself or, if it is a name of the scope, its
+ * word. */
 const char *fields_called(const fields *f, const document_node *name);
-/* Returns 1 if there is an entry of that name. Reports nothing. */
+/* Returns 1 if the key names an existing entry. Reports no error. */
 int fields_names(const fields *f, const char *key, scene_list list);
 int fields_names_entry(const fields *f, const document_node *name, scene_list list);
 /* "ux|uy|uz|rx|ry|rz" */
 extern const char fields_components[];
 
-/* Gives an entry of the scene the name of entry i of a list. */
+/* Sets the name of an entry of the scene to that of entry i of a list of the file. */
 void builder_call(builder *b, scene_list list, int index, int i);
 
 void builder_sections(builder *b);
@@ -201,42 +209,43 @@ void builder_read_cases(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
-/* Reads settings of a transient analysis that the table does not cover. */
+/* Reads the settings of a transient analysis that the key table does not cover. */
 void builder_in_time(const fields *f, scene_motion *how);
 /* Adds a piece to the function of time of an entry. */
 typedef void builder_piece(scene *, int index, double until, const char *text);
-/* Adds the function given by `time`, `pieces` or `table`; a table is interpolated linearly, or by a
- * cubic spline that starts and ends at rest. */
+/* Adds the function given by `time`, `pieces` or `table`. A table is interpolated linearly or, if
+ * `spline` is 1, by a cubic spline that starts and ends at rest. */
 void builder_function(const fields *f, int index, builder_piece *add, int spline);
-/* Reports that the analysis does not have the quantity, and lists the kinds of analysis that do. */
+/* Reports that the analysis does not have the quantity, and lists the kinds of analysis that have
+ * it. */
 void builder_no_quantity(const fields *what, const char *key, const scene_quantity *q);
-/* Reads `path` and as many `values` as it has stations. Returns their number; 0 after an error or
- * if there are none. */
+/* Reads `path` and, for each of its stations, one of `values`. Returns the number of stations, or 0
+ * if there are none or after an error. */
 int builder_stations(const fields *f, const char *values, double **path, double **value);
 /* Adds default analyses and quantities if the file has none. */
 void builder_defaults(builder *b);
 
 /* Sections given by dimensions: I, channel, Z, angle, box. */
 
-/* Returns 1, with points and walls, if the section is one of them. */
+/* Returns 1 and sets the points and walls if the section has one of these forms, otherwise 0. */
 int build_shapes_read(const fields *f, section_spec *spec);
 
 /* Entries and values that depend on the values of names. */
 
-/* {NAME: VALUE, NAME: [VALUE, ...], ...}: does each name have one of its values? Returns 0 after an
- * error, 1 for NULL. */
+/* Returns 1 if, in {NAME: VALUE, NAME: [VALUE, ...], ...}, each name has one of its values, or if
+ * conditions is NULL. Returns 0 otherwise and after an error. */
 int choose_holds(const document_node *conditions, const scope *names, mistakes *m);
-/* Returns the value in {NAME: {VALUE: ..., else: ...}} for the present value of the name; anything
- * else is returned unchanged. NULL after an error. */
+/* Returns the entry of {NAME: {VALUE: ..., else: ...}} for the present value of the name. A node of
+ * another form is returned unchanged. Returns NULL after an error. */
 const document_node *choose_value(const document_node *n, const scope *names, mistakes *m);
 
 /* Numbers given as expressions (cases/scene/expression.c); errors are reported with the position of
  * their character. */
 
-/* An expression_name for the names of a scope; context: a name_context. */
+/* An expression_name that finds the names of a scope. names: a name_context. */
 typedef struct name_context {
     const scope *names;
-    int in_time; /* 1: of a function of time */
+    int in_time; /* 1: the expression is a function of time */
 } name_context;
 int names_number(const void *context, const char *text, int *at, double *out, expression_mistake *);
 
@@ -246,8 +255,8 @@ int expression_number(const document_node *n, const scope *names, mistakes *m, d
 int expression_vector(const document_node *n, int count, const scope *names, mistakes *m,
                       double out[]);
 
-/* Replaces `file`, `at`, `value` of tables below the node by the numbers in these files; scene:
- * path of the scene file, NULL: none. */
+/* Replaces `file`, `at` and `value` of tables below the node by the numbers in these files. beside:
+ * path of the scene file, to which paths are relative; NULL: none. */
 void table_files_read(document_node *, const char *beside, arena *a, mistakes *m);
 
 /* Tables of the keys of scene files, used to check and describe a file and to suggest corrections
@@ -258,21 +267,21 @@ extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], 
 
 /* `for`, `let` and `if`, which every entry may have. */
 extern const entry_field keys_loop[];
-/* May its entries have loops? */
+/* Returns 1 if the entries of this table may have loops. */
 int keys_loops(const entry_field *table);
-/* Is it a key of a loop? */
+/* Returns 1 if the name is a key of a loop. */
 int keys_is_loop(const char *name);
 /* Returns the value table of a table whose keys are arbitrary names; NULL for any other table. */
 const entry_field *keys_any(const entry_field *table);
 
 /* Checks the whole tree for unknown, missing and misplaced keys and for values of the wrong form.
- * Returns 1 if there are none. */
+ * Returns 1 if there are no such errors. */
 int keys_check(const document_node *root, mistakes *m);
 
 /* Parts of the description of a quantity. */
 
-/* A scene file stored in the program by the build (harness/tools/pack_case.c): it is read and
- * checked there, contains no pointers, and is a case like any other. */
+/* A scene file that the build reads, checks and stores in the program (harness/tools/pack_case.c).
+ * The stored form contains no pointers and is used like any other case. */
 
 typedef struct document_packed {
     int kind, line, column, inset; /* as in document_node */
@@ -289,19 +298,19 @@ typedef struct scene_packed {
     int nodes;
 } scene_packed;
 
-/* Builds such a case (case_type.build_from); context: a scene_packed. */
+/* Builds the scene of a stored file (case_type.build_from). context: a scene_packed. */
 status scene_packed_build(const void *context, const double value[], scene *s, fault *f);
 
 /* Lists of numbers, explicit or as a range. */
 
-/* Reads a list of numbers, or a range: a..b (steps of 1), a..b step c, a..b/n (n equal parts; the
- * last / after .. always divides, otherwise put b in parentheses). Both ends are included. Returns
- * the count, or -1 after an error; *out belongs to the arena. */
+/* Reads a list of numbers, or a range: a..b (steps of 1), a..b step c, a..b/n (n equal parts). The
+ * last / after .. always separates n; a quotient b must be in parentheses. Both ends are included.
+ * Returns the number of values, or -1 after an error. *out belongs to the arena. */
 int range_values(const document_node *n, const scope *names, arena *a, mistakes *m, double **out);
-/* Is the text a range? */
+/* Returns 1 if the node is a range. */
 int range_is(const document_node *n);
 
-/* Parts of a scene file, for the files that read it. */
+/* Data of a scene file, for the sources that read it. */
 
 struct scene_file {
     arena arena; /* holds the document and all strings */
@@ -312,33 +321,33 @@ struct scene_file {
     int parameters;
 };
 
-/* Reads the parameter table; without errors, the defaults are within their ranges. */
+/* Reads the parameter table. If there are no errors, the defaults are within their ranges. */
 void parameter_table_read(scene_file *file, mistakes *m);
 /* Returns the names of the parameters of a table, with these values. */
 const scope *parameter_table_names(const parameter_type *, const double value[], arena *a);
 
 /* Constants of sections as names in expressions: SECTION.A. */
 
-/* Adds the constants of a section to the scope. c NULL: the section has an error that has been
+/* Adds the constants of a section to the scope. c NULL: the section has an error, which has been
  * reported. */
 const scope *section_names_add(const scope *names, const char *section_name, const section *c,
                                arena *a);
 /* Names of all constants, for messages. */
 extern const char section_names_all[];
 
-/* Loop names in texts: $i, or ${i} before letters, is replaced by the value of the loop, an integer
- * or a word. */
+/* Loop names in strings: $i, or ${i} before letters, is replaced by the value of the loop, which is
+ * an integer or a word. */
 
-/* Returns the tree with all names replaced: the same tree if there are none, otherwise a copy; NULL
- * if out of memory. A name that cannot be replaced is reported and remains. */
+/* Returns the tree with all loop names replaced: the same tree if it contains none, otherwise a
+ * copy, or NULL if out of memory. A name that cannot be replaced is reported and remains. */
 const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
                                      mistakes *m);
-/* Returns text for messages, in which numbers have six digits. */
+/* Returns the string for use in messages, where numbers have six digits. */
 const char *substitute_said(const document_node *n, const scope *names, arena *a, mistakes *m);
-/* Returns 1 if a loop name remains in the text; the error has been reported. */
+/* Returns 1 if a loop name remains in the string, for which an error has been reported. */
 int substitute_is_left(const char *text);
 
-/* Parts of a scene file, for the files that write it. */
+/* State of the output, for the sources that write scene files. */
 
 typedef struct writer {
     FILE *to;
@@ -347,14 +356,14 @@ typedef struct writer {
     int begun;      /* 1: the map already contains a key */
 } writer;
 
-/* Functions that write an entry in a special form: its key and everything after it. */
+/* A function that writes a value in a special form, including its key. */
 typedef struct write_own {
     const char *key; /* "where": in any map; "stress.where": in that map; NULL ends a list */
     void (*write)(writer *, const void *entry);
 } write_own;
 
 /* Writes a map with the keys of an entry whose values differ from the defaults. own: special forms,
- * also for maps inside it; NULL: none. */
+ * also for maps inside the entry; NULL: none. */
 void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[]);
 /* Writes "key: ", after ", " if it is not the first key of its map. */
 void write_values_key(writer *w, const char *key);
@@ -363,15 +372,15 @@ void write_values_bits(writer *w, const char *words, unsigned bits);
 
 /* Writes six digits, or as many as are necessary to reproduce the number. */
 void write_values_number(writer *w, double value);
-/* [a, b, c] */
+/* Writes [a, b, c]. */
 void write_values_numbers(writer *w, int count, const double value[]);
 /* Writes the diagonal of a 6 x 6 matrix, or the whole matrix if other entries are not zero. */
 void write_values_matrix(writer *w, const double A[36]);
-/* Is any value nonzero? */
+/* Returns 1 if any value is not zero. */
 int write_values_any(int count, const double value[]);
 /* Writes key and number if the number differs from the default. */
 void write_values_if(writer *w, const char *key, double value, double otherwise);
-/* In double quotes. */
+/* Writes the text in double quotes. */
 void write_values_quoted(writer *w, const char *text);
 /* Writes the name of an entry in the file: as in the scene if it is unique and allowed in a file,
  * otherwise from its index. */

@@ -1,5 +1,5 @@
-/* Keys of a load, like those of a member in keys_member.h. The first six are its kinds: see
- * entry_of_load. */
+/* Keys of a load, in the form of keys_member.h. The first six keys select the kind of the load
+ * (entry_of_load). */
 ROW("force", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
     .summary = "at a node, or at 'where' of a member")
 ROW("moment", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N m",
@@ -36,12 +36,12 @@ ROW("to", ENTRY_NUMBER, .summary = "its end, as a fraction of the length", .usua
 ROW("to_value", ENTRY_VECTOR, .count = 3,
     .summary = "distributed load at 'to', varying linearly from its value at 'from'",
     .left_out = "constant")
-/* 0: the load does work on the displacements inside the elements */
+/* 0: the load does work on the displacement field inside the elements */
 KEY(int, lumped, , "lumped", ENTRY_FLAG, .words = "no|yes|false|true",
     .summary = "distributed load or gravity: half of the load of an element on each of its nodes; "
                "second-order accurate",
     .usual = "no")
-/* in `axes`; it rotates with the node or the centroids */
+/* in `axes`; the offset rotates with the node or the sections */
 KEY(double, at, [3], "at", ENTRY_VECTOR, .count = 3, .unit = "m",
     .summary = "offset of a force from the node or the centroids", .usual = "[0, 0, 0]")
 KEY(scene_load_axes, axes, , "axes", ENTRY_WORD, .words = "fixed|member",
@@ -66,7 +66,7 @@ ROW("feedback", ENTRY_MAP, .below = feedback,
     .summary = "in motions, factor from a measured component; time, pieces or table are then its "
                "reference [m, rad]",
     .left_out = "none")
-/* SCENE_NONE: the scene has none */
+/* SCENE_NONE: the scene has no load cases */
 KEY(int, load_case, , "case", ENTRY_NAME,
     .summary = "load case of the load: any name; give it for all loads or for none",
     .left_out = "none", .of = SCENE_CASES)

@@ -1,11 +1,11 @@
 /* Keys of a member that are members of scene_member (scene.h): KEY(type, name there, dimensions,
- * row of entry_member (entries_structure.c)). ROW: keys that are read and written differently. A
- * new key is one KEY. */
+ * row of entry_member (entries_structure.c)). ROW: keys that special functions read and write. A
+ * new key needs only one KEY here. */
 KEY(int, p, , "from", ENTRY_NAME, .needed = 1, .summary = "start node", .of = SCENE_NODES)
 KEY(int, q, , "to", ENTRY_NAME, .needed = 1, .summary = "end node", .of = SCENE_NODES)
 ROW("section", ENTRY_FORMS, .needed = 1,
     .summary = "NAME, or [at from, at to]: dimensions vary linearly, each element is prismatic")
-/* its component normal to the member is used */
+/* only its component normal to the member is used */
 KEY(double, y_axis, [3], "y", ENTRY_DIRECTION, .needed = 1, .count = 3,
     .summary = "direction of the section's y axis", .mirrors = "---")
 ROW("warping", ENTRY_FORMS,
@@ -17,7 +17,7 @@ ROW("warping", ENTRY_FORMS,
 /* about local y and z; the positions of interior nodes follow the arc */
 KEY(double, curvature, [3], "curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m",
     .summary = "initial twist and curvatures", .usual = "[0, 0, 0]", .mirrors = "++-")
-/* temperature, a misfit */
+/* due to temperature or misfit, for example */
 KEY(double, strain, [3], "strain", ENTRY_VECTOR, .group = 1, .count = 3, .unit = "1",
     .summary = "elongation and shears of the unstressed member", .usual = "[0, 0, 0]")
 KEY(double, pretension, , "pretension", ENTRY_NUMBER, .group = 1, .unit = "N",
@@ -44,7 +44,7 @@ KEY(double, damping, , "damping", ENTRY_NUMBER, .unit = "s",
     .summary = "stiffness-proportional damping: adds this value times the "
                "undeformed stiffness times the strain rates to the stresses",
     .usual = "0", .most = INFINITY)
-/* 0: as given by the mesh */
+/* 0: set by the mesh */
 KEY(int, divisions, , "divisions", ENTRY_WHOLE,
     .summary = "number of elements, independent of the mesh; of each piece if loads start, end or "
                "act within the member",

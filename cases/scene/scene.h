@@ -1,4 +1,4 @@
-/* scene/: structure, loads and prescribed coordinates, analyses and quantities.
+/* Scenes: structure, loads and prescribed coordinates, analyses and quantities.
  *
  * Sections, in this order: analysis; expression, formula and function of time; quantity; scene;
  * values along a path; edit; names; entry (keys of scene files); inputs of analyses; lists;
@@ -14,8 +14,8 @@
 #include "elements/shared/status.h"
 
 /* Analyses: a kind, and the data of that kind. Every scene_add_* returns the index of the new
- * analysis, or -1 if out of memory. Read the data of a kind through its function below, which ends
- * the program if the analysis is of another kind; the union is used nowhere else. */
+ * analysis, or -1 if out of memory. The data of a kind are read with its function below, which ends
+ * the program if the analysis is of another kind. The union is not used elsewhere. */
 
 typedef struct scene scene;
 
@@ -24,15 +24,15 @@ enum { SCENE_NONE = -1, SCENE_NAME = 48, SCENE_UNIT = 16 }; /* sizes include the
 typedef enum scene_analysis_kind {
     SCENE_LINEAR,     /* one linear solution with the loads at factor 1 */
     SCENE_STATIC,     /* nonlinear equilibrium along the path */
-    SCENE_BUCKLING,   /* linear prestress about the undeformed state: loads at path 0 are constant,
-                         and their increase up to path 1 is multiplied by the factor. Or about the
-                         last state of a path */
+    SCENE_BUCKLING,   /* linear buckling. About the undeformed state, the prestress is linear: loads
+                       * at path parameter 0 are constant, and their increase up to 1 is multiplied
+                       * by the factor. Otherwise about the last state of a path */
     SCENE_MODAL,      /* natural frequencies about the present state */
-    SCENE_COMPLIANCE, /* at every station of the preceding static path */
+    SCENE_COMPLIANCE, /* tangent compliance at every station of the preceding static path */
     SCENE_CONTINUATION, /* path of a load factor, by arc length or by one coordinate */
     SCENE_ROTATION,     /* stationary rotation: equilibrium and frequencies in the rotating frame */
     SCENE_MOTION,       /* motion in time: the path parameter is the time [s] */
-    SCENE_HARMONIC /* steady small vibration about a state: the path parameter is a frequency [Hz]
+    SCENE_HARMONIC /* steady small vibration about a state; the path parameter is the frequency [Hz]
                     */
 } scene_analysis_kind;
 
@@ -45,8 +45,8 @@ typedef enum scene_moments {
 #define SCENE_MOMENTS_CHOICES "spatial|semitangential|symmetrised"
 const char *scene_moments_name(scene_moments);
 
-/* Output points: path parameters, ascending. For a continuation: values of its control coordinate
- * [m], in the order in which they are reached. */
+/* Output points (stations): ascending path parameters; for a continuation, values of its control
+ * coordinate [m] in the order in which they are reached. */
 typedef struct scene_path {
     int stations;
     double *value; /* [stations] */
@@ -59,11 +59,11 @@ typedef struct scene_rotating_frame {
     double centre[3]; /* a point on its axis [m] */
 } scene_rotating_frame;
 
-/* Static, rotation. */
+/* Steps of a static analysis or a stationary rotation. */
 typedef struct scene_walk {
     scene_path path;
     int steps_between; /* initial number of load steps between two stations; >= 1 */
-    int modes; /* rotation: number of modes, of all families together, that are searched for first
+    int modes; /* for a rotation: number of modes, of all families together, that are computed first
                 */
     scene_rotating_frame frame;
 } scene_walk;
@@ -71,14 +71,14 @@ typedef struct scene_walk {
 typedef struct scene_compliance {
     int node;
     scene_moments moments;
-    unsigned released; /* bit i: prescribed component i at the node is free, and its reaction is a
-                          dead load */
+    unsigned released; /* bit i: the prescribed component i of the node is released, and its
+                        * reaction acts as a dead load */
 } scene_compliance;
 
-/* Control of the path of proportional loads. The control coordinate is a translation of any
- * node, including attached nodes; with arc length it is only the abscissa of curves. The arc is the
- * root of the mean, over all nodes, of (displacement/size of the scene)^2 + rotation^2,
- * dimensionless. */
+/* Control of a continuation, the path of proportional loads. The control coordinate is a
+ * translation of any node, including attached nodes; with arc-length control, it is only the
+ * abscissa of curves. The arc is the root of the mean, over all nodes, of (displacement/size of the
+ * scene)^2 + rotation^2, dimensionless. */
 typedef struct scene_control {
     int node, component;
     int by_arc;            /* 1: steps measure arc length, 0: the control coordinate */
@@ -106,8 +106,9 @@ typedef enum scene_scheme {
 
 /* Distribution of the mass of members. */
 typedef enum scene_mass {
-    SCENE_MASS_USUAL, /* consistent if the formulation and all integrators in the chain of motions
-                         support it and the scene does not request lumped mass */
+    SCENE_MASS_USUAL, /* consistent, if the formulation and all integrators in the chain of motions
+                       * support this and the scene does not request lumped mass; otherwise
+                       * lumped */
     SCENE_LUMPED,     /* at the nodes, for all formulations */
     SCENE_CONSISTENT  /* along the elements, if the formulation supports it */
 } scene_mass;
@@ -120,50 +121,54 @@ typedef struct scene_alpha {
     double mass, force; /* alpha_m, alpha_f */
 } scene_alpha;
 
-/* Initial velocities: those of a rigid body rotating about a point. */
+/* Initial velocities, which are those of a rigid body: the velocity of a point and a rotation about
+ * it. */
 typedef struct scene_start {
     double velocity[3], spin[3], centre[3]; /* [m/s], [rad/s], [m] */
 } scene_start;
 
-/* A motion starts at rest, with `start`, or from the last state of the path that it follows; after
- * another motion, it starts with the rates and the time of that motion. */
+/* A motion starts from rest or with the velocities `start`, in the undeformed state or in the last
+ * state of the path that it follows. After another motion, it starts with the rates and the time of
+ * that motion. */
 typedef struct scene_motion {
     scene_path path; /* instants of output [s] */
     scene_scheme scheme;
     scene_alpha alpha;
     double step;      /* [s] first step; without a tolerance, every step */
-    double tolerance; /* of a step, relative to the size; 0: constant steps */
+    double tolerance; /* error of a step, relative to the size of the structure; 0: constant
+                       * steps */
     scene_start start;
     scene_mass mass;
 } scene_motion;
 
-/* Damping of small vibrations: mass x M + stiffness x the stiffness of members and springs, without
- * geometric stiffness; and damping ratios of the undamped modes. */
+/* Damping of small vibrations: `mass` times the mass matrix plus `stiffness` times the stiffness of
+ * members and springs, without geometric stiffness; and damping ratios of the undamped modes. */
 typedef struct scene_proportional {
     double mass, stiffness; /* [1/s], [s] */
-    double ratio;           /* for the modes after ... */
-    scene_path ratios;      /* ... the first ones, which have these ratios */
+    double ratio;           /* ratio of the modes that have none in ... */
+    scene_path ratios;      /* ... the ratios of the first modes */
 } scene_proportional;
 
-/* Active loads: those of a load case or of a combination, each with its factor; both SCENE_NONE:
- * see scene_acting_of. */
+/* Active loads: those of a load case, or those of a combination with their factors. If both are
+ * SCENE_NONE, see scene_acting_of. */
 typedef struct scene_acting {
     int load_case, combination;
 } scene_acting;
 
 /* Axes of small motions about an instant of a motion. */
 typedef enum scene_turning {
-    SCENE_TURNING_OWN, /* of each node, which turn with it */
-    SCENE_TURNING_NONE /* in space */
+    SCENE_TURNING_OWN, /* axes of each node, which rotate with it */
+    SCENE_TURNING_NONE /* axes fixed in space */
 } scene_turning;
 
 typedef struct scene_analysis {
     scene_analysis_kind kind;
-    int follows; /* analysis whose states this analysis is about, or SCENE_NONE: the undeformed
-                    state */
-    double time; /* [s] instant of the motion that it is about; NAN: its end */
-    scene_turning axes; /* along which small motions about it are */
-    int axes_of;        /* ... or those that turn with this node; SCENE_NONE: none */
+    int follows; /* analysis about whose states this analysis is made; SCENE_NONE: about the
+                  * undeformed state */
+    double time; /* [s] instant of the motion about which the analysis is made; NAN: the end of the
+                  * motion */
+    scene_turning axes; /* axes of the small motions about the instant */
+    int axes_of;        /* ... or the axes that rotate with this node; SCENE_NONE: no such node */
     scene_acting acting;
     union {
         scene_walk walk;
@@ -174,7 +179,7 @@ typedef struct scene_analysis {
     } of;
     scene_proportional damping; /* of small vibrations, in addition to members and dashpots */
     int damped;                 /* 1: modes include damping */
-    int open_loops;             /* 1: loads with feedback do not act on small vibrations */
+    int open_loops;             /* 1: small vibrations do not include the feedback of loads */
     int by_modes;               /* 1: a harmonic analysis is solved by superposition of modes */
     int modes;                  /* number of modes; 0: all */
     char name[SCENE_NAME];      /* "": none */
@@ -196,7 +201,8 @@ scene_alpha scene_alpha_of_radius(double rho);
 /* Sets the rotation of the axes of a static path or a continuation. */
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
 
-/* Instant of the motion that an analysis is about [s]; NAN: it is not about a motion. */
+/* Returns the instant [s] of the motion about which an analysis is made, or NAN if it is not about
+ * a motion. */
 double scene_instant_of(const scene *, int analysis);
 
 /* Returns "linear", "static", ...: the key in a scene file. */
@@ -206,27 +212,29 @@ const scene_walk *scene_walk_of(const scene_analysis *a);
 const scene_compliance *scene_compliance_of(const scene_analysis *a);
 const scene_continuation *scene_continuation_of(const scene_analysis *a);
 const scene_motion *scene_motion_of(const scene_analysis *a);
-/* Do the modes of a harmonic analysis have damping ratios? */
+/* Returns 1 if the damping of the analysis includes damping ratios of modes. */
 int scene_has_ratios(const scene_analysis *a);
-/* Is it a motion for which the scene requests consistent mass? */
+/* Returns 1 for a motion for which the scene requests consistent mass. */
 int scene_spreads(const scene_analysis *a);
-/* Is it a motion whose elements use consistent mass where possible? */
+/* Returns 1 for a motion whose elements use consistent mass if they support it. */
 int scene_may_spread(const scene *s, int analysis);
-/* Returns the path; NULL: the kind has no path. */
+/* Returns the path, or NULL if the kind of analysis has no path. */
 const scene_path *scene_path_of(const scene_analysis *a);
 /* Returns the analysis from whose state a chain of motions starts: a static path, a continuation or
  * a rotation; SCENE_NONE: the undeformed state. */
 int scene_origin_of(const scene *s, int analysis);
 const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);
-/* Do the axes rotate? */
+/* Returns 1 if the axes of the analysis rotate. */
 int scene_rotates(const scene_analysis *a);
 
-/* Expressions as text, one language for numbers and functions of time: + - * / ^, parentheses,
- * functions and constants (expression_word), names; in functions of time also the time t [s].
+/* Expressions as text, in one language for numbers and functions of time. They contain + - * / ^,
+ * parentheses, functions and constants (expression_word), names and, in functions of time, the time
+ * t [s].
  *
  * Precedence: ^ (right-associative: -2^2 = -4, 2^3^2 = 512), then signs, then * and /, then + and
  * -. Values are SI, angles are in radians (30*deg*t); parts without t must be finite. A function
- * with slope discontinuities, or without derivatives here, accepts only arguments without t.
+ * with slope discontinuities, or whose derivatives are not implemented, accepts only arguments
+ * without t.
  * Functions of time with discontinuities are given in pieces (scene_piece), so that steps can end
  * there. */
 
@@ -235,23 +243,24 @@ typedef struct expression_mistake {
     char what[FAULT_TEXT]; /* message with the remedy; "": already reported */
 } expression_mistake;
 
-/* Finds the number of the name at text[*at]; *at moves past it. Returns 0 after an error. */
+/* Sets *out to the value of the name at text[*at] and moves *at past the name. Returns 1, or 0
+ * after an error. */
 typedef int expression_name(const void *names, const char *text, int *at, double *out,
                             expression_mistake *);
 
-/* Returns the length of the name at the start of the text: letters, digits, _, not starting with a
- * digit; 0: none. */
+/* Returns the length of the name at the start of the text, or 0 if there is none. A name consists
+ * of letters, digits and underscores and does not start with a digit. */
 size_t expression_name_length(const char *text);
-/* Returns function or constant number i, or NULL after the last. */
+/* Returns the name of function or constant number i, or NULL after the last. */
 const char *expression_word(int i);
-/* Is it a function or a constant? */
+/* Returns 1 if the name is that of a function or a constant. */
 int expression_is_word(const char *name, size_t length);
 
-/* Evaluates text[from .. end - 1] as a number; find NULL: no names are allowed. REFUSED: gives the
- * reason. */
+/* Evaluates text[from .. end - 1] as a number. find: NULL if no names are allowed. REFUSED: the
+ * expression is invalid; the reason is given. */
 status expression_value(const char *text, int from, int end, expression_name *find,
                         const void *names, double *out, expression_mistake *);
-/* Sets the error and its position and returns REFUSED; `of`: a printf format. */
+/* Sets the error and its position and returns REFUSED. of: a printf format. */
 status expression_wrong(expression_mistake *, int at, const char *of, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -259,20 +268,20 @@ status expression_wrong(expression_mistake *, int at, const char *of, ...)
 
 typedef struct formula formula;
 
-/* REFUSED: invalid; FAULT: out of memory. */
+/* Parses a function. REFUSED: the text is invalid; FAULT: out of memory. */
 status formula_parse(const char *text, formula **out, expression_mistake *);
-/* REFUSED: gives the error and the position of the character (from 1). */
+/* Like formula_parse. REFUSED: f contains the error and the position of the character (from 1). */
 status formula_read(const char *text, formula **out, fault *f);
 void formula_free(formula *);
-/* Computes the value and the first two derivatives with respect to t; not finite where
- * undefined. */
+/* Computes the value and the first two derivatives with respect to t. Undefined values are not
+ * finite. */
 void formula_at(const formula *, double t, double out[3]);
 
 /* A function of time in pieces, each a formula. Slope discontinuities and jumps are allowed between
  * pieces; no step crosses them. */
 
 typedef struct scene_piece {
-    double until; /* [s] end of the piece; the last one has no end */
+    double until; /* [s] end of the piece; the last piece has no end */
     char *text;
     formula *is; /* NULL: the text is invalid, see function_check */
 } scene_piece;
@@ -280,7 +289,7 @@ typedef struct scene_piece {
 typedef struct scene_function {
     int pieces;
     scene_piece *piece; /* [pieces] ascending */
-    double scale;       /* factor of its value; 0: 1 */
+    double scale;       /* factor of the value; 0 stands for 1 */
 } scene_function;
 
 /* Appends a piece; copies the text. Returns -1 if out of memory. */
@@ -289,44 +298,46 @@ int function_add(scene_function *, double until, const char *text);
  * memory. */
 int function_copy(scene_function *to, const scene_function *from);
 void function_free(scene_function *);
-/* REFUSED: gives the error. */
+/* Checks the pieces. REFUSED: f contains the error. */
 status function_check(const scene_function *, fault *);
-/* Computes the value and the first two derivatives at t; at the end of a piece, those of the next
- * piece. */
+/* Computes the value and the first two derivatives at t. At the boundary of two pieces, they are
+ * those of the second piece. */
 void function_at(const scene_function *, double t, double out[3]);
-/* Is the function, with this number of derivatives (0 to 2), finite from 0 to `end`, at both ends
- * of all pieces and at 63 instants between? If not, *time is an instant at which it is not. */
+/* Returns 1 if the function and this number of its derivatives (0 to 2) are finite from 0 to `end`:
+ * at both ends of all pieces and at 63 instants inside each. Otherwise returns 0 and sets *time to
+ * an instant at which they are not. */
 int function_finite(const scene_function *, double end, int derivatives, double *time);
 /* Returns 1 if value and velocity are continuous between pieces before `end`. Returns 0 if the
  * value (*derivative 0) or the velocity (1) is discontinuous at *time. */
 int function_smooth(const scene_function *, double end, double *time, int *derivative);
 
-/* Quantities of an analysis: a name, the extracted value with one struct for each kind, and the
- * statistic. Read the data of a kind through its function below, which ends the program if the
- * quantity is of another kind; the union is used nowhere else. */
+/* Quantities of an analysis. A quantity has a name, an extracted value (one struct for each kind)
+ * and a statistic. The data of a kind are read with its function below, which ends the program if
+ * the quantity is of another kind. The union is not used elsewhere. */
 
 typedef enum scene_quantity_kind {
     SCENE_COORDINATE,       /* displacement or rotation-vector component of a node */
     SCENE_REACTION,         /* reaction of a prescribed component at a node */
     SCENE_COMPLIANCE_ENTRY, /* entry of the 6 x 6 matrix of the node of the analysis */
-    SCENE_STIFFNESS_ENTRY,  /* 1 / compliance entry (i, i), where only the coordinates that are not
-                               fixed are free */
+    SCENE_STIFFNESS_ENTRY,  /* reciprocal of compliance entry (i, i), with all fixed coordinates
+                             * remaining fixed */
     SCENE_CRITICAL_FACTOR,  /* load factor of linear buckling */
     SCENE_GROWTH,           /* largest growth rate of a mode [1/s]; 0: stable */
     SCENE_FREQUENCY,        /* [Hz] */
-    SCENE_FACTOR_AT,        /* load factor of a continuation where the control coordinate is ... */
-    SCENE_CRITICAL_POINT,   /* of a continuation */
+    SCENE_FACTOR_AT,        /* load factor of a continuation at a value of the control coordinate */
+    SCENE_CRITICAL_POINT,   /* critical point of a continuation */
     SCENE_DRIVER_VALUE,     /* value of an unknown driver */
     SCENE_INTERNAL,         /* resultant of the stresses on a section of a member */
     SCENE_STRESS,           /* largest stress of a section or a member */
-    SCENE_RATE, /* velocity of a node, its angular velocity in its own axes, or a time derivative */
+    SCENE_RATE, /* velocity of a node, its angular velocity in its own axes, or a time derivative of
+                 * these */
     SCENE_BALANCE,       /* energy or momentum of a motion */
-    SCENE_RELATIVE,      /* displacement or rotation of a node in the axes of another */
+    SCENE_RELATIVE,      /* displacement or rotation of a node in the axes of another node */
     SCENE_RESPONSE,      /* of a harmonic analysis */
     SCENE_DAMPING_RATIO, /* damping ratio of a damped mode, or its decay rate */
     SCENE_DEFLECTION,    /* displacement or rotation of a section of a member */
     SCENE_ENVELOPE_OF,   /* largest or smallest of other quantities */
-    SCENE_READING        /* of nodes; nothing outside its file uses its details */
+    SCENE_READING        /* value of nodes that only the file of the quantity type evaluates */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
@@ -347,12 +358,12 @@ typedef enum scene_reduction {
     SCENE_MIN,
     SCENE_AT,
     SCENE_CURVE,
-    /* for motions, at any time: positions and rates only */
+    /* For motions, at any time; only for positions and rates. */
     SCENE_MAX_TIME,   /* time of the largest value [s] */
     SCENE_MIN_TIME,   /* time of the smallest value [s] */
     SCENE_CROSSING,   /* time at which a level is crossed [s] */
-    SCENE_PERIOD,     /* mean time between crossings in its direction [s] */
-    SCENE_PER_SECOND, /* its reciprocal [Hz] */
+    SCENE_PERIOD,     /* mean time between crossings in the same direction [s] */
+    SCENE_PER_SECOND, /* reciprocal of the period [Hz] */
     SCENE_MEAN,       /* over time */
     SCENE_RMS,        /* root of the time mean of the square */
     SCENE_REDUCTIONS
@@ -361,7 +372,7 @@ typedef enum scene_reduction {
 /* Largest and smallest values refer to reported values: if the factor is negative, they are the
  * smallest and largest extracted values. Times are those of extracted values. */
 
-/* Is it a time or a frequency, and not a value of the extracted quantity? */
+/* Returns 1 if the result is a time or a frequency instead of a value of the extracted quantity. */
 static inline int scene_is_timed(scene_reduction how)
 {
     return how > SCENE_CURVE && how < SCENE_MEAN;
@@ -374,14 +385,14 @@ typedef enum scene_direction { SCENE_RISING, SCENE_FALLING, SCENE_EITHER } scene
 #define SCENE_TAKE_CHOICES                                                                         \
     "last|max|min|curve|max_time|min_time|crossing|period|per_second|mean|rms|spectrum|psd"
 
-/* A curve of a motion over time, transformed to a curve over frequency: for stations x[0 .. N],
- * evenly spaced by d, where x[N] starts the next period, X[k] = sum w[n] x[n] exp(-2 pi i k n/N) at
- * k/(N d). */
+/* Transform of a curve of a motion over time to a curve over frequency. The stations x[0 .. N] are
+ * spaced evenly by d, and x[N] starts the next period: X[k] = sum w[n] x[n] exp(-2 pi i k n/N) at
+ * the frequency k/(N d). */
 typedef enum scene_transform {
     SCENE_HISTORY,
-    SCENE_SPECTRUM, /* amplitudes 2 |X|/sum w, half of this at 0 and 1/(2 d) */
-    SCENE_PSD       /* one-sided power density 2 d |X|^2/sum w^2 [per Hz], half of this at the same
-                       frequencies */
+    SCENE_SPECTRUM, /* amplitudes 2 |X|/sum w; half of this at the frequencies 0 and 1/(2 d) */
+    SCENE_PSD       /* one-sided power spectral density 2 d |X|^2/sum w^2 [per Hz]; half of this at
+                     * the same frequencies */
 } scene_transform;
 /* The weights w: 1, or sin^2(pi n/N). */
 typedef enum scene_taper { SCENE_TAPER_NONE, SCENE_TAPER_HANN } scene_taper;
@@ -391,7 +402,7 @@ typedef enum scene_taper { SCENE_TAPER_NONE, SCENE_TAPER_HANN } scene_taper;
 typedef struct scene_passing {
     double level; /* as extracted, in SI units */
     scene_direction direction;
-    int order;          /* index among the crossings in that direction, from 0 */
+    int order;          /* index among the crossings in this direction, from 0 */
     double from, until; /* [s] window; until 0: to the end */
     scene_taper taper;  /* window function of a spectrum */
 } scene_passing;
@@ -408,11 +419,11 @@ typedef struct scene_rated {
     scene_rate_of rate;
 } scene_rated;
 
-/* Resultants: action of the part of a member towards end q on the part towards p, in the principal
- * axes of the rotated section, with moments about its centroid. The parts of the torque add up to
- * the torque about the shear centre, Mx - (ys Qz - zs Qy): Saint-Venant torsion, restrained warping
- * (the rate at which the bimoment decreases along the member), and the contribution of stresses
- * along the fibres, which the twist rotates. */
+/* Resultants: forces and moments that the part of a member towards end q exerts on the part towards
+ * p, in the principal axes of the rotated section, with moments about its centroid. The parts of
+ * the torque add up to the torque about the shear centre, Mx - (ys Qz - zs Qy): Saint-Venant
+ * torsion, restrained warping (the rate at which the bimoment decreases along the member), and the
+ * contribution of stresses along the fibres, which the twist rotates. */
 typedef enum scene_resultant {
     SCENE_N,
     SCENE_QY,
@@ -427,12 +438,13 @@ typedef enum scene_resultant {
     SCENE_RESULTANTS
 } scene_resultant;
 
-/* Choice of the section of a member. */
+/* The section of a member at which a value is taken. */
 typedef enum scene_along {
     SCENE_ALONG_PLACE,  /* at a position */
-    SCENE_ALONG_MAX,    /* of the largest value */
-    SCENE_ALONG_MIN,    /* of the smallest value */
-    SCENE_ALONG_LARGEST /* at the section of the largest magnitude, which is the result */
+    SCENE_ALONG_MAX,    /* at the section with the largest value */
+    SCENE_ALONG_MIN,    /* at the section with the smallest value */
+    SCENE_ALONG_LARGEST /* at the section with the largest magnitude; the result is this
+                         * magnitude */
 } scene_along;
 
 typedef struct scene_internal {
@@ -464,7 +476,7 @@ typedef struct scene_stress {
     int before;   /* as for scene_internal */
 } scene_stress;
 
-/* Quantities of a whole motion. */
+/* Energies and momenta of the whole structure during a motion. */
 typedef enum scene_balance {
     SCENE_KINETIC,    /* [J] */
     SCENE_STRAIN,     /* stored in members and springs [J] */
@@ -482,25 +494,26 @@ typedef enum scene_balance {
 } scene_balance;
 #define SCENE_BALANCE_CHOICES "kinetic|strain|energy|work|dissipated|drift|px|py|pz|lx|ly|lz"
 
-/* Displacement of a node relative to another node: change of its position in the axes of that node,
- * and its rotation relative to that node. */
+/* Displacement of a node relative to another node: the change of its position in the axes of that
+ * node, or its rotation relative to that node. */
 typedef struct scene_relative {
     int node, component, from;
 } scene_relative;
 
-/* Members used by kinds without their own struct; their key tables list them. */
+/* Data of kinds without their own struct; the key tables of these kinds list the members that they
+ * use. */
 typedef struct scene_reading {
     int node[4], component[4];
     double number[4];
 } scene_reading;
 
-/* Steady vibration of a node due to a harmonic force, or to a harmonic motion of a driver, of
+/* Steady vibration of a node due to a harmonic force or a harmonic motion of a driver, with
  * amplitude 1. */
 typedef enum scene_vibration {
     SCENE_DISPLACED,
     SCENE_VELOCITY,
     SCENE_ACCELERATION,
-    SCENE_REACTING /* force or moment of the motion that drives the component */
+    SCENE_REACTING /* reaction force or moment of the motion that drives the component */
 } scene_vibration;
 typedef enum scene_vibration_part {
     SCENE_AMPLITUDE,
@@ -534,7 +547,7 @@ typedef struct scene_mode {
     int order; /* index among the modes of the family and half-waves, from 0 */
     scene_family family;
     int half_waves; /* 0: any */
-    int decay;      /* for a damping ratio: 1: the decay rate instead [1/s] */
+    int decay;      /* for a damping ratio, 1: the decay rate [1/s] instead */
 } scene_mode;
 
 typedef enum scene_ordinate { SCENE_LOAD_FACTOR, SCENE_CONTROL } scene_ordinate;
@@ -545,7 +558,7 @@ typedef struct scene_point {
     scene_ordinate ordinate; /* extracted value: load factor, or control coordinate [m] */
 } scene_point;
 
-/* The extracted value; use the functions of the kinds to make one. */
+/* The extracted value. It is made by the functions of the kinds below. */
 typedef struct scene_extract {
     scene_quantity_kind kind;         /* kind of the type: the value requested from an analysis */
     const struct quantity_type *type; /* its file in cases/quantities, with everything else */
@@ -574,7 +587,7 @@ scene_extract scene_compliance_entry(int row, int column);
 scene_extract scene_stiffness_entry(int component);
 scene_extract scene_critical_factor(int sign, int order);
 scene_extract scene_growth(void);
-/* scene_frequency: for any number of half-waves. */
+/* scene_frequency returns a frequency for any number of half-waves. */
 scene_extract scene_frequency(int order, scene_family family);
 scene_extract scene_factor_at(void);
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
@@ -585,16 +598,17 @@ scene_extract scene_orientation_entry(int node, int row, int column);
 scene_extract scene_balance_of(scene_balance what);
 scene_extract scene_relative_to(int node, int component, int from);
 scene_extract scene_response_to(scene_response what);
-/* The direction of an unbalance at the start and, of k 1, a quarter of a turn later. */
+/* Returns the axis (0 to 2) along which an unbalance acts at the start (k 0) and a quarter of a
+ * turn later (k 1). */
 int scene_unbalance_along(const scene_response *r, int k);
-/* place: 0 at p .. 1 at q, on the side of q */
+/* place: from 0 at p to 1 at q; at a discontinuity, on the side of q. */
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);
-/* Takes the maximum over the sections of a member; for SCENE_NORMAL_MIN the minimum. */
+/* Extracts the maximum over the sections of a member; for SCENE_NORMAL_MIN, the minimum. */
 scene_extract scene_stress_along(int member, scene_stress_measure measure);
 scene_extract scene_stress_at(int member, double place, scene_stress_measure measure);
-/* Takes a resultant or a stress at a position; at a discontinuity, on the side of p (before) or of
- * q. */
+/* Returns `what`, a resultant or a stress at a position, with its side at a discontinuity: that of
+ * p if `before` is 1, otherwise that of q. */
 scene_extract scene_beside(scene_extract what, int before);
 /* Words of scene files. */
 #define SCENE_STRESS_CHOICES    "von_mises|normal_max|normal_min"
@@ -603,7 +617,8 @@ scene_extract scene_beside(scene_extract what, int before);
 /* Abscissa of a curve. */
 typedef struct scene_abscissa {
     char name[SCENE_NAME], unit[SCENE_UNIT];
-    int is_quantity; /* 1: the curve of another quantity, station by station, in its unit; 0: */
+    int is_quantity; /* 1: the abscissa is the curve of another quantity at the same stations, in
+                      * its unit; 0: it is */
     double factor, offset; /* the path parameter, or the control coordinate, times factor plus
                               offset */
 } scene_abscissa;
@@ -626,11 +641,12 @@ typedef enum scene_envelope {
 typedef struct scene_quantity {
     char name[SCENE_NAME], unit[SCENE_UNIT];
     int analysis;
-    scene_acting acting; /* loads of a linear analysis that solves all: one of them, or ... */
+    scene_acting acting; /* for a linear analysis that solves all load cases and combinations: one
+                          * of them, or ... */
     scene_envelope envelope;
     int overs;
-    int *over; /* [overs] combinations of the envelope; 0: all combinations, or all cases if there
-                  are none. For SCENE_ENVELOPE_OF: quantities */
+    int *over; /* [overs] combinations of the envelope. overs 0: all combinations, or all load cases
+                * if there are no combinations. For SCENE_ENVELOPE_OF: the quantities */
     scene_extract what;
     scene_reduction reduction; /* statistic over the stations of a path */
     scene_transform transform; /* of a curve */
@@ -639,14 +655,14 @@ typedef struct scene_quantity {
     scene_abscissa x;          /* of a curve */
     double factor, offset;     /* reported value = factor * extracted value + offset */
     double near_zero;          /* scale for relative errors of values near zero; 0: |value| */
-    double tolerance; /* relative, of the limit against the reference value: SCENE_TOLERANCE unless
-                         a case gives a reason */
-    double least_order; /* order of convergence in the number of elements */
+    double tolerance;   /* of the limit, relative to the reference value: SCENE_TOLERANCE unless a
+                         * case states a reason for another value */
+    double least_order; /* lowest order of convergence in the number of elements */
     scene_prediction prediction;
 } scene_quantity;
 
-/* Adds a quantity to be completed; never NULL. Defaults: value at the last station, factor 1,
- * tolerance SCENE_TOLERANCE, other members 0. */
+/* Adds a quantity and returns it for completion; the result is never NULL. Defaults: value at the
+ * last station, factor 1, tolerance SCENE_TOLERANCE, and 0 for all other members. */
 scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, int analysis,
                                    scene_extract what);
 /* Makes the quantity a curve over the path parameter or the control coordinate, times factor plus
@@ -655,20 +671,22 @@ void scene_set_curve(scene_quantity *q, const char *x_name, const char *x_unit, 
                      double offset);
 /* Makes the quantity a curve over another quantity whose curve has the same stations. */
 void scene_set_curve_over(scene_quantity *q, const char *quantity, const char *unit);
-/* Returns the index of the quantity on the abscissa of a curve; SCENE_NONE: the path. */
+/* Returns the index of the quantity that is the abscissa of a curve, or SCENE_NONE if the abscissa
+ * is the path. */
 int scene_abscissa_of(const scene *s, const scene_quantity *q);
-/* Takes the value at one path parameter or control coordinate. */
+/* Sets the quantity to its value at one path parameter or control coordinate. */
 void scene_set_at(scene_quantity *q, double at);
-/* Takes a statistic over the whole time of a motion: SCENE_MAX_TIME to SCENE_RMS, SCENE_MAX,
- * SCENE_MIN. */
+/* Sets the quantity to a statistic over the whole time of a motion: SCENE_MAX, SCENE_MIN, or
+ * SCENE_MAX_TIME to SCENE_RMS. */
 void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
-/* Counts the stations of a spectrum, including the last: *count from *first. REFUSED: they are not
- * evenly spaced. */
+/* Finds the stations of a spectrum: *count of them from *first, including the last. REFUSED: the
+ * stations are not evenly spaced. */
 status scene_spectrum_stations(const scene *, const scene_quantity *, int *first, int *count,
                                fault *);
-/* Is it evaluated between the stations of a motion? */
+/* Returns 1 if the quantity is evaluated between the stations of a motion. */
 int scene_is_passed(const scene_quantity *q, scene_analysis_kind);
-/* Returns 1 if the largest extracted value is taken, -1 if the smallest, otherwise 0. */
+/* Returns 1 if the quantity is the largest extracted value, -1 if it is the smallest, otherwise
+ * 0. */
 int scene_extreme_sign(const scene_quantity *q);
 
 const scene_component *scene_component_of(const scene_quantity *q);
@@ -680,24 +698,24 @@ int scene_driver_of(const scene_quantity *q);
 const scene_relative *scene_relative_of(const scene_quantity *q);
 const scene_internal *scene_internal_of(const scene_quantity *q);
 const scene_stress *scene_stress_of(const scene_quantity *q);
-/* Does it belong to this kind and this analysis? */
+/* Returns 1 if the quantity is of this kind and of this analysis. */
 int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
-/* Does it read reactions, resultants or stresses? */
+/* Returns 1 if the quantity needs reactions, resultants or stresses. */
 int scene_reads_forces(const scene_quantity *q);
-/* Is the analysis used by a quantity, or by an analysis that follows it and is itself used? Without
- * quantities, all analyses are used. */
+/* Returns 1 if the analysis is used by a quantity, by an imperfection, or by a used analysis that
+ * follows it. Without quantities, all analyses are used. */
 int scene_reads(const scene *s, int analysis);
-/* Removes the quantities whose names the other scene does not have. */
+/* Removes all quantities whose names do not occur in the other scene. */
 void scene_keep_quantities(scene *s, const scene *of);
 /* Returns the unit of a response to a force or a moment; both arguments are SCENE_UX to
  * SCENE_RZ. */
 const char *scene_compliance_unit(int row, int column);
-/* Can the quantity be extracted from an analysis of this kind? */
+/* Returns 1 if the quantity can be extracted from an analysis of this kind. */
 int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
 
 /* A scene: a structure, its supports and prescribed motions, its analyses and the requested
- * quantities, as pure data. No solver is called and no formulation is used here: a file could
- * contain the same data.
+ * quantities. It consists of data that could be in a file; no solver is called and no formulation
+ * is used here.
  *
  * Every scene_* function that adds an entry returns its index in its list, or -1 if out of memory
  * (scene_valid reports this once, at the end). */
@@ -708,14 +726,13 @@ enum { SCENE_MESHES = 24 };
 /* Components of a node: three translations, three rotations (about global axes). */
 enum { SCENE_UX, SCENE_UY, SCENE_UZ, SCENE_RX, SCENE_RY, SCENE_RZ };
 
-/* Warping coordinate at an end of a member. A value >= 0 identifies a shared one: ends with the
- * same value share it. */
+/* Warping coordinate at an end of a member. Ends with the same value >= 0 share one coordinate. */
 enum { SCENE_WARP_FREE = -1, SCENE_WARP_FIXED = -2 };
 
 /* Motion of one coordinate. A value >= 0 is the index of a driver. */
 enum { SCENE_FREE = -1, SCENE_HELD = -2 };
 
-/* Restriction to a plane: no node or member moves out of it, and warping is fixed. */
+/* Restriction to a plane: no node or member moves out of the plane, and warping is restrained. */
 typedef enum scene_plane {
     SCENE_SPACE,
     SCENE_PLANE_YZ,
@@ -729,9 +746,9 @@ typedef enum scene_rotation {
                                 clamped) */
     SCENE_ROTATION_SEQUENCE, /* R = exp(axis_1 t_1) exp(axis_2 t_2) exp(axis_3 t_3); each angle
                                 free, fixed or prescribed */
-    SCENE_ROTATION_VECTOR, /* rotation vector with the values of three drivers: fully prescribed */
-    SCENE_ROTATION_FORK    /* no rotation about the section's own axis, the other two free: see
-                              scene_fork */
+    SCENE_ROTATION_VECTOR,   /* rotation vector prescribed by three drivers */
+    SCENE_ROTATION_FORK      /* no rotation about the axis of the section, the other two rotations
+                              * free: see scene_fork */
 } scene_rotation;
 
 /* A rigid body that moves with a node. */
@@ -745,32 +762,32 @@ typedef struct scene_body {
 
 typedef struct scene_node {
     double position[3]; /* [m] */
-    int attached; /* node to which this one is rigidly attached (a rigid body is a node with others
-                     attached), or SCENE_NONE */
+    int attached; /* node to which this node is rigidly attached (a node and the nodes attached to
+                   * it form a rigid body), or SCENE_NONE */
     int translation[3]; /* SCENE_FREE, SCENE_HELD or a driver */
     scene_rotation rotation;
     int angle[3]; /* SCENE_FREE, SCENE_HELD or a driver: for the spatial components, the angles or
                      the vector */
-    double axis[3][3]; /* axes of the sequence; a zero axis ends it. For a fork: the section's own
-                          axis, and the direction of the web */
+    double axis[3][3]; /* axes of the sequence; a zero axis ends it. For a fork: the axis of the
+                        * section and the direction of the web */
     double axes[2]
-               [3]; /* x and y axes of its translations, of any length; zero: those of the scene */
+               [3]; /* x and y axes of the translations, of any length; zero: axes of the scene */
     scene_body body;
     char name[SCENE_NAME]; /* "": no name, as for every entry */
 } scene_node;
 
-/* Released components of a member end, which it does not transmit to its node, in the axes of the
- * member there (y as in scene_member): rotations, in order, and translations. With the node's r and
- * R, the end is at r + R_end s, R_end = R exp(a_1 t_1) exp(a_2 t_2). Of two rotations, the first
- * axis belongs to the node and the second to the member (a universal joint); translations are along
- * the rotated end. Three rotations are a ball joint. */
+/* Released components of a member end, which the end does not transmit to its node, in the axes of
+ * the member at this end (y as in scene_member): rotations, in order, and translations. With r and
+ * R of the node, the end is at r + R_end s, where R_end = R exp(a_1 t_1) exp(a_2 t_2). Of two
+ * rotations, the first axis belongs to the node and the second to the member (a universal joint);
+ * translations are along the rotated end. Three rotations are a ball joint. */
 enum { SCENE_RELEASED = 5 };
 typedef struct scene_release {
     int count;                     /* 0: joined */
     int component[SCENE_RELEASED]; /* SCENE_UX .. SCENE_RZ, each once */
 } scene_release;
 
-/* The members that are keys of scene files are in keys_member.h, one line for both. */
+/* Struct members that are also keys of scene files are in keys_member.h, with one line for both. */
 #define KEY(type, name, dimensions, ...) type name dimensions;
 #define ROW(...)
 typedef struct scene_member {
@@ -785,47 +802,48 @@ typedef struct scene_member {
     scene_release release[2]; /* at p, q */
     double offset[2][3];  /* from the nodes p, q to the ends of the member, which move rigidly with
                              them; undeformed, in global axes [m] */
-    double foundation[6]; /* springs to the ground along the member. They act on displacements and
-                             rotations of its sections since the undeformed state, along its initial
-                             axes (y as above), which do not rotate [N/m^2, N] */
+    double foundation[6]; /* springs to the ground along the member. They act on the displacements
+                           * and rotations of its sections from the undeformed state, along its
+                           initial axes (y as above), which do not rotate [N/m^2, N] */
     char name[SCENE_NAME];
 } scene_member;
 
-/* A force as a function of a displacement, or a moment as a function of a rotation: linear between
- * points, extrapolated at both ends. */
+/* A force as a function of a displacement, or a moment as a function of a rotation. It is linear
+ * between points and extrapolated linearly beyond both ends. */
 typedef struct scene_table {
     scene_path at,
         value; /* ascending [m, rad], not decreasing, zero at zero [N, N m]; none: no table */
 } scene_table;
 
-/* Spring between two nodes, or a node and the ground: energy 1/2 d^T K d. d has six components of
- * the frame of q relative to p since the undeformed state, in axes that rotate with p and were
- * initially the global ones: the change of distance [m], and the rotation vector [rad], of less
- * than 3 rad. */
+/* Spring between two nodes, or a node and the ground: energy 1/2 d^T K d. d contains the six
+ * components of the motion of the frame of q relative to p from the undeformed state, in axes that
+ * rotate with p and were initially the global ones: the change of distance [m], and the rotation
+ * vector [rad], of less than 3 rad. */
 typedef struct scene_spring {
     int p, q;             /* p: SCENE_NONE: the ground */
     double stiffness[36]; /* K, row-major [N/m, N, N m]; if not symmetric: forces K d without a
                              potential */
-    double asymmetry;     /* 0, or the asymmetry of the given K relative to its diagonal if it is
-                             rounding, so that the symmetric part is used */
+    double asymmetry;     /* asymmetry of the given K relative to its diagonal, if it is only
+                           * rounding and the symmetric part is used; otherwise 0 */
     double damping[36];   /* in motions, adds forces damping x rates of d [N s/m, N s, N m s] */
-    scene_table table[6]; /* of its components, in addition to K */
+    scene_table table[6]; /* tables of the components of d, in addition to K */
     char name[SCENE_NAME];
 } scene_spring;
 
-/* Components of nodes that are equal, or two components in a fixed ratio: those of each node after
- * the first are `ratio` times those of the first. Along the nodes' axes. */
+/* Equal components of nodes, or components in a fixed ratio: those of each node after the first are
+ * `ratio` times those of the first, along the axes of the nodes. */
 typedef struct scene_constraint {
     int nodes, *node;    /* [nodes] */
     unsigned components; /* bits 1 << SCENE_UX .. SCENE_RZ */
     double ratio;
-    int master, normal; /* of a diaphragm, which is rigid across the axis `normal` (0, 1 or 2): the
-                           node that the others follow; otherwise SCENE_NONE */
+    int master, normal; /* for a diaphragm, which is rigid in its plane: the node that the others
+                         * follow, and the axis normal to the plane (0, 1 or 2); otherwise
+                         * SCENE_NONE */
     char name[SCENE_NAME];
 } scene_constraint;
 
 /* A part of the stress-free initial shape of the structure: a mode computed for the perfect
- * structure, or shifts of nodes, between which members keep their form. */
+ * structure, or shifts of nodes, between which members retain their shape. */
 typedef struct scene_imperfection {
     int analysis, order; /* buckling or modal, and its mode from 0; SCENE_NONE: shifts */
     double amplitude;    /* of a mode: largest displacement of a point of a member [m] */
@@ -843,14 +861,15 @@ typedef struct scene_driver {
     int stations;
     double *path,
         *value; /* [stations]; value in m or rad; NULL: unknown, determined by the condition */
-    scene_function function; /* function of time instead of these; no pieces: none */
+    scene_function function; /* function of time instead of the stations; no pieces: none */
     int condition_node,
-        condition_component; /* unknown driver: this coordinate is prescribed instead, by ... */
+        condition_component; /* for an unknown driver: this coordinate is prescribed instead, with
+                              * ... */
     int condition_driver;    /* ... the value of this driver; SCENE_NONE for a known driver */
-    int load_case;           /* SCENE_NONE: it moves in all load cases */
+    int load_case;           /* SCENE_NONE: the driver moves in all load cases */
 } scene_driver;
 
-/* Does it rotate nodes? */
+/* Returns 1 if the driver prescribes rotations. */
 int scene_driver_turns(const scene *, int driver);
 
 typedef enum scene_load_kind {
@@ -859,18 +878,18 @@ typedef enum scene_load_kind {
     SCENE_DISTRIBUTED,        /* [N/m] along a member, per initial length */
     SCENE_DISTRIBUTED_MOMENT, /* [N m/m] along a member */
     SCENE_GRAVITY,            /* [m/s^2] on the mass of a member */
-    SCENE_WEIGHT,             /* [m/s^2] on the mass of the body of a node, at its centre */
+    SCENE_WEIGHT,             /* [m/s^2] on the mass of the body of a node, at its centre of mass */
     SCENE_MEMBER_FORCE,       /* [N] at a position inside a member */
     SCENE_MEMBER_MOMENT,      /* [N m] at a position inside a member */
     SCENE_TEMPERATURE         /* [K] change for a member, which expands */
 } scene_load_kind;
 
-/* Axes of a load: global, or those of the undeformed member, y as in scene_member. */
+/* Axes of a load: global axes, or those of the undeformed member (y as in scene_member). */
 typedef enum scene_load_axes { SCENE_AXES_FIXED, SCENE_AXES_MEMBER } scene_load_axes;
 
 /* The factor of a load at a node in a motion: proportional e + derivative e' + integral (int e dt),
- * limited to the magnitude `limit`. The error e is the load's function of time (the reference;
- * none: 0) minus the measured component of a node. */
+ * limited to the magnitude `limit`. The error e is the load's function of time (the reference
+ * value, or 0 without a function) minus the measured component of a node. */
 typedef struct scene_feedback {
     int node, component; /* SCENE_NONE: no feedback */
     int from;            /* the same component of this node is subtracted; SCENE_NONE: none */
@@ -883,7 +902,7 @@ typedef struct scene_feedback {
 typedef struct scene_load {
 #include "cases/scene/keys_load.h"
     scene_load_kind kind;
-    int where;        /* node, or member: scene_load_along */
+    int where;        /* node or member (see scene_load_along) */
     double vector[3]; /* in `axes` of the undeformed structure; if the load varies, the value at
                          range[0] */
     double last[3];   /* if the load varies, the value at range[1]; linear in between */
@@ -893,7 +912,8 @@ typedef struct scene_load {
                          inside a member: both are its position. 0 and 0 for loads at nodes */
     int stations;     /* 0: proportional to the path parameter (factor = path) */
     double *path, *factor;
-    scene_function function; /* factor as a function of time instead of these; no pieces: none */
+    scene_function function; /* factor as a function of time instead of the stations; no pieces:
+                              * none */
     scene_feedback feedback;
     char name[SCENE_NAME];
 } scene_load;
@@ -903,7 +923,7 @@ typedef struct scene_load_case {
     char name[SCENE_NAME];
 } scene_load_case;
 
-/* Load cases with factors; a case that is not among them does not act. */
+/* A load case of a combination with its factor. Load cases without a term do not act. */
 typedef struct scene_term {
     int load_case;
     double factor;
@@ -915,7 +935,7 @@ typedef struct scene_combination {
     char name[SCENE_NAME];
 } scene_combination;
 
-/* Name and computed constants of a section, with the description from which they were computed. */
+/* Computed constants of a section, with the description from which they were computed. */
 typedef struct scene_computed {
     int known;
     section_spec of;
@@ -923,7 +943,7 @@ typedef struct scene_computed {
     char name[SCENE_NAME];
 } scene_computed;
 
-/* Physics that a scene may omit: FEATURE_* bits. */
+/* Physics that a scene may omit (FEATURE_* bits). */
 enum {
     SCENE_OMITTABLE = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS |
                       FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA | FEATURE_WARPING
@@ -966,12 +986,13 @@ struct scene {
     unsigned demands;  /* FEATURE_* bits required in addition to those that its data require: set by
                           scene_demand */
     scene_shear shear_theory;
-    int lumped; /* 1: the mass of members is lumped at nodes, except in motions that specify
-                   otherwise */
+    int lumped; /* 1: the mass of members is lumped at nodes, except in motions that specify their
+                 * mass */
     int meshes; /* default -n values of verify and converge */
     int mesh[SCENE_MESHES];
     int out_of_memory;
-    /* Target of pointers after memory ran out, so that a case can write without checking. */
+    /* Target of returned pointers after memory has run out, so that a case can write without
+     * checks. */
     union {
         scene_node node;
         scene_member member;
@@ -989,68 +1010,69 @@ int scene_add_attached(scene *s, int body, double x, double y,
                        double z); /* absolute undeformed position */
 int scene_add_member(scene *s, int p, int q, int profile,
                      const double y_axis[3]); /* profile: section at both ends */
-/* Computes the stress-free elongation of a member of that length [m] from its pretension or its
+/* Computes the stress-free elongation of a member of this length [m] from its pretension or its
  * unstressed length. REFUSED: the section does not determine an elongation for the pretension. */
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f);
-/* Does the scene have such a member, or a temperature? who: describes it; may be NULL. */
+/* Returns 1 if the scene has a temperature load or a member whose unstressed state is not the drawn
+ * one. *who: name of the load or member; may be NULL. */
 int scene_is_free(const scene *s, scene_words *who);
-/* Is the member tapered? The second function: is any member tapered? */
+/* Return 1 if the member is tapered, or if any member of the scene is tapered. */
 int scene_member_tapers(const scene_member *m);
 int scene_tapers(const scene *s);
 /* Computes the position of an end of a member (0 at p, 1 at q), and the vector from its start to
  * its end. */
 void scene_end(const scene *s, int member, int end, double at[3]);
 void scene_chord(const scene *s, int member, double chord[3]);
-/* Is one of its ends offset from its node? */
+/* Returns 1 if this end of the member is offset from its node. */
 int scene_is_beside(const scene_member *m, int end);
 int scene_is_founded(const scene_member *m);
 /* Sets the table of one component. */
 void scene_set_table(scene *s, int spring, int component, int points, const double at[],
                      const double value[]);
-/* Returns the value of a spring's table at x. *slope: the slope of its line there; at a point, that
- * of the next line. */
+/* Returns the value of a table at x and sets *slope to its slope there. At a point of the table,
+ * the slope is that of the next segment. */
 double scene_table_at(const scene_table *, double x, double *slope);
-/* Returns the integral of the table between two values. */
+/* Returns the integral of the table from `from` to `to`. */
 double scene_table_work(const scene_table *, double from, double to);
 /* Releases this component at an end of a member (0 at p, 1 at q), in addition to earlier ones;
  * scene_validate rejects more than SCENE_RELEASED. */
 void scene_release_end(scene *s, int member, int end, int component);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
-/* Adds a constraint without nodes; the first node added to it is the one that the others follow. */
+/* Adds a constraint without nodes. All nodes that are added to it follow the first one. */
 int scene_add_constraint(scene *s, unsigned components, double ratio);
 void scene_constrain(scene *s, int constraint, int node);
-/* Adds a diaphragm for nodes that scene_constrain adds. These rotate by a sequence of angles from
- * then on: about the normal, then about the two other axes. */
+/* Adds a diaphragm, to which scene_constrain adds nodes. From then on, these nodes rotate by a
+ * sequence of angles: about the normal, then about the two other axes. */
 int scene_add_diaphragm(scene *s, int master, int normal);
 
 /* Adds an imperfection without a mode or shifts. */
 int scene_add_imperfection(scene *s);
 void scene_shift_node(scene *s, int imperfection, int node, const double shift[3]);
-/* Does the analysis use the perfect structure: does it compute a mode used as an imperfection, the
- * state about which this mode is computed, or another result about the same state? */
+/* Returns 1 if the analysis uses the perfect structure: it computes a mode used as an imperfection,
+ * the state about which such a mode is computed, or another result about the same state. */
 int scene_is_perfect(const scene *s, int analysis);
 
-/* A coordinate of a node, 0 .. 5 as in translation and angle, that is `ratio` times another
- * coordinate. */
+/* Relation of a coordinate of a node (0 .. 5 as in translation and angle), which is `ratio` times
+ * another coordinate. */
 typedef struct scene_tie {
-    int node, coordinate; /* the other coordinate; the coordinate itself if others follow it;
-                             SCENE_NONE: not tied */
+    int node, coordinate; /* the other coordinate, or the coordinate itself if others follow it;
+                           * SCENE_NONE: no relation */
     double ratio;
 } scene_tie;
-/* Fills tie[6 nodes]; REFUSED: constraints that contradict each other or the supports. */
+/* Fills tie[6 nodes]. REFUSED: constraints contradict each other or the supports. */
 status scene_ties(const scene *, scene_tie tie[], fault *);
 /* Adds a dashpot to the spring. */
 void scene_damp_spring(scene *s, int spring, const double damping[36]);
 int scene_spring_damps(const scene_spring *);
-/* Is its stiffness or its damping unsymmetric? */
+/* Returns 1 if the stiffness or the damping of the spring is unsymmetric. */
 int scene_spring_circulates(const scene_spring *);
 int scene_spring_gyrates(const scene_spring *);
 int scene_add_driver(scene *s, const char *name, int stations, const double path[],
                      const double value[]);
 /* Adds a driver given by a function of time, whose pieces are added later. */
 int scene_add_moving_driver(scene *s, const char *name);
-/* Appends a piece to the function of a driver or of the factor of a load; until [s]: ignored for
- * the last one. */
+/* Append a piece to the function of a driver, or of the factor of a load. until [s]: ignored for
+ * the last piece. */
 void scene_drive_piece(scene *s, int driver, double until, const char *text);
 void scene_load_piece(scene *s, int load, double until, const char *text);
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component,
@@ -1061,44 +1083,44 @@ int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y
 /* Adds a force or a moment inside a member at position 0 (p) .. 1 (q) of the initial length. */
 int scene_add_load_within(scene *s, scene_load_kind kind, int member, double place, double x,
                           double y, double z);
-/* Returns an entry of the list, to be completed; never NULL. */
+/* Returns a load for completion; never NULL. */
 scene_load *scene_load_at(scene *s, int index);
-/* Does it act on a member: along it, or at a position inside it? */
+/* Returns 1 if the load acts on a member: along it, or at a position inside it. */
 int scene_load_along(const scene_load *load);
-/* Does it act at a position inside a member? */
+/* Returns 1 if the load acts at a position inside a member. */
 int scene_load_within(const scene_load *load);
-/* Is its vector a moment, not a force? */
+/* Returns 1 if the vector of the load is a moment. */
 int scene_load_turns(const scene_load *load);
 /* Returns "a temperature" or "an elongation". */
 const char *scene_heat_word(const scene_load *load);
 int scene_has_feedback(const scene *s);
 /* Returns 1 if the load closes a loop in a harmonic analysis or in damped modes. */
 int scene_closes_loop(const scene *s, int analysis, int load);
-/* Is it nonzero somewhere on its range? */
+/* Returns 1 if the load is not zero on its whole range. */
 int scene_load_acts(const scene_load *load);
-/* Can the stiffness of the load make a tangent unsymmetric? Not if the load is zero. */
+/* Returns 1 if the load can make a tangent unsymmetric. A load that is zero cannot. */
 int scene_load_unsymmetric(const scene_load *load);
-/* Makes the load its vector times a factor that is piecewise linear in the path parameter. */
+/* Sets the factor of the load, which is piecewise linear in the path parameter. */
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[]);
 int scene_add_case(scene *s, const char *name);
 int scene_add_combination(scene *s, const char *name);
 /* Adds a load case to a combination. */
 void scene_add_term(scene *s, int combination, int load_case, double factor);
-/* Returns the load case or combination that acts in the analysis, or in its base analysis. Returns
- * 0 also if all of them act one after the other (scene_solves_all), or if none does: the structure
- * without loads. */
+/* Returns the number of the load case or combination that acts in the analysis or in the analysis
+ * that it follows. Returns 0 if the scene has none, if all of them act one after the other
+ * (scene_solves_all), or if the analysis is about the structure without loads. */
 int scene_acting_of(const scene *s, int analysis);
-/* Is the analysis linear, and does it solve every load case and combination? */
+/* Returns 1 for a linear analysis that solves every load case and combination. */
 int scene_solves_all(const scene *s, int analysis);
-/* Returns the i-th load case or combination that a quantity uses, i from 0; 0: there are no more,
- * or all act. */
+/* Returns the number of the i-th load case or combination that a quantity uses, i from 0. Returns 0
+ * if there are no more, or if all loads act. */
 int scene_acting_in(const scene *s, const scene_quantity *q, int i);
-/* Returns the factor of entries of a load case under the load case or combination of that
- * number. */
+/* Returns the factor of the entries of a load case when the load case or combination of this number
+ * acts. */
 double scene_acting_factor(const scene *s, int number, int load_case);
 /* Returns "combination ULS" or "case dead"; "" for 0. */
 scene_words scene_acting_called(const scene *s, int number);
-/* Returns an entry of a list, to be completed; never NULL. */
+/* Return an entry of a list for completion; never NULL. */
 scene_node *scene_node_at(scene *s, int index);
 scene_member *scene_member_at(scene *s, int index);
 void scene_hold(scene *s, int node, int first,
@@ -1106,30 +1128,31 @@ void scene_hold(scene *s, int node, int first,
 void scene_hold_all(scene *s, int node);
 void scene_drive(scene *s, int node, int component,
                  int driver); /* a translation, or a spatial rotation component */
-/* Computes the unit vectors of the axes of its supports, in columns. Returns 0 if they are those of
- * the scene. */
+/* Computes the unit vectors along the support axes of the node, in columns. Returns 0 if these are
+ * the axes of the scene. */
 int scene_node_axes(const scene_node *n, double R[9]);
-/* Returns the coordinate of a component; for a sequence, the angle about that axis, if there is
- * one. */
+/* Returns the coordinate of a component. For a rotation sequence, this is the angle about the
+ * corresponding axis, if there is one. */
 int scene_node_coordinate(const scene_node *n, int component);
-/* A fork has guides on both sides of the web with the fixed normal n = web x axis. The web remains
- * between them, R web . n = 0, however the section bends: R = exp(n t_1) exp(web t_2). For bending
- * in the plane of axis and web, the section does not rotate about its present axis, R axis, and the
- * moment of the fork is along this axis. (A fixed SCENE_RX is a moment along the fixed x axis.)
- * axis, web: of the undeformed section, perpendicular, of any length. Translations are fixed
- * separately. */
+/* Adds a fork support, which has guides on both sides of the web with the fixed normal n = web x
+ * axis. For any bending, the web remains between the guides, R web . n = 0, so that R = exp(n t_1)
+ * exp(web t_2). For bending in the plane of axis and web, the section does not rotate about its
+ * present axis, R axis, and the moment of the fork is along this axis. (The moment of a fixed
+ * SCENE_RX is along the fixed x axis.) axis, web: directions in the undeformed section,
+ * perpendicular and of any length. Translations are fixed separately. */
 void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
-/* Adds a rigid body to the node, with its centre at or next to it. */
+/* Adds a rigid body to the node. Its centre may be offset from the node. */
 void scene_set_body(scene *s, int node, scene_body body);
-/* Does the node have a mass or an inertia? */
+/* Returns 1 if the node has a mass or an inertia. */
 int scene_has_body(const scene_node *n);
-/* Has anything? */
+/* Returns 1 if any part of the scene has a mass. */
 int scene_has_mass(const scene *s);
-/* Finds rotations of a node that all its members release and nothing else resists, so that they are
- * undefined and are fixed. 0: none; SCENE_IDLE_AXIS: about `axis`, which rotates with the node. */
+/* Finds rotations of a node that all its members release and that nothing else resists. They are
+ * undefined and therefore fixed. Returns 0 if there are none, or SCENE_IDLE_AXIS for the rotation
+ * about `axis`, which rotates with the node, or SCENE_IDLE_ALL for all rotations. */
 enum { SCENE_IDLE_AXIS = 1, SCENE_IDLE_ALL };
 int scene_idle_turn(const scene *s, int node, double axis[3]);
-/* Returns the convention of moments on which a quantity depends, or NULL. */
+/* Returns the convention of moments on which a quantity depends, or NULL if there is none. */
 const char *scene_convention(const scene *s, const scene_quantity *q);
 /* Returns the normal of the plane to which the scene is restricted, 0 to 2, or SCENE_NONE. */
 int scene_normal(const scene *s);
@@ -1138,47 +1161,50 @@ const char *scene_plane_name(const scene *s);
 /* Omits physics (bits of SCENE_OMITTABLE). By default a scene has all physics that its sections,
  * loads and analyses require. */
 void scene_omit(scene *s, unsigned features);
-/* Demands FEATURE_* bits that a formulation must support in addition to those that the data
+/* Requires FEATURE_* bits that a formulation must support in addition to those that the data
  * require. */
 void scene_demand(scene *s, unsigned features);
 void scene_meshes(scene *s, int count, const int mesh[]);
-/* Sets meshes of first, 2 first, 4 first, ... elements, up to last. */
+/* Sets meshes of `first`, 2 `first`, 4 `first`, ... elements, up to `last`. */
 void scene_meshes_doubled(scene *s, int first, int last);
 
-/* Computes the constants of section i; cached until its description changes. Not thread-safe. */
+/* Computes the constants of section i, which are cached until its description changes. Not
+ * thread-safe. */
 status scene_constants(const scene *s, int i, section *out, fault *f);
 
-/* REFUSED, with the cause: indices out of range, members of zero length, contradictory supports,
- * unused drivers, names of curves or entries that are not unique. */
+/* Checks the scene. REFUSED, with the cause: for example, indices out of range, members of zero
+ * length, contradictory supports, unused drivers, or names of curves or entries that are not
+ * unique. */
 status scene_validate(const scene *s, fault *f);
 
 /* Values along the path of a static analysis: linear between stations, constant before the first
  * and after the last. */
 
-/* Returns the factor of the load at a path parameter; without stations, the parameter itself. */
+/* Returns the factor of the load at a path parameter. Without stations, it is the parameter
+ * itself. */
 double along_path_factor(const scene_load *, double path);
-/* Returns the derivative of the factor with respect to the path parameter; at a station, that of
- * the following interval. */
+/* Returns the derivative of the factor with respect to the path parameter. At a station, it is that
+ * of the following interval. */
 double along_path_rate(const scene_load *, double path);
 /* Returns the value of a known driver [m or rad]. */
 double along_path_value(const scene_driver *, double path);
-/* For messages: "; nothing changes outside path 0 to 1 ..."; empty if loads change on the whole
- * path. */
+/* Text for messages: "; nothing changes outside path 0 to 1 ...", or "" if loads change on the
+ * whole path. */
 typedef struct along_path_words {
     char text[256];
 } along_path_words;
 along_path_words along_path_end(const scene *, int acting);
-/* REFUSED: a value is not proportional to the path parameter from path 0 to 1. */
+/* REFUSED: a value is not proportional to the path parameter from 0 to 1. */
 status along_path_proportional(const scene *, int acting, fault *);
 
-/* Changes of a scene that must not change its results: for checks without reference values. */
+/* Changes of a scene that must not change its results, used for checks without reference values. */
 
 typedef enum scene_edit_kind {
     SCENE_EDIT_NONE,
     SCENE_EDIT_REVERSE, /* every member is reversed, from q to p */
     SCENE_EDIT_SPLIT,   /* the first member is split in two at fraction `amount` of its length */
-    SCENE_EDIT_UNIT /* all lengths in another unit, of which 1 m has `amount`; quantities are still
-                       reported in metres */
+    SCENE_EDIT_UNIT     /* all lengths are expressed in another unit, with `amount` units in 1 m;
+                         * quantities are still reported in metres */
 } scene_edit_kind;
 
 typedef struct scene_edit {
@@ -1189,7 +1215,7 @@ typedef struct scene_edit {
 /* REFUSED: the change is not possible for a member. */
 status scene_edit_apply(scene *s, const scene_edit *edit, fault *f);
 
-/* Names of entries of a scene: given by the user, or made from their index. */
+/* Names of entries of a scene, which are given by the user or made from the index. */
 
 typedef enum scene_list {
     SCENE_SECTIONS,
@@ -1207,18 +1233,18 @@ typedef enum scene_list {
 } scene_list;
 enum { SCENE_LISTS = SCENE_IMPERFECTIONS + 1 };
 
-/* Returns the number of entries of a list; its singular, such as "node". */
+/* Return the number of entries of a list, and the singular of its name, such as "node". */
 int scene_count(const scene *s, scene_list list);
 const char *scene_list_word(scene_list list);
 /* Sets the name of an entry. Truncates a longer name; does nothing if there is no such entry. */
 void scene_set_name(scene *s, scene_list list, int index, const char *name);
-/* Returns "" if the entry has no name or does not exist. */
+/* Returns the name given to the entry, or "" if it has no name or does not exist. */
 const char *scene_own_name(const scene *s, scene_list list, int index);
-/* Returns "node_3", made unique in the list. */
+/* Returns a name such as "node_3" that is unique in the list. */
 scene_words scene_numbered(const scene *s, scene_list list, int index);
-/* Returns "tip"; for an entry without a name, the result of scene_numbered. */
+/* Returns the name given to the entry or, if it has none, the result of scene_numbered. */
 scene_words scene_name(const scene *s, scene_list list, int index);
-/* Returns "node tip" for messages, or "node 3" without a name. */
+/* Returns "node tip" for messages, or "node 3" for an entry without a name. */
 scene_words scene_called(const scene *s, scene_list list, int index);
 
 /* Tables of the keys of entries of a scene: a row for each key, with its name in files, the
@@ -1247,15 +1273,18 @@ typedef enum entry_kind {
     ENTRY_LATER      /* rejected; summary: its replacement; NULL: not implemented yet */
 } entry_kind;
 
-/* How a word changes with a rotation of the axes. */
+/* How the components in a word change when the axes are rotated. */
 typedef enum entry_turns {
     ENTRY_STAYS,
     ENTRY_COMPONENT, /* like a displacement or a rotation along the axes */
-    ENTRY_AXIS,      /* as a direction */
-    ENTRY_DIAGONAL   /* like a component, without change of sign */
+    ENTRY_AXIS,      /* like a direction */
+    ENTRY_DIAGONAL   /* like a component, but without a change of sign */
 } entry_turns;
 
-enum { ENTRY_MOST_ORDER = 100000 }; /* of an eigenvalue, a critical point, a crossing */
+enum {
+    ENTRY_MOST_ORDER = 100000
+}; /* largest number of an eigenvalue, a critical point or a
+    * crossing */
 
 struct quantity_type;
 
@@ -1267,8 +1296,8 @@ typedef struct entry_field {
     int count;
     const char *words; /* "a|b|c" */
     const struct entry_field *below;
-    /* of a number: the powers of length and force determine scaling; for other kinds, the unit is
-     * only information */
+    /* For a number, the powers of length and force in its unit determine its scaling. For other
+     * kinds, the unit is only information. */
     const char *unit, *summary;
     /* Default of every optional key: the value as written in a file, or a description. */
     const char *usual, *left_out;
@@ -1276,9 +1305,9 @@ typedef struct entry_field {
      * functions read and write the value. For a map: position of the int that selects the member
      * of a group. */
     size_t at, size;
-    int first,
-        falls; /* value of the first word, or of the map; decremented for each following word */
-    double otherwise;   /* numeric default if `usual` does not give it; NAN: none */
+    int first, falls;   /* value of the first word, or of the map. The value decreases by 1 for each
+                         * following word */
+    double otherwise;   /* numeric default if `usual` does not state it; NAN: none */
     double least, most; /* range of a number; both 0: no limits */
     const char *range;  /* description of the range; NULL: derived from least and most */
     scene_list of;      /* NAME: the list to which it refers */
@@ -1300,7 +1329,7 @@ extern const entry_field entry_section[], entry_node[], entry_member[], entry_sp
     entry_driver[], entry_load[], entry_combination[], entry_constraint[], entry_imperfection[],
     entry_analysis[], entry_quantity[];
 
-/* Returns the key of the vector of a load: "force", with its unit. */
+/* Returns the row of the key that contains the vector of a load of this kind, such as "force". */
 const entry_field *entry_of_load(scene_load_kind);
 
 /* Returns the keys of a map; the summary of a key. */
@@ -1308,13 +1337,13 @@ const entry_field *entry_below(const entry_field *);
 const char *entry_summary(const entry_field *);
 /* Returns the default of a numeric key. */
 double entry_usual(const entry_field *);
-/* For a word, returns its index for an int, or the int for an index. */
+/* Returns the int of the word with this index. */
 int entry_value(const entry_field *, int index);
 int entry_index(const entry_field *, int value);
 int entry_word(const entry_field *, const char *word);
 /* Returns 1 if the value is the default. */
 int entry_is_usual(const entry_field *, const void *entry);
-/* "at least 0" */
+/* Returns the range in words, such as "at least 0". */
 const char *entry_range(const entry_field *, char text[FAULT_TEXT]);
 int entry_in_range(const entry_field *, double value);
 /* REFUSED: a value is not numeric or out of range ("damping = -1; give at least 0"), or a name or a
@@ -1325,18 +1354,19 @@ typedef enum entry_base { ENTRY_LENGTH, ENTRY_FORCE } entry_base;
 /* Returns the power of length or force in a unit, with seconds and angles unchanged: -4 and 1 for
  * "kg/m^3". */
 int entry_power(const char *unit, entry_base);
-/* Scales all numbers with a unit if there are `times` units instead of one. */
+/* Scales all numbers with a unit for a change of unit: one former unit is `times` new units. */
 void entry_scale(const entry_field *table, void *entry, entry_base, double times);
-/* Exchanges the ends of its member. */
+/* Changes the entry as if the ends of its member were exchanged. */
 void entry_mirror(const entry_field *table, void *entry);
-/* Compares bit for bit, except values that special functions read and write. */
+/* Returns 1 if the entries are equal bit for bit, except for values that special functions read and
+ * write. */
 int entry_same(const entry_field *table, const void *a, const void *b);
 
-/* Which entries of a scene affect which analysis. Analyses are rejected by this table only;
- * `beamwork explain inputs` prints it, and a test checks every cell. */
+/* Table of the entries of a scene that affect each kind of analysis. Analyses reject entries only
+ * according to this table. `beamwork explain inputs` prints the table, and a test checks every
+ * cell. */
 
-/* Column of an analysis: eigenvalues and compliances about a loaded state have columns of their
- * own. */
+/* Column of an analysis. Eigenvalues and compliances about a loaded state have separate columns. */
 typedef enum scene_column {
     SCENE_OF_LINEAR,
     SCENE_OF_STATIC,
@@ -1360,30 +1390,31 @@ typedef enum scene_column {
 
 typedef enum scene_part {
     SCENE_PART_USED = 'u',
-    SCENE_PART_STATE = 's', /* used; rejected about a state with an unsymmetric tangent */
-    /* used in rotating axes, and about a path with an unsymmetric tangent, where stability depends
-     * on inertia; otherwise without effect */
+    SCENE_PART_STATE = 's', /* used, but rejected about a state with an unsymmetric tangent */
+    /* Used in rotating axes, and about a path with an unsymmetric tangent, where stability depends
+     * on inertia. Otherwise without effect. */
     SCENE_PART_INERTIA = 'i',
     SCENE_PART_NONE = '-',   /* without effect by the nature of the analysis */
-    SCENE_PART_REFUSED = 'x' /* rejected by name, for that analysis only */
+    SCENE_PART_REFUSED = 'x' /* rejected with its name, for this analysis only */
 } scene_part;
 
 typedef struct scene_input {
     const char *name;                   /* "loads that follow" */
     const char part[SCENE_COLUMNS + 1]; /* scene_part */
     const char *why; /* reason for the rejection, and the remedy; NULL: never rejected */
-    /* Returns 1 if the scene, or that analysis, has the entry; who: "load p". */
+    /* Returns 1 if the scene or this analysis has the entry, and sets `who` to its name, such as
+     * "load p". */
     int (*stands)(const scene *, int analysis, char *who, int size);
 } scene_input;
 
 /* The table; ends with name NULL. */
 extern const scene_input scene_inputs[];
-/* "buckling about a path" */
+/* Names of the columns, such as "buckling about a path". */
 extern const char *const scene_column_name[SCENE_COLUMNS];
 
 scene_column scene_column_of(const scene *, int analysis);
-/* Returns 1 for an analysis about a state whose tangent may be unsymmetric: stability then depends
- * on the masses. */
+/* Returns 1 for an analysis about a state whose tangent may be unsymmetric, so that stability
+ * depends on the masses. */
 int scene_inputs_flutter(const scene *, int analysis);
 /* REFUSED: the analysis cannot include an entry of the scene that other analyses can. */
 status scene_inputs_check(const scene *, int analysis, fault *);
@@ -1398,7 +1429,7 @@ double *scene_copy(scene *s, int n, const double from[]);
 
 /* Parts of the description of a quantity: nodes, members, coordinates and ordinals. */
 
-/* Writes " of node_1 (0.1, 0, 0)" with the given preposition. */
+/* Writes the node with the given preposition, such as " of node_1 (0.1, 0, 0)". */
 void meaning_node(FILE *to, const scene *s, const char *preposition, int node);
 /* Writes " of member_0 (node_0 to node_1)". */
 void meaning_member(FILE *to, const scene *s, int member);
@@ -1406,14 +1437,14 @@ void meaning_member(FILE *to, const scene *s, int member);
 void meaning_place(FILE *to, double where, int before);
 /* Returns 'x' for SCENE_UX and SCENE_RX. */
 char meaning_axis(int component);
-/* "force along", "moment about". */
+/* Returns "force along" or "moment about". */
 const char *meaning_load(int component);
 /* Writes "first", "second", ... for 0, 1, ... */
 void meaning_ordinal(FILE *to, int order);
 /* Writes "displacement of node_1 (...) along x" or "rotation of ... about x". */
 void meaning_coordinate(FILE *to, const scene *s, int node, int component);
 
-/* Words for physics that a scene may omit, as used in scene files. */
+/* A word of scene files for physics that a scene may omit. */
 
 typedef struct scene_omission {
     unsigned feature; /* a bit of SCENE_OMITTABLE */
@@ -1424,41 +1455,42 @@ typedef struct scene_omission {
 extern const scene_omission scene_omissions[];
 
 enum { SCENE_OMISSION_WORDS = 100 };
-/* Writes "shear, trapeze"; empty if none. */
+/* Writes the words of the omitted physics, such as "shear, trapeze", or "". */
 void scene_omission_words(unsigned omits, char words[SCENE_OMISSION_WORDS]);
 
-/* "haringx" */
+/* Returns the word of scene files, such as "haringx". */
 const char *scene_shear_word(scene_shear theory);
 
-/* A kind of quantity with everything that defines it. Each has a file in cases/quantities, which
- * the build finds. */
+/* A kind of quantity with everything that defines it. Each kind has a file in cases/quantities,
+ * which the build finds. */
 
 /* Values of one state of a structure that a kind can read. The members below `path` belong to the
- * kinds that request them (scene_quantity_kind). NAN: unknown; the analysis reports this. */
+ * kinds that request them (scene_quantity_kind). A value of NAN is unknown, which the analysis
+ * reports. */
 typedef struct quantity_state {
     /* displacement [m] or rotation-vector component [rad]; NAN: its direction is lost */
     double (*component)(const struct quantity_state *, int node, int component);
-    /* the same relative to another node, in its axes */
+    /* displacement or rotation relative to the node `from`, in its axes */
     double (*relative)(const struct quantity_state *, int from, int node, int component);
     /* position [m], and rotation matrix, row-major */
     void (*frame)(const struct quantity_state *, int node, double place[3], double R[9]);
     /* in a motion: velocity [m/s], or angular velocity in the node's axes [rad/s] */
     double (*rate)(const struct quantity_state *, int node, int component);
-    /* its derivative: acceleration [m/s^2], or angular acceleration in the node's axes [rad/s^2] */
+    /* in a motion: acceleration [m/s^2], or angular acceleration in the node's axes [rad/s^2] */
     double (*acceleration)(const struct quantity_state *, int node, int component);
     double (*driver)(const struct quantity_state *, int driver);
     /* rotation or displacement of an end of a member (0 at p, 1 at q) relative to its node, for a
      * component that is released there */
     double (*released)(const struct quantity_state *, int member, int end, int component);
     double path; /* parameter, load factor or time */
-    /* SCENE_REACTION, SCENE_INTERNAL, SCENE_STRESS, SCENE_DEFLECTION: any of these */
+    /* for SCENE_REACTION, SCENE_INTERNAL, SCENE_STRESS and SCENE_DEFLECTION */
     double (*reaction)(const struct quantity_state *, int node, int component);
     double (*internal)(const struct quantity_state *, const scene_internal *);
     double (*stress)(const struct quantity_state *, const scene_stress *);
     double (*deflection)(const struct quantity_state *, const scene_deflection *);
-    /* SCENE_BALANCE */
+    /* for SCENE_BALANCE */
     double (*balance)(const struct quantity_state *, scene_balance);
-    /* SCENE_COMPLIANCE_ENTRY, SCENE_STIFFNESS_ENTRY: in the column of its entry */
+    /* for SCENE_COMPLIANCE_ENTRY and SCENE_STIFFNESS_ENTRY: only in the column of the entry */
     double (*compliance)(const struct quantity_state *, int row, int column);
 } quantity_state;
 
@@ -1473,20 +1505,20 @@ typedef struct quantity_eigenvalue {
 typedef enum quantity_passing {
     QUANTITY_AT_STATIONS,
     QUANTITY_EXTREMES, /* maximum and minimum */
-    QUANTITY_CROSSINGS /* these, and level crossings */
+    QUANTITY_CROSSINGS /* maximum, minimum and level crossings */
 } quantity_passing;
 
 typedef struct quantity_type {
     const char *key, *summary;
-    /* SCENE_READING for quantities of nodes alone; otherwise the kind that an analysis computes,
-     * with its struct; several files may have the same kind */
+    /* SCENE_READING for quantities that depend on nodes only; otherwise the kind that an analysis
+     * computes, with its struct. Several files may have the same kind */
     scene_quantity_kind kind;
-    const entry_field *field; /* of the map below the key */
-    unsigned analyses;        /* 1 << kind of analysis, for all kinds that have it */
+    const entry_field *field; /* keys of the map below the key of the quantity */
+    unsigned analyses;        /* bits 1 << kind, for all kinds of analysis that have the quantity */
     quantity_passing passing;
-    /* default unit of the value; its powers of length and force determine scaling */
+    /* Returns the default unit of the value. Its powers of length and force determine scaling. */
     const char *(*unit)(const scene *, const scene_quantity *);
-    /* Describes the quantity; names_analysis: including the analysis. */
+    /* Writes a description of the quantity. */
     void (*meaning)(FILE *, const scene *, const scene_quantity *);
     int names_analysis;
     /* Reads the extracted value, without factor and offset, from a state or from an eigenvalue;
@@ -1503,10 +1535,10 @@ typedef struct quantity_type {
 } quantity_type;
 
 const quantity_type *quantity_type_of(const scene_quantity *q);
-/* Starts a quantity of this kind, to be filled in. */
+/* Starts a quantity of this kind, which the caller completes. */
 void quantity_type_begin(const quantity_type *, scene_quantity *q);
 
-/* Keys common to most kinds: at the start and at the end. */
+/* Keys common to most kinds, for the start and the end of their tables. */
 #define QUANTITY_ANALYSIS                                                                          \
     {"analysis",                                                                                   \
      ENTRY_NAME,                                                                                   \
@@ -1556,7 +1588,7 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
      .summary = (text),                                                                            \
      ENTRY_IN(scene_quantity, what.of.member),                                                     \
      .turns = ENTRY_COMPONENT}
-/* Load case or combination of a linear analysis that solves all of them. */
+/* Key for a load case or combination of a linear analysis that solves all of them. */
 #define QUANTITY_ACTING                                                                            \
     {"case",                                                                                       \
      ENTRY_NAME,                                                                                   \
@@ -1582,7 +1614,7 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
          .first = SCENE_ENVELOPE_MAX},                                                             \
         {"combinations", ENTRY_WORDS, .summary = "of the envelope",                                \
          .left_out = "all; without combinations all load cases"}
-/* A position on a member, and its side. */
+/* Keys for a position on a member and its side. */
 #define QUANTITY_SIDE(member)                                                                      \
     {"side",                                                                                       \
      ENTRY_WORD,                                                                                   \
@@ -1598,15 +1630,15 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
 
 /* A scene in another unit of length. */
 
-/* Converts all lengths to a unit of which 1 m has x > 0; newtons and seconds do not change, so that
- * masses are divided by x. Quantities are reported as before. REFUSED: x is not positive, or a
- * driver prescribes both lengths and angles. */
+/* Converts all lengths to another unit, with x > 0 units in 1 m. Newtons and seconds do not change,
+ * so that masses are divided by x. Quantities are reported in their former units. REFUSED: x is not
+ * positive, or a driver prescribes both lengths and angles. */
 status scene_change_unit(scene *s, double x, fault *f);
-/* Converts all forces to a unit of which 1 N has y, and masses accordingly; metres and seconds do
- * not change. Quantities are reported as before. */
+/* Converts all forces to another unit, with y units in 1 N, and masses accordingly. Metres and
+ * seconds do not change. Quantities are reported in their former units. */
 void scene_change_force(scene *s, double y);
-/* Do the numbers suggest units other than SI? Writes the units and the reason; 0: no. Scenes
- * without dimensions are not checked. */
+/* Returns 1 if the numbers suggest units other than SI, and writes these units and the reason;
+ * otherwise 0. Scenes without dimensions are not checked. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT]);
 
 /* Warping at an end of a member if the scene does not specify it. */
@@ -1614,12 +1646,12 @@ int scene_looks_foreign(const scene *s, char words[FAULT_TEXT]);
 /* Not specified yet. */
 enum { SCENE_WARP_BY_SUPPORT = -3 };
 
-/* Sets the warping of every end that is SCENE_WARP_BY_SUPPORT. Fixed: all six components of its
- * node are fixed or prescribed, or the node is part of a rigid body to which members or springs are
- * joined at other nodes. Free: a rotation is released there, or the node has a fork support, is
- * free, or has only a mass. If exactly two members meet at such a node and continue in one line
- * with the same section and axes, without releases and without specified warping, they share the
- * coordinate: a node does not interrupt a beam. */
+/* Sets the warping of every end that is SCENE_WARP_BY_SUPPORT. Warping is restrained if all six
+ * components of the node are fixed or prescribed, or if the node is part of a rigid body to which
+ * members or springs are joined at other nodes. It is free if a rotation is released at the end, or
+ * if the node has a fork support, is free, or has only a mass. If exactly two members meet at such
+ * a node and continue in one line with the same section and axes, without releases and without
+ * specified warping, they share the coordinate, because a node does not interrupt a beam. */
 void scene_warping_by_supports(scene *s);
 
 #endif

@@ -5,46 +5,47 @@
 #include "cases/scene/scene.h"
 
 /* Relative tolerance of a limit: the accuracy that engineers require of a model. A biased limit
- * within it is still detected by its uncertainty. */
+ * within this tolerance is still detected by means of its uncertainty. */
 #define SCENE_TOLERANCE 1e-3
 
-/* Returns the component whose table has a slope discontinuity at zero, so that its undeformed
- * stiffness is undefined; SCENE_NONE: none. */
+/* Returns the first component whose table has a slope discontinuity at zero, so that its stiffness
+ * in the undeformed state is undefined, or SCENE_NONE. */
 int scene_spring_kink(const scene_spring *);
 
 /* Bits of rx, ry and rz. */
 #define SCENE_TURNS (7u << SCENE_RX)
-/* Is any of these components of the node in a constraint? */
+/* Returns 1 if a constraint contains any of these components of the node. */
 int scene_is_constrained(const scene *, int node, unsigned components);
 
 /* Requirements on transient analyses, and on the functions of time that they contain. */
 
-/* Checks the functions of drivers and loads, also without a transient analysis. */
+/* Checks the functions of drivers and loads, even if there is no transient analysis. */
 status scene_validate_functions(const scene *s, fault *f);
 
 /* Requirements on a node: its position, supports, fork, body and attachment. */
 
-/* REFUSED: names the cause and the remedy, for node i. */
+/* Checks node i. REFUSED: f contains the cause and the remedy. */
 status scene_validate_node(const scene *s, int i, fault *f);
 
 /* Checks that the geometry, motion and loads of a scene restricted to a plane are all in that
  * plane. */
 
-/* REFUSED: an entry lies, moves or acts out of the plane; gives the entry and the remedy. */
+/* REFUSED: an entry lies, moves or acts out of the plane; f contains the entry and the remedy. */
 status scene_validate_plane(const scene *s, fault *f);
 
 /* Requirements on released ends of members: parts of scene_validate. */
 
-/* Checks one member: released components exist, each once; not all are released, and not so many at
- * both ends that the member is loose. */
+/* Checks one member. Each released component must exist and be released once. The releases must not
+ * separate an end completely, or leave the member free to move between its ends. */
 status scene_validate_release(const scene *s, int member, fault *f);
 /* Checks that something resists the rotations of a node: a member, a support or a spring. */
 status scene_validate_turns(const scene *s, int node, fault *f);
 
-/* REFUSED: constraints that name a node twice, a support or a body, or that form a loop. */
+/* REFUSED: a constraint contains a node twice, a supported component or a body, or constraints form
+ * a loop. */
 status scene_validate_constraints(const scene *s, fault *f);
 
-/* REFUSED: imperfections without a mode or shifts, or used by no analysis. */
+/* REFUSED: an imperfection has neither a mode nor shifts, or no analysis uses it. */
 status scene_validate_imperfections(const scene *s, fault *f);
 
 /* Requirements on load cases and combinations, and on the entries that select them. */
@@ -55,7 +56,7 @@ status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
 
 /* Requirements on the analyses and quantities of a scene. */
 
-/* REFUSED: names the cause and the remedy, for analysis or quantity i. */
+/* Check analysis or quantity i. REFUSED: f contains the cause and the remedy. */
 status scene_validate_analysis(const scene *s, int i, fault *f);
 status scene_validate_quantity(const scene *s, int i, fault *f);
 

@@ -1,4 +1,4 @@
-/* Rejected scenes, made from a valid one. */
+/* Invalid scenes, made from a valid scene. */
 #ifndef BEAMWORK_TEST_REFUSE_H
 #define BEAMWORK_TEST_REFUSE_H
 
@@ -11,7 +11,7 @@ enum { ROOT, TIP, BODY };
 
 static const double y_axis[3] = {0, 1, 0};
 
-/* Makes a cantilever with a body at its tip that is driven along y, and a static path. */
+/* Makes a cantilever with a body at its tip, which is driven along y, and a static path. */
 static inline void refuse_sound(scene *s)
 {
     const double station[2] = {0, 1};
@@ -33,7 +33,7 @@ typedef void spoil(scene *);
 
 typedef struct refusal {
     spoil *how;
-    const char *culprit, *words; /* how its line starts, and the words it contains */
+    const char *culprit, *words; /* how the message starts, and words that it contains */
 } refusal;
 
 static inline void refuse_one_line(const char *what, const fault *f)
@@ -43,7 +43,7 @@ static inline void refuse_one_line(const char *what, const fault *f)
     gsl_test(strchr(f->text, ';') == NULL, "%s: says what to do: %s", what, f->text);
 }
 
-/* Checks that the scene is rejected with the cause at the start of the line, and that the scene
+/* Checks that the scene is rejected with the cause at the start of the message, and that the scene
  * from which it was made is accepted. */
 static inline void refuse_scene(const refusal *r)
 {

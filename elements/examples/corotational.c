@@ -2,9 +2,9 @@
  * element of a finite element program: the linear beam in axes that follow the element.
  *   axes: x along the chord, y in the plane of the chord and the mean of the nodes' y axes (Battini
  *     and Pacoste, Comput. Methods Appl. Mech. Engrg. 191 (2002));
- *   rotations of the nodes relative to these axes: measured by the sine, t = axis sin(angle) (Crisfield, ibid. 81 (1990));
- *   stiffness: the complete derivative, with the names of its parts from Felippa and Haugen, ibid.
- *     194 (2005)
+ *   rotations of the nodes relative to these axes: measured by the sine, t = axis sin(angle)
+ * (Crisfield, ibid. 81 (1990)); stiffness: the complete derivative, with the names of its parts
+ * from Felippa and Haugen, ibid. 194 (2005)
  *
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK corotational.c -lm -o corotational.so
  *   beamwork verify --element ./corotational.so -f corotational */
@@ -76,9 +76,8 @@ static status force(const element_data *d, const node_state x[], force_output *o
         E[i] = x[1].r[i] - x[0].r[i];
         y[i] = (x[0].R[3 * i + 1] + x[1].R[3 * i + 1]) / 2;
         square += E[i] * E[i];
-        change +=
-            du * (2 * E[i] - du); /* change of the square of the length, which gives the elongation
-                                   * without cancellation */
+        change += du * (2 * E[i] - du); /* change of the square of the length, which gives the
+                                         * elongation without cancellation */
     }
     cross(E, y, E + 6);
     const double ln = sqrt(square), n = d->axial * change / (ln + d->length);

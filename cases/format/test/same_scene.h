@@ -1,4 +1,4 @@
-/* Are two scenes the same, bit for bit? */
+/* Compares two scenes bit for bit. */
 #ifndef BEAMWORK_TEST_SAME_SCENE_H
 #define BEAMWORK_TEST_SAME_SCENE_H
 
@@ -34,7 +34,8 @@ static inline int same_node(const scene_node *a, const scene_node *b)
             same_numbers(9, a->axis[0], b->axis[0]));
 }
 
-/* Do ends share a name in both scenes or in neither? The names themselves may differ. */
+/* Returns 1 if the same ends share a warping name in both scenes. The names themselves may
+ * differ. */
 static inline int same_sharing(const scene *a, const scene *b)
 {
     for (int i = 0; i < 2 * a->members; i++)
@@ -158,7 +159,8 @@ static inline int same_quantity(const scene_quantity *a, const scene_quantity *b
            (one == NULL) == (two == NULL) && (one == NULL || strcmp(one, two) == 0);
 }
 
-/* Returns the first list that differs, with the index of the entry; NULL: none. */
+/* Returns the name of the first list that differs and sets *index to its entry, or returns NULL if
+ * the scenes are equal. */
 static inline const char *differing(const scene *a, const scene *b, int *index)
 {
     *index = 0;
