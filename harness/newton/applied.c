@@ -58,8 +58,8 @@ void applied_member_axes(const double triad[9], const section *of, double R[9])
     }
 }
 
-/* A load on one vertex. axes: axes of its components; NULL: global ones. beside: offset of its
- * point of application from `at`, in global axes. */
+/* Returns a load on one vertex. axes: axes of its components; NULL: global axes. beside: offset
+ * of its point of application from the vertex, in global axes. */
 static applied of_vertex(const model_state *s, int vertex, const scene_load *load, double scale,
                          const double axes[9], const double beside[3])
 {
@@ -86,7 +86,7 @@ static applied of_vertex(const model_state *s, int vertex, const scene_load *loa
     return out;
 }
 
-/* Weight of a body: m g at its centre of mass. */
+/* Returns the weight of a body: m g at its centre of mass. */
 static applied of_weight(const model *m, const model_state *s, const scene_load *load, double scale)
 {
     const scene_body *body = &model_scene(m)->node[load->where].body;
@@ -96,14 +96,15 @@ static applied of_weight(const model *m, const model_state *s, const scene_load 
     return of_vertex(s, load->where, &force, scale, NULL, body->centre);
 }
 
-/* Returns the load density per length of an element: 1; for gravity the mass. */
+/* Returns the factor of the load vector per length of an element: 1; for gravity, the mass per
+ * length. */
 static double density_of(const model *m, const scene_load *load, const mesh_element *el)
 {
     const section *c = model_section(m, model_kind(m, el->kind)->section);
     return load->kind == SCENE_GRAVITY ? c->density * c->A : 1;
 }
 
-/* Point of action of gravity: the centre of mass of the undeformed section. */
+/* Computes the point of action of gravity: the centre of mass of the undeformed section. */
 static void weight_centre(const model *m, const scene_load *load, const mesh_element *el, int node,
                           double centre[3])
 {
@@ -116,7 +117,7 @@ static void weight_centre(const model *m, const scene_load *load, const mesh_ele
     mat3_mul_vec(el->triad[node], at, centre);
 }
 
-/* A part of an element shorter than this carries no load, since it is due to rounding. */
+/* A shorter part of an element carries no load, because such a part is due to rounding. */
 static const double least_part = 1e-12;
 
 int applied_inside(double x)
@@ -164,8 +165,8 @@ static double share_of(const model *m, int k, double x)
     return three[k];
 }
 
-/* Points of a load on a part of an element, with weights; exact for a shape function times a linear
- * load. */
+/* Computes the points of a load on a part of an element, with weights. They are exact for a
+ * shape function times a linear load. */
 static int points_of(const scene_load *load, const double part[2], double x[2], double weight[2])
 {
     const double half = (part[1] - part[0]) / 2, middle = (part[0] + part[1]) / 2;
@@ -186,7 +187,8 @@ int applied_with_mass(const scene_load *load)
     return !load->lumped && !load->varies && load->range[0] == 0 && load->range[1] == 1;
 }
 
-/* Share of node k in the load on an element: the load vector times the shape function. */
+/* Computes the share of node k in the load on an element: the load vector times the shape
+ * function, integrated over the part. */
 static void share_at(const model *m, const scene_load *load, int element, const double part[2],
                      int k, double vector[3])
 {
@@ -230,7 +232,8 @@ void applied_element(const model *m, const model_state *s, const scene_load *loa
     }
 }
 
-/* Distance between the nodes of a tension; e: direction from the first node to the second. */
+/* Returns the distance between the nodes of a tension. e: direction from the first node to the
+ * second. */
 static double line_of(const model *m, const model_state *s, const scene_load *load, double e[3])
 {
     double from[3], to[3];
@@ -279,8 +282,8 @@ typedef struct entries {
     void *to;
 } entries;
 
-/* Derivative of the generalised load of a follower force F and moment F + 3 at rho with respect to
- * a rotation about b: that of b x F and b x F[3..5]. */
+/* Adds the derivative of the generalised load of a follower force F and moment F + 3 at rho with
+ * respect to a rotation about b. The derivatives of force and moment are b x F and b x F[3..5]. */
 static void add_following(const entries *all, const mesh_vertex *body, const double F[6],
                           const double rho[3], double b[3][3], const double moved[3], int column)
 {
@@ -305,13 +308,13 @@ typedef struct load_motion {
     int own;        /* 1: coordinate of the end, 0: of its body */
     int chart;      /* 1: rotation about a fixed axis, which does not depend on the order of the two
                        others */
-    double axis[3]; /* of a rotation */
+    double axis[3]; /* axis of a rotation */
     double turn[3]; /* rotation of the load's frame */
     double shift[3];
 } load_motion;
 
-/* Fills the motions in the order of the frame: position and rotations of the body, rotations of the
- * end, its shifts. Returns their number. */
+/* Computes the motions in the order of the frame: position and rotations of the body, rotations
+ * of the end, and its shifts. Returns their number. */
 static int motions_at_release(const entries *all, const applied *what,
                               load_motion out[KINEMATICS_MOST])
 {
@@ -339,8 +342,8 @@ static int motions_at_release(const entries *all, const applied *what,
     return count;
 }
 
-/* Does rotation e come before l, so that it rotates the axis of l? Returns 1, 0, or 1/2: neither
- * comes first. */
+/* Returns 1 if rotation e comes before l, so that it rotates the axis of l; 0 if it does not;
+ * 1/2 if neither comes first. */
 static double carries(const mesh_release *r, const load_motion *e, const load_motion *l)
 {
     if (r->turns == 3 && e->own != l->own)
@@ -348,7 +351,7 @@ static double carries(const mesh_release *r, const load_motion *e, const load_mo
     return e->chart && l->chart && e->own == l->own ? 0.5 : e < l;
 }
 
-/* a . (b x c) */
+/* Returns a . (b x c). */
 static double triple(const double a[3], const double b[3], const double c[3])
 {
     double cross[3];
@@ -356,7 +359,7 @@ static double triple(const double a[3], const double b[3], const double c[3])
     return vec3_dot(a, cross);
 }
 
-/* Derivative of the generalised load on coordinate i with respect to coordinate j. */
+/* Returns the derivative of the generalised load on coordinate i with respect to coordinate j. */
 static double release_entry(const mesh_release *r, const applied *what, const load_motion *i,
                             const load_motion *j)
 {
@@ -381,8 +384,8 @@ static void add_stiffness_at_release(const entries *all, const applied *what)
                 release_entry(release_of(all->m, what->vertex), what, &motion[i], &motion[j]));
 }
 
-/* Derivative of the generalised load of a force F at offset rho and of a spatial moment with
- * respect to rotations of one body. */
+/* Adds the derivative of the generalised load of a force F at offset rho, and of a spatial
+ * moment, with respect to rotations of one body. */
 static void add_stiffness(void *context, const applied *what)
 {
     const entries *all = context;
@@ -435,7 +438,7 @@ static void add_stiffness(void *context, const applied *what)
             add_following(all, body, F, rho, b, moved, j);
 }
 
-/* Derivative of the forces of a tension with respect to the direction of its line. */
+/* Adds the derivative of the forces of a tension with respect to the direction of its line. */
 static void add_turning(const entries *all, const scene_load *load, double tension)
 {
     const int node[] = {load->where, load->towards};

@@ -6,9 +6,9 @@
 
 #include "elements/math/dense.h"
 
-/* Number of negative eigenvalues of A[n x n], which is overwritten; -1: singular (a pivot is a
- * rounding error). Uses LDL^T without pivoting, whose result does not depend on the units of the
- * rows. */
+/* Returns the number of negative eigenvalues of A[n x n], which is overwritten; -1: A is
+ * singular (a pivot is a rounding error). Uses LDL^T without pivoting, whose result does not
+ * depend on the units of the rows. */
 static int symmetric_negative(int n, double A[]);
 
 status chain_alloc(int links, int joint, int y, chain **out, fault *f)
@@ -46,8 +46,8 @@ void chain_begin(chain *s)
         s->A[i * s->c + i] = 1;
 }
 
-/* Are all eigenvalues of 1 + F B positive, according to a bound? For positive F the eigenvalues of
- * F B are real and bounded by the row sums of F B, scaled with the diagonal of F. */
+/* Returns 1 when a bound shows that all eigenvalues of 1 + F B are positive. For positive F the
+ * eigenvalues of F B are real and bounded by the row sums of F B, scaled with the diagonal of F. */
 static int small_product(int n, const double F[], const double W[])
 {
     for (int i = 0; i < n; i++) {
@@ -60,8 +60,8 @@ static int small_product(int n, const double F[], const double W[])
     return 1;
 }
 
-/* Number of eigenvalues that become negative when the stiffness B is added at the end of the
- * row. */
+/* Returns the number of eigenvalues that become negative when the stiffness B is added at the
+ * end of the chain. */
 static int more_negative(int n, const double F[], const double B[], const double W[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT];
@@ -73,7 +73,7 @@ static int more_negative(int n, const double F[], const double B[], const double
     return symmetric_negative(n, stiffness) - before;
 }
 
-/* Z = (1 + F B)^-1 */
+/* Computes Z = (1 + F B)^-1. */
 static status carry(chain *s, const double B[], double Z[], fault *f)
 {
     const int c = s->c;
@@ -134,7 +134,7 @@ status chain_add(chain *s, const chain_link *link, fault *f)
     pack(y, link->F, k.own);
     TRY(carry(s, link->B, Z, f));
     memcpy(k.Z, Z, (size_t)(c * c) * sizeof *k.Z);
-    /* B and A of the row */
+    /* B and A of the chain */
     dense_mul(c, c, c, link->B, Z, BZ);
     symmetrise(c, BZ);
     pack(c, BZ, k.BZ);
@@ -143,7 +143,7 @@ status chain_add(chain *s, const chain_link *link, fault *f)
         s->B[i] += more[i];
     dense_mul(c, c, c, Z, s->A, more);
     dense_mul(c, c, c, A_q, more, s->A);
-    /* F of the row */
+    /* F of the chain */
     dense_mul(c, c, c, Z, s->F, ZF);
     symmetrise(c, ZF);
     pack(c, ZF, k.ZF);
@@ -224,7 +224,7 @@ INLINED void mul_packed(int n, const double S[], const double x[], double out[])
     }
 }
 
-/* Adds the load on the joint before a link to the forces w there; none on an end. */
+/* Adds the load on the joint before a link to the forces w there. The ends have no such load. */
 INLINED void add_load_before(int c, int y, const double r[], int link, double w[])
 {
     if (link > 0)
@@ -232,7 +232,7 @@ INLINED void add_load_before(int c, int y, const double r[], int link, double w[
             w[i] += r[(size_t)link * (size_t)y - (size_t)(c - i)];
 }
 
-/* Computes a for every joint from that of the first. */
+/* Computes a for every joint, starting from that of the first joint. */
 INLINED void forward(chain *s, int c, int y, const double r[], const double first[])
 {
     const int in = y - c;
@@ -255,9 +255,9 @@ INLINED void forward(chain *s, int c, int y, const double r[], const double firs
     }
 }
 
-/* Forces between the links when g[joint] acts on the last joint, stored in s->a after its first
- * entry; begin[joint]: force of the first joint on the row. r NULL: there are no other loads, and
- * joints do not move without forces. */
+/* Computes the forces between the links when last[joint] acts on the last joint, and stores them
+ * in s->a after its first entry. begin[joint]: force of the first joint on the chain. r NULL:
+ * there are no other loads, and joints do not move without forces. */
 INLINED void backward(chain *s, int c, int y, const double r[], const double last[], double begin[])
 {
     const int in = y - c;
@@ -283,8 +283,9 @@ INLINED void backward(chain *s, int c, int y, const double r[], const double las
         begin[i] = -g[in + i];
 }
 
-/* Computes the motions from that of the first joint and the forces, so that the deformations of
- * links are exact to the last digit. Writes x[links x y]; r NULL: adds to x; r may be x. */
+/* Computes the motions from the motion of the first joint and the forces, so that the
+ * deformations of links are exact to the last digit. Writes x[links x y]; r NULL: adds to x. x
+ * may be r. */
 INLINED void deform(const chain *s, int c, int y, const double r[], const double first[],
                     double x[])
 {
@@ -308,7 +309,7 @@ INLINED void deform(const chain *s, int c, int y, const double r[], const double
     }
 }
 
-/* Forces on the last joint that move it from its force-free position to x. */
+/* Computes the forces on the last joint that move it from its force-free position to x. */
 static void force_to(const chain *s, const double x[], const double from[], double g[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT], moved[CHAIN_JOINT];
@@ -320,7 +321,7 @@ static void force_to(const chain *s, const double x[], const double from[], doub
 
 static const double still[CHAIN_JOINT] = {0};
 
-/* Position of the last joint if no force acts on it. */
+/* Returns the position of the last joint if no force acts on it. */
 static const double *last_of(const chain *s)
 {
     return s->a + (size_t)s->links * (size_t)s->c;

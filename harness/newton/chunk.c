@@ -5,9 +5,9 @@
 #include "elements/math/dense.h"
 #include "elements/math/real.h"
 
-/* Smallest number of elements that is evaluated faster together than one by one (measured on sheets
- * and collocation). Without AVX2 there is no such number, because four lanes are then two
- * vectors. */
+/* Smallest number of elements that are evaluated faster together than one by one (measured on
+ * sheets and collocation). Without AVX2 there is no such number, because four lanes then take
+ * two vectors. */
 enum { together_from_avx2 = 2, together_from_plain = CHUNK_MOST + 1 };
 
 int chunk_size(const model *m)
@@ -42,7 +42,7 @@ static const double *inner_of(const model *m, const model_state *s, int element)
     return &s->inner[(size_t)element * (size_t)model_inner(m)];
 }
 
-/* Calls the functions of the type for one element, or uses values from a batch. */
+/* Evaluates strains with the functions of the type for one element, or uses values from a batch. */
 static void strains_one_by_one(const equations *eq, const linear_memory *memory,
                                const model_state *s, int count, chunk_element element[],
                                double deformed[][ELEMENT_MAX_STRAINS])
@@ -76,7 +76,7 @@ static void stresses_one_by_one(const equations *eq, const linear_memory *memory
     }
 }
 
-/* Calls the type's functions for many elements. */
+/* Evaluates strains with the functions of the type for many elements. */
 static void strains_together(const model *m, const linear_memory *memory, const model_state *s,
                              int count, chunk_element element[],
                              double deformed[][ELEMENT_MAX_STRAINS])
@@ -162,7 +162,7 @@ static void stresses_under_loads(const equations *eq, const linear_memory *memor
     }
 }
 
-/* Equations of several elements together. */
+/* Computes the equations of several elements together. */
 static void equations_together(const model *m, const linear_memory *memory, const model_state *s,
                                int count, chunk_element element[])
 {
@@ -194,7 +194,7 @@ static void equations_together(const model *m, const linear_memory *memory, cons
         element[k].outcome = outcome[k];
 }
 
-/* sigma = stress(e) + C (D(x) - e), from the strains D(x). */
+/* Computes sigma = stress(e) + C (D(x) - e), given the strains D(x). */
 static void mix(const model *m, const linear_memory *memory, const model_state *s, int index,
                 const double deformed[])
 {
@@ -208,7 +208,7 @@ static void mix(const model *m, const linear_memory *memory, const model_state *
         w.sigma[i] += more[i];
 }
 
-/* Adds damping by the strain rates of motions to the linearised equations. */
+/* Adds damping, due to the strain rates of a motion, to the linearised equations. */
 static void damp(const equations *eq, const linear_memory *memory, const model_state *s, int index)
 {
     const model *m = eq->m;

@@ -11,7 +11,8 @@ static int condensation_number(condensation *s, int count, const int released[])
 /* Builds the patterns of both matrices. */
 static status condensation_patterns(condensation *s, int ends, fault *f);
 
-/* Do loads have a stiffness only at the ends of members, and are all nodes in between free? */
+/* Returns 1 when loads have a stiffness only at the ends of members, and all nodes in between
+ * are free. */
 static int applies(const equations *eq, int from)
 {
     const model *m = eq->m;
@@ -73,7 +74,7 @@ static status member_of(const model *m, int index, condensed_member *out, fault 
     return chain_alloc(out->links, out->joint, out->y, &out->chain, f);
 }
 
-/* Sets the members and their loads: own arrays, or those of `of`. */
+/* Sets the members and their loads, in arrays of this condensation or, if given, those of `of`. */
 static status find_members(condensation *s, const condensation *of, fault *f)
 {
     const model *m = s->m;
@@ -178,7 +179,7 @@ void condensation_free(condensation *s)
     free(s);
 }
 
-/* One element as a link; force[7 nodes]: internal forces in the state. */
+/* Makes a link of one element. force[7 nodes]: internal forces in the state. */
 static status link_element_of(const equations *eq, const model_state *s, const condensed_member *of,
                               int i, double path, chain_link *link, double force[], fault *f)
 {
@@ -220,7 +221,7 @@ static status fill_chain(const equations *eq, const model_state *s, condensed_me
     return STATUS_OK;
 }
 
-/* K of the ends of a member, in coordinates of the model. */
+/* Computes K of the ends of a member, in coordinates of the model. */
 static status member_matrix(condensation *s, condensed_member *of, double path, double K[],
                             fault *f)
 {
@@ -298,7 +299,7 @@ static void note(const mesh_element *el, int number[])
             number[el->index[k]] = 0;
 }
 
-/* Numbers the end coordinates, and those of them that are unknown. Returns the number of end
+/* Numbers the end coordinates, and the unknown ones among them. Returns the number of end
  * coordinates. */
 static int condensation_number(condensation *s, int count, const int released[])
 {
@@ -332,7 +333,8 @@ static void couple(const condensation *s, const mesh_element *el, int ends, char
                 coupled[s->number[el->index[k]] * ends + s->number[el->index[i]]] = 1;
 }
 
-/* Pattern of the coordinates list[count], as a part of all coordinates or of the list. */
+/* Builds the pattern of the coordinates list[count], numbered as in all coordinates or as in the
+ * list. */
 static status pattern_of(const condensation *s, int count, const int list[], int ends,
                          const char coupled[], int own, sparse *out, fault *f)
 {
@@ -360,7 +362,7 @@ static status pattern_of(const condensation *s, int count, const int list[], int
     return STATUS_OK;
 }
 
-/* Positions in K of the entries of the unknowns. */
+/* Finds the positions in K of the entries of the unknowns. */
 static status find_sources(condensation *s, fault *f)
 {
     const sparse *a = &s->inside;

@@ -35,7 +35,7 @@ int distributed_jumps(const distributed_loads *of)
     return SCENE_NONE;
 }
 
-/* The triad of the undeformed element at x. */
+/* Computes the triad of the undeformed element at x. */
 static void undeformed(const distributed_loads *of, double x, double R[9])
 {
     const mesh_element *el = model_element(of->m, of->element);
@@ -48,7 +48,8 @@ static void undeformed(const distributed_loads *of, double x, double R[9])
     mat3_mul(el->triad[0], by, R);
 }
 
-/* Load at x times `scale`, with the undeformed triad there: per length, or for gravity per mass. */
+/* Computes the load at x times `scale`, given the undeformed triad there: per length, or for
+ * gravity per mass. */
 static void load_at(const distributed_loads *of, const scene_load *load, double scale, double x,
                     const double before[9], field_load *out)
 {
@@ -78,7 +79,7 @@ static void load_at(const distributed_loads *of, const scene_load *load, double 
 
 enum { MOST = FIELD_MOST_POINTS };
 
-/* Is a load along an element constant? one: its value at one point. */
+/* Returns 1 when a load along an element is constant. one: its value at one point. */
 static int same(const distributed_loads *of, const scene_load *load, const field_load *one)
 {
     return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&
@@ -86,7 +87,7 @@ static int same(const distributed_loads *of, const scene_load *load, const field
             vec3_norm(model_kind_of(of->m, of->element)->curvature) == 0);
 }
 
-/* Fills one load's values at the points of an element; returns the number of points. */
+/* Computes one load's values at the points of an element. Returns the number of points. */
 static int points_of(const distributed_loads *of, const scene_load *load, double scale,
                      const double part[2], field_rows rows[MOST], field_load acting[MOST])
 {
@@ -220,7 +221,7 @@ int distributed_add_own(const equations *eq, const model_state *s, const node_st
     }
     const element_data *unstressed = linear ? data : free_strain_data(eq, element, path);
     model_type(m)->along(1, &unstressed, x, &of.out,
-                         &outcome); /* a state that has been evaluated */
+                         &outcome); /* cannot fail in a state that has been evaluated */
     for (int k = 0; k < model_strains(m) && !linear; k++)
         D[k] -= s->e[first + (size_t)k];
     distributed_add_taken(m, &of.out, J, linear ? NULL : D, forces, K);
@@ -254,7 +255,7 @@ int distributed_stress(const equations *eq, const model_state *s, const node_sta
     return 1;
 }
 
-/* Derivative of the forces with respect to the size of one load. */
+/* Adds the derivative of the forces with respect to the size of one load. */
 static void add_rate(const equations *eq, const model_state *s, const node_state x[], int element,
                      const scene_load *load, double scale, double forces[])
 {
@@ -336,7 +337,7 @@ int distributed_add(const equations *eq, const model_state *s, const node_state 
     return distributed_add_own(eq, s, x, element, path, forces, K) || acting;
 }
 
-/* Force and moment of a load, in global axes, on the section with triad R. */
+/* Adds the force and moment of a load, in global axes, on the section with triad R. */
 static void add_load(const distributed_loads *of, const scene_load *load, double x,
                      const double before[9], const double R[9], span_load *out)
 {
@@ -378,7 +379,8 @@ static void add_rotating_matrices(const section *c, const double omega[3], const
     }
 }
 
-/* Centrifugal force on the mass at the centroid, and moment on the inertia of the section. */
+/* Adds the centrifugal force on the mass at the centroid, and the moment on the inertia of the
+ * section. */
 static void add_rotating(const distributed_loads *of, const span_frame *at, span_load *out)
 {
     const model *m = of->m;

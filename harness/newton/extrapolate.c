@@ -5,23 +5,23 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* error[k], k = 1 ... most: largest error of a displacement or strain [m] that an extrapolation
- * from k states would have had for at[most]; k = 1: the last state unchanged. INFINITY: no
- * extrapolation was possible. */
+/* Computes error[k] for k = 1 ... most: the largest error of a displacement or strain [m] that
+ * an extrapolation from k states would have had for at[most]. k = 1: the last state unchanged.
+ * INFINITY: no extrapolation was possible. */
 static void extrapolate_errors(const equations *, int most, const model_state *const at[],
                                double error[]);
 
-/* In large models fewer states are stored. sheet_cantilever, spherical_joint and hexapod take the
- * same numbers of iterations with eight states as with twelve. */
+/* Large models store fewer states. sheet_cantilever, spherical_joint and hexapod take the same
+ * numbers of iterations with eight states as with twelve. */
 enum { MANY_ELEMENTS = 1000, OF_MANY = 8 };
 /* The second step is extrapolated linearly if the first one took at most this number of
  * iterations. */
 enum { EASY_ITERATIONS = 4 };
-/* Largest error of an extrapolation, relative to that without extrapolation, for which an
- * extrapolation saves iterations. */
+/* Largest error of an extrapolation, relative to the error without extrapolation, for which
+ * extrapolating saves iterations. */
 static const double worthwhile = 0.3;
 
-/* The last k of the first `count` states. */
+/* Returns the last k of the first `count` states. */
 static const model_state *const *last(const predictor *t, int count, int k)
 {
     return (const model_state *const *)t->at + count - k;
@@ -67,8 +67,8 @@ status predictor_add(const equations *eq, const model_state *s, int iterations, 
     return STATUS_OK;
 }
 
-/* Number of states that would have extrapolated the last state best, plus one if the error was
- * still decreasing with the number. 0: no extrapolation is better than none. */
+/* Returns the number of states that would have extrapolated the last state best, plus one if the
+ * error was still decreasing with the number of states. 0: no extrapolation is better than none. */
 static int states_of_least_error(const predictor *t)
 {
     int best = 2;
@@ -91,11 +91,11 @@ void predictor_guess(const equations *eq, const predictor *t, double path, model
 
 /* Initial guess for the next state of a path: the polynomial through the last states. */
 
-/* Largest step for extrapolation relative to the last step; largest error of prescribed values
- * relative to the largest of their steps. */
+/* far: largest step for extrapolation, relative to the last step. bent: largest error of
+ * extrapolated prescribed values, relative to the largest of their steps. */
 static const double far = 1.5 * (1 + 1e-9), bent = 0.25;
 
-/* Weights of the states in their interpolation polynomial, at `path`. */
+/* Computes the weights of the states in their interpolation polynomial at `path`. */
 static void lagrange(int count, const model_state *const at[], double path, double weight[])
 {
     for (int i = 0; i < count; i++) {
@@ -106,7 +106,8 @@ static void lagrange(int count, const model_state *const at[], double path, doub
     }
 }
 
-/* Does the next value of a prescribed function, value[count], agree with its extrapolation? */
+/* Returns 1 when the next value of a prescribed function, value[count], agrees with its
+ * extrapolation. */
 static int continues(int count, const double weight[], const double value[])
 {
     const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
@@ -118,7 +119,7 @@ static int continues(int count, const double weight[], const double value[])
 
 /* Extrapolations from the last k states of at[most], k = 2 ... most, for the state at `path`. */
 typedef struct guesses {
-    int most, good[MODEL_EXTRAPOLATED + 1]; /* good[k]: possible with k states */
+    int most, good[MODEL_EXTRAPOLATED + 1]; /* good[k]: extrapolation from k states is possible */
     double weight[MODEL_EXTRAPOLATED + 1][MODEL_EXTRAPOLATED];
 } guesses;
 
@@ -165,8 +166,8 @@ static void prescribe(const model *m, const mesh_vertex *v, const model_state *l
     }
 }
 
-/* Extrapolates from the last orientation, with the rotation vectors relative to it of the other
- * states. */
+/* Extrapolates from the last orientation. The rotation vectors of the other states are relative
+ * to it. */
 static void extrapolate_rotation(const model *m, int vertex, int count, const double weight[],
                                  const model_state *const at[], model_state *out)
 {
@@ -184,7 +185,7 @@ static void extrapolate_rotation(const model *m, int vertex, int count, const do
     rotation_normalise(&out->q[4 * vertex]);
 }
 
-/* Does the vertex have an orientation that is not given by angles? */
+/* Returns 1 when the vertex has an orientation that is not given by angles. */
 static int turns_by_itself(const model *m, int vertex)
 {
     const mesh_release *r = release_of(m, vertex);
@@ -193,7 +194,7 @@ static int turns_by_itself(const model *m, int vertex)
                : model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
 }
 
-/* Computes the weights for `least` to `most` states. */
+/* Computes the weights for each number of states from `least` to `most`. */
 static void weigh(const equations *eq, int least, int most, const model_state *const at[],
                   double path, guesses *g)
 {
@@ -207,7 +208,7 @@ static void weigh(const equations *eq, int least, int most, const model_state *c
     keep_smooth(eq, at, path, g);
 }
 
-/* sum += weight x, one state after the other, for several coordinates at once. */
+/* sum += weight x, one state after the other, for several coordinates together. */
 static void add_weighted(double weight, size_t size, const double x[], double sum[])
 {
     for (size_t k = 0; k < size; k++)
@@ -216,8 +217,9 @@ static void add_weighted(double weight, size_t size, const double x[], double su
 
 enum { PART = 8 };
 
-/* Maximum of `largest` and |sum_i weight[i] x_i - x_count|, x_i = at[i]->block + from, over `size`
- * numbers; in small groups whose sums stay in registers. */
+/* Returns the maximum of `largest` and |sum_i weight[i] x_i - x_count|, where x_i = at[i]->block
+ * + from, over `size` numbers. The numbers are processed in small groups whose sums stay in
+ * registers. */
 static inline __attribute__((always_inline)) double largest_of(int count, const double weight[],
                                                                const model_state *const at[],
                                                                ptrdiff_t from, size_t size,

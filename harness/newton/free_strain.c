@@ -1,7 +1,7 @@
-/* Stress-free strains of elements in addition to those of the undeformed state: due to
- * temperatures, and initial strains of members. For all formulations they are the D(x) of a free
- * element, and strains of a state are measured from them. A type whose stresses also depend on the
- * curvature itself provides element_type.unstressed. */
+/* Stress-free strains of elements, in addition to those of the undeformed state. Causes are
+ * temperatures and initial strains of members. For all formulations they are the strains D(x) of
+ * a free element, and the strains of a state are measured from them. A type whose stresses also
+ * depend on the curvature itself provides element_type.unstressed. */
 #include "harness/newton/newton_impl.h"
 
 #include <math.h>
@@ -14,7 +14,10 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-enum { POINTS = 6 }; /* along a part of an arc; exact to round-off up to a rotation of 1 rad */
+enum {
+    POINTS = 6
+}; /* number of points along a part of an arc; exact to round-off for rotations
+      up to 1 rad */
 
 /* Elongation, and curvatures about the principal axes y and z [1/m]. */
 enum { ELONGATION, ABOUT_Y, ABOUT_Z, AMOUNTS };
@@ -49,7 +52,7 @@ static void add_amounts(const model *m, int element, const scene_load *load, dou
     out[ABOUT_Z] -= strain * (a * along[0] + b * along[1]);
 }
 
-/* Sum of all temperatures at `path`. */
+/* Computes the sum of all temperature loads at `path`. */
 static void heat_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const scene *s = model_scene(eq->m);
@@ -59,7 +62,7 @@ static void heat_at(const equations *eq, int element, double path, double out[AM
             add_amounts(eq->m, element, &s->load[i], applied_factor(eq, &s->load[i], path), out);
 }
 
-/* Amounts including the initial strains of the member. */
+/* Computes the amounts including the initial strains of the member. */
 static void amounts_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const double *own = model_kind_of(eq->m, element)->free;
@@ -68,7 +71,7 @@ static void amounts_at(const equations *eq, int element, double path, double out
         out[i] += own[i];
 }
 
-/* Derivative with respect to the path parameter, or to time. */
+/* Computes the derivative with respect to the path parameter or to time. */
 static void rates_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const scene *s = model_scene(eq->m);
@@ -116,7 +119,7 @@ static void place(const model *m, int element, const double amounts[AMOUNTS], fr
     }
 }
 
-/* Motion of the node at x due to the amounts. */
+/* Computes the motion of the node at x due to the amounts. */
 static void moved(const free_element *of, const double amounts[AMOUNTS], double x, double out[6])
 {
     const double turn[3] = {0, amounts[ABOUT_Y] * of->length, amounts[ABOUT_Z] * of->length},
@@ -140,7 +143,7 @@ static void moved(const free_element *of, const double amounts[AMOUNTS], double 
         out[i] *= of->length;
 }
 
-/* Derivative of the strains of a free element in the direction of the amounts. */
+/* Computes the derivative of the strains of a free element in the direction of the amounts. */
 static void strains_by(const model *m, int element, const free_element *of,
                        const double amounts[AMOUNTS], double out[])
 {
@@ -184,9 +187,9 @@ void free_strain_subtract(const equations *eq, int element, double path, double 
         e[i] -= own[i] - rest[i];
 }
 
-/* Element data as modified by their type for the last amounts. */
+/* Element data as modified by their type for the most recent amounts. */
 typedef struct run_free {
-    size_t size;     /* doubles per element: amounts, data */
+    size_t size;     /* number of doubles per element: amounts, then data */
     double *element; /* [elements x size] */
 } run_free;
 
@@ -292,7 +295,8 @@ int free_strain_by_load(const equations *eq, const model_state *s, int element,
     return 1;
 }
 
-/* Energy of an element in a state with other amounts, for a type that modifies its data. */
+/* Returns the energy of an element in a state with other amounts, for a type that modifies its
+ * data. */
 static double energy_with(const equations *eq, const model_state *s, int element,
                           const double amounts[AMOUNTS], element_data *room)
 {
@@ -307,8 +311,8 @@ static double energy_with(const equations *eq, const model_state *s, int element
     return energy;
 }
 
-/* Energy gained by an element in a state when its amounts change from `before` to `after` at
- * constant stresses, for a type whose strains are measured from the free strains. */
+/* Returns the energy that an element in a state gains when its amounts change from `before` to
+ * `after` at constant stresses, for a type whose strains are measured from the free strains. */
 static double counted(const equations *eq, const model_state *s, int element,
                       const double before[AMOUNTS], const double after[AMOUNTS])
 {

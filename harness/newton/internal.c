@@ -7,7 +7,7 @@
 #include "elements/math/rotation.h"
 #include "elements/section/section.h"
 
-/* A vertex from whose force the loads that are lumped there are subtracted. */
+/* A vertex, and the force from which the loads lumped there are subtracted. */
 typedef struct share {
     int vertex;
     double *force; /* [6] */
@@ -28,7 +28,8 @@ static void take_off(void *context, const applied *what)
         of->force[3 + i] -= moment[i];
 }
 
-/* Does the load act inside the element? A load at an end of the element acts on the node. */
+/* Returns 1 when the load acts inside the element. A load at an end of the element acts on the
+ * node. */
 static int lies_along(const model *m, int element, const scene_load *load)
 {
     double part[2];
@@ -36,7 +37,7 @@ static int lies_along(const model *m, int element, const scene_load *load)
            (!scene_load_within(load) || applied_inside(part[0]));
 }
 
-/* taken[] += sign times the forces on the ends. */
+/* taken[] += the forces on the ends times `sign`. */
 static void note_taken(const model *m, const double force[], double sign, double taken[2][3])
 {
     for (int end = 0; end < 2; end++)
@@ -44,8 +45,8 @@ static void note_taken(const model *m, const double force[], double sign, double
             taken[end][i] += sign * force[NODE_COORDINATES * (end ? model_nodes(m) - 1 : 0) + i];
 }
 
-/* Records the shares of weight or centrifugal force that were subtracted at the ends of a two-node
- * element. The distributed load also has a couple, and so does its inertia
+/* Records the parts of weight or centrifugal force that were subtracted at the ends of a
+ * two-node element. The distributed load also has a couple, and so does its inertia
  * (harness/time/deformable.c). */
 static void take_couple(const mesh_element *el, const node_state x[], double taken[2][3],
                         double ends[2][7])
@@ -65,8 +66,8 @@ static void take_couple(const mesh_element *el, const node_state x[], double tak
     }
 }
 
-/* ends[2][7]: external forces on the first (0) and last (1) node of an element, excluding loads
- * along the element, in global axes; x: nodes of the element. */
+/* Computes ends[2][7]: external forces on the first (0) and last (1) node of an element,
+ * excluding loads along the element, in global axes. x: nodes of the element. */
 static void ends_of(const equations *eq, const internal_state *s, int i, node_state x[],
                     double ends[2][7])
 {
@@ -117,8 +118,8 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
         s->moving->ends(s->moving->context, i, ends);
 }
 
-/* Angle [rad] between the axes of the element's constant section and those of a tapered member at
- * the position. */
+/* Returns the angle [rad] between the axes of the element's constant section and those of a
+ * tapered member at the position. */
 static double axes_turned(const model *m, int member, double place, const mesh_element *el)
 {
     const scene *s = model_scene(m);
@@ -128,7 +129,7 @@ static double axes_turned(const model *m, int member, double place, const mesh_e
     if (!scene_member_tapers(sm))
         return 0;
     section_taper_at(&s->section[sm->section], &s->section[sm->section_q], place, &spec);
-    const int known = section_compute(&spec, &c, NULL) == STATUS_OK; /* the same computation as for
+    const int known = section_compute(&spec, &c, NULL) == STATUS_OK; /* the same result as for
                                                                         neighbouring elements */
     return known ? c.axes_angle - model_section(m, model_kind(m, el->kind)->section)->axes_angle
                  : 0;
@@ -163,7 +164,7 @@ void internal_at_end(const equations *eq, const internal_state *s, int member, i
         out[c] *= -1;
 }
 
-/* Ends of an element in the form of section_forces.h. */
+/* Sets the ends of an element in the form of section_forces.h. */
 static void take_ends(const equations *eq, const internal_state *s, int i, span_end end[2])
 {
     const model *m = eq->m;
@@ -190,11 +191,11 @@ static void take_ends(const equations *eq, const internal_state *s, int i, span_
 /* Loads along an element. */
 typedef struct internal_between {
     distributed_loads loads;
-    int acts, nodes; /* nodes 0: at rest */
+    int acts, nodes; /* nodes: number of nodes with inertia forces; 0: at rest */
     double density[ELEMENT_MAX_NODES][6];
 } internal_between;
 
-/* Shape functions of the nodes at x in [0, 1]. */
+/* Computes the shape functions of the nodes at x in [0, 1]. */
 static void interpolate(int nodes, double x, double part[ELEMENT_MAX_NODES])
 {
     for (int k = 0; k < nodes; k++) {
@@ -219,7 +220,7 @@ static void between_at(void *context, double x, const span_frame *at, span_load 
         }
 }
 
-/* Undeformed frames of the ends, and their displacements and rotations since. */
+/* Computes the undeformed frames of the ends, and their displacements and rotations from there. */
 static void moves_of(const equations *eq, const internal_state *s, int i, span_frame begin[2],
                      span_move end[2])
 {
@@ -249,7 +250,7 @@ static void moves_of(const equations *eq, const internal_state *s, int i, span_f
     }
 }
 
-/* moved: NULL, or receives the displacement and rotation of the section at x. */
+/* moved: receives the displacement and rotation of the section at x; NULL: not requested. */
 static status recover_moved(const equations *eq, const internal_state *s, int i, const span_grid *g,
                             double x, span_move *moved, span_fields *out, fault *f)
 {
@@ -345,7 +346,7 @@ status internal_at(const equations *eq, const internal_state *s, const internal_
 typedef struct measured {
     const span_grid *g;
     const span_fields *fields;
-    int element; /* number along the member */
+    int element; /* index of the element along the member */
     internal_measure of;
     void *context;
 } measured;
@@ -357,8 +358,8 @@ static double measure_at(const measured *what, double x)
     return what->of(what->context, what->element, x, v);
 }
 
-/* Refines a maximum between a and b, where one grid point is larger than its neighbours, by
- * golden-section search. */
+/* Refines a maximum between a and b by golden-section search. A grid point between them is
+ * larger than its neighbours. */
 static double refined(const measured *what, double a, double b)
 {
     const double golden = (sqrt(5) - 1) / 2;
@@ -381,7 +382,7 @@ static double refined(const measured *what, double a, double b)
     return fmax(at_c, at_d);
 }
 
-/* Updates *largest by the maximum in the element. */
+/* Raises *largest to the maximum in the element, if this is larger. */
 static void take_largest(const measured *what, double *largest)
 {
     double value[SPAN_GRID_POINTS];

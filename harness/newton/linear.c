@@ -36,7 +36,7 @@ status linear_stiffness(const equations *eq, sparse *K, fault *f)
     return outcome;
 }
 
-/* J x of one element. */
+/* Computes J x of one element. */
 static void linear_strains(const model *m, int i, const undeformed_element *l, const double x[],
                            double e[])
 {
@@ -130,7 +130,8 @@ void linear_forces(const equations *eq, const double sigma[], double f[])
     linear_springs_forces(m, sigma + model_elements(m) * model_strains(m), f);
 }
 
-/* sum sigma_i H_i and G(sigma) of one element, in element coordinates; force = J^T sigma. */
+/* Computes sum sigma_i H_i and G(sigma) of one element, in element coordinates, and force = J^T
+ * sigma. */
 static void geometric_of(const equations *eq, int i, const double sigma[], double H[], double G[],
                          double J[])
 {
@@ -177,8 +178,7 @@ status linear_geometric_stiffness(const equations *eq, const double sigma[], dou
     return STATUS_OK;
 }
 
-/* Sums of the absolute terms of J x of one element and, after multiplication with S, of its
- * stresses. */
+/* Computes the sums of the absolute terms of J x of one element, and of its stresses S J x. */
 static void linear_terms(const equations *eq, int i, const double x[], double strain[],
                          double stress[])
 {
@@ -239,7 +239,7 @@ double linear_strain_energy2(const equations *eq, const double x[])
     return sum + linear_springs_energy2(m, x);
 }
 
-/* x^T (sum sigma_i H_i + J^T G(sigma) J) x of one element. */
+/* Returns x^T (sum sigma_i H_i + J^T G(sigma) J) x of one element. */
 static double geometric_energy2(const equations *eq, int i, const double sigma[], const double x[])
 {
     const model *m = eq->m;
@@ -343,8 +343,9 @@ void linear_system_free(linear_system *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Residual: load minus K x, including prescribed coordinates, minus the forces of initial strains.
- * It is computed from element strains, so that its error does not grow with the mesh. */
+/* Computes the residual: load minus K x, including prescribed coordinates, minus the forces of
+ * initial strains. It is computed from element strains, so that its error does not grow with the
+ * number of elements. */
 static status residual_of(analysis_context *c, double path, const double load[], const double x[],
                           double sigma[], double r[], fault *f)
 {
@@ -359,7 +360,7 @@ static status residual_of(analysis_context *c, double path, const double load[],
 typedef struct system_workspace {
     double *load, *r, *weight, *shaken; /* [free + driven] */
     double *sigma;                      /* [elements x strains] */
-    double path, strained; /* largest stress-free strain; if it is prevented, there is no
+    double path, strained; /* largest stress-free strain; if the strain is prevented, there is no
                               displacement for comparison */
 } system_workspace;
 
@@ -400,8 +401,9 @@ static status correct(analysis_context *c, linear_system *s, system_workspace *w
     return STATUS_OK;
 }
 
-/* A correction may be zero by accident, especially with one element. Perturbs x in its last digits,
- * corrects it, and measures the distance from the old value. The work is not counted. */
+/* Measures the error of x. A correction may be zero by accident, especially with one element.
+ * Therefore x is perturbed in its last digits and corrected, and its distance from the old value
+ * is measured. The work is not counted. */
 static status shake(analysis_context *c, linear_system *s, system_workspace *w, const double x[],
                     double *change, fault *f)
 {

@@ -11,7 +11,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/vec3.h"
 
-/* Sets e and sigma of an element from D(x): displacement-only Newton. */
+/* Displacement-only Newton: sets e and sigma of an element from D(x). */
 static status compatible_element(const equations *eq, model_state *s, int i)
 {
     const model *m = eq->m;
@@ -59,8 +59,8 @@ static double incompatibility_of(const model *m, const model_slot *w, double len
     return largest;
 }
 
-/* Adds force and K (which contains H) of an evaluated element, minus centrifugal forces; present:
- * conjugate to the stresses of the state, to which H belongs. */
+/* Adds force and K (which contains H) of an evaluated element, minus centrifugal forces.
+ * present: forces conjugate to the stresses of the state, to which H belongs. */
 static status add_material(const equations *eq, const linear_memory *memory, const model_state *s,
                            const chunk_element *of, int tangent, double path, double present[],
                            element_part *part)
@@ -103,8 +103,8 @@ static void subtract_loads(const equations *eq, const linear_memory *memory, chu
     }
 }
 
-/* Internal forces of an evaluated element, minus centrifugal forces and loads along it, and
- * optionally their tangent; both in model coordinates. */
+/* Computes the internal forces of an evaluated element, minus centrifugal forces and loads along
+ * it, and optionally their tangent. Both are in model coordinates. */
 static status element_equations(const equations *eq, const linear_memory *memory,
                                 const model_state *s, chunk_element *of, int tangent, double path,
                                 element_part *part)
@@ -140,7 +140,7 @@ static void add_driven(const model *m, const mesh_element *el, const double driv
     }
 }
 
-/* Adds the columns of K for the unknowns of conditions. */
+/* Adds the columns of K that belong to the unknowns of conditions. */
 static void add_columns(const model *m, const mesh_element *el, const double K[],
                         model_linearisation *lin)
 {
@@ -206,8 +206,8 @@ static void fill_piece(void *context, int piece, int slot)
                 loop->part + (size_t)slot * (size_t)loop->window);
 }
 
-/* Number of elements whose parts are stored in eq->run->part; 0: elements are added one at a time,
- * because memory is short or one thread is enough. */
+/* Returns the number of elements whose parts are stored in eq->run->part. 0: elements are added
+ * one at a time, because memory is short or one thread is sufficient. */
 static int window_of(const equations *eq)
 {
     const model *m = eq->m;
@@ -249,7 +249,7 @@ static void add_discrete(const equations *eq, const model_state *s, model_linear
     }
 }
 
-/* Adds the content of a slot; returns 0 when an element cannot be evaluated. */
+/* Adds the content of a slot. Returns 0 when an element cannot be evaluated. */
 static int take_piece(void *context, int piece, int slot)
 {
     shared_loop *loop = context;
@@ -287,7 +287,7 @@ static status linearise_elements(const equations *eq, const linear_memory *memor
                         .window = window > 0 ? window : 1,
                         .part = window > 0 ? eq->run->part : &own,
                         .f = f};
-    /* inertia counts its evaluations, so that one thread is used */
+    /* counting the evaluations of inertia requires a single thread */
     thread_team *together = window > 0 && !eq->loading.rotates ? eq->run->team : NULL;
     memset(lin->residual, 0, (size_t)model_all_coordinates(m) * sizeof *lin->residual);
     lin->incompatibility = 0;
@@ -358,11 +358,11 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
                                   node, F);
 }
 
-/* relative to the moments at a node; a smaller sum counts as rounding */
+/* relative to the moments at a node: a smaller sum counts as rounding */
 static const double least_moment = 1e-12;
 
-/* Reaction moment [N m] about the axis of a node that is fixed about one axis only
- * (sigma: as for internal_state); 0 if it is rounding. */
+/* Returns the reaction moment [N m] about the axis of a node that is fixed about one axis only;
+ * 0 if it is rounding. sigma: as for internal_state. */
 static double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],
                                     double path, int node, int axis)
 {

@@ -7,8 +7,8 @@
 #include "elements/element.h"
 #include "elements/math/dense.h"
 
-/* Fewer elements than this are finished before a second thread has started (measured on the joint
- * and the hexapod). */
+/* With fewer elements, the work is finished before a second thread has started (measured on the
+ * joint and the hexapod). */
 enum { ELEMENTS_OF_A_THREAD = 32 };
 
 status linear_memory_alloc(const model *m, linear_memory *out, fault *f)
@@ -70,8 +70,8 @@ element_rotating_frame loading_frame(const loading *l, double path)
 
 enum { WIDE = ELEMENT_MAX_COORDINATES };
 
-/* Index of coordinate i of the link among those of the element; the coordinates of the first joint
- * come first. */
+/* Returns the index of coordinate i of the link among those of the element. The coordinates of
+ * the first joint come first. */
 static int place(const link_element *el, int i)
 {
     return NODE_COORDINATES * (i / el->joint) + i % el->joint;
@@ -92,8 +92,8 @@ static void take(const link_element *el, double J_p[], double J_y[], double H[])
             H[i * n + j] = el->H[place(el, i) * all + place(el, j)];
 }
 
-/* T[used x joint]: all nodes move with the first one as a rigid body; the warping amplitudes are
- * zero. */
+/* Computes T[used x joint]: all nodes move with the first one as a rigid body, and the warping
+ * amplitudes are zero. */
 static void carry_along(const link_element *el, double T[])
 {
     const int c = el->joint;
@@ -115,7 +115,7 @@ static void carry_along(const link_element *el, double T[])
     }
 }
 
-/* F = (J_y^T C J_y + H_yy)^-1 */
+/* Computes F = (J_y^T C J_y + H_yy)^-1. */
 static status flexibility(const link_element *el, const double J_y[], const double H[],
                           chain_link *out, fault *f)
 {
@@ -167,7 +167,8 @@ enum { N = 6 };
 /* Rigid parts joined by released ends and constraints. */
 typedef struct linkage {
     const model *m;
-    int *part, *number; /* [vertices]: root; index of a root's part, NONE: no element */
+    int *part, *number; /* [vertices]: root of each vertex; index of a root's part, NONE: the
+                           part has no element */
     int count;
     double *S; /* [6 count x 6 count]: sum of squares of the motions that joints, supports and
                   springs prevent */
@@ -191,7 +192,7 @@ static void add_block(linkage *l, int a, int b, double sign, const double C[N * 
                 sign * block[N * i + j];
 }
 
-/* Rows of one kind of motion, without their components along orthogonal unit vectors. */
+/* Removes the components along orthogonal unit vectors from the rows of one kind of motion. */
 static void leave_out(int count, const double along[3][3], double rows[3 * N])
 {
     for (int k = 0; k < count; k++)
@@ -223,8 +224,8 @@ static void add_joint(linkage *l, int vertex)
     add_block(l, b, a, -1, C);
 }
 
-/* Motion of a node's coordinate with its part: row[6], multiplied by the motions of the part.
- * Returns the part. */
+/* Computes the motion of a node's coordinate with its part: row[6], to be multiplied by the
+ * motions of the part. Returns the part. */
 static int coordinate_row(const linkage *l, int node, int coordinate, double row[N])
 {
     const model *m = l->m;
@@ -255,7 +256,7 @@ static int coordinate_row(const linkage *l, int node, int coordinate, double row
     return l->number[supports_root(l->part, node)];
 }
 
-/* Adds the constraint of a node's coordinate that follows the coordinate of another node. */
+/* Adds the constraint by which a node's coordinate follows the coordinate of another node. */
 static void add_tie(linkage *l, int node, int coordinate)
 {
     const scene_tie *tie = model_tie(l->m, node, coordinate);
@@ -291,8 +292,8 @@ static void add_holds(linkage *l, int node)
             sum[i];
 }
 
-/* Motion of a point of a part in the eigenvector of the smallest eigenvalue: [6: m, rad]; returns
- * its magnitude [m]. */
+/* Computes the motion [6: m, rad] of a point of a part in the eigenvector of the smallest
+ * eigenvalue. Returns its magnitude [m]. */
 static double motion_of(const linkage *l, int part, const double position[3], double motion[N])
 {
     double at[3], G[N * N], of_part[N];
@@ -334,7 +335,7 @@ static void name_what_moves(const linkage *l, int *node, int *member, double mot
     }
 }
 
-/* Assembles S of all parts; returns 1 when some motion is not prevented. */
+/* Assembles S of all parts. Returns 1 when some motion is not prevented. */
 static int is_loose(linkage *l)
 {
     const int n = N * l->count;

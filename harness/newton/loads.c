@@ -8,12 +8,12 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Asymmetry of the stiffness of a moment, relative to the moment, up to which it counts as
+/* Largest asymmetry of the stiffness of a moment, relative to the moment, that counts as
  * round-off. */
 static const double potential = 1e-12;
 
-/* Which loads along members are lumped at the ends of elements: weights, if mass is lumped there;
- * all loads, if a motion must conserve energy (also in its initial states). */
+/* Returns which loads along members are lumped at the ends of elements: weights, if mass is
+ * lumped there; all loads, if a motion must conserve energy (also in its initial states). */
 static int lumps_of(const model *m, int analysis)
 {
     const scene *s = model_scene(m);
@@ -241,7 +241,8 @@ void loads_subtract_stiffness(const equations *eq, const model_state *s, double 
     }
 }
 
-/* Entries of the stiffness of one load at free coordinates; few, since they belong to one body. */
+/* Entries of the stiffness of one load at free coordinates. There are few, since all belong to
+ * one body. */
 enum { MOST_ENTRIES = 64 };
 typedef struct entries_of_load {
     int free, count, row[MOST_ENTRIES], column[MOST_ENTRIES];
@@ -258,7 +259,7 @@ static void into_list(void *context, int row, int column, double value)
     e->value[e->count++] = value;
 }
 
-/* Largest |K_ij - K_ji|. */
+/* Returns the largest |K_ij - K_ji|. */
 static double skew_of(const entries_of_load *e)
 {
     double largest = 0;
@@ -338,7 +339,7 @@ static void add_at_node(void *context, const applied *what)
         sum->F[k] += what->F[k] + (k >= 3 && away ? moment[k - 3] : 0);
 }
 
-/* Adds the contribution of the loads along an element at one node. */
+/* Adds the contribution of the loads along an element to the force at one node. */
 static void add_element_at_node(sum_at_node *sum, int element, double path)
 {
     const model *m = sum->m;

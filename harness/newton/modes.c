@@ -12,7 +12,7 @@ static void put(const model *m, int row, const row_label *label, row_label out[]
         out[row] = *label;
 }
 
-/* Name of coordinate c of a vertex. */
+/* Returns the name of coordinate c of a vertex. */
 static const char *component_of(const model *m, int vertex, int c)
 {
     static const char *const plain[] = {"ux", "uy", "uz", "rx", "ry", "rz"},
@@ -24,7 +24,7 @@ static const char *component_of(const model *m, int vertex, int c)
     return c >= SCENE_RX && model_vertex(m, vertex)->angles > 0 ? angle[c - SCENE_RX] : plain[c];
 }
 
-/* Labels the coordinates of a vertex; label: its position. */
+/* Labels the coordinates of a vertex. label: contains its position. */
 static void put_vertex(const model *m, int vertex, row_label label, row_label out[])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -69,14 +69,15 @@ void rows_label(const model *m, row_label out[])
         put_element(m, model_element(m, i), out);
 }
 
-/* Determines the family of a mode: axial, along y, along z or twist. The largest sum of squares
- * decides: of translations along the member, of those across it, or of the twist times the radius
- * of gyration. The number of half-waves follows from sign changes of the leading component along
- * the first member. */
+/* Determines the family of a mode: axial, along y, along z or twist. It is the one with the
+ * largest sum of squares: of translations along the member, of translations across it in y or z,
+ * or of the twist times the radius of gyration. The number of half-waves follows from sign
+ * changes of the leading component along the first member. */
 
 enum { AXIAL, ALONG_Y, ALONG_Z, TWIST, MEASURES };
 
-/* Components of the motion of a vertex in the member's axes: x, y, z, and twist times r. */
+/* Computes the components of the motion of a vertex in the member's axes: x, y, z, and twist
+ * times r. */
 static void components(const double R[9], double radius, const double u[7], double out[MEASURES])
 {
     for (int k = 0; k < 3; k++)
@@ -84,8 +85,8 @@ static void components(const double R[9], double radius, const double u[7], doub
     out[TWIST] = radius * (R[0] * u[3] + R[3] * u[4] + R[6] * u[5]);
 }
 
-/* Measures for modes in which vertices do not move: rotations of the section about z and y times r,
- * and warping times r^2. */
+/* Computes the measures for modes in which vertices do not move: rotations of the section about
+ * z and y times r, and warping times r^2. */
 static void turns(const double R[9], double radius, const double u[7], double out[MEASURES])
 {
     out[AXIAL] = 0;
@@ -94,7 +95,7 @@ static void turns(const double R[9], double radius, const double u[7], double ou
     out[TWIST] = radius * radius * u[6];
 }
 
-/* Counts the half-waves; value[MEASURES i]: value at vertex i. */
+/* Counts the half-waves. value[MEASURES i]: value at vertex i. */
 static int count_half_waves(int vertices, const double *value)
 {
     double largest = 0, last = 0;
@@ -113,9 +114,9 @@ static int count_half_waves(int vertices, const double *value)
 
 /* Components of a mode at the vertices of all members. */
 typedef struct motion {
-    int points, first_member; /* number of points of all members, and of the first */
+    int points, first_member; /* numbers of points of all members and of the first member */
     double *part;             /* [points x MEASURES] */
-    double *turn;             /* the same for rotations and warping amplitudes */
+    double *turn;             /* likewise for rotations and warping amplitudes */
 } motion;
 
 static int points_of(const model *m, const scene *s)
@@ -126,7 +127,8 @@ static int points_of(const model *m, const scene *s)
     return points;
 }
 
-/* u[vertices x 7]: the mode at the vertices; index[vertices]: work space. */
+/* Computes the components of a mode. u[vertices x 7]: the mode at the vertices; index[vertices]:
+ * work space. */
 static void fill_motion(const model *m, const scene *s, const double *u, int *index, motion *out)
 {
     for (int member = 0; member < s->members; member++) {
@@ -170,7 +172,7 @@ static status motion_alloc(const model *m, const scene *s, const double mode[], 
     return fault_set(f, STATUS_FAULT, "out of memory for a mode");
 }
 
-/* Sums of squares over the points. */
+/* Computes sums of squares over the points. */
 static void squares(int points, const double *part, double sum[MEASURES])
 {
     memset(sum, 0, MEASURES * sizeof *sum);
@@ -187,7 +189,7 @@ static int largest_of(const double sum[MEASURES])
     return leading;
 }
 
-/* If the translations of vertices are below this fraction (of squares) of rotations and warping,
+/* If the translations of vertices are below this fraction of rotations and warping (in squares),
  * they are round-off. */
 static const double in_place_part = 1e-16;
 
@@ -214,7 +216,8 @@ status modes_identify(const model *m, const scene *s, const double mode[], mode_
     return STATUS_OK;
 }
 
-/* Sums of squares of the translation of shear centres across members, and of the twist times r. */
+/* Computes sums of squares of the translation of shear centres across members, and of the twist
+ * times r. */
 static void bends_and_twists(const model *m, const scene *s, const motion *shape, int stays,
                              double *bends, double *twists)
 {
@@ -236,7 +239,7 @@ static void bends_and_twists(const model *m, const scene *s, const motion *shape
 
 status modes_kind(const model *m, const scene *s, const double mode[], const char **kind, fault *f)
 {
-    const double pure = 1e-4; /* of the sum of squares */
+    const double pure = 1e-4; /* fraction of the sum of squares */
     double moved[MEASURES], turned[MEASURES], all = 0, in_place = 0, bends, twists;
     motion shape;
     TRY(motion_alloc(m, s, mode, &shape, f));
@@ -290,7 +293,7 @@ static status motions_alloc(const model *m, const scene *s, int count, size_t n,
     return STATUS_OK;
 }
 
-/* Inner products of the motions [count x count]: along z, and in total. */
+/* Computes inner products of the motions [count x count]: along z, and in total. */
 static void products(int count, const motion shape[], double along_z[], double all[])
 {
     memset(along_z, 0, (size_t)(count * count) * sizeof *along_z);
@@ -319,8 +322,8 @@ static void combine(int count, size_t n, const double C[], double *mode)
     }
 }
 
-/* Replaces the modes by combinations with the smallest and largest possible fractions of motion
- * along z. Modes that are alike at the vertices do not change. */
+/* Replaces the modes by combinations with the smallest and the largest possible fraction of
+ * motion along z. Modes that are equal at the vertices do not change. */
 static status separate_cluster(const model *m, const scene *s, int count, size_t n, double *mode,
                                fault *f)
 {
@@ -338,10 +341,10 @@ static status separate_cluster(const model *m, const scene *s, int count, size_t
     return STATUS_OK;
 }
 
-/* Index after the last value that equals the first. */
+/* Returns the index after the last value that equals the first one. */
 static int cluster_end(int first, int count, const double value[])
 {
-    const double equal = 1e-8; /* relative */
+    const double equal = 1e-8; /* relative difference of equal values */
     int end = first + 1;
     while (end < count && fabs(value[end] - value[first]) <= equal * fabs(value[first]))
         end++;

@@ -1,5 +1,5 @@
-/* One Newton iteration: assembles, factors, solves, and applies the increment; condensed element by
- * element or, for comparison, dense. */
+/* One Newton iteration: assembles and factors the equations, solves them and applies the
+ * increment. The equations are condensed element by element or, for comparison, dense. */
 #include "harness/newton/newton_impl.h"
 
 #include <lapacke.h>
@@ -8,8 +8,9 @@
 
 #include "elements/math/dense.h"
 
-/* Gives up a symmetric factor for the pattern of the free coordinates. Stores it in the context if
- * a compliance may need it, to save the ordering and the pattern; otherwise frees it. */
+/* Gives up a symmetric factor for the pattern of the free coordinates. The factor is stored in
+ * the context if a compliance may need it, which saves the ordering and the pattern; otherwise
+ * it is freed. */
 static void context_leave_factor(analysis_context *, matrix_factor *);
 
 enum { MAX_ITERATIONS = 30 };
@@ -87,7 +88,8 @@ void newton_free(newton_run *n)
     kinematics_state_free(n->backup);
 }
 
-/* Does the effect of a driver on its coordinate exceed the round-off of all its effects? */
+/* Returns 1 when the effect of a driver on its coordinate exceeds the round-off of all its
+ * effects. */
 static int drives(const newton_run *n, int count, const model_condition condition[],
                   const double column[])
 {
@@ -270,7 +272,7 @@ int context_runs(const analysis_context *c, int analysis)
     return c->options->all_analyses || scene_reads(c->scene, analysis);
 }
 
-/* Path parameter of the static state from which a motion starts; 1: none. */
+/* Returns the path parameter of the static state from which a motion starts; 1: none. */
 static double held_path(const analysis_context *c, int analysis)
 {
     const int origin = scene_origin_of(c->scene, analysis);

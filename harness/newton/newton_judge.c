@@ -1,6 +1,6 @@
 /* Convergence of Newton's method. The corrections converge quadratically, and so do those of the
- * stresses. In stiff elements the relative error of the stresses is larger than that of the motions
- * by orders of magnitude, so that a test of the motions alone is not enough. */
+ * stresses. In stiff elements the relative error of the stresses is larger than that of the
+ * motions by orders of magnitude. A test of the motions alone is therefore not sufficient. */
 #include "harness/newton/newton_impl.h"
 
 #include <stdio.h>
@@ -23,7 +23,7 @@ static const double rounding = 1e-12;
 /* Corrections larger than this need not converge quadratically. */
 static const double quadratic = 0.1;
 /* Relative change of stresses below which a tangent is reused. Reuse changes compliances by at
- * most half of this value (measured on the mechanisms of cases/), usually less than their
+ * most half of this value (measured on the mechanisms of cases/), usually by less than their
  * scatter. */
 static const double same_tangent = 3e-11;
 
@@ -37,9 +37,9 @@ void arrival_start(double criterion, int differences, int elements, arrival *a)
                    .remaining = NAN};
 }
 
-/* Records a correction and the resulting change of stresses; `first`: 1 for the first correction of
- * a step. Changes of stresses are relative to the largest stress of the path so far, since stresses
- * may pass through zero. */
+/* Records a correction and the resulting change of stresses. first 1: the first correction of a
+ * step. Changes of stresses are relative to the largest stress on the path so far, since
+ * stresses may pass through zero. */
 static void arrival_take(double correction, const advance_stress *stress, int first, arrival *a)
 {
     a->before = first ? INFINITY : a->correction;
@@ -65,8 +65,8 @@ int arrival_tangent_stands(const arrival *a)
     return a->correction <= same_tangent && a->stress_change <= same_tangent;
 }
 
-/* Changes of stresses and inner unknowns due to the rotation of an element's frame, for an element
- * that includes loads along it. */
+/* Computes the changes of stresses and inner unknowns due to the rotation of an element's frame,
+ * for an element that includes loads along it in its equilibrium. */
 static void follow_turn(const model *m, const double along[], const double local[], double sigma[],
                         double inner[])
 {
@@ -79,7 +79,8 @@ static void follow_turn(const model *m, const double along[], const double local
         inner[k] += vec3_dot(along + slot_followed(m) + (ptrdiff_t)3 * k, turn);
 }
 
-/* Updates the strains, stresses and inner unknowns of one element. */
+/* Updates the strains, stresses and inner unknowns of one element. Returns the largest change of
+ * an inner unknown. */
 static double advance_element(const model *m, const linear_memory *memory, model_state *s, int i,
                               const double dx[], advance_stress *stress)
 {
@@ -211,7 +212,7 @@ static status judge_elements(const model *m, const model_state *s, fault *f)
                      model_type(m)->name, quarter ? "quarter" : "half");
 }
 
-/* Is this end of a member free to rotate about both transverse axes? */
+/* Returns 1 when this end of a member is free to rotate about both transverse axes. */
 static int swings(const model *m, const mesh_element *el, int node)
 {
     const mesh_release *r = release_of(m, el->vertex[node]);
@@ -270,7 +271,8 @@ status newton_judge_rest(const model *m, fault *f)
         model_type(m)->name, most, floor(count * sqrt(rise / most)) + 1);
 }
 
-/* Near a full revolution, a moment normal to the rotation axis has an unbounded effect. */
+/* Returns 1 when a moment acts normal to the axis of a rotation near a full revolution, where
+ * its effect is unbounded. */
 static int across(const mesh_discrete *d, const double turn[3])
 {
     const double near = 1e-3, size = vec3_norm(turn);
@@ -300,7 +302,7 @@ static status judge_springs(const model *m, const model_state *from, const model
     return STATUS_OK;
 }
 
-/* Largest change of a node's orientation by prescribed angles [rad]. */
+/* Returns the largest change of a node's orientation by prescribed angles [rad]. */
 static double driven_by(const model *m, const model_state *from, const model_state *s, int node)
 {
     const mesh_vertex *v = model_vertex(m, node);
@@ -342,12 +344,13 @@ status newton_accept(const model *m, const model_state *from, model_state *s, fa
 
 /* Sizes of the corrections of one step. */
 typedef struct watch {
-    double last, first, largest; /* largest: of the corrections after the first */
+    double last, first, largest; /* largest: the largest of the corrections after the first one */
     int growing;                 /* number of successive growing corrections */
 } watch;
 
-/* A correction of several radians or lengths does not lead to convergence, nor do corrections that
- * grow repeatedly. */
+/* Size of a correction, in radians or lengths, that does not lead to convergence; it is larger
+ * for the first corrections of a step. Corrections that grow repeatedly do not lead to
+ * convergence either. */
 static const double wild = 4, wild_at_first = 16;
 enum { AT_FIRST = 3, GROWING = 4, MOST_IN_TIME = 20 };
 

@@ -297,8 +297,9 @@ status history_add_step(solve_result *r, const step_record *record, fault *f)
     return memory_append(&r->step, &r->steps, record, sizeof *record, "step records", f);
 }
 
-/* Stability of a state with an unsymmetric tangent. The state is unstable if eigenvalues have
- * crossed zero (with mass, an odd number of them); otherwise the frequencies decide. */
+/* Returns the stability of a state with an unsymmetric tangent. The state is unstable if
+ * eigenvalues have crossed zero (with mass, an odd number of them); otherwise the frequencies
+ * decide. */
 static step_stability without_symmetry(const scene *s, const step_record *one)
 {
     const int massive = scene_has_mass(s);

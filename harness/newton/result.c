@@ -123,7 +123,8 @@ int shapes_frames(int most)
 
 enum { N = 6 };
 
-/* B = A^-1, both [n x n]; destroys A. Returns nonzero when A is singular to working precision. */
+/* Computes B = A^-1, both [n x n], and destroys A. Returns nonzero when A is singular to working
+ * precision. */
 static int invert(int n, double A[], double B[])
 {
     int pivot[N];
@@ -136,7 +137,7 @@ static int invert(int n, double A[], double B[])
     return failed;
 }
 
-/* K -= times m~/2 on the rotations. */
+/* K -= m~/2 on the rotations, multiplied by `times`; of: m. */
 static void subtract_half_skew(const movable *v, double times, const double of[3], double K[])
 {
     const double m[3] = {times * of[0], times * of[1], times * of[2]},
@@ -170,7 +171,7 @@ int convention_changes(scene_moments of_tangent, scene_moments convention, const
            (convention != of_tangent && vec3_norm(m) > 0);
 }
 
-/* Number of times that m~/2 is subtracted. */
+/* Returns how often m~/2 is subtracted. */
 static int times_of(scene_moments of_tangent, scene_moments convention)
 {
     return (convention != SCENE_MOMENTS_SEMITANGENTIAL) - (of_tangent == SCENE_MOMENTS_SPATIAL);

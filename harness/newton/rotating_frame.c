@@ -175,8 +175,8 @@ typedef struct uncondensed {
     const model_condition *condition;
 } uncondensed;
 
-/* Adds a coefficient of coordinate `column`: an unknown, a prescribed coordinate, or the unknown of
- * a condition. */
+/* Adds a coefficient of coordinate `column`, which may be an unknown, a prescribed coordinate,
+ * or the unknown of a condition. */
 static void put(const model *m, uncondensed *s, int row, int column, double value)
 {
     if (row < 0 || column < 0)
@@ -256,7 +256,7 @@ static status add_element(const equations *eq, const model_state *state, int i, 
     return STATUS_OK;
 }
 
-/* Stiffness of one load while it is added. */
+/* Accumulates the stiffness of one load. */
 typedef struct load_part {
     const model *m;
     uncondensed *s;

@@ -82,7 +82,7 @@ void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
     memcpy(y, p->force, (size_t)p->free * sizeof *y);
 }
 
-/* Above this condition no digit is reliable: a failure is then attributed to round-off. */
+/* Above this condition number no digit is reliable, and a failure is attributed to round-off. */
 static const double no_digits = 1e15;
 
 /* Describes a rigid motion that the supports allow. */
@@ -122,9 +122,9 @@ status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
                                                   : "parts that constraints join");
 }
 
-/* Ratio of the largest to the smallest stiffness of the coordinates of K, with displacements in
- * units of the structure's length, since a rotation of the structure mixes the coordinates. 1: out
- * of memory. */
+/* Returns the ratio of the largest to the smallest stiffness of the coordinates of K.
+ * Displacements are in units of the structure's length, since a rotation of the structure mixes
+ * the coordinates. 1: out of memory. */
 static double spread(const model *m, const sparse *K)
 {
     const model_size size = model_sizes(m);
@@ -153,8 +153,8 @@ static int has_no_number(const sparse *K)
     return found;
 }
 
-/* Condition of the stiffness of an undeformed model; INFINITY: the stiffness cannot be factored.
- * *lost: LOST: no accuracy is left, NO_NUMBER: entries are NaN or Inf. */
+/* Returns the condition number of the stiffness of an undeformed model; INFINITY: the stiffness
+ * cannot be factored. *lost: LOST: no accuracy is left; NO_NUMBER: entries are NaN or Inf. */
 static double condition_at_rest(const analysis_context *c, const equations *eq, int *lost)
 {
     const counters work = eq->run->counters;
@@ -181,8 +181,8 @@ static double condition_at_rest(const analysis_context *c, const equations *eq, 
     return condition;
 }
 
-/* Condition of the same scene with one element per member; *elements: their number; *lost: 1 when
- * accuracy is lost here too. */
+/* Returns the condition number for the same scene with one element per member. *elements: number
+ * of these elements; *lost: 1 when accuracy is lost with them too. */
 static double condition_when_coarse(const analysis_context *c, int *elements, int *lost)
 {
     model *coarse = NULL;
@@ -200,8 +200,8 @@ static double condition_when_coarse(const analysis_context *c, int *elements, in
     return condition;
 }
 
-/* Explains a loss of accuracy: it is due to the mesh, since the condition grows with the fourth
- * power of the number of elements, or independent of it. */
+/* Explains a loss of accuracy. Either the mesh is the cause, since the condition number grows
+ * with the fourth power of the number of elements, or the loss does not depend on the mesh. */
 static void explain_loss(const analysis_context *c, fault *f)
 {
     const int elements = model_sizes(c->model).elements;

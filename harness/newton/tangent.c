@@ -9,9 +9,9 @@
 
 #include "elements/math/dense.h"
 
-/* Index of a released coordinate, or -1. */
+/* Returns the index of a released coordinate, or -1. */
 static int border_place(const border *, int coordinate);
-/* Fills the border from K of all coordinates. */
+/* Sets the values of the border from K of all coordinates. */
 static void border_fill(border *, int free_count, const sparse *K);
 /* Solves in place; fixed and prescribed coordinates do not change. x: [columns x all] */
 static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns,
@@ -23,9 +23,9 @@ static status bordered_refine(const equations *eq, node_tangent *t, const border
 /* Condition above which solutions are refined, because round-off would leave less than eight
  * digits. */
 static const double harmless_condition = 1e8;
-/* A condition is not estimated again if it differed from harmless_condition by the factor `clear`,
- * and the ratio of the largest to the smallest pivot has changed by less than the factor
- * `alike`. */
+/* A condition number is not estimated again if it differed from harmless_condition by at least
+ * the factor `clear`, and the ratio of the largest to the smallest pivot has changed by less
+ * than the factor `alike`. */
 static const double clear = 30, alike = 2;
 
 /* Copies the free block from the whole matrix. */
@@ -109,7 +109,7 @@ static status factor_inside(analysis_context *c, node_tangent *t, fault *f)
     return outcome;
 }
 
-/* Does the condition require refinement? */
+/* Returns 1 when the condition number requires refinement. */
 static int asks_refinement(node_tangent *t)
 {
     const double apart = factor_count(t->factor).condition;
@@ -181,13 +181,14 @@ status tangent_take_condensed(analysis_context *c, const scene_compliance *a, co
     return complete(c, a, s, reaction, t, f);
 }
 
-/* Can a coordinate of the node move, because it is free or released? */
+/* Returns 1 when a coordinate of the node can move, because it is free or released. */
 static int moves(const node_tangent *t, int k)
 {
     return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;
 }
 
-/* Loads on the moving coordinates, or their motions: x[index] = column of T; or sum = T x. */
+/* load_of computes the loads on the moving coordinates due to a unit load on a component.
+ * motion_of returns the motion of a component due to the motions x of these coordinates. */
 static void load_of(const node_tangent *t, const int moving[], int component, double x[])
 {
     memset(x, 0, (size_t)t->all * sizeof *x);
@@ -214,8 +215,8 @@ static status refine(const equations *eq, node_tangent *t, const bordered *s, co
     return STATUS_OK;
 }
 
-/* Columns of C for unit loads on the requested components that can move; the caller,
- * tangent_compliance, frees the memory. */
+/* Computes the columns of C for unit loads on the requested components that can move. The
+ * caller, tangent_compliance, frees the memory. */
 static status respond_all(const equations *eq, node_tangent *t, bordered *s, unsigned wanted,
                           unsigned components, double C[36], fault *f)
 {
@@ -250,7 +251,7 @@ status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
     return outcome;
 }
 
-/* Columns of T of the requested coordinates: [6 x n]; returns n. */
+/* Copies the columns of T of the requested coordinates: [6 x n]. Returns n. */
 static int columns_of(const node_tangent *t, int (*wanted)(const node_tangent *, int), double out[])
 {
     int n = 0;
@@ -270,8 +271,8 @@ static int is_free(const node_tangent *t, int k)
     return t->index[k] < t->free;
 }
 
-/* Moment that makes the work g_k with unit rates of the angles, without a part at right angles to
- * their axes b. */
+/* Computes the moment that does the work g_k per unit rate of each angle. It has no component at
+ * right angles to all axes b. */
 static void moment_of(int angles, double b[3][3], const double g[3], double moment[3])
 {
     double A[9], factor[3] = {g[0], g[1], g[2]};
@@ -446,7 +447,7 @@ static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int 
         add_released(t, s, x + c * t->all);
 }
 
-/* rest[all] = load - K x */
+/* Computes rest[all] = load - K x. */
 static void residual_of(const equations *eq, const node_tangent *t, const bordered *s)
 {
     double *rest = s->rest;
@@ -459,7 +460,7 @@ static void residual_of(const equations *eq, const node_tangent *t, const border
 
 static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f)
 {
-    /* x is the first solution; with condensed members it is as accurate as a second one */
+    /* x is the first solution; with condensed members it is as accurate as a second one would be */
     solution_refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
     refinement_state state = REFINEMENT_GOES_ON;
     metric_of(eq->m, s->weight);
@@ -475,11 +476,11 @@ static status bordered_refine(const equations *eq, node_tangent *t, const border
 
 enum { LEAST = 2, MOST = 30 };
 
-/* Sizes of a correction: below the first, no further correction is made. The second is a thousandth
- * of the tolerance of quantities (SCENE_TOLERANCE), since quantities derived from the solution may
- * lose further digits. With the error level of newton.h, 2.5 eps (L/side)^2, bars exceed the first
- * beyond L/side = 1300 and the second beyond 42000. In a run of verify no correction exceeded
- * 2e-12. */
+/* Relative sizes of a correction. If a correction is below sure_digits, no further correction is
+ * made. enough_digits is a thousandth of the tolerance of quantities (SCENE_TOLERANCE), since
+ * quantities derived from the solution may lose further digits. With the error level of
+ * newton.h, 2.5 eps (L/side)^2, bars exceed the first beyond L/side = 1300 and the second beyond
+ * 42000. In a run of verify no correction exceeded 2e-12. */
 static const double sure_digits = 1e-9, enough_digits = 1e-6;
 
 refinement_state refinement_judge(solution_refinement *r, double correction)
@@ -501,7 +502,7 @@ refinement_state refinement_next(solution_refinement *r, double correction)
 
 status refinement_refuse(const solution_refinement *r, const char *what, fault *f)
 {
-    const int digits = r->last < 1 ? (int)-log10(r->last) : 0; /* NAN: none */
+    const int digits = r->last < 1 ? (int)-log10(r->last) : 0; /* NAN gives no digits */
     return fault_set(f, STATUS_SINGULAR,
                      "%s is lost in round-off: %d of its digits are significant (relative "
                      "corrections stay at %.1e); use fewer elements or a less slender structure",

@@ -118,7 +118,8 @@ factor_counts condensation_count(const condensation *s)
     return counts;
 }
 
-/* The tangent of the last linearisation as a stiff and a soft part, for accurate residuals. */
+/* Products with the tangent of the last linearisation as a stiff and a soft part, for accurate
+ * residuals. */
 
 void stiffness_parts_material_product(const model *m, const linear_memory *memory,
                                       const model_state *s, const double x[], double y[])

@@ -7,7 +7,7 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 
-/* Number of elements above which memory matters more than the last digits of each J. */
+/* With more elements than this, saving memory is more important than the last digits of each J. */
 enum { LARGE = 1000, FIRST_ROOM = 16 };
 
 static size_t size_of(const model *m)
@@ -36,8 +36,8 @@ static status begin(const equations *eq, fault *f)
     return STATUS_OK;
 }
 
-/* Is element i like the last stored one? The triads are those of chords between rounded
- * positions. */
+/* Returns 1 when element i is like the last stored one. Its triads are those of chords between
+ * rounded positions. */
 static int alike(const equations *eq, int i)
 {
     const model *m = eq->m;
@@ -94,7 +94,7 @@ static status evaluate(const equations *eq, int i, double J[], double C[], doubl
     return ahead_stress(eq, i, model_kind_of(m, i)->data, e, inner, &(stress_output){.C = C});
 }
 
-/* Makes room for one more element. */
+/* Allocates memory for one more element. */
 static status grow(const equations *eq, fault *f)
 {
     run_undeformed *u = &eq->run->undeformed;
@@ -168,7 +168,7 @@ static void springs_evaluate(const model *m, const mesh_discrete *d, const doubl
     spring_strain(d->el.nodes, x, NULL, &(strain_output){.J = J, .s = sigma, .H = H});
 }
 
-/* J x */
+/* Computes e = J x. */
 static void strains(const model *m, const mesh_discrete *d, const double x[], double e[SIX])
 {
     double J[SIX * X], local[X];
@@ -231,7 +231,7 @@ void linear_springs_node_force(const model *m, const double sigma[], int node, d
     }
 }
 
-/* sum sigma_i H_i in model coordinates. */
+/* Computes sum sigma_i H_i in model coordinates. */
 static void geometric(const model *m, const mesh_discrete *d, const double sigma[], double H[])
 {
     double J[SIX * X], force[X] = {0};
@@ -261,7 +261,7 @@ double linear_springs_energy2(const model *m, const double x[])
     return sum;
 }
 
-/* Bound of the rounding of the terms of J x, as for elements. */
+/* Returns a bound of the rounding of the terms of J x, as for elements. */
 double linear_springs_rounding(const model *m, const double x[])
 {
     double sum = 0;
@@ -295,7 +295,7 @@ double linear_springs_geometric_energy2(const model *m, const double sigma[], co
     return sum;
 }
 
-/* Size of an array [bytes], rounded up so that the next array is aligned. */
+/* Returns the size of an array [bytes], rounded up so that the next array is aligned. */
 static size_t bytes(size_t count, size_t size)
 {
     const size_t unit = _Alignof(max_align_t);
