@@ -1,4 +1,5 @@
-/* Instants of a motion that other analyses are about: the state there, and its small motions. */
+/* Instants of a motion about which other analyses compute small motions: the state and its
+ * matrices. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -7,7 +8,8 @@
 
 #include "cases/scene/scene.h"
 
-/* An instant closer than this to the end of a step, relative to the step, is that end. */
+/* An instant that is closer than this to the end of a step, relative to the step size, is taken
+ * as that end. */
 static const double same_instant = 1e-9;
 
 static int by_time(const void *a, const void *b)
@@ -16,7 +18,7 @@ static int by_time(const void *a, const void *b)
     return (x->time > y->time) - (x->time < y->time);
 }
 
-/* The instant of an analysis; NAN: it is not about this motion. */
+/* Returns the instant of an analysis; NAN: the analysis is not about this motion. */
 static double instant_of(const abouts *a, int analysis)
 {
     const scene *s = a->c->scene;
@@ -57,13 +59,14 @@ void abouts_free(abouts *a)
     instant_free(&a->room);
 }
 
-/* Time of the next one; INFINITY: none. */
+/* Returns the time of the next instant; INFINITY: there is none. */
 static double next_of(const abouts *a)
 {
     return a->next < a->out->abouts ? a->out->about[a->next].time : INFINITY;
 }
 
-/* Takes a->at, which it changes. Conserving steps have mean accelerations. */
+/* Stores the state a->at and its small motions. Conserving steps give mean accelerations;
+ * consistent ones are computed first, which changes a->at. */
 static status take(abouts *a, fault *f)
 {
     const model *m = a->c->model;

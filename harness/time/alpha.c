@@ -11,20 +11,21 @@ typedef struct alpha {
     motion_stage stage;
     outer_work *work;
     massive massive;
-    size_t strains;                  /* model_stresses if something is damped, else 0 */
-    double *mean;                    /* [strains] mean strain rates of a step */
+    size_t strains;                  /* model_stresses if a member or spring is damped, else 0 */
+    double *mean;                    /* [strains] mean strain rates of the step */
     double mass, force, gamma, beta; /* alpha_m, alpha_f */
     double *a0, *v0, *inc, *weight;  /* [free + driven] */
 } alpha;
 
-/* The acceleration that the scheme averages, computed from the true acceleration at the end of the
- * step. */
+/* Returns the acceleration that the scheme averages, computed from the true acceleration at the
+ * end of the step. */
 static double averaged(const alpha *s, double a, double before, double now)
 {
     return ((1 - s->force) * now + s->force * before - s->mass * a) / (1 - s->mass);
 }
 
-/* Relates rates to the increment, and sets its initial guess for constant acceleration. */
+/* Sets the relation between rates and increment, and an initial guess of the increment for
+ * constant acceleration. */
 static void relate(alpha *s, const instant *from, double h, stage_rates *r)
 {
     for (int i = 0; i < s->stage.free; i++) {
@@ -51,8 +52,8 @@ static status error_of(alpha *s, const instant *from, const instant *to, double 
     return STATUS_OK;
 }
 
-/* Strains of damped members follow the same relation as positions; sets the part of their rates
- * that does not depend on the increment. */
+/* Sets the relation between strain rates and strains of damped members, which is the same as for
+ * positions: computes the part of the rates that does not depend on the increment. */
 static void relate_strains(alpha *s, const instant *from, double h, instant *to)
 {
     const double g = s->gamma / (s->beta * h), kept = 1 - s->gamma / s->beta,
@@ -62,7 +63,7 @@ static void relate_strains(alpha *s, const instant *from, double h, instant *to)
     damping_follow(&s->stage.c->eq, g, to->strain, from->state);
 }
 
-/* Energy absorbed in a step by springs without a potential. */
+/* Returns the energy absorbed in a step by springs without a potential. */
 static double circulated(const model *m, const model_state *from, const model_state *to)
 {
     double sum = 0;
@@ -80,8 +81,8 @@ static double circulated(const model *m, const model_state *from, const model_st
     return sum;
 }
 
-/* Sets the strain rates at the end, and the energy dissipated with the mean rates: without inertia,
- * rates at the ends of steps oscillate about their mean. */
+/* Sets the strain rates at the end of a step, and adds the dissipated energy. The latter follows
+ * from the mean rates: without inertia, rates at the ends of steps oscillate about their mean. */
 static void damp(alpha *s, const instant *from, double h, instant *to)
 {
     const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);

@@ -7,7 +7,7 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/masses.h"
 
-/* Tensor of a mass at r: mass (r.r 1 - r r^T). */
+/* tensor += inertia of a point mass at r: mass (r.r 1 - r r^T). */
 static void add_point(double mass, const double r[3], double tensor[9])
 {
     const double square = vec3_dot(r, r);
@@ -16,7 +16,7 @@ static void add_point(double mass, const double r[3], double tensor[9])
             tensor[3 * i + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
 }
 
-/* Moves the tensor of a mass to r, and gives its first moment about r. */
+/* Moves the tensor of a mass by r. moment: first moment of the mass before the move. */
 static void shift(double mass, const double moment[3], const double r[3], double tensor[9])
 {
     add_point(mass, r, tensor);
@@ -45,7 +45,7 @@ static void take(const model *m, int vertex, double mass, const double moment[3]
         to->inertia[i] += moved[i];
 }
 
-/* Moment and tensor of a lumped mass, in the axes of the element. */
+/* Computes the first moment and the tensor of a lumped mass, in the axes of the element. */
 static void lump(const lumped_mass *l, double share, double moment[3], double tensor[9])
 {
     memset(moment, 0, 3 * sizeof *moment);
@@ -109,7 +109,7 @@ static void add_body(const model *m, const mesh_discrete *d, carried_mass of[])
     take(m, d->el.vertex[0], b->mass, moment, tensor, of);
 }
 
-/* Keeps only frames that have mass or inertia, and adds up the total. */
+/* Removes frames that have neither mass nor moment of inertia, and sums the total mass. */
 static void keep_heavy(const model *m, carried_mass of[], carried_masses *out)
 {
     for (int i = 0; i < model_vertices(m); i++) {
@@ -165,7 +165,7 @@ void carried_free(carried_masses *c)
  * - W) x s. The moment g x m (v_c1 - v_c)/4 of the fixed components compensates for the work of
  * this difference, so that the kinetic energy gained equals the work done. */
 
-/* to[3 x n]: its fixed translations become those of from. */
+/* to[3 x n]: replaces the components along fixed translations by those of `from`. */
 static void hold_rows(const carried_step *p, int n, const double from[], double to[])
 {
     for (int k = 0; k < n; k++) {
@@ -203,7 +203,7 @@ void carried_step_follow(const carried_mass *one, carried_step *p)
     vec3_cross(p->g, p->behind, p->late);
 }
 
-/* d(w1 x after)/dc */
+/* out = d(w1 x after)/dc */
 static void riding(const carried_step *p, double h, const double T[9], const double swept[9],
                    double out[9])
 {
@@ -234,7 +234,7 @@ void carried_step_sway(const carried_step *p, double h, const double T[9], const
     hold_rows(p, 3, speed, sway);
 }
 
-/* dg/dc */
+/* out = dg/dc */
 static void change_of(const carried_step *p, double h, const double T[9], double out[9])
 {
     double A[9], both[9], by[9], turn[9];

@@ -13,7 +13,7 @@ void cayley_of_vector(const double t[3], double c[3])
         c[i] = part * t[i];
 }
 
-/* 2 atan(x/2)/x */
+/* Returns 2 atan(x/2)/x. */
 static double arc(double x)
 {
     const double s = x * x / 4;
@@ -41,7 +41,7 @@ void cayley_tangent(const double c[3], double T[9])
         T[i] = part * (T[i] / 2 + (i % 4 == 0));
 }
 
-/* Rotation matrix of a rotation vector. */
+/* Computes the rotation matrix of a rotation vector. */
 static void turn_by(const double t[3], double R[9])
 {
     double q[4];
@@ -138,7 +138,7 @@ void cayley_between(const cayley_step *s, double at, cayley_point *p)
     }
 }
 
-/* rows[3 x columns] <- A rows, times a factor */
+/* rows[3 x columns] <- factor A rows */
 static void turn_rows(const double A[9], double factor, int columns, double rows[])
 {
     for (int k = 0; k < columns; k++) {
@@ -272,7 +272,7 @@ static void columns_of(const cayley_step *s, const cayley_slopes *d, const cayle
     double back[3], Jl[9], first[3], swept[9], carried[9], apart[9], turned[9], more[9];
     for (int i = 0; i < 3; i++)
         back[i] = -at * y[3 + i];
-    turning_jacobian(back, Jl); /* for increments after the rotation, in global axes */
+    turning_jacobian(back, Jl); /* derivative for increments after the rotation, in global axes */
     for (int i = 0; i < 9; i++)
         Jl[i] *= at;
     mat3_mul(Jl, d->own[j], out->by_phi);

@@ -10,19 +10,19 @@
 #include "elements/math/scalar.h"
 #include "elements/math/vec3.h"
 
-/* conserving.c */
+/* Functions of conserving.c. */
 /* Finds rotations without inertia. REFUSED: no rotation has inertia. */
 static status conserving_massless(conserving *, fault *);
-/* Work of the impulses that change the velocities of prescribed masses from the rates during the
- * step to those at its end. */
+/* Returns the work of the impulses that change the velocities of prescribed masses from the
+ * rates during the step to the rates at its end. */
 static double conserving_impulses(const conserving *, const instant *from, double h,
                                   const instant *to);
-/* Rates at the end. */
+/* Sets the rates at the end of a step. */
 static void conserving_rates(conserving *, const instant *from, double h, instant *to);
 
 enum { LEAST_ITERATIONS = 3 };
 
-/* (S + column row^T) dx = residual */
+/* Solves (S + column row^T) dx = residual. */
 static status direction(conserving *s, const instant *from, model_state *now, double h,
                         step_record *record, fault *f)
 {
@@ -144,7 +144,7 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     if (!s->massive.ready)
         TRY(massive_of(m, s->of.masses, from->state, &s->massive, f));
     s->base.light = s->massive.light;
-    for (int c = 0; c < s->free; c++) /* of the trapezoidal rule: h^2/12 (a1 - a) */
+    for (int c = 0; c < s->free; c++) /* error of the trapezoidal rule: h^2/12 (a1 - a) */
         s->dx[c] = h * h / 12 * (to->a[c] - from->a[c]);
     *error = massive_norm(&s->massive, m, s->weight, s->dx);
     return STATUS_OK;
@@ -163,8 +163,8 @@ static void release(motion_scheme *base)
     free(s);
 }
 
-/* Rejects two free angles: the mass has an angular velocity normal to both axes at the end of a
- * step, whose energy the rates of the angles do not contain. */
+/* REFUSED: a rotation has two free angles. At the end of a step the mass then has an angular
+ * velocity normal to both axes, and the rates of the angles do not contain its energy. */
 static status check(const model *m, fault *f)
 {
     for (int i = 0; i < model_scene(m)->nodes; i++) {
@@ -198,9 +198,9 @@ static status refuse_constraint(const model *m, int node, const char *why, fault
                      scene_called(model_scene(m), SCENE_NODES, node).text);
 }
 
-/* Rejects constraints that the rates at the ends of a step would violate: the Cayley vectors of
- * rotations in a given ratio are not in that ratio, and masses at a distance from their nodes have
- * velocities of their own. */
+/* REFUSED: the rates at the ends of a step would violate a constraint. The Cayley vectors of
+ * rotations in a given ratio are not in that ratio, and masses at a distance from their nodes
+ * have velocities of their own. */
 static status check_constraints(const model *m, const carried_masses *masses, fault *f)
 {
     if (model_mesh_of(m)->joined == NULL)
@@ -291,11 +291,12 @@ status conserving_alloc(const scheme_request *request, motion_scheme **out, faul
     return allocate(s, f);
 }
 
-/* Rates at the end of a step, of coordinates with and without inertia. */
+/* Rates at the end of a step, for coordinates with and without inertia. */
 
 enum { BALL = 3 };
 
-/* N: projection onto the axes about which J[9] is zero; returns the number of these axes. */
+/* Computes N, the projection onto the axes about which J[9] is zero. Returns the number of these
+ * axes. */
 static int null_space(const double J[9], double N[9])
 {
     const double nothing = 1e-12;
@@ -304,7 +305,7 @@ static int null_space(const double J[9], double N[9])
     memset(N, 0, 9 * sizeof *N);
     memcpy(A, J, sizeof A);
     LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', 3, A, 3,
-                  value); /* eigenvalues ascending; fails only for NaN */
+                  value); /* eigenvalues are ascending; this fails only for NaN */
     for (int k = 0; k < 3; k++) {
         if (value[k] > nothing * value[2])
             continue;
@@ -370,7 +371,7 @@ static double conserving_impulses(const conserving *s, const instant *from, doub
     return sum;
 }
 
-/* Rates of a sequence of angles whose angular velocity is closest to w. */
+/* Computes the rates of a sequence of angles whose angular velocity is closest to w. */
 static void angle_rates(const model *m, int vertex, instant *to, const double w[3])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -434,9 +435,9 @@ static void heavy_ones(const model *m, const carried_mass *one, const carried_st
     }
 }
 
-/* Velocities of the masses at released ends, integrated separately so that these masses conserve
- * energy and momenta like the masses of nodes. They differ from the rates of the coordinates by
- * terms of second order in the step. */
+/* Computes the velocities of the masses at released ends. They are integrated separately, so
+ * that these masses conserve energy and momenta like the masses of nodes. They differ from the
+ * rates of the coordinates by terms of second order in the step size. */
 static void conserving_released_rates(const conserving *s, const instant *from, double h,
                                       instant *to)
 {
@@ -465,7 +466,8 @@ static void conserving_released_rates(const conserving *s, const instant *from, 
     to->ends_known = 1;
 }
 
-/* Does a vertex follow the rotations of another one, or do others follow its rotations? */
+/* Returns 1 when a vertex follows the rotations of another one, or when others follow its
+ * rotations. */
 static int turns_with(const model *m, int vertex)
 {
     int with = 0;
@@ -527,8 +529,8 @@ static void rates_together(const conserving *s, const instant *from, double h, i
         }
 }
 
-/* Sets the rates after a step: for frames with a mass, of its centre; for the others, of the
- * frame. */
+/* Sets the rates after a step. For a frame with a mass the rates are those of the centre of
+ * mass, otherwise those of the frame. */
 static void conserving_rates(conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;

@@ -1,5 +1,5 @@
-/* Forces A^T sigma_m of elements and springs and their tangent. Geometric terms (those with a
- * stress as a factor) use s + k W d, without the spurious stresses due to the gaps. */
+/* Forces A^T sigma_m of elements and springs, and their tangent. Geometric terms (those with a
+ * stress as a factor) use s + k W d, which excludes the spurious stresses due to the gaps. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -12,8 +12,8 @@
 
 enum { N = ELEMENT_MAX_COORDINATES, M = DEFORMABLE_STRAINS };
 
-/* Stress terms that do not need the strains at the end: (sigma_n + P'(e))/2 + k W d, and eta S0 d/h
- * for damping. */
+/* Computes the stress terms that do not need the strains at the end of the step: (sigma_n +
+ * P'(e))/2 + k W d, and eta S0 d/h for damping. */
 static void middle_of(const conserving *s, evaluation *v)
 {
     const deformable *of = &v->of;
@@ -28,7 +28,8 @@ static void middle_of(const conserving *s, evaluation *v)
         v->middle[k] += of->damping / s->h * Wd[k];
 }
 
-/* Computes the gaps, and sigma_m including their contribution. */
+/* Computes the gaps, and sigma_m including the contribution of the gaps. Returns the
+ * incompatibility. */
 static double gaps_of(const conserving *s, const double J[], evaluation *v, double sigma[])
 {
     const deformable *of = &v->of;
@@ -72,7 +73,8 @@ static void add_curved_strains(const cayley_slopes *by, int g, evaluation *v, do
     cayley_slopes_columns(&v->step, by, &v->point[g], 1.0 / DEFORMABLE_POINTS, n, v->H[g], out);
 }
 
-/* Derivatives of k times the denominator, added to s->missing and to the row. */
+/* Computes the derivatives k_e and k_d of k with respect to the strains and d. Adds k_e . gap_e
+ * + k_d . gap_d to s->missing, and sets the column and the row. */
 static void add_scalar(conserving *s, const double J[], evaluation *v)
 {
     const deformable *of = &v->of;
@@ -95,8 +97,8 @@ static void add_scalar(conserving *s, const double J[], evaluation *v)
     dense_add_transpose_mul(n, strains, 1, of->J, k_e, v->row);
 }
 
-/* Transforms the equations to the coordinates that move the nodes of the element; F[7 nodes]:
- * forces of `middle`. */
+/* Transforms the equations to the coordinates that move the nodes of the element. F[7 nodes]:
+ * forces due to `middle`. */
 static void to_coordinates(const conserving *s, const instant *from, const model_state *now,
                            const double F[], evaluation *v)
 {
@@ -121,7 +123,7 @@ static void to_coordinates(const conserving *s, const instant *from, const model
     }
 }
 
-/* Adds the equations of the evaluated elements; returns their incompatibility. */
+/* Adds the equations of the evaluated elements. Returns their incompatibility. */
 static double equations_of(conserving *s, const instant *from, const model_state *now,
                            evaluation *v)
 {
@@ -189,8 +191,8 @@ void conserving_forces(conserving *s, const instant *from, model_state *now,
     }
 }
 
-/* Loads at the middle of a step: rotating directions and arms are means of those at the two
- * ends. */
+/* Loads at the middle of a step. Directions and arms that rotate are the means of their values
+ * at the two ends of the step. */
 
 typedef struct loaded {
     conserving *s;
@@ -198,7 +200,7 @@ typedef struct loaded {
     double *out; /* [free + driven] */
 } loaded;
 
-/* (v_n + v)/2, and its derivative with respect to c of the step: -1/2 v~ T_c. */
+/* Computes the mean (v_n + v)/2 and its derivative with respect to c of the step: -1/2 v~ T_c. */
 static void mean_of(const double back[9], const double T[9], const double v[3], double mean[3],
                     double change[9])
 {
@@ -220,7 +222,8 @@ static void subtract_block(const double A[9], int row, double K[36])
             K[6 * (row + i) + 3 + j] -= A[3 * i + j];
 }
 
-/* K -= derivative of arm x force at (moment, columns of c); by[3 x 3]: derivative of each. */
+/* K -= derivative of arm x force at (moment, columns of c); by_arm, by_force [3 x 3]:
+ * derivatives of arm and force with respect to c. */
 static void subtract_lever(const double arm[3], const double by_arm[9], const double force[3],
                            const double by_force[9], double K[36])
 {
@@ -234,7 +237,8 @@ static void subtract_lever(const double arm[3], const double by_arm[9], const do
     subtract_block(then, 3, K);
 }
 
-/* Force and moment F[6] of the mean, and K[6 x 6] = -dF/d(dr, c) of the vertex. */
+/* Computes force and moment F[6] of a load at the middle of the step, and K[6 x 6] = -dF/d(dr,
+ * c) of the vertex. */
 static void loads_middle_of(const loaded *of, const applied *what, const double c[3], double F[6],
                             double K[36])
 {
@@ -284,9 +288,9 @@ void conserving_loads(conserving *s, const instant *from, const model_state *now
                      take, &of);
 }
 
-/* Updates the strains at the ends of the step and in between by Newton's corrections. */
+/* Updates the strains at the end of the step, and between its ends, by Newton's corrections. */
 
-/* Increments dr, dc, da of the nodes of an element. */
+/* Computes the increments dr, dc, da of the nodes of an element. */
 static void own_increments(const conserving *s, const instant *from, const model_state *now,
                            const mesh_element *el, double local[])
 {
@@ -341,7 +345,8 @@ double conserving_update(conserving *s, const instant *from, model_state *now)
 /* Work of external loads in a step: the forces that act in the step times the increments of the
  * coordinates. */
 
-/* dr and c of the coordinates; for angles 2 tan(d angle/2). */
+/* Returns the work of a force on dr and c of the coordinates, where c is 2 tan(d angle/2) for
+ * angles. */
 static double worked_on(const conserving *s, const double force[])
 {
     const model *m = s->of.c->model;
@@ -369,7 +374,7 @@ static int moves_by_drivers(const conserving *s)
     return 0;
 }
 
-/* eta d . S0 d/h: energy dissipated by the damping stresses in the step. */
+/* Returns the sum of eta d . S0 d/h, the energy dissipated by the damping stresses in the step. */
 static double dissipated(const conserving *s, const instant *from, model_state *now)
 {
     double sum = 0;
@@ -384,7 +389,7 @@ static double dissipated(const conserving *s, const instant *from, model_state *
 status conserving_work(conserving *s, const instant *from, instant *to, double h, fault *f)
 {
     const size_t bytes = (size_t)s->all * sizeof *s->residual;
-    const int behind = 3; /* number of iterations in which k is used */
+    const int behind = 3; /* an iteration number for which k is used */
     double ignored = 0;
     memset(s->residual, 0, bytes);
     conserving_loads(s, from, to->state, h, s->residual);
@@ -407,11 +412,11 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
     return STATUS_OK;
 }
 
-/* Strain rates r1 and their derivatives s1 at the end of a step, from r0 and s0 at its start and
- * the mean rate m:
- *   r1 = (3 m - r0)/2 + h s0/4,  s1 = (m - r0)/h + s0/2.
- * This is of second order, even without inertia. An initial error disappears after two steps; with
- * r1 = 2 m - r0 it would persist. */
+/* Computes the strain rates r1 and their derivatives s1 at the end of a step from r0 and s0 at its
+ * start and the mean rate m:
+ *     r1 = (3 m - r0)/2 + h s0/4,  s1 = (m - r0)/h + s0/2.
+ * This is of second order, even without inertia. An initial error disappears after two steps;
+ * with r1 = 2 m - r0 it would persist. */
 void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;

@@ -16,7 +16,7 @@ static const double *inner_of(const model *m, const model_state *s, int i)
     return model_inner(m) > 0 ? s->inner + (size_t)i * (size_t)model_inner(m) : none;
 }
 
-/* Mean stresses of elements of one kind. */
+/* Computes the mean stresses of elements of one kind. */
 static status middle_stress_of(const equations *eq, int count, const int index[],
                                const double *const e[], const model_state *s, stress_output out[],
                                fault *f)
@@ -142,7 +142,8 @@ static void stress_spring(conserving *s, const instant *from, model_state *now, 
     take_energy(s, &of, spring_energy(of.spring->spring, of.e), sum);
 }
 
-/* Kinetic energy plus magnitudes of the strain energies at the start of the step [J]. */
+/* Returns the kinetic energy plus the magnitudes of the strain energies at the start of the step
+ * [J]. */
 static double size_of_energy(const conserving *s, const instant *from)
 {
     inertia_balance moving;
@@ -179,12 +180,12 @@ status conserving_stresses(conserving *s, const instant *from, model_state *now,
     return STATUS_OK;
 }
 
-/* Centres of mass move by dr_c = h (v_c + v_c1)/2, R_n^T c = h (W + W1)/2; forces act at the mean
- * positions of the centres. If a frame only rotates, the tensor about the frame is also constant in
- * its axes. */
+/* Centres of mass move by dr_c = h (v_c + v_c1)/2 and rotate by R_n^T c = h (W + W1)/2. Forces
+ * act at the mean positions of the centres. If a frame only rotates, the tensor about the frame
+ * is also constant in its axes. */
 
-/* Number of fixed translations of a frame if it also has free ones, else 0; the fixed translations
- * of its centre of mass follow from its rotation. */
+/* Returns the number of fixed translations of a frame if it also has free ones, else 0. The
+ * corresponding translations of its centre of mass follow from its rotation. */
 static int held_of(const model *m, int frame, int held[3])
 {
     int count = 0;
@@ -254,7 +255,7 @@ void carried_step_of(const conserving *s, const instant *from, const model_state
     carried_step_follow(one, out);
 }
 
-/* Force and moment on the frame. */
+/* Computes the force and moment on the frame. */
 static void forces_of(const carried_mass *one, const carried_step *p, double h, double F[6])
 {
     double H0[3], H1[3], spun0[3], spun1[3], lever[3];
@@ -269,7 +270,7 @@ static void forces_of(const carried_mass *one, const carried_step *p, double h, 
         F[3 + i] = (spun1[i] - spun0[i]) / h + lever[i] + (p->rides ? p->late[i] : 0);
 }
 
-/* K[6 x 6]: derivative with respect to dr and c. */
+/* Computes K[6 x 6], the derivative of F with respect to dr and c. */
 static void tangent_of(const carried_mass *one, const carried_step *p, double h, const double F[6],
                        double K[36])
 {
@@ -327,7 +328,7 @@ void conserving_inertia(conserving *s, const instant *from, const model_state *n
     }
 }
 
-/* Initial guess of a step, and its form as increments of coordinates. */
+/* Initial guess of a step, and its representation as increments of coordinates. */
 
 static int turns_freely(const model *m, int vertex)
 {
@@ -376,7 +377,7 @@ void conserving_increment(const conserving *s, const model_state *from, double i
     }
 }
 
-/* c = h w; for a prescribed rotation, the prescribed increment. */
+/* Computes c = h w; for a prescribed rotation, c of the prescribed increment. */
 static void predict_turn(conserving *s, const frame_rates *r, const int at[3], double h,
                          double c[3])
 {
@@ -390,8 +391,8 @@ static void predict_turn(conserving *s, const frame_rates *r, const int at[3], d
     put_vector(c, at, s->step);
 }
 
-/* dr = h/2 (v + cay(c) v): the velocity rotates with its node. cay(c) v - v = (c x v + c x (c x
- * v)/2)/(1 + c.c/4). */
+/* Computes dr = h/2 (v + cay(c) v): the velocity rotates with its node. cay(c) v - v = (c x v +
+ * c x (c x v)/2)/(1 + c.c/4). */
 void conserving_predict(conserving *s, const instant *from, double h)
 {
     const model *m = s->of.c->model;

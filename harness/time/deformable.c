@@ -79,7 +79,7 @@ static void place_turn(const model *m, const double at[DEFORMABLE_POINTS], const
     }
 }
 
-/* States during the step at which strains are evaluated. */
+/* Sets the states during the step at which strains are evaluated. */
 static void place_nodes(const conserving *s, const instant *from, const model_state *now,
                         evaluation *v)
 {
@@ -99,8 +99,8 @@ static void place_nodes(const conserving *s, const instant *from, const model_st
     place_turn(m, at, from, now, v);
 }
 
-/* Nodes at which strains are evaluated: at the end of the step (point DEFORMABLE_POINTS) e and J,
- * between its ends J and H. */
+/* Returns the nodes at which strains are evaluated. At the end of the step (point
+ * DEFORMABLE_POINTS) e and J are needed, at the points before it J and H. */
 static const node_state *nodes_of(const evaluation *v, int point)
 {
     return point < DEFORMABLE_POINTS ? v->point[point].x : v->last;
@@ -221,8 +221,8 @@ status shares_node(const model *m, const model_state *s, const shares_motion *mo
     return STATUS_OK;
 }
 
-/* Inertia force of node k of an element, including warping; *share: fraction of the mass at the
- * node. */
+/* Computes the inertia force of node k of an element, including warping. *share: fraction of the
+ * mass at the node. */
 static void force_of(const model *m, const model_state *s, const shares_motion *motion, int element,
                      int k, double F[7], carried_mass *share)
 {
@@ -240,7 +240,7 @@ static void force_of(const model *m, const model_state *s, const shares_motion *
     F[6] = el->warp[k] != NONE ? warping * motion->a[model_warp(m, el->warp[k])] : 0;
 }
 
-/* Forces per length at the nodes, interpolated between them. */
+/* Forces per length at the nodes are interpolated between them. */
 void shares_along(const model *m, const model_state *s, const shares_motion *motion, int element,
                   double density[ELEMENT_MAX_NODES][6])
 {
@@ -255,9 +255,9 @@ void shares_along(const model *m, const model_state *s, const shares_motion *mot
     }
 }
 
-/* Corrects the moments of mass along a member that is lumped at its nodes. Translations, and
- * resultants except inside an element, are then exact. F is the force of the whole element's mass
- * at both nodes. */
+/* Corrects the moments of mass along a member that is lumped at its nodes. Translations are then
+ * exact, and so are resultants except inside an element. F: force of the whole element's mass if
+ * it moves as each node. */
 static void add_couple(const model *m, const model_state *s, int element, double F[2][7],
                        double ends[2][7])
 {

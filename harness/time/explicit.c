@@ -11,8 +11,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* explicit.c: computes dydt at t [s] for y in GSL's order; leaves the motion at that time in
- * `at`. */
+/* explicit.c: computes dydt at t [s] for y, in GSL's order of arguments. Leaves the motion at
+ * that time in `at`. */
 static int explicit_rates(double t, const double y[], double dydt[], void *context);
 /* REFUSED: a coordinate of the undeformed model has no inertia. */
 static status explicit_check(const model *, const carried_masses *, fault *);
@@ -116,7 +116,8 @@ status explicit_alloc(const scheme_request *request, motion_scheme **out, fault 
     return allocate(s, f);
 }
 
-/* Masses of the free coordinates of one frame: count, index[count], M[count x count]. */
+/* Computes the masses of the free coordinates of one frame: of[count], M[count x count]. Returns
+ * count. */
 static int block(const model *m, const carried_masses *masses, int index, const model_state *s,
                  const double v[], int of[6], double M[36])
 {
@@ -139,7 +140,7 @@ static int block(const model *m, const carried_masses *masses, int index, const 
     return count;
 }
 
-/* Accelerations of bodies that constraints join; as explicit_accelerate. */
+/* As explicit_accelerate, for bodies that constraints join. */
 static status accelerate_joined(const model *m, const carried_masses *masses, int body,
                                 const model_state *s, const double residual[], body_mass *g,
                                 double a[], fault *f)
@@ -194,7 +195,7 @@ static status accelerate_together(const model *m, const carried_masses *masses,
     return outcome;
 }
 
-/* a[free] = M^-1 times the residual, which includes the effect of the prescribed
+/* Computes a[free] = M^-1 residual. The residual includes the effect of the prescribed
  * accelerations in a. SINGULAR: two axes of a sequence of angles coincide. */
 static status explicit_accelerate(const model *m, const carried_masses *masses,
                                   const model_state *s, const double v[], const double residual[],
@@ -275,8 +276,8 @@ static void mark(const model *m, const carried_masses *masses, const double rest
         const int n = block(m, masses, k, kinematics_rest(m), rest, of, M);
         for (int i = 0; i < n; i++) {
             double some[36];
-            /* rank of the first i + 1 coordinates; a coordinate that does not increase it has no
-             * inertia */
+            /* rank of the first i + 1 coordinates; a coordinate that does not increase the rank
+             * has no inertia */
             for (int r = 0; r <= i; r++)
                 memcpy(&some[(i + 1) * r], &M[n * r], (size_t)(i + 1) * sizeof *some);
             heavy[of[i]] = is_heavy(i + 1, some);
@@ -286,7 +287,7 @@ static void mark(const model *m, const carried_masses *masses, const double rest
         heavy[model_warp(m, w)] = masses->warping[model_warp(m, w)] > 0;
 }
 
-/* As explicit_check, for bodies that constraints join and whose masses count together. */
+/* As explicit_check, for bodies that constraints join, whose masses count together. */
 static status check_joined(const model *m, const carried_masses *masses, fault *f)
 {
     const double rounding = 1e-13;
@@ -342,7 +343,7 @@ static status explicit_check(const model *m, const carried_masses *masses, fault
     return outcome;
 }
 
-/* inc' = v, except for rotations in the axes of the frame. */
+/* Computes inc' = v, except for rotations in the axes of the frame. */
 static void turn_rates(const explicit_scheme *s, const double inc[], const double v[],
                        double rate[])
 {
@@ -483,8 +484,8 @@ void work_free(outer_work *w)
     free(w->element);
 }
 
-/* Sum over the coordinates; moments of frames whose rates are in rotating axes are given in global
- * axes. */
+/* Returns the sum over the coordinates. Moments of frames whose rates are in rotating axes are
+ * given in global axes. */
 static double product(const outer_work *w, const model_state *s, const double along[])
 {
     const model *m = w->m;
@@ -506,8 +507,8 @@ static double product(const outer_work *w, const model_state *s, const double al
     return sum;
 }
 
-/* External forces on prescribed coordinates, including loads: the sum of internal and inertia
- * forces. */
+/* Computes the external forces on prescribed coordinates, including loads: the sum of internal
+ * and inertia forces. */
 static void hold(outer_work *w, const model_state *s, const double v[], const double a[])
 {
     const model *m = w->m;

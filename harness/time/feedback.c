@@ -1,4 +1,5 @@
-/* Loads with feedback in motions: their factors, the integrals of their errors, their tangents. */
+/* Loads with feedback in motions: their factors, the integrals of their errors, and their
+ * tangents. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -24,7 +25,8 @@ int feedback_count(const equations *eq)
     return eq->run->feedback != NULL ? model_scene(eq->m)->loads : 0;
 }
 
-/* Derivative of component k of the rotation vector with respect to spatial increments. */
+/* Computes the derivative of component k of the rotation vector with respect to spatial
+ * increments. */
 static void turn_row(const model *m, const model_state *s, int node, int k, double row[3])
 {
     double t[3], inverse[9];
@@ -55,7 +57,7 @@ static double component_at(const model *m, const model_state *s, int node, int c
     return node == SCENE_NONE ? 0 : kinematics_component(m, s, node, component);
 }
 
-/* Reference value of the controller and its rate. */
+/* Computes the reference value of the controller and its rate. */
 static void reference_of(const scene_load *load, double time, double out[3])
 {
     out[0] = out[1] = 0;
@@ -72,7 +74,7 @@ static double error_of(const model *m, const model_state *s, const scene_load *l
            (component_at(m, s, b->node, b->component) - component_at(m, s, b->from, b->component));
 }
 
-/* Factor of the load before it is limited. */
+/* Returns the factor of the load before it is limited. */
 static double feedback_of(const model *m, const model_state *s, const scene_load *load, int index,
                           const double v[], double time)
 {
@@ -119,7 +121,8 @@ void feedback_integrate(const equations *eq, const model_state *from, const mode
     }
 }
 
-/* Derivative of the measured component with respect to coordinates; returns their number. */
+/* Computes the derivative of the measured component with respect to coordinates. Returns the
+ * number of these coordinates. */
 static int measure(const model *m, const model_state *s, int node, int component, int index[],
                    double out[])
 {

@@ -12,7 +12,7 @@ static void three(const mesh_vertex *v, const double of[], double out[3])
         out[i] = of[v->coordinate[SCENE_RX + i]];
 }
 
-/* Moves a vertex by inc; global rotation vector: R_n inc. */
+/* Moves a vertex by inc. The global rotation vector is R_n inc. */
 static void apply_vertex(const model *m, const model_state *from, int index, const double inc[],
                          model_state *to)
 {
@@ -32,7 +32,7 @@ static void apply_vertex(const model *m, const model_state *from, int index, con
     rotation_normalise(&to->q[4 * index]);
 }
 
-/* Rotates a ball joint: R_n exp(inc), as for frames. */
+/* Rotates a ball joint to R_n exp(inc), as for frames. */
 static void turn_ball(const model *m, const model_state *from, int index, const double inc[],
                       model_state *to)
 {
@@ -122,7 +122,7 @@ status drive_check(const model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Rotation given by a vector t(time): W = Jr t', W' = Jr t'' + d(Jr t')/dt t'. */
+/* Computes a rotation given by a vector t(time): W = Jr t', W' = Jr t'' + d(Jr t')/dt t'. */
 static void drive_vector(const equations *eq, const model_state *from, int index, double time,
                          double inc[], double v[], double a[])
 {
@@ -186,10 +186,10 @@ void drive_at(const equations *eq, const model_state *from, double time, double 
             drive_vector(eq, from, i, time, inc, v, a);
 }
 
-/* Angles below this use series, which are then exact to rounding. */
+/* For smaller angles the coefficients are computed by series, which are then exact to rounding. */
 static const double small = 0.05;
 
-/* (1 - cos x)/x^2, (x - sin x)/x^3, and their derivatives divided by x. */
+/* Computes (1 - cos x)/x^2 and (x - sin x)/x^3, and their derivatives divided by x. */
 static void coefficients(double x, double *b, double *c, double *db, double *dc)
 {
     const double s = x * x;

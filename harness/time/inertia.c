@@ -7,7 +7,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* A mass in global axes. */
+/* Properties of a mass in global axes. */
 typedef struct spatial {
     double c[3], J[9];
 } spatial;
@@ -45,7 +45,8 @@ void inertia_force_at(const carried_mass *one, const frame_rates *r, double F[6]
     }
 }
 
-/* Rates of a frame whose acceleration includes mass-proportional damping: M (a + damping v). */
+/* Computes the rates of a frame; the acceleration includes mass-proportional damping: M (a +
+ * damping v). */
 static void damped_rates(const model *m, const carried_masses *all, int index, const model_state *s,
                          const double v[], const double a[], frame_rates *r)
 {
@@ -93,10 +94,10 @@ static void skew(const double v[3], double A[9])
     memcpy(A, all, sizeof all);
 }
 
-/* Derivatives [6 x 6] of the force and moment of one frame: with respect to spatial increments of
- * its position and rotation at fixed rates in its axes (exponential chart), to its velocity, and to
- * its acceleration. The effect of rotating axes on velocity and acceleration is included in
- * `place`. */
+/* Computes the derivatives [6 x 6] of the force and moment of one frame with respect to three
+ * things: spatial increments of its position and rotation at fixed rates in its axes
+ * (exponential chart), its velocity, and its acceleration. The effect of rotating axes on
+ * velocity and acceleration is included in `place`. */
 static void parts_of(const carried_mass *one, const frame_rates *r, const double F[6],
                      inertia_parts *out)
 {
@@ -114,7 +115,7 @@ static void parts_of(const carried_mass *one, const frame_rates *r, const double
     vec3_cross(r->w, s.c, w_c);
     skew(w_c, WC);
     mat3_mul(W, C, CW);
-    mat3_mul(A, C, AC); /* of c x a, where a does not rotate: d(c x a) = a~ c~ dphi */
+    mat3_mul(A, C, AC); /* derivative of c x a, where a does not rotate: d(c x a) = a~ c~ dphi */
     vec3_cross(s.c, r->a, c_a);
     for (int i = 0; i < 3; i++) {
         rest[i] = F[3 + i] - c_a[i]; /* both vectors rotate with the frame */
@@ -179,8 +180,8 @@ void inertia_rows(const double turn[9], double K[36])
     }
 }
 
-/* As inertia_add_tangent, for a released end. The change of its rates with the state (for rotating
- * axes) is neglected. */
+/* As inertia_add_tangent, for a released end. If its axes rotate, its rates change with the
+ * state; this change is neglected. */
 static void released_tangent(const model *m, int vertex, const model_state *s,
                              const inertia_parts *p, const inertia_relation *with, sparse *S)
 {
@@ -329,7 +330,7 @@ status balance_of(const equations *eq, const carried_masses *masses, const insta
 /* relative rounding error of coordinates that result from equations */
 static const double coordinate_rounding = 32 * DBL_EPSILON;
 
-/* Strain energy of an element due to this error of its coordinates. */
+/* Returns the strain energy of an element due to this error of its coordinates. */
 static double rounding_of(const model *m, const mesh_element *el, int index)
 {
     enum { E = ELEMENT_MAX_STRAINS };

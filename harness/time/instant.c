@@ -130,7 +130,7 @@ void peaks_free(peaks *s)
     free(s->one);
 }
 
-/* Reads a quantity at an instant; balance NULL: not known yet. */
+/* Reads a quantity at an instant. balance NULL: not known yet. */
 static status read_at(const peaks *s, const scene_quantity *q, const instant *at,
                       const double balance[], double *out, fault *f)
 {
@@ -153,8 +153,8 @@ static void take(peak *one, double value, double time, double error)
         *one->out = (outcome_passing){1, value, time, error};
 }
 
-/* Computes the value at a time inside the next step by a side step; *known 0: it did not
- * converge. */
+/* Computes the value at a time inside the next step by a side step. *known 0: the side step did
+ * not converge. */
 static status beside(peaks *s, const scene_quantity *q, const instant *from, double time,
                      double *value, int *known, fault *f)
 {
@@ -166,7 +166,8 @@ static status beside(peaks *s, const scene_quantity *q, const instant *from, dou
     return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
 }
 
-/* Value at a time of the cubic through the last ends (Neville's algorithm). */
+/* Returns the value, at a time, of the cubic through the last ends of steps (Neville's
+ * algorithm). */
 static double cubic(const peaks *s, const peak *one, double time)
 {
     double p[PEAKS_ENDS];
@@ -180,8 +181,8 @@ static double cubic(const peaks *s, const peak *one, double time)
     return p[0];
 }
 
-/* Maximum of the cubic between two ends by golden-section search. If a cubic has two maxima in one
- * step, the steps do not resolve the motion. */
+/* Returns the maximum of the cubic between two ends by golden-section search. If a cubic has two
+ * maxima in one step, the steps do not resolve the motion. */
 static double top_of(const peaks *s, const peak *one, double a, double b)
 {
     const double golden = (sqrt(5) - 1) / 2;
@@ -195,7 +196,7 @@ static double top_of(const peaks *s, const peak *one, double a, double b)
     return (a + b) / 2;
 }
 
-/* Searches between ends i and i + 1. */
+/* Searches for an extremum between ends i and i + 1. */
 static status look_between(peaks *s, peak *one, int i, fault *f)
 {
     const double a = fmax(s->last[i].time, one->from), b = fmin(s->last[i + 1].time, one->until);

@@ -1,5 +1,5 @@
-/* Initial accelerations are those of a stage with a very small compliance of positions; for
- * coordinates without inertia see time_impl.h. */
+/* Initial accelerations are computed as those of a stage with a very small compliance of
+ * positions. For coordinates without inertia see time_impl.h. */
 #include "harness/time/time_impl.h"
 
 #include <float.h>
@@ -15,8 +15,8 @@
 /* compliance of positions, relative to the square of a step. */
 static const double softness = 1e-12;
 
-/* Rates of the angles of a sequence that add up to the angular velocity; fixed and prescribed
- * angles keep their rates. */
+/* Sets rates of the angles of a sequence that add up to the angular velocity. Fixed and
+ * prescribed angles keep their rates. */
 static void start_angles(const model *m, const model_state *s, int index, const double spin[3],
                          double v[])
 {
@@ -44,7 +44,7 @@ static void start_angles(const model *m, const model_state *s, int index, const 
         v[frame->coordinate[SCENE_RX + of[i]]] = right[i];
 }
 
-/* Velocity [m/s] of a velocity field at the position of a vertex. */
+/* Computes the velocity [m/s] of a velocity field at the position of a vertex. */
 static void velocity_of(const model *m, const model_state *s, int index, const scene_start *field,
                         double out[3])
 {
@@ -104,7 +104,7 @@ static status check_field(const model *m, const model_state *s, const scene_star
     return STATUS_OK;
 }
 
-/* REFUSED: a prescribed coordinate starts at a different value than in the state. */
+/* REFUSED: a driver's value at the start differs from the prescribed coordinate in the state. */
 static status check_drivers(const model *m, const double inc[], fault *f)
 {
     const double nothing = 1e-9;
@@ -177,7 +177,8 @@ status launch_again(analysis_context *c, const carried_masses *masses, const sce
     return outcome;
 }
 
-/* REFUSED: a coordinate that follows another one has a different rate in the field. */
+/* REFUSED: a coordinate that follows another one has a rate in the field that violates this
+ * relation. */
 static status check_followers(const model *m, const model_state *s, const scene_start *field,
                               const double v[], fault *f)
 {
@@ -261,7 +262,7 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     return STATUS_OK;
 }
 
-/* Rejects scenes for which consistent mass is not possible. */
+/* REFUSED: the scene contains something for which consistent mass is not possible. */
 static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *one = &c->scene->analysis[analysis];
@@ -317,7 +318,7 @@ void extent_begin(extent *e, const model *m)
 extent extent_with(const extent *so_far, const model *m, const motion_scheme *s,
                    const instant *from, const instant *to, double h, double error)
 {
-    const double memory = 10, /* [rad] */
+    const double memory = 10, /* [rad] range over which an error estimate is remembered */
         distance = metric_distance(m, so_far->begin, to->state, s->light),
                  step = metric_distance(m, from->state, to->state, s->light);
     extent out = *so_far;

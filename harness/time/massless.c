@@ -8,7 +8,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* Eigenvalues of the scaled M below this fraction of the largest mass count as zero. */
+/* Eigenvalues of the scaled M count as zero below this fraction of the largest mass. */
 static const double massless_nothing = 1e-14;
 
 /* Operations on the mass matrix of a body. */
@@ -68,7 +68,7 @@ static double stiffest(const body_mass *g, double none, const double diagonal[],
     return most;
 }
 
-/* Performs the task for one body and those that constraints join to it; returns the rank of its
+/* Performs the task for one body and those that constraints join to it. Returns the rank of its
  * M. */
 static int visit(const model *m, const carried_masses *all, int body, const model_state *s,
                  body_mass *g, wish *of)
@@ -144,7 +144,8 @@ status massless_motion(const model *m, const carried_masses *all, const model_st
     return walk(m, all, s, &of, &count, f);
 }
 
-/* Finds the largest ratio of stiffness to inertia [1/s^2]; diagonal[free]: of a stiffness. */
+/* Finds the largest ratio of stiffness to inertia [1/s^2]. diagonal[free]: diagonal of a
+ * stiffness. */
 static status massless_stiffest(const model *m, const carried_masses *all, const model_state *s,
                                 const double diagonal[], double *out, fault *f)
 {
@@ -155,7 +156,7 @@ static status massless_stiffest(const model *m, const carried_masses *all, const
     return STATUS_OK;
 }
 
-/* Converts rotations of bodies between global axes and their own. */
+/* Converts rotations of bodies from global axes to their own axes, or back. */
 static void turn_axes(const model *m, const model_state *s, int own_to_space, double a[])
 {
     for (int i = 0; i < model_vertices(m); i++) {
@@ -212,8 +213,8 @@ status massless_accelerate(const model *m, const carried_masses *all, const mode
 
 enum { BLOCK = 9, BLOCKS = 2 };
 
-/* Are all three coordinates of a rotation free, and do they belong to one body or to bodies that
- * move as one? */
+/* Returns 1 when all three coordinates of a rotation (or translation) are free and belong to one
+ * body, or to bodies that move as one. */
 static int is_whole(const model *m, int i, int block)
 {
     const int *at = model_vertex(m, i)->coordinate + 3 * block, first = model_first_joined(m, i);
@@ -226,7 +227,8 @@ static int is_whole(const model *m, int i, int block)
     return whole;
 }
 
-/* Column k of the projections of all bodies together; bodies do not affect each other. */
+/* Computes column k of the projections of all bodies together, because bodies do not affect each
+ * other. */
 static status column(const model *m, const carried_masses *masses, const model_state *s, int block,
                      int k, double dx[], massive *h, fault *f)
 {
@@ -242,7 +244,7 @@ static status column(const model *m, const carried_masses *masses, const model_s
     return STATUS_OK;
 }
 
-/* R^T P R for rotations that are not sequences of angles. */
+/* Replaces P by R^T P R for rotations that are not sequences of angles. */
 static void own_axes(const model *m, const model_state *s, massive *h)
 {
     for (int i = 0; i < model_first_release(m); i++) {
@@ -255,8 +257,8 @@ static void own_axes(const model *m, const model_state *s, massive *h)
     }
 }
 
-/* Does a motion dx[free] without inertia move this component: three translations or three
- * rotations? */
+/* Returns 1 when a motion dx[free] without inertia moves this component, or any of the three
+ * translations or rotations to which it belongs. */
 static int is_moved(const model *m, const model_state *s, const scene_component *what,
                     const double dx[])
 {
@@ -276,7 +278,8 @@ static int is_moved(const model *m, const model_state *s, const scene_component 
     return most > 1e-9;
 }
 
-/* Is nothing left to compute: no other quantity of the analysis, and no analysis after it? */
+/* Returns 1 when nothing is left to compute: the analysis has no other quantity, and no other
+ * analysis follows it. */
 static int is_all(const scene *s, int analysis, const unsigned char undefined[])
 {
     for (int i = 0; i < s->quantities; i++)
@@ -313,7 +316,7 @@ status massless_readings(const model *m, const carried_masses *masses, const mod
             q->what.of.rated.rate == SCENE_SPEED)
             continue;
         for (int k = 0; k < model_unknowns(m); k++)
-            dx[k] = 1 + 0.01 * k; /* any motion of all coordinates */
+            dx[k] = 1 + 0.01 * k; /* an arbitrary motion of all coordinates */
         outcome = massless_motion(m, masses, s, dx, f);
         (*undefined)[i] = outcome == STATUS_OK && is_moved(m, s, scene_component_of(q), dx);
         first = (*undefined)[i] && first == NULL ? q : first;
@@ -370,8 +373,9 @@ double massive_norm(const massive *h, const model *m, const double weight[], dou
     return sqrt(square);
 }
 
-/* Newton's method for the motions without inertia: forces and increments are projected onto them
- * (massless_forces), and in the tangent a large stiffness on the masses fixes all others. */
+/* Newton's method for the motions without inertia. Forces and increments are projected onto
+ * these motions (massless_forces). In the tangent, a large stiffness on the masses fixes all
+ * other motions. */
 
 /* Stiffness that fixes coordinates with inertia, relative to the largest stiffness. It costs at
  * most this factor in accuracy and in Newton's order of convergence. */
@@ -387,7 +391,7 @@ static double *diagonal_of(const sparse *S, double out[])
     return out;
 }
 
-/* Unbalanced forces at the known accelerations; K NULL: not requested. */
+/* Computes the unbalanced forces at the known accelerations. K NULL: not requested. */
 static status forces(motion_stage *s, instant *now, sparse *K, fault *f)
 {
     const model *m = s->c->model;
@@ -465,8 +469,8 @@ static int mark(const model *m, const mesh_element *el, unsigned char of[])
     return count;
 }
 
-/* Marks in of[free] the coordinates without inertia that relax slowly: those of nodes of elements
- * and springs whose damping time is long compared with a step h. Returns their number. */
+/* Marks in of[free] the coordinates without inertia that relax slowly: those of nodes of
+ * elements and springs whose damping time is long compared with a step h. Returns their number. */
 static int creeping(const model *m, const model_state *state, double h, unsigned char of[])
 {
     const double part = 1e-3;
@@ -489,7 +493,7 @@ static int creeping(const model *m, const model_state *state, double h, unsigned
     return count;
 }
 
-/* Finds the equilibrium in which positions fixed by damping give way by a fraction of their
+/* Finds the equilibrium in which positions that damping fixes move by a fraction of their
  * displacement in h. */
 static status give_way(motion_stage *s, const double zero[], double h, double softness,
                        instant *now, double moved[], fault *f)
@@ -498,10 +502,10 @@ static status give_way(motion_stage *s, const double zero[], double h, double so
     return balance(s, zero, now, moved, f);
 }
 
-/* First computes the rates from a displacement that is large enough to be accurate. Then computes,
- * starting from the state before this displacement, the equilibrium of coordinates without damping.
- * Gaps between D(x) and e left by iterations are closed first, since they would act as a
- * displacement. */
+/* First computes the rates from a displacement that is large enough to be accurate. Then
+ * computes the equilibrium of coordinates without damping, starting from the state before this
+ * displacement. Gaps between D(x) and e that iterations have left are closed first, since they
+ * would act as a displacement. */
 static status creep(motion_stage *s, const double zero[], double h, instant *now, double moved[],
                     const unsigned char of[], fault *f)
 {

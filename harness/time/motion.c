@@ -17,7 +17,8 @@ typedef struct motion_course {
     analysis_context *c;
     const scene_motion *how;
     int analysis, follows;
-    double path;             /* path parameter of the static state that it starts from; NAN: none */
+    double path;             /* path parameter of the static state from which the motion starts;
+                                NAN: none */
     const outcome_end *from; /* end of the previous motion that this one continues; NULL: none */
     carried_masses masses;
     run_damping damping;
@@ -31,10 +32,10 @@ typedef struct motion_course {
     frames frames;
     abouts abouts;
     outcome_motion *out;
-    double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* energy balance at `now`, at `next` */
+    double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* energy balance at `now`; at `next` */
     int looked_ahead;                                      /* 1: `ahead` is valid */
     account account;
-    extent extent, reaches; /* so far; including the trial step */
+    extent extent, reaches; /* extent so far; extent including the trial step */
     double rounding;        /* [J] rounding error of the energy */
     int quiet;              /* number of steps since the last discontinuity of the loads */
     int unjudged;           /* number of steps whose balance has not been checked */
@@ -69,7 +70,7 @@ static status record_step(motion_course *w, const step_record *record, double er
     return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
 }
 
-/* Accepts a step; last: a discontinuity or the end of the motion follows. */
+/* Accepts a step. last 1: a discontinuity or the end of the motion follows. */
 static status keep_step(motion_course *w, const step_record *record, double error, int last,
                         fault *f)
 {
@@ -97,8 +98,8 @@ static double end_of_all(const motion_course *w)
     return path->value[path->stations - 1];
 }
 
-/* Returns 1 when the error allows the step, and sets the size of the next one from the error of
- * this one. If the errors of steps add up to the error of the motion, each step may use a share
+/* Returns 1 when the error allows the step, and sets the size of the next step from this error.
+ * If the errors of steps add up to the error of the motion, the allowed error of a step is
  * proportional to its size. */
 static int allowed(motion_course *w, double step, double error)
 {
@@ -115,16 +116,16 @@ static int allowed(motion_course *w, double step, double error)
     return of <= most;
 }
 
-/* Is the balance checked? The first steps of alpha after a jump of the loads gain energy, however
- * short they are. */
+/* Returns 1 when the balance is checked. The first alpha steps after a jump of the loads gain
+ * energy, however short they are. */
 static int looks(const motion_course *w)
 {
     return w->how->tolerance > 0 && (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
 }
 
-/* Detects energy gained without cause, as by unresolved modes; shorter steps reduce it. *grows: the
- * gain is larger than allowed, in this step or together with previous ones. Fixed steps are not
- * checked. */
+/* Detects energy that is gained without cause, for example by unresolved modes; shorter steps
+ * reduce such a gain. *grows: 1 if the gain is larger than allowed, in this step or together
+ * with previous ones. Fixed steps are not checked. */
 static status watch(motion_course *w, int *grows, fault *f)
 {
     *grows = 0;
@@ -151,7 +152,7 @@ static void lengthen(motion_course *w, double step, double whole, int rejected)
         w->h = fmin(w->how->step, 2 * w->h); /* returns to the size before it was halved */
 }
 
-/* Makes one step, with shorter sizes until it succeeds. */
+/* Makes one step. If it fails, tries shorter steps until one succeeds. */
 static status take_step(motion_course *w, double target, fault *f)
 {
     for (int rejected = 0;; rejected++) {
@@ -234,8 +235,8 @@ static status integrate(motion_course *w, fault *f)
                        w->out, f);
 }
 
-/* Continues where the previous motion stopped; another scheme or step is allowed only within the
- * same scene. */
+/* Continues where the previous motion stopped. Another scheme or step size is allowed only
+ * within the same scene. */
 static status go_on(motion_course *w, fault *f)
 {
     const scene_motion *former = w->from->analysis == w->analysis
@@ -254,7 +255,7 @@ static status go_on(motion_course *w, fault *f)
                : STATUS_OK;
 }
 
-/* Finds the end from which the motion continues, in another run or in the scene. */
+/* Finds the end of a motion from which this one continues, in another run or in the scene. */
 static status find_end(motion_course *w, fault *f)
 {
     w->from = resume_given(w->c, w->analysis);
@@ -368,8 +369,8 @@ static void release(motion_course *w)
     damping_end(&w->c->eq, &w->damping);
 }
 
-/* Integrates once, with an estimate of the extent; *again: 1 if the motion was smaller and a better
- * estimate is known. */
+/* Integrates the motion once, with an estimate of its extent. *again: 1 if the motion was
+ * smaller and a better estimate is known. */
 static status run(analysis_context *c, int analysis, double *scale, int *again, analysis_outcome *o,
                   fault *f)
 {
@@ -431,7 +432,7 @@ void frames_free(frames *p)
     instant_free(&p->at);
 }
 
-/* Time of the next frame; INFINITY: none. */
+/* Returns the time of the next frame; INFINITY: none. */
 static double next_of(const frames *p)
 {
     const int next = p->to->reached, last = p->to->stations - 1;

@@ -29,7 +29,7 @@ typedef struct place_chain {
     double sigma[3], dsigma[3 * PLACE_MOST];                    /* shift of the mean: (a s)_m */
 } place_chain;
 
-/* out[3 x columns] = times A B */
+/* out[3 x columns] = A B multiplied by `times` */
 static void product(int columns, double times, const double A[9], const double B[], double out[])
 {
     for (int i = 0; i < 3; i++)
@@ -38,7 +38,7 @@ static void product(int columns, double times, const double A[9], const double B
                                             A[3 * i + 2] * B[2 * columns + k]);
 }
 
-/* out <- factor (T_c dc) x v */
+/* out = (T_c dc) x v multiplied by `times` */
 static void sweep(const place_chain *by, int columns, double times, const double v[3], double out[])
 {
     double T[9], V[9], B[9];
@@ -131,9 +131,9 @@ static void turns(const double step[], place_chain *by, frame_place *p)
     }
 }
 
-/* Direction of a slide whose axis is b and a at the ends of the step: (b + a)/2 - c x (a - b)/4,
- * and its derivative. The shift changes by c x its mean plus the direction times the change of the
- * coordinate. */
+/* Computes the direction of a slide, whose axis is `before` and `after` at the two ends of the
+ * step: (before + after)/2 - c x (after - before)/4, and its derivative. The shift changes by c
+ * x its mean plus the direction times the change of the coordinate. */
 static void direction(const double before[3], const double after[3], const place_chain *by,
                       int columns, double along[3], double change[])
 {
@@ -152,7 +152,7 @@ static void direction(const double before[3], const double after[3], const place
         change[i] += swept[i] / 2 + more[i];
 }
 
-/* Shift of an end due to its slides: its mean and its columns. */
+/* Computes the shift of an end due to its slides: its mean, and its columns. */
 static void slides(const double step[], place_chain *by, frame_place *p)
 {
     const mesh_release *r = by->release;
@@ -179,7 +179,8 @@ static void slides(const double step[], place_chain *by, frame_place *p)
     }
 }
 
-/* Columns of work from `column` on: forces at a lever on a part that rotates by A, and moments. */
+/* Computes columns of `work` from `column` on: forces at a lever on a part that rotates by A,
+ * and moments. */
 static void work_on(const double lever[3], const double A[9], int moments, int column, int columns,
                     frame_place *p)
 {
@@ -193,7 +194,7 @@ static void work_on(const double lever[3], const double A[9], int moments, int c
         }
 }
 
-/* curved[rows `row`..] += A^T B, B[3 x columns] */
+/* Rows of `curved` from `row` on += A^T B, with B[3 x columns]. */
 static void add_curved(const double A[9], const double B[], int row, int columns, frame_place *p)
 {
     for (int i = 0; i < 3; i++)
@@ -204,7 +205,7 @@ static void add_curved(const double A[9], const double B[], int row, int columns
 
 static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* Rows of single rotations: x . M'. */
+/* Computes the rows of single rotations: x . M'. */
 static void turning_rows(const place_chain *by, const double moment[3], const double dmoment[],
                          frame_place *p)
 {
@@ -223,7 +224,8 @@ static void turning_rows(const place_chain *by, const double moment[3], const do
     }
 }
 
-/* Rows of the angles of the body, whose mean axes rotate with the previous angles: a' . M. */
+/* Computes the rows of the body's angles, whose mean axes rotate with the previous angles: a' .
+ * M. */
 static void angle_rows(const place_chain *by, const double moment[3], frame_place *p)
 {
     const int n = p->columns,
@@ -358,7 +360,7 @@ void place_matrix(const frame_place *p, int n, int at, int own, double K[])
             K[index_of(i, at, own) * n + index_of(k, at, own)] += p->curved[i * p->columns + k];
 }
 
-/* Global coordinates of the columns. */
+/* Lists the global coordinates of the columns. Returns their number. */
 static int index_place(const model *m, int vertex, int index[PLACE_MOST])
 {
     const mesh_vertex *v = model_vertex(m, vertex);

@@ -6,9 +6,11 @@
 
 #include "elements/math/scalar.h"
 
-/* radau.c: error of positions due to a solved step, in the measure of model.h. [g^2 M + K] error =
- * F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)), with g = 1/(l h), where l is the
- * real eigenvalue of A, at the previous instant. room: work space. */
+/* radau.c: computes the error of positions due to a solved step, in the measure of model.h. It
+ * satisfies
+ *     [g^2 M + K] error = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h))
+ * at the previous instant, where g = 1/(l h) and l is the real eigenvalue of A. room: work
+ * space. */
 static status radau_error(radau *, const instant *from, double h, instant *room, double *error,
                           fault *);
 
@@ -62,7 +64,7 @@ static void prepare(void *of, int iteration, double correction)
         complement_strains(r->stage[i].complement, r->stage[i].state, iteration, correction);
 }
 
-/* Work of the stages, by the quadrature of the scheme. */
+/* Returns the work in the stages, by the quadrature of the scheme. */
 static double work_of_stages(radau *r, const instant *from, double h, const step_record *record)
 {
     double sum = 0;

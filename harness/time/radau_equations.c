@@ -8,11 +8,11 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* out = R B, where R is the orientation of a vertex in stage i. */
+/* Computes out = R B, where R is the orientation of a vertex in stage i. */
 static void radau_in_space(const radau *, int vertex, int i, const double B[9], double out[9]);
 /* radau_equations.c: adds the consistent masses to S. */
 static void radau_spread(radau *, double h);
-/* radau_equations.c: adds the damping of members to the residual, and to S if fresh is 1. */
+/* radau_equations.c: adds the damping of members to the residual and, if fresh is 1, to S. */
 static void radau_damp(radau *, int fresh, const instant *from, double h);
 
 /* Adds blocks (i, k) of one frame for all k. */
@@ -125,8 +125,8 @@ static void add_entry(void *to, int row, int column, double value)
     stages_add(at->S, at->i, at->k, row, column, value);
 }
 
-/* Adds the derivatives of loads with feedback: with respect to the error in stage k, the rate in
- * stage i is B_ik/h and the integral h A_ik. */
+/* Adds the derivatives of loads with feedback. With respect to the error in stage k, the rate in
+ * stage i has the derivative B_ik/h, and the integral has h A_ik. */
 static void add_feedback(radau *r, double h, int i)
 {
     for (int k = 0; k < STAGES && feedback_count(&r->of.c->eq) > 0; k++) {
@@ -179,10 +179,10 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
     return STATUS_OK;
 }
 
-/* Rates and accelerations of three stages from their increments. The derivative of the rates of
- * stage j with respect to the increment of stage k is
- *   G_jk = B_jk/h Jr(t_j) + (j = k) d(Jr(t_j) t_j')/dt_j,
- * that of the accelerations of stage i is sum_j B_ij/h G_jk. */
+/* Computes the rates and accelerations of three stages from their increments. The derivative of the
+ * rates of stage j with respect to the increment of stage k is
+ *     G_jk = B_jk/h Jr(t_j) + (j = k) d(Jr(t_j) t_j')/dt_j.
+ * The derivative of the accelerations of stage i is sum_j B_ij/h G_jk. */
 
 void radau_coefficients(radau *r)
 {
@@ -255,8 +255,8 @@ void radau_rates(radau *r, const instant *from, double h)
         }
 }
 
-/* G_jk of one frame: derivative of the rates of stage j with respect to inc of stage k; a scalar
- * for translations, [3 x 3] for rotations. */
+/* Computes G_jk of one frame, the derivative of the rates of stage j with respect to inc of
+ * stage k: a scalar for translations, [3 x 3] for rotations. */
 static void gains(const radau *r, int vertex, double h, int j, int k, double *translation,
                   double turn[9])
 {
@@ -308,9 +308,9 @@ static void radau_in_space(const radau *r, int vertex, int i, const double B[9],
 
 /* Damping forces of one element in one stage. */
 typedef struct damped {
-    double J[ELEMENT_MAX_STRAINS *
-             MODEL_MAX_COORDINATES];    /* with respect to the coordinates of the model */
-    double gained[ELEMENT_MAX_STRAINS]; /* strains since the start of the step */
+    double J[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES]; /* derivatives with respect to the
+                                                              coordinates of the model */
+    double gained[ELEMENT_MAX_STRAINS]; /* increases of the strains since the start of the step */
 } damped;
 
 static void take(radau *r, const instant *from, int stage, int element, damped *out)
@@ -373,8 +373,8 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, double eta,
     }
 }
 
-/* As add_stress and add_blocks, for a dashpot, whose stress is not stored in a slot; includes the
- * rotation of its axes. */
+/* As add_stress and add_blocks, for a dashpot, whose stress is not stored in a slot. Includes
+ * the rotation of its axes. */
 static void damp_spring(radau *r, int fresh, const instant *from, double h, int spring)
 {
     enum { SIX = SPRING_STRAINS, X = ELEMENT_MAX_COORDINATES };
@@ -435,7 +435,7 @@ static void radau_damp(radau *r, int fresh, const instant *from, double h)
             damp_spring(r, fresh, from, h, i);
 }
 
-/* out = sum_j weight_j (e_j - e_0) */
+/* Computes out = sum_j weight_j (e_j - e_0). */
 static void sum_strains(const radau *r, const instant *from, const double weight[STAGES],
                         double out[])
 {
@@ -460,7 +460,7 @@ static void sum_strains(const radau *r, const instant *from, const double weight
     }
 }
 
-/* Energy absorbed in a step by springs without a potential. */
+/* Returns the energy absorbed in a step by springs without a potential. */
 static double circulated(const radau *r, const instant *from)
 {
     enum { SIX = SPRING_STRAINS };
@@ -516,8 +516,8 @@ void radau_damp_error(const radau *r, const instant *from, double h, const doubl
 /* Consistent masses of elements in the equations of three stages: blocks for all nodes of an
  * element. */
 
-/* Derivative of the motion of a node in stage i with respect to spatial increments of its
- * coordinates in stage k. */
+/* Computes the derivative of the motion of a node in stage i with respect to spatial increments
+ * of its coordinates in stage k. */
 static void motions_of(const radau *r, const spread_parts *p, int node, double h, int i, int k,
                        spread_motion *rates, spread_motion *accelerations)
 {

@@ -1,5 +1,5 @@
-/* Values of quantities in a state, as the files in cases/quantities read them, from the known data
- * of the state. */
+/* Values of quantities in a state, as the files in cases/quantities read them from the known
+ * data of the state. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -9,17 +9,17 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* A state in the form that kinds of quantities read. */
+/* A state in the form in which the kinds of quantities read it. */
 typedef struct read_state {
     quantity_state as;
     const reading *from;
     shares_motion motion;
     internal_state section;
-    status *outcome; /* outcome of the first force that is not known */
+    status *outcome; /* first status of a force that is not OK */
     fault *f;
 } read_state;
 
-/* Gives the reader's data, whose first member is the interface. */
+/* Returns the reader's data, whose first member is the interface. */
 static const read_state *of(const quantity_state *s)
 {
     return (const read_state *)s;
@@ -47,7 +47,8 @@ static void frame_of(const quantity_state *s, int node, double place[3], double 
     rotation_matrix(turn, R);
 }
 
-/* Velocity of a node, also of one that a body carries, or angular velocity in the node's axes. */
+/* Returns the velocity of a node, which may be moved by a body, or its angular velocity in the
+ * node's axes. */
 static double rate_of(const quantity_state *s, int node, int component)
 {
     const model *m = model_of(s);
@@ -88,7 +89,7 @@ static double released_of(const quantity_state *s, int member, int end, int comp
     return release_value(model_of(s), of(s)->from->state, member, end, component);
 }
 
-/* Displacement in linear statics. */
+/* Returns the displacement in linear statics. */
 static double linear_component(const quantity_state *s, int node, int component)
 {
     const double *x = of(s)->from->x;
@@ -100,7 +101,8 @@ static double linear_component(const quantity_state *s, int node, int component)
     return sum;
 }
 
-/* Returns the value if the outcome is OK; keeps the first outcome that is not. */
+/* Returns the value if the outcome is OK; otherwise records the outcome if it is the first
+ * failure. */
 static double known(const quantity_state *s, status outcome, const double *value)
 {
     if (outcome != STATUS_OK && *of(s)->outcome == STATUS_OK)
@@ -139,7 +141,7 @@ static const int value_of[SCENE_RESULTANTS] = {[SCENE_N] = SPAN_N,
                                                [SCENE_MX_WARPING] = SPAN_MX_WARPING,
                                                [SCENE_MX_WAGNER] = SPAN_MX_WAGNER};
 
-/* A resultant times a sign; its magnitude if the sign is zero. */
+/* A resultant, multiplied by a sign; if the sign is zero, its magnitude. */
 typedef struct chosen_resultants {
     scene_resultant resultant;
     double sign;
@@ -258,7 +260,7 @@ double reading_of(const model *m, const scene_quantity *q, const model_state *s,
     return quantity_type_of(q)->read(q, &state.as);
 }
 
-/* a: accelerations, including the forces of mass-proportional damping per mass. */
+/* a: accelerations, plus the forces of mass-proportional damping divided by the mass. */
 static status read_whole(const reading *from, const scene_quantity *q, const double a[],
                          double *out, fault *f)
 {

@@ -42,7 +42,7 @@ void released_columns(const model *m, const model_state *s, int vertex, released
     out->ball = r != NULL && r->turns == BALL ? out->own : NONE;
 }
 
-/* Column of T for a released rotation or shift. */
+/* Computes the column of T for a released rotation or shift. */
 static void column_of(const released_masses *of, int column, int turn, double out[3])
 {
     for (int i = 0; i < 3; i++)
@@ -130,7 +130,7 @@ void released_add_force(const model *m, const model_state *s, int vertex, const 
             out[of.index[k]] += of.T[i * of.count + k] * F[i];
 }
 
-/* out[6 x count]: columns `first` to first + 2 become T B */
+/* out[6 x count]: multiplies columns `first` to first + 2 of T by B. */
 static void turn_columns(const released_masses *of, int first, const double B[9], double out[])
 {
     for (int i = 0; i < 6 && first != NONE; i++)
@@ -193,7 +193,7 @@ static size_t of_members(const model *m)
     return (size_t)model_elements(m) * (size_t)model_strains(m);
 }
 
-/* members 1: also computes the stiffnesses of elements. */
+/* members 1: also computes the stiffnesses of the elements. */
 static status begin(const equations *eq, int members, run_damping *d, fault *f)
 {
     const model *m = eq->m;
@@ -286,7 +286,8 @@ status damping_matrix(const equations *eq, const model_state *s, double more, sp
     return begun;
 }
 
-/* Increments of an instant that correspond to the rates, with rotations in fixed axes. */
+/* Computes the increments of an instant that correspond to the rates v, with rotations in fixed
+ * axes. */
 static void in_space(const model *m, const model_state *s, const double v[], double out[])
 {
     memcpy(out, v, (size_t)model_all_coordinates(m) * sizeof *out);
@@ -331,7 +332,7 @@ size_t dashpots_room(const model *m)
     return (size_t)model_all_coordinates(m) + (size_t)(SPRING_STRAINS * model_springs(m)) + 1;
 }
 
-/* Deformation rates of dashpots [6 x springs], stored in `room`. */
+/* Computes the deformation rates of dashpots [6 x springs], stored in `room`. */
 static double *rates_of_dashpots(const model *m, const model_state *s, const double v[],
                                  double room[])
 {
@@ -408,7 +409,7 @@ double damping_power(const equations *eq, const double rate[])
     return sum + dashpots_power(m, rate + of_members(m));
 }
 
-/* Number of free or prescribed rotations about fixed axes. */
+/* Returns the number of rotations about fixed axes that are free or prescribed. */
 static int turns_of(const model *m, int vertex)
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -425,7 +426,8 @@ rotation_form forms_of(const model *m, int vertex)
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
 
-/* Is at most one rotation axis free, counting fixed rotations that are kept as rows? */
+/* Returns 1 when at most one rotation axis is free, counting fixed rotations that are kept as
+ * rows. */
 static int keeps_axis(const model *m, int vertex)
 {
     int moving = 0;
@@ -434,7 +436,7 @@ static int keeps_axis(const model *m, int vertex)
     return moving <= 1;
 }
 
-/* Names the two axes of free rotation, and the third axis. */
+/* Returns REFUSED; the message names the two axes of free rotation and the third axis. */
 static status refuse_turns(const model *m, int vertex, fault *f)
 {
     static const char axis[] = "xyz";

@@ -1,7 +1,8 @@
-/* Small motions about a state with rates: M x'' + (C + G) x' + K x, x increments of the coordinates
- * (rotations in fixed axes). With W = R^T w of a free rotation, dW = R^T x' and dW' = R^T (x'' - w
- * x x'), so that what rates do lacks M w~ there. Strains e(x) of damped members have the rates J x'
- * and their change J x' + J' x, where J' is the change of J along the motion. */
+/* Small motions about a state with rates: M x'' + (C + G) x' + K x, where x contains increments
+ * of the coordinates (rotations in fixed axes). For a free rotation with W = R^T w, dW = R^T x'
+ * and dW' = R^T (x'' - w x x'), so that M w~ is subtracted there from the derivatives with
+ * respect to the rates. Strains e(x) of damped members have the rates J x', which change by J x'
+ * + J' x, where J' is the change of J along the motion. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -11,10 +12,12 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* First derivative of sixth order from three differences of values at -h .. h, 2 h, 3 h. */
+/* First derivative of sixth order, from three differences of values at -h .. h, -2 h .. 2 h, -3
+ * h .. 3 h. */
 enum { DIFFERENCES = 3 };
 static const double weight_of[DIFFERENCES] = {0.75, -0.15, 1 / 60.0};
-static const double turn_by = 0.02; /* [rad], and relative to the size of the scene */
+static const double turn_by = 0.02; /* [rad], and in translations relative to the size of the
+                                       scene */
 
 typedef struct small_motions {
     const equations *eq;
@@ -27,7 +30,8 @@ typedef struct small_motions {
     double *inc, *zero; /* [all] */
     double *force;      /* [all] inertia forces in a moved state, or with other rates */
     double *column;     /* [3 x all] */
-    char *odd;          /* [all] 1: of what turns about axes that move with other coordinates */
+    char *odd;          /* [all] 1: the coordinate belongs to a rotation about axes that move
+                           with other coordinates */
 } small_motions;
 
 static status alloc(const equations *eq, const carried_masses *masses, const instant *now,
@@ -70,7 +74,8 @@ static void add(const sparse *a, double times, sparse *to)
         to->value[i] += times * a->value[i];
 }
 
-/* Is the rotation of a vertex given by its angular velocity, with coordinates of its own? */
+/* Returns 1 when the rotation of a vertex is given by its angular velocity and has coordinates
+ * of its own. */
 static int turns_freely(const model *m, int vertex)
 {
     const int own = vertex >= model_first_release(m) ||
@@ -78,8 +83,8 @@ static int turns_freely(const model *m, int vertex)
     return own && forms_of(m, vertex) == FORM_BODY;
 }
 
-/* Released ends, and sequences of angles, turn about axes that move: no closed form of what that
- * changes is here. */
+/* Marks the coordinates of released ends and of sequences of angles. They rotate about axes that
+ * move, for which there is no closed form of the derivatives here. */
 static void mark_odd(small_motions *s)
 {
     const model *m = s->m;
@@ -115,7 +120,7 @@ static void subtract_turning(const small_motions *s, const sparse *B, sparse *A)
     }
 }
 
-/* Inertia forces with the coordinate moved, or its rate changed, by h: added times `scale`. */
+/* Adds the inertia forces, times `scale`, with the coordinate moved, or its rate changed, by h. */
 static void add_forces(small_motions *s, int c, int rate, double h, double scale, double out[])
 {
     double *const changed = rate ? s->now->v : s->inc;
@@ -131,7 +136,8 @@ static void add_forces(small_motions *s, int c, int rate, double h, double scale
         out[i] -= scale * s->force[i];
 }
 
-/* Derivative of inertia forces by a coordinate, or by its rate, in which they are quadratic. */
+/* Computes the derivative of the inertia forces with respect to a coordinate, or to its rate, in
+ * which they are quadratic. */
 static void differentiate(small_motions *s, int c, int rate, double out[])
 {
     const double h = rate ? 1 : turn_by;
@@ -148,8 +154,9 @@ static void put_column(int c, const double of[], sparse *A)
         A->value[k] = of[A->row[k]];
 }
 
-/* Columns of a free rotation, from those in the axes of the frame. Of places in the exponential
- * chart, as all parts of a tangent: half of what the moment on the coordinates does. */
+/* Computes the columns of a free rotation from those in the axes of the frame. Derivatives with
+ * respect to positions are in the exponential chart, as in all parts of a tangent: half of the
+ * effect of the moment on the coordinates is added. */
 static void put_turn(small_motions *s, int vertex, int rate, sparse *A)
 {
     const int *at = &model_vertex(s->m, vertex)->coordinate[SCENE_RX];
@@ -180,7 +187,7 @@ static void put_turn(small_motions *s, int vertex, int rate, sparse *A)
     }
 }
 
-/* Columns of what is odd, by differences. */
+/* Computes the columns of the marked coordinates by finite differences. */
 static void put_odd(small_motions *s, int rate, sparse *A)
 {
     const model *m = s->m;
@@ -201,8 +208,8 @@ static void put_odd(small_motions *s, int rate, sparse *A)
     }
 }
 
-/* M, G and the part of K of inertia forces; C of mass-proportional damping. G serves as work space
- * first. */
+/* Computes M, G and the part of K due to inertia forces, and C of mass-proportional damping. G
+ * serves as work space first. */
 static void add_inertia(small_motions *s)
 {
     const instant *now = s->now;
@@ -229,16 +236,16 @@ static void add_inertia(small_motions *s)
         out->G.value[i] = out->C.value[i] - out->G.value[i];
     sparse_zero(&out->C);
     put_odd(s, 1, &out->G);
-    if (s->masses->damping != 0) /* which the differences contain */
+    if (s->masses->damping != 0) /* the finite differences already contain this term */
         for (int c = 0; c < s->all; c++)
             for (int k = out->G.column[c]; k < out->G.column[c + 1] && s->odd[c]; k++)
                 out->G.value[k] -= s->masses->damping * out->M.value[k];
     subtract_turning(s, &out->M, &out->G);
 }
 
-/* Change of J of all damped elements and dashpots along the motion, by differences. */
+/* Change of J of all damped elements and dashpots along the motion, by finite differences. */
 
-/* Duration in which no node moves far [s]. */
+/* Returns a duration in which no node moves far [s]. */
 static double short_time(const small_motions *s)
 {
     const double length = model_length(s->m);
@@ -276,10 +283,10 @@ static void strains_of(const model *m, const model_state *at, int element, doubl
     }
 }
 
-/* Room for J of one element or spring. */
+/* Memory for J of one element or spring. */
 enum { ROOM = ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES };
 
-/* change[(elements + springs) x ROOM] += scale J of what is damped. */
+/* change[(elements + springs) x ROOM] += scale J for damped elements and springs. */
 static void add_jacobians(const small_motions *s, const model_state *at, double scale,
                           double change[])
 {
@@ -301,7 +308,7 @@ static void add_jacobians(const small_motions *s, const model_state *at, double 
     }
 }
 
-/* J' [(elements + springs) x ROOM] */
+/* Computes J' [(elements + springs) x ROOM]. */
 static void change_jacobians(small_motions *s, double change[])
 {
     const double h = short_time(s);
@@ -353,8 +360,8 @@ static void add_rates(small_motions *s, const double change[])
     }
 }
 
-/* C, and the part of K of damping forces that a change of J causes; what their present size does is
- * part of the tangent. */
+/* Computes C, and the part of K that is due to the effect of a change of J on damping forces.
+ * The effect of the present damping forces is part of the tangent. */
 static status add_damping(small_motions *s, fault *f)
 {
     if (s->eq->run->damping != NULL)
@@ -372,7 +379,7 @@ static status add_damping(small_motions *s, fault *f)
     return STATUS_OK;
 }
 
-/* Stresses of the strains and their rates. */
+/* Computes the stresses from the strains and their rates. */
 static status make_compatible(const equations *eq, instant *now, fault *f)
 {
     const model *m = eq->m;
@@ -390,7 +397,7 @@ static status make_compatible(const equations *eq, instant *now, fault *f)
     return STATUS_OK;
 }
 
-/* K of stresses, damping stresses and loads at their present size. */
+/* Computes the part of K due to stresses, damping stresses and loads at their present size. */
 static status add_stiffness(small_motions *s, fault *f)
 {
     const equations *eq = s->eq;

@@ -16,7 +16,7 @@ typedef struct moving_element {
     double rate[MOST], acceleration[MOST];
 } moving_element;
 
-/* Gathers the data of the nodes; the acceleration includes damping times the rates. */
+/* Gathers the data of the nodes. The acceleration includes damping times the rates. */
 static void gather(const model *m, const mesh_element *el, const model_state *s, const double v[],
                    const double a[], double damping, moving_element *out)
 {
@@ -93,7 +93,7 @@ static void add_through(int columns, int at, const double B[], const double Q[9]
                 A[columns * i + at + 3 + j] += B[columns * i + at + k] * Q[3 * k + j];
 }
 
-/* As add_through, for rates that rotate with the node: dw = d x w. */
+/* As add_through, for rates that rotate with the node: dw = d x w, with rotations d. */
 static void add_turning(int columns, int at, const double B[], const double w[3], double A[])
 {
     for (int i = 0; i < columns; i++) {
@@ -116,9 +116,9 @@ static void cross_all(const double x[3], const double A[9], double out[9])
     }
 }
 
-/* For a node at rho from the body that moves it: v = v_b + w x rho, a = a_b + w' x rho + w x (w x
- * rho). Adds the terms with w and with rotations d of the body that are not in the Jacobian of the
- * rates. */
+/* For a node at rho from the body that moves it: v = v_b + w x rho, a = a_b + w' x rho + w x (w
+ * x rho). Adds the terms with w, and those with rotations d of the body that are not in the
+ * Jacobian of the rates. */
 static void carry(int n, int at, const moving_element *e, const double rho[3], const double M[],
                   double C[], double K[])
 {
@@ -205,8 +205,8 @@ void spread_element(const model *m, int element, const model_state *s, const dou
 
 static const double spread_one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* T[7 nodes x columns]: derivative of the motion of the nodes with respect to the coordinates of
- * the element; moves NULL: to spatial increments. */
+/* Computes T[7 nodes x columns], the derivative of the motion of the nodes with respect to the
+ * coordinates of the element. moves NULL: with respect to spatial increments. */
 static void wide_motion(const model *m, const spread_parts *p, const spread_motion moves[],
                         double T[MOST * MODEL_MAX_COORDINATES])
 {
@@ -320,7 +320,7 @@ void spread_place(const model *m, const spread_parts *p, spread_motion place[])
     }
 }
 
-/* Derivatives of the rates of the bodies with respect to their coordinates. */
+/* Computes the derivatives of the rates of the bodies with respect to their coordinates. */
 static void motions_of(const model *m, const mesh_element *el, const inertia_relation *with,
                        const spread_parts *p, spread_motion rates[])
 {
@@ -361,7 +361,7 @@ void spread_add_tangent(const equations *eq, const model_state *s, const double 
     }
 }
 
-/* The coordinate of a node moved by h. */
+/* Moves the coordinate of a node by h. */
 static void move_node(node_state *x, int coordinate, double h)
 {
     double turn[3] = {0, 0, 0}, q[4], R[9], turned[9];
@@ -378,8 +378,8 @@ static void move_node(node_state *x, int coordinate, double h)
         x->a += h;
 }
 
-/* D[n x n]: change of the forces at fixed rates in fixed axes, by differences of sixth order, in
- * the exponential chart; minus that of the element. */
+/* D[n x n]: the change of the forces at fixed rates in fixed axes, by finite differences of
+ * sixth order, in the exponential chart, minus the change that the element computes. */
 static void omitted(const model *m, int element, moving_element *e, double D[])
 {
     static const double weight[] = {0.75, -0.15, 1 / 60.0};

@@ -67,7 +67,7 @@ static void add_entry(void *S, int row, int column, double value)
     assemble_subtract(S, row, column, -value);
 }
 
-/* Computes dx from the equations of the present state. fresh 0: with the previous factors. */
+/* Computes dx from the equations of the present state. fresh 0: the previous factors are used. */
 static status direction(motion_stage *s, int fresh, double time, const stage_rates *r,
                         model_state *now, step_record *record, fault *f)
 {
@@ -145,7 +145,7 @@ struct complement {
         settled; /* size of the correction after which all elements agreed; 0: none in this step */
 };
 
-/* Does the stiffness C depend on the strains? */
+/* Returns 1 when the stiffness C depends on the strains. */
 static int curved(const model *m, const element_data *data, double length)
 {
     double e[MOST] = {0}, sigma[MOST], rest[MOST * MOST] = {0}, C[MOST * MOST] = {0};
@@ -202,7 +202,7 @@ void complement_keep(complement *c, const model_state *s)
                (size_t)(model_elements(c->m) * model_strains(c->m)) * sizeof *s->e);
 }
 
-/* Iteration of one element towards its target stresses. */
+/* Data of the iteration of one element towards its target stresses. */
 typedef struct complement_way {
     const equations *eq;
     const model *m;
@@ -211,8 +211,8 @@ typedef struct complement_way {
     double e[MOST], sigma[MOST], C[MOST * MOST]; /* P' and P'' at e */
 } complement_way;
 
-/* Distance that is small enough: below it, Newton's method converges as fast from the strains as
- * from the stresses. */
+/* Returns a distance that is small enough: below it, Newton's method converges as fast from the
+ * strains as from the stresses. */
 static double near_of(int n, const double sigma[])
 {
     double largest = 0;
@@ -221,7 +221,8 @@ static double near_of(int n, const double sigma[])
     return 0.1 * largest;
 }
 
-/* gap[n] = goal - sigma; returns the largest component, NAN if one is not finite. */
+/* Computes gap[n] = goal - sigma. Returns the magnitude of its largest component; NAN if a
+ * component is not finite. */
 static double gap_of(int n, const double goal[], const double sigma[], double gap[])
 {
     double sum = 0, largest = 0;
@@ -262,7 +263,7 @@ static int move(complement_way *w, double gap[])
     return 1;
 }
 
-/* Newton's method, as long as the corrections decrease. */
+/* Runs Newton's method as long as the corrections decrease. */
 static int arrive(complement_way *w, const double goal[])
 {
     enum { MOST_ITERATIONS = 8 };
@@ -306,9 +307,9 @@ static int follow(complement_way *w, const double goal[])
     return part >= shortest;
 }
 
-/* Target stresses for the strains of an element: the stresses of the state; with damping, the part
- * that depends on strains only: P'(e) + P''(e) de, with the strains e before the increment. NULL:
- * the element has no stresses at e. */
+/* Returns the target stresses for the strains of an element. They are the stresses of the state
+ * or, with damping, the part that depends on strains only: P'(e) + P''(e) de, with the strains e
+ * before the increment. NULL: the element has no stresses at e. */
 static const double *goal_of(const complement *c, const model_state *s, int element, double room[])
 {
     const model *m = c->m;
@@ -370,7 +371,7 @@ static void settled(const complement *c, const model_state *s, int count, const 
                                                 near_of(model_strains(m), goal[k]));
 }
 
-/* Updates the strains of elements [first, end); returns 1 when the stresses of all of them
+/* Updates the strains of elements [first, end). Returns 1 when the stresses of all of them
  * agree. */
 static int follow_stresses(const complement *c, model_state *s, int first, int end)
 {

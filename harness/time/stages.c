@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lists the free coordinates that the mass of a coordinate couples with it, in ascending order;
- * returns their number. */
+/* Lists the free coordinates to which mass couples a coordinate, in ascending order. Returns
+ * their number. */
 static int coupled(const model *m, const int frame_of[], const double warping[], int c, int list[6])
 {
     int count = 0;
@@ -25,8 +25,8 @@ static int coupled(const model *m, const int frame_of[], const double warping[],
     return count;
 }
 
-/* Fills the columns of stage k, one after the other; returns the number of entries. row NULL: only
- * counts. */
+/* Sets the columns of stage k, one after the other. Returns the number of entries. row NULL:
+ * only counts them. */
 static int fill(const equations *eq, const sparse *single, const int frame_of[],
                 const carried_masses *masses, stages_matrix *out, int *row)
 {
@@ -141,8 +141,8 @@ void stages_add(stages_matrix *s, int i, int k, int row, int column, double valu
     assemble_subtract(&s->whole, i * s->n + row, k * s->n + column, -value);
 }
 
-/* Rank of the positive semidefinite A[n x n], where values up to `none` count as zero; destroys A.
- */
+/* Returns the rank of the positive semidefinite A[n x n], where values up to `none` count as
+ * zero. Destroys A. */
 static int rank(int n, double A[], int used[], double none)
 {
     int rank = 0;
@@ -208,14 +208,14 @@ static double add_mass(const model *m, const carried_masses *all, int index, con
     return all->mass[index].mass;
 }
 
-/* First of the bodies that constraints join to the body that moves a vertex. */
+/* Returns the first of the bodies that constraints join to the body that moves a vertex. */
 static int first_of(const model *m, int vertex)
 {
     return model_first_joined(m, model_vertex(m, vertex)->body);
 }
 
 /* Adds an element with consistent mass: entries of the nodes that the body moves and of the ends
- * released from it, without their coupling with other nodes. A motion without mass in this block
+ * released from it, but not their coupling with other nodes. A motion without mass in this block
  * has no mass in the whole matrix. Returns the largest mass of a node. */
 static double add_element(const model *m, int element, int body, const model_state *s,
                           const body_mass *g)
@@ -279,7 +279,7 @@ double body_mass_of(const model *m, const carried_masses *all, int body, const m
     return largest;
 }
 
-/* Largest number of coordinates of one body, or of bodies that constraints join. */
+/* Returns the largest number of coordinates of one body, or of bodies that constraints join. */
 static int most_coordinates(const model *m, int count[])
 {
     int most = 0;

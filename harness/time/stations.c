@@ -9,8 +9,8 @@
 
 enum { PARTS = 5, BALL = 3 };
 
-/* Data of one coordinate in a step: its increment, and rates and their derivatives at both ends,
- * with the step size as unit of time. */
+/* Data of one coordinate in a step: its increment, and its rates and their derivatives at both
+ * ends. The unit of time is the step size. */
 typedef struct between_ends {
     double whole, rate[2], second[2];
 } between_ends;
@@ -58,7 +58,7 @@ static void put_plain(const step_between *b, int c, double whole, double h)
             whole, {h * from->v[c], h * to->v[c]}, {h * h * from->a[c], h * h * to->a[c]}});
 }
 
-/* Rates t' and t'' of the rotation vector t, from body rates W, W'. */
+/* Computes the rates t' and t'' of the rotation vector t from body rates W and W'. */
 static void vector_rates(const double t[3], const double W[3], const double Wd[3], double rate[3],
                          double second[3])
 {
@@ -72,7 +72,8 @@ static void vector_rates(const double t[3], const double W[3], const double Wd[3
     mat3_mul_vec(inverse, more, second);
 }
 
-/* Rotation vector during the step, in the axes of the vertex at the start of the step. */
+/* Computes the rotation vector during the step, in the axes of the vertex at the start of the
+ * step. */
 static void turn_of(const step_between *b, int vertex, double t[3])
 {
     double back[4], q[4];
@@ -159,7 +160,7 @@ void between_take(step_between *b, between_degree degree, const instant *from, c
         put_plain(b, model_warp(m, i), to->state->warp[i] - from->state->warp[i], h);
 }
 
-/* Body rates of rotations, from the rates of their vectors. */
+/* Computes the body rates of rotations from the rates of their vectors. */
 static void turn_rates(const step_between *b, int vertex, const double inc[], const double rate[],
                        const double second[], instant *at)
 {
@@ -228,7 +229,7 @@ static void between_places(const step_between *b, double time, instant *at)
 
 enum { SLOPE = 5 };
 
-/* Slope at x of the polynomial through values at 0.1, 0.3 .. 0.9. */
+/* Returns the slope at x of the polynomial through values at 0.1, 0.3, ..., 0.9. */
 static double slope_of(const double value[SLOPE], double x)
 {
     double sum = 0;
@@ -264,7 +265,8 @@ void between_at(const step_between *b, double time, instant *at)
     blend_elements(b, (time - b->from->time) / (b->to->time - b->from->time), at->state);
 }
 
-/* A station closer than this to the end of a step, relative to the step, counts as that end. */
+/* A station that is closer than this to the end of a step, relative to the step size, is taken
+ * as that end. */
 static const double same_instant = 1e-9;
 
 static int is_slope(const stations *s, int quantity)
@@ -273,8 +275,8 @@ static int is_slope(const stations *s, int quantity)
     return q->analysis == s->analysis && reading_is_slope(q);
 }
 
-/* Computes slopes at the stations of a step and at its end; the first step also gives those at time
- * 0. */
+/* Computes slopes at the stations of a step and at its end. The first step also gives the slopes
+ * at time 0. */
 static void take_slopes(stations *s, const instant *from, const instant *to)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
@@ -314,7 +316,7 @@ void stations_free(stations *s)
     instant_free(&s->at);
 }
 
-/* Time of the next station; INFINITY: none. */
+/* Returns the time of the next station; INFINITY: there is none. */
 static double next_of(const stations *s)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
@@ -338,7 +340,7 @@ static status keep(stations *s, const instant *at, const double balance[SCENE_BA
     return outcome_keep(&s->out->path, m, at->state, 1, next_of(s), f);
 }
 
-/* Do quantities at this station need more than positions and rates? */
+/* Returns 1 when quantities at this station need more than positions and rates. */
 static int reads_forces(const stations *s, double time)
 {
     const scene *what = s->c->scene;

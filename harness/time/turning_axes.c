@@ -1,5 +1,5 @@
-/* Small motions along axes that turn with angular velocity w: dx = R y, so that dx' = y' + w~ y and
- * dx'' = y'' + 2 w~ y' + (w'~ + w~ w~) y where R is 1. */
+/* Small motions along axes that rotate with angular velocity w: dx = R y, so that dx' = y' + w~
+ * y and dx'' = y'' + 2 w~ y' + (w'~ + w~ w~) y at the instant, where R is 1. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -8,7 +8,8 @@
 #include "cases/scene/scene.h"
 #include "elements/math/vec3.h"
 
-/* Three coordinates of a vertex that are a vector, and what R' and R'' do to it, in their axes. */
+/* Three coordinates of a vertex that form a vector, and the matrices of R' and R'' in their
+ * axes. */
 typedef struct turning_vector {
     int at[3];
     double once[9], twice[9];
@@ -17,7 +18,7 @@ typedef struct turning_vector {
 typedef struct turning_axes {
     const model *m;
     const outcome_about *about;
-    int node; /* SCENE_NONE: own axes */
+    int node; /* node whose axes are used; SCENE_NONE: each node's own axes */
 } turning_axes;
 
 static void skew(const double v[3], double A[9])
@@ -26,7 +27,7 @@ static void skew(const double v[3], double A[9])
     memcpy(A, all, sizeof all);
 }
 
-/* A in the axes of translations of a vertex. */
+/* Transforms A to the axes of the translations of a vertex. */
 static void in_own(const mesh_vertex *v, double A[9])
 {
     double half[9], along[9];
@@ -41,7 +42,7 @@ static void in_own(const mesh_vertex *v, double A[9])
             A[3 * i + k] = vec3_dot(&half[3 * i], &along[3 * k]);
 }
 
-/* 0: the vertex has no such vector. */
+/* Finds such a vector of a vertex. Returns 0 if the vertex has none. */
 static int vector_of(const turning_axes *t, int vertex, int turns, turning_vector *out)
 {
     const model *m = t->m;
@@ -68,7 +69,7 @@ static int vector_of(const turning_axes *t, int vertex, int turns, turning_vecto
     return 1;
 }
 
-/* Does a component that turns go with one that does not move freely? */
+/* Returns 1 when the rotation mixes a component of the vector with one that is not free to move. */
 static int is_tied(const turning_axes *t, int vertex, int turns, const turning_vector *v)
 {
     double size = 0;
@@ -91,7 +92,7 @@ static int is_tied(const turning_axes *t, int vertex, int turns, const turning_v
     return 0;
 }
 
-/* out += times A W */
+/* out += A W multiplied by `times` */
 static void add_product(const sparse *A, const int at[3], const double W[9], double times,
                         sparse *out)
 {
