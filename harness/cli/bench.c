@@ -1,4 +1,4 @@
-/* Error against run time: every formulation and mesh of the cases, timed in rounds on one
+/* Error as a function of run time: every formulation and mesh of the cases, timed in rounds on one
  * processor. */
 #include <stdio.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@ static int is_named(const bench_options *r)
     return r->of.line->arguments > 0 || r->of.scene != NULL;
 }
 
-/* The caller, answer, frees *b, also after a failure. */
+/* Measures the times. The caller, answer, frees *b, also after a failure. */
 static status measure(bench_options *r, bench *b, fault *f)
 {
     const bench_request asked = {.cases = r->of.line->argument,
@@ -54,7 +54,7 @@ static int answer(const command_line *l, void *request)
     return message_exit(outcome, &f);
 }
 
-/* Restarts the program with single-threaded libraries; `arguments` are those after the program's
+/* Restarts the program with single-threaded libraries. `arguments`: those after the program's
  * name. */
 static void before(char **arguments)
 {

@@ -9,7 +9,7 @@
 #include "harness/model/model.h"
 #include "harness/study/study.h"
 
-/* Tables are added to the packed reference values, which are in one file. */
+/* Tables are added to the packed reference values, which are all in one file. */
 static status read_either(const verb_option *o, void *member, const char *value, fault *f)
 {
     static const verb_option table = {"truths", .traits = OPTION_REPEATS | OPTION_INPUT};
@@ -82,7 +82,7 @@ status own_tables_findings(const text_list *tables, const case_type *const run[]
     return STATUS_OK;
 }
 
-/* Prints all errors, one per line; as JSON if that is the output format. */
+/* Prints all errors, one per line, or as JSON if that is the output format. */
 static void tell_mistakes(const command_line *l, const mistakes *m, status outcome, const fault *f)
 {
     const char *format = given_value(l, "format");
@@ -156,7 +156,7 @@ const case_type *case_input_scene(case_options *r)
         message_fail(STATUS_REFUSED, "a case and --scene were given; give one of them");
         return NULL;
     }
-    /* parameters set on the command line count instead of the defaults */
+    /* parameters set on the command line replace the defaults */
     const int code = read_by(r->set.count > 0 ? scene_file_read_form : scene_file_read, r->line,
                              r->scene_path, &r->scene);
     if (code == EXIT_AS_EXPECTED)
@@ -255,7 +255,7 @@ static status add_truths(const case_options *r, const truths_options *of, truths
                             : r->line->arguments == 1 ? case_find(r->name, f)
                                                       : NULL;
     if (r->scene != NULL)
-        truths_read_rules(packed, t, NULL); /* a scene does not need them */
+        truths_read_rules(packed, t, NULL); /* optional for a scene */
     if (r->scene != NULL)
         TRY(scene_truths_add(r->scene, r->parameter, t, f));
     else

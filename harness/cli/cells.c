@@ -12,7 +12,7 @@ static int cells_runs(const sweep *s, int index)
            s->point[one->point].status == STATUS_OK;
 }
 
-/* Cost of the cells of a series, in evaluations of an element. */
+/* Returns the cost of the cells of a series, in evaluations of an element. */
 static double cells_expense(const sweep *s, int index)
 {
     double all = 0;
@@ -138,8 +138,8 @@ void cells_keep(sweep *s, const char keep[])
     s->partial = s->unfinished > 0;
 }
 
-/* [s] estimated, on the reference machine; a small amount of work is cut into smaller batches, so
- * that every process gets some */
+/* [s] estimated cost of a batch on the reference machine. If there is little work, the batches are
+ * smaller, so that every process receives some. */
 static const double batch_most = 0.5, batch_least = 0.02, batch_share = 1.0 / 32;
 
 /* The sweep cut into batches. An item is a series that is run. */
@@ -148,10 +148,10 @@ typedef struct cut {
     truths *t; /* reference values, whose uncertainty decides whether scatter is measured */
     sweep *s;
     int items;
-    int *begin;   /* [items + 1] first series of each item; the last entry: number of series */
-    double *each; /* [items] cost */
+    int *begin; /* [items + 1] first series of each item; the last entry is the number of series */
+    double *each; /* [items] cost of each item */
     int *first;   /* [batches + 1] first item of each batch */
-    double *cost; /* [batches] */
+    double *cost; /* [batches] cost of each batch */
     shard_work w;
 } cut;
 
@@ -161,7 +161,8 @@ static void add_item(cut *c, int index, double cost)
     c->each[c->items++] = cost;
 }
 
-/* Series of a batch: first[0] to first[1] - 1, possibly including series that are not run. */
+/* Computes the series of a batch: from_to[0] to from_to[1] - 1. They may include series that are
+ * not run. */
 static void series_of(const cut *c, int batch, int from_to[2])
 {
     from_to[0] = c->begin[c->first[batch]];
@@ -174,7 +175,7 @@ static status compute(void *context, int batch, FILE *to, digest *content, fault
     int range[2];
     series_of(c, batch, range);
     sweep part = *c->s;
-    sweep_request alone = *c->request; /* runs in a separate process that ignores interrupts */
+    sweep_request alone = *c->request; /* it runs in a separate process that ignores interrupts */
     alone.jobs = alone.together = 1;
     alone.interruptible = 0;
     alone.progress = NULL;
@@ -220,7 +221,7 @@ static void sum_costs(int batches, const int first[], const double each[], doubl
     }
 }
 
-/* As deal_cut, also with the cost of each batch; returns the number of batches. */
+/* Like deal_cut, but also sets the cost of each batch. Returns the number of batches. */
 static int cut_items(int items, const double each[], int first[], double cost[])
 {
     double all = 0;
@@ -259,7 +260,8 @@ static status leave_out(const cut *c, const spread_end *end, fault *f)
     return STATUS_OK;
 }
 
-/* The caller, verification_work_run, frees the workspace, also after a failure. */
+/* Computes the shard or reads the batches. The caller, verification_work_run, frees the workspace,
+ * also after a failure. */
 static status spread(cut *c, const shard_options *r, identity_texts *texts, spread_end *out,
                      fault *f)
 {

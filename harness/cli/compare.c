@@ -7,10 +7,10 @@
 
 typedef struct compare_request {
     const char *output, *select, *threshold, *experiment;
-    int hash; /* 1: of stored runs */
+    int hash; /* 1: prints the hashes of stored runs */
 } compare_request;
 
-/* Exit statuses, as for diff. */
+/* Exit statuses, which are those of diff. */
 enum { SAME = 0, DIFFERS = 1, TROUBLE = 2 };
 
 static int trouble(const fault *f)
@@ -43,7 +43,7 @@ static void print_sums(const comparison *c)
     putchar('\n');
 }
 
-/* Prints a line for each group of series that exist in one run only and are not changes. */
+/* Prints a line for each group of series that exist in only one run and do not count as changes. */
 static void print_left(const command_line *l, const stored_results *run[2], const comparison *c)
 {
     const char *const path[] = {l->argument[0], l->argument[1]};
@@ -95,7 +95,7 @@ static int compare(const command_line *l, const compare_request *r, const stored
     return trouble(f);
 }
 
-/* Checks that a sweep is compared only with a sweep. */
+/* Checks that sweeps are compared only with sweeps. */
 static status check_sweeps(const command_line *l, const stored_results *before,
                            const stored_results *after, fault *f)
 {
@@ -113,7 +113,7 @@ static status check_sweeps(const command_line *l, const stored_results *before,
                      before->swept ? l->argument[1] : l->argument[0]);
 }
 
-/* Reads the runs to be compared or written; cli_compare frees them. */
+/* Reads the runs to be compared or written. cli_compare frees them. */
 static status read_runs(const command_line *l, const compare_request *r, comparison_limits *limits,
                         stored_results *before, stored_results *after, fault *f)
 {
@@ -132,7 +132,7 @@ static status read_runs(const command_line *l, const compare_request *r, compari
     return l->argument[1] == NULL ? write_table(r->output, before, f) : STATUS_OK;
 }
 
-/* Prints a line for each run; for two runs also whether they are equal. */
+/* Prints a line for each run and, for two runs, whether they are equal. */
 static int print_hashes(const command_line *l, const compare_request *r)
 {
     results_hash h[2] = {{.values = 0}};

@@ -28,8 +28,8 @@ static void offer_choices(const offer *o, const char *choices)
     }
 }
 
-/* The offer that starts after the last of the given characters in the word; without one, the same
- * offer. */
+/* Returns the offer that starts after the last of the given characters in the word. If the word has
+ * none of them, returns the same offer. */
 static offer offer_behind(const offer *o, const char *characters)
 {
     offer behind = *o;
@@ -52,7 +52,7 @@ static void names_formulations(const offer *o)
         offer_text(o, formulations_at(i)->name, formulations_at(i)->summary);
 }
 
-/* "NAME=" of a table, or after "NAME=" the choices. */
+/* Offers "NAME=" of a table or, after "NAME=", the choices. */
 static void offer_assignment(const offer *o, const parameter_type *p)
 {
     char name[100];
@@ -66,7 +66,8 @@ static void offer_assignment(const offer *o, const parameter_type *p)
     }
 }
 
-/* Does the option already occur in the text before the cursor, "name:mass=lumped,"? */
+/* Returns 1 if the option already occurs in the text before the cursor, such as
+ * "name:mass=lumped,". */
 static int is_given(const char *before, int length, const char *name)
 {
     const size_t size = strlen(name);
@@ -103,7 +104,7 @@ static void names_parameters(const offer *o, const case_type *type)
         offer_assignment(o, p);
 }
 
-/* Offers NAME= only for numbers. */
+/* Offers NAME= for numbers only. */
 static void names_numbers(const offer *o, const case_type *type)
 {
     const parameter_type *p;
@@ -133,8 +134,8 @@ static void offer_terms(const offer *o, const char *said, const glossary *g)
     }
 }
 
-/* Terms of `beamwork explain`. said: the words before the cursor, joined, which may be the
- * beginning of a term of several words. */
+/* Offers the terms of `beamwork explain`. said: the words before the cursor, joined; they may be
+ * the beginning of a term that consists of several words. */
 static void names_words(const offer *o, const char *said)
 {
     const truths_options usual = {.packed = NULL};
@@ -160,8 +161,8 @@ enum { SAID = 400 };
 typedef struct completion_reading {
     const verb *verb;
     const verb_option *open; /* option whose value is at the cursor; NULL: none */
-    int only_arguments;      /* after "--" */
-    const char *last;        /* last argument; NULL: none yet */
+    int only_arguments;      /* "--" was given */
+    const char *last;        /* last argument; NULL: there is none yet */
     int arguments;           /* number of arguments */
     const char *scene;       /* value of --scene */
     char said[SAID];         /* arguments, each followed by a blank */
@@ -206,7 +207,7 @@ static void read_word(completion_reading *r, const char *word)
     }
 }
 
-/* Offers terms; a term of several words may be given as several arguments or as one. */
+/* Offers terms. A term of several words may be given as several arguments or as one. */
 static void offer_words(const offer *o, const completion_reading *r)
 {
     const offer word = offer_behind(o, " ");
@@ -216,8 +217,8 @@ static void offer_words(const offer *o, const completion_reading *r)
     names_words(&word, said);
 }
 
-/* Upper-case words name kinds of arguments; other words are offered unchanged, "exec:COMMAND" up to
- * the colon. */
+/* Offers part of a description. Words in upper case name kinds of arguments; other words are
+ * offered unchanged, "exec:COMMAND" only up to the colon. */
 static void offer_part(const offer *o, const completion_reading *r, const char *part)
 {
     char word[40];
@@ -238,7 +239,8 @@ static void offer_part(const offer *o, const completion_reading *r, const char *
     }
 }
 
-/* "[cases|formulations|CASE]", "FILE...", "text|json|csv". */
+/* Offers what a description allows, such as "[cases|formulations|CASE]", "FILE..." or
+ * "text|json|csv". */
 static void offer_kinds(const offer *o, const completion_reading *r, const char *kinds)
 {
     static const char between[] = "[]|. ";

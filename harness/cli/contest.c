@@ -14,16 +14,16 @@
 
 enum { LEVELS = 8, LINE = 1000, NAMED = 2 * FORMULATION_KEY };
 
-/* A and B on all meshes of the case, and the requested errors. */
+/* Formulations A and B on all meshes of the case, and the requested errors. */
 typedef struct duel {
-    sweep s; /* with two series: A and B */
+    sweep s; /* has two series, A and B */
     truths t;
-    int levels, asked; /* number of levels; asked: those given by --error */
+    int levels, asked; /* number of levels; asked: number of levels given by --error */
     double level[LEVELS];
     char note[DEFAULTS_NOTE];
 } duel;
 
-/* A pair of meshes with which both meet an error, timed. */
+/* A pair of meshes on which both are within an error, and their times. */
 typedef struct bout {
     meeting at;
     int measured;
@@ -31,7 +31,7 @@ typedef struct bout {
     contest_clock answer;
 } bout;
 
-/* Skipped if a previous level led to the same meshes. */
+/* Measures a pair, unless a previous level led to the same meshes. */
 static status measure(const duel *d, const bench_options *r, const bout *former, int formers,
                       bout *m, fault *f)
 {
@@ -50,7 +50,7 @@ static status measure(const duel *d, const bench_options *r, const bout *former,
     return contestant_compete(&m->one[0], &m->one[1], &m->answer, f);
 }
 
-/* "NAME n = 4 (0.31 ms, largest error 0.021 %)". */
+/* Writes text such as "NAME n = 4 (0.31 ms, largest error 0.021 %)". */
 static void put(char out[NAMED], const bout *m, int i)
 {
     char error[ROUNDING_TEXT];
@@ -92,7 +92,7 @@ static void show_meeting(const duel *d, double level, const bout *m)
     paragraph_write(stdout, at, 4, line);
 }
 
-/* Lists deviations that do not decrease with more elements. */
+/* Lists the deviations that do not decrease with more elements. */
 static void show_defects(const duel *d)
 {
     for (int i = 0; i < 2; i++)
@@ -168,7 +168,8 @@ static void show_json(const duel *d, const bout m[])
     json_decref(root);
 }
 
-/* Requested levels, or those of reach_level that both meet; returns their number. */
+/* Chooses the requested levels, or the levels of reach_level that both meet, and returns their
+ * number. */
 static int choose_levels(duel *d, bout m[LEVELS])
 {
     for (int i = 0; i < REACH_LEVELS && d->asked == 0; i++) {
@@ -213,7 +214,7 @@ static status compare(duel *d, const bench_options *r, fault *f)
     return STATUS_OK;
 }
 
-/* REFUSED: one of the two is another model, so that its errors are not those of its elements. */
+/* REFUSED: one of the two is a different model, so that its errors are not due to its elements. */
 static status check_models(const sweep *s, fault *f)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -226,7 +227,8 @@ static status check_models(const sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* The caller, against_error, frees *d, also after a failure. */
+/* Runs the comparison at equal errors. The caller, against_error, frees *d, also after a
+ * failure. */
 static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
 {
     const sweep_request request = {.jobs = r->jobs,
@@ -276,7 +278,8 @@ static void show_pair(const bench_options *r, const sweep_point *p, const contes
     json_decref(root);
 }
 
-/* Returns the parameter point at which both are run. The caller frees the scene that it built. */
+/* Returns the parameter point at which both are run. The caller frees the scene, which it has
+ * built. */
 static sweep_point point_of(const bench_options *r, const case_type *type, const scene *s)
 {
     sweep_point p = {.type = type, .scene = *s, .status = STATUS_OK};
@@ -284,8 +287,8 @@ static sweep_point point_of(const bench_options *r, const case_type *type, const
     return p;
 }
 
-/* Compares with another build at equal n. Both are run as programs, so that both start alike.
- * against_meshes frees the scene. */
+/* Compares with another build at the same number of elements. Both are run as programs, so that
+ * they start in the same way. against_meshes frees the scene. */
 static status against_program(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;
@@ -316,7 +319,7 @@ static status compete(const bench_options *r, const case_type *type, scene *s, f
     return STATUS_OK;
 }
 
-/* Compares with given meshes for A and B. */
+/* Compares A and B on given meshes. */
 static status against_meshes(bench_options *r, const case_type *type, int is_program, fault *f)
 {
     scene s = {0};

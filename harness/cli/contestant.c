@@ -50,7 +50,7 @@ static status lap_here(contestant *c, double *seconds, fault *f)
             return outcome;
     }
     const double end = start + (1 + c->slowdown) * (clock_processor_seconds() - start);
-    do /* injected work */
+    do /* added work */
         *seconds = clock_processor_seconds() - start;
     while (start + *seconds < end);
     return STATUS_OK;
@@ -109,7 +109,7 @@ static status set_repeats(contestant *a, contestant *b, fault *f)
 {
     double first = 0, second = 0;
     a->repeats = b->repeats = 1;
-    for (int i = 0; i < 2; i++) { /* the first lap warms up */
+    for (int i = 0; i < 2; i++) { /* the first lap serves as warm-up */
         TRY(lap(a, &first, f));
         TRY(lap(b, &second, f));
     }
@@ -174,7 +174,7 @@ status contestant_compete(contestant *a, contestant *b, contest_clock *out, faul
     return against_run(lap, a, b, budget_seconds, out, f);
 }
 
-/* Prints name and time; a long name gets its own line. */
+/* Prints the name and the time. A long name has its own line. */
 static void show_one(char letter, const contestant *c, double seconds)
 {
     int at = printf("%c  ", letter);
@@ -206,7 +206,7 @@ static void show_work(const contestant *a, const contestant *b)
     paragraph_end(&words, at, 2);
 }
 
-/* Why the two are not ranked; "" if they are. */
+/* Returns the reason why the two are not ranked; "" if they are. */
 static const char *unranked(const contestant *a, const contestant *b)
 {
     const char *why = reach_unranked(a->request.formulation);

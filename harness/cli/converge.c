@@ -11,7 +11,7 @@ typedef struct converge_request {
     mesh_list meshes;
     truths_options truths;
     const char *select, *output, *format;
-    double error; /* 0: not given */
+    double error; /* 0: no error was given */
     int jobs, verbose;
 } converge_request;
 
@@ -22,7 +22,7 @@ static void tell(const converge_request *r, const sweep *s)
     case_input_tell_analysis(&r->of, &s->point[0].scene);
 }
 
-/* The caller, answer, frees *c, also after a failure. */
+/* Runs the study. The caller, answer, frees *c, also after a failure. */
 static status converge(converge_request *r, const case_type *type, convergence *c, fault *f)
 {
     const convergence_request asked = {
@@ -45,7 +45,7 @@ static status converge(converge_request *r, const case_type *type, convergence *
     return experiment_run(&experiment_converge, &asked, &to, c, f);
 }
 
-/* Does any cell have a solution? */
+/* Returns 1 if any cell has a solution. */
 static int has_solution(const sweep *s)
 {
     int found = 0;

@@ -24,7 +24,7 @@ typedef struct dictionary {
     truths ledger;
 } dictionary;
 
-/* "see also: a, b". */
+/* Prints a list such as "see also: a, b". */
 static void list_further(const char *head, const char *list)
 {
     char word[GLOSSARY_WORD], line[1024] = "";
@@ -77,7 +77,7 @@ static int explain_case(const char *word)
     return 0;
 }
 
-/* Prints which inputs of a scene each kind of analysis uses. Returns 0 for another word. */
+/* Prints the inputs of a scene that each kind of analysis uses. Returns 0 for any other word. */
 static int explain_inputs(const char *word)
 {
     if (!glossary_same("inputs", word))
@@ -101,7 +101,7 @@ static int explain_inputs(const char *word)
     return 1;
 }
 
-/* The rule to which a cause "the same" refers: the last previous rule with a cause. */
+/* Returns rule i or, if its cause is "the same", the last previous rule with its own cause. */
 static const rule *said_before(const truths *ledger, int i)
 {
     while (i > 0 && strncmp(ledger->rule[i].cause, "the same", 8) == 0)
@@ -208,7 +208,7 @@ static void add_names(const dictionary *d, name_list *l)
         add_name(l, d->ledger.rule[k].name);
 }
 
-/* Name that differs from `word` in at most two letters (one, for short words), or NULL. */
+/* Returns a name that differs from `word` in at most two letters (one for short words), or NULL. */
 static const char *misspelt(const name_list *l, const char *word)
 {
     char a[GLOSSARY_WORD], b[GLOSSARY_WORD];
@@ -226,7 +226,7 @@ static const char *misspelt(const name_list *l, const char *word)
     return nearest;
 }
 
-/* Does `text` contain `word` as a whole word? Ignores case. */
+/* Returns 1 if `text` contains `word` as a whole word. Ignores case. */
 static int contains(const char *text, const char *word)
 {
     char all[2048];
@@ -240,7 +240,8 @@ static int contains(const char *text, const char *word)
     return 0;
 }
 
-/* Adds to `line` entries that have `word` in their names (where = 0) or their text (1). */
+/* Appends to `line` the entries that contain `word` in their names (where = 0) or in their text
+ * (where = 1). */
 static void add_related(const glossary *g, const char *word, int where, int *count, char *line,
                         size_t size)
 {

@@ -17,8 +17,8 @@ typedef struct export_request {
 
 enum { DEFAULT_ELEMENTS = 20 };
 
-/* Name of the scene in the deck, in the form that import reads: case, or full path of a scene file;
- * parameters that differ from their defaults. */
+/* Writes the name of the scene in the deck, in the form that import reads: the case or the full
+ * path of the scene file, and the parameters that differ from their defaults. */
 static void name_of(const export_request *r, const case_type *type, char *text, size_t size)
 {
     char parameters[PARAMETERS_TEXT], path[PATH_MAX];
@@ -36,7 +36,7 @@ static status write_deck(const export_request *r, const deck_request *deck, faul
     return output_finish(&file, deck_write(deck, file.stream, f), f);
 }
 
-/* The caller, answer, frees the scene, also after a failure. */
+/* Writes the deck. The caller, answer, frees the scene, also after a failure. */
 static status export(const export_request *r, const case_type *type, scene *s, fault *f)
 {
     char of[PARAMETERS_TEXT + PATH_MAX];

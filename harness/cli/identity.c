@@ -16,7 +16,7 @@ static void name_build(char *out, size_t size)
              e.commit);
 }
 
-/* Joins all words with blanks; a text that is too long ends with its digest. */
+/* Joins all words with blanks. A text that is too long ends with its digest. */
 static void name_request(const json_t *words, char out[IDENTITY_TEXT])
 {
     enum { KEPT = IDENTITY_TEXT - 2 * DIGEST_TEXT };
@@ -38,7 +38,7 @@ static void name_request(const json_t *words, char out[IDENTITY_TEXT])
         snprintf(out + KEPT, IDENTITY_TEXT - KEPT, " ... %s", hash);
 }
 
-/* Forms of file names: as given, absolute, or without the folder. */
+/* Forms in which file names are written: as given, absolute, or without the folder. */
 typedef enum path_form { PATHS_GIVEN, PATHS_ABSOLUTE, PATHS_LEAVES } path_form;
 
 static void add_path(json_t *to, const char *path, path_form form)
@@ -52,7 +52,7 @@ static void add_path(json_t *to, const char *path, path_form form)
     json_array_append_new(to, json_string(path));
 }
 
-/* For files adds their paths; commands have none. */
+/* Adds the paths of files; commands have none. */
 static void add_given(json_t *to, const given_option *g, path_form form)
 {
     char text[160];
@@ -66,7 +66,7 @@ static void add_given(json_t *to, const given_option *g, path_form form)
         add_path(to, value, file ? form : PATHS_GIVEN);
 }
 
-/* Everything that results depend on, in the fixed order of the verb's options. Excludes the
+/* Lists everything on which results depend, in the fixed order of the verb's options. Excludes the
  * destinations and formats of results, and the number of processes. */
 static json_t *words_of(const command_line *l, path_form form)
 {
@@ -91,7 +91,7 @@ static status add_file(const void *context, const char *path, fault *f)
                : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
 }
 
-/* Built-in reference values count only for built-in cases. */
+/* Adds the files. Built-in reference values are included only for built-in cases. */
 static status add_files(digest *plan, const command_line *l, fault *f)
 {
     const truths_options usual = {.packed = NULL};

@@ -1,4 +1,4 @@
-/* Verb list: cases and formulations; for one formulation its supported features, limitations and
+/* Verb list: cases and formulations; for one formulation, its supported features, limitations and
  * known deviations. */
 #include <float.h>
 #include <stdio.h>
@@ -17,15 +17,15 @@ enum { COLUMN = 26, LINE = 4000 };
 
 static const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX;
 
-/* Prints a text with its continuation lines indented by two more. */
+/* Prints a text whose continuation lines are indented by two more columns. */
 static void hang(int indent, const char *text)
 {
     const int word = (int)strcspn(text, " ");
     paragraph_write(stdout, printf("%*s%.*s ", indent, "", word, text), indent + 2, text + word);
 }
 
-/* Reads a declared field of a formulation, as in result files; returns its number, *out its text.
- */
+/* Reads a declared field of a formulation, as in result files. Returns its number and sets *out to
+ * its text. */
 static long declared(const formulation *chosen, const char *name, field_value *out)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -126,7 +126,7 @@ static void show_rules(const formulation *chosen, const rule *rules, int count)
         printf("known deviations: none\n");
 }
 
-/* Prints all entries of one kind with the same explanation as the first, as one group. */
+/* Prints all entries of one kind with the same explanation as entry `first` as one group. */
 static void show_alike(const runs_on all[], int count, int first, const char *head)
 {
     char line[LINE];
@@ -229,7 +229,7 @@ static void list_offer(const scene *s, const element_type *type)
         printf("runs\n");
 }
 
-/* "what it is (range)". */
+/* Prints a description and a range: "what it is (range)". */
 static void list_parameter(const parameter_type *p)
 {
     char value[ASSIGNMENT_VALUE], text[400];
@@ -283,7 +283,7 @@ static int list_case(const case_type *type)
     return message_exit(outcome, &f);
 }
 
-/* Reads the list of known deviations, if it exists. */
+/* Reads the list of known deviations if it exists. */
 static void read_ledger(const list_request *r, truths *ledger)
 {
     memset(ledger, 0, sizeof *ledger);
@@ -325,7 +325,8 @@ static status write_json(const list_subject *what, const truths *ledger, fault *
     return list_json_all(stdout, what->cases, what->formulations, f);
 }
 
-/* The file of known deviations also lists which formulations count towards the exit status. */
+/* Writes JSON. The file of known deviations also lists the formulations that affect the exit
+ * status. */
 static int show_json(const list_request *r, const list_subject *what)
 {
     truths ledger;

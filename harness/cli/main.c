@@ -8,7 +8,7 @@
 
 #include "harness/cli/cli.h"
 
-/* Not inlined, so that it uses the stack only after its size has been checked. */
+/* Not inlined, so that it uses the stack only after the stack size has been checked. */
 static __attribute__((noinline)) int run(int count, char **arguments)
 {
     return verb_table_run(count, arguments);
@@ -43,8 +43,8 @@ int main(int count, char **arguments)
         refuse_stack();
     ending_begin();
     gsl_set_error_handler_off();
-    /* beamwork closes all HDF5 objects itself, and the exit handler of HDF5 crashes or prints many
-     * lines if memory ran out */
+    /* beamwork closes all HDF5 objects itself; the exit handler of HDF5 crashes or prints many
+     * lines if memory has run out */
     H5dont_atexit();
     /* exceeding the file size limit then becomes a write error, reported in one line */
     signal(SIGXFSZ, SIG_IGN);

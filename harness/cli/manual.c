@@ -11,7 +11,7 @@
 
 enum { WIDTH = 78 };
 
-/* Writes text literally; characters that formatters would change are escaped. Returns the number of
+/* Writes text literally and escapes characters that formatters would change. Returns the number of
  * characters written. */
 static int write_escaped(FILE *to, const char *text, size_t length)
 {
@@ -52,7 +52,7 @@ void roff_text(FILE *to, const char *text)
     fputc('\n', to);
 }
 
-/* One argument after a macro, with a blank before it, escaped. */
+/* Writes one argument after a macro, with a blank before it, escaped. */
 static void roff_argument(FILE *to, const char *text)
 {
     fputs(" \"\\&", to);
@@ -60,7 +60,7 @@ static void roff_argument(FILE *to, const char *text)
     fputc('"', to);
 }
 
-/* A line inside .Bd -literal. */
+/* Writes a line inside .Bd -literal. */
 static void roff_literal(FILE *to, const char *line, size_t length)
 {
     write_word(to, line, length);
@@ -78,7 +78,7 @@ static void write_date(FILE *to, const char *released)
     fprintf(to, ".Dd %s\n", text);
 }
 
-/* Header of a page: ".Dd" to ".Nd". name: "beamwork-solve"; about: one line. */
+/* Writes the header of a page, ".Dd" to ".Nd". name: such as "beamwork-solve"; about: one line. */
 static void roff_page(FILE *to, const char *name, int chapter, const char *about)
 {
     const environment e = environment_now(1);
@@ -204,7 +204,7 @@ static int takes(const verb *v, const char *name)
     return o != NULL;
 }
 
-/* References to related pages. */
+/* Writes the references to related pages. */
 static void write_references(FILE *to, const verb *v)
 {
     roff_reference list[4] = {{"beamwork", 1}};
@@ -253,7 +253,8 @@ static void close_to(keys *k, int depth)
         fprintf(k->to, ".El\n");
 }
 
-/* Uses one list per depth; the list of lower keys is inside the item of the key above them. */
+/* Writes a key. Each depth has one list; the list of lower keys is inside the item of the key above
+ * them. */
 static void write_key(void *context, int depth, const char *name, const char *form,
                       const char *text)
 {
@@ -276,7 +277,7 @@ static void write_keys(FILE *to, void list(key_list_take *, void *))
     close_to(&k, 0);
 }
 
-/* Example: a leaf spring in ten lines. */
+/* An example: a leaf spring in ten lines. */
 static const char example[] =
     "beamwork: 1\n"
     "sections:\n"

@@ -1,5 +1,5 @@
-/* Merges batches of shards: repeats the command of the verb that made them, which then reads the
- * batches. */
+/* Merges the batches of shards: repeats the command of the verb that computed them, which then
+ * reads the batches. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,13 +8,13 @@
 #include "harness/cli/cli.h"
 #include "harness/experiments/experiments.h"
 
-enum { MOST = 1024 }; /* arguments */
+enum { MOST = 1024 }; /* largest number of arguments */
 
 /* The command line that computed the batches, repeated. */
 typedef struct again {
     int count;
     char *argument[MOST + 1]; /* "beamwork", the verb, ..., NULL; their order may change */
-    char *owned[MOST + 1];    /* strings owned here, which again_free releases */
+    char *owned[MOST + 1];    /* strings that this structure owns; again_free releases them */
 } again;
 
 static status add(again *out, const char *text, fault *f)
@@ -27,7 +27,7 @@ static status add(again *out, const char *text, fault *f)
     return STATUS_OK;
 }
 
-/* Uses the absolute path if the file still exists. */
+/* Returns the absolute path if the file still exists, otherwise the given path. */
 static const char *choose(const char *absolute, const char *given)
 {
     return strcmp(absolute, given) != 0 && access(absolute, F_OK) == 0 ? absolute : given;
@@ -77,8 +77,8 @@ static status add_all(const batch_label *label, const command_line *l, again *ou
 }
 
 /* Reads the request from the first batch of the first folder, and adds --from for all folders and
- * the outputs of this request. REFUSED: there are no batches; FAULT: out of memory, or a file
- * cannot be read. Call again_free also after a failure. */
+ * the outputs of this request. REFUSED: there are no batches. FAULT: out of memory, or a file
+ * cannot be read. again_free must be called also after a failure. */
 static status again_make(const command_line *l, again *out, fault *f)
 {
     batch_label label;

@@ -49,7 +49,7 @@ void message_refuse(const char *text)
     exit(message_fail(STATUS_REFUSED, text));
 }
 
-static pid_t program; /* the process to which the handlers apply; children end without them */
+static pid_t program; /* process to which the handlers apply; child processes end without them */
 
 static void say(const char *text)
 {
@@ -95,8 +95,8 @@ static void ended(int code, void *unused)
     _exit(EXIT_FAULT);
 }
 
-/* Sets the handler only in place of the default one, because a sanitizer, or a parent that ignores
- * the signal, may have set another. */
+/* Replaces only the default handler, because a sanitizer, or a parent process that ignores the
+ * signal, may have set another one. */
 static void attend(int number, void (*handler)(int))
 {
     struct sigaction action, before;
@@ -266,7 +266,7 @@ static void report_former(const verb_option *o, const char *word)
                 was, o->name);
 }
 
-/* *more: 1 if the next argument is the value. */
+/* Checks a word. *more: 1 if the next argument is the value of its option. */
 static status check_word(const verb *v, const verb *const *verbs, const char *word, int last,
                          int *more, fault *f)
 {
@@ -289,8 +289,8 @@ static status check_word(const verb *v, const verb *const *verbs, const char *wo
                : STATUS_OK;
 }
 
-/* Checks the whole command line first: unknown options and missing values are reported in one line,
- * with the nearest name. */
+/* Checks the whole command line first. Unknown options and missing values are reported in one line,
+ * together with the nearest name. */
 static status check_options(const verb *v, const verb *const *verbs, int count,
                             char *const argument[], fault *f)
 {
@@ -303,7 +303,7 @@ static status check_options(const verb *v, const verb *const *verbs, int count,
     return STATUS_OK;
 }
 
-/* As in argp, but reports an output that cannot be written. */
+/* Prints the usage as argp does, but reports an output that cannot be written. */
 static void show_usage(const struct argp_state *state)
 {
     argp_state_help(state, stdout, ARGP_HELP_USAGE & ~(unsigned)ARGP_HELP_EXIT_ERR);
@@ -317,8 +317,8 @@ static void add_argument(command_line *l, const char *text)
     l->argument[l->arguments++] = text;
 }
 
-/* An option with a single value may be given once; lists (-f, -n, --set) and switches may be
- * repeated. */
+/* Adds an option. An option with a single value may be given only once; lists (-f, -n, --set) and
+ * switches may be repeated. */
 static void add_given(command_line *l, const verb_option *o, const char *value)
 {
     char text[160];
@@ -360,7 +360,7 @@ static error_t take(int key, char *value, struct argp_state *state)
         fprintf(stderr,
                 "beamwork: -%c is --%s now; the letter will be removed in the next version\n", key,
                 o->name);
-    if (o == NULL || o == verb_help) { /* the letter -? too */
+    if (o == NULL || o == verb_help) { /* includes the letter -? */
         help_write(stdout, v);
         exit(message_finish(EXIT_AS_EXPECTED));
     } else if (o == verb_help + 1)
@@ -370,7 +370,7 @@ static error_t take(int key, char *value, struct argp_state *state)
     return 0;
 }
 
-/* Options in the form of argp; letters and former names are aliases of an option. */
+/* Adds an option in the form of argp. Letters and former names are aliases of the option. */
 static int add_row(struct argp_option row[], int n, const verb_option *o, int index)
 {
     const char *was = verb_former_name(o);

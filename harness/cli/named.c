@@ -15,7 +15,7 @@ void named_add(chosen_formulations *o, const char *text)
         message_refuse(f.text);
 }
 
-/* element-test: limit of one part */
+/* for element-test: limit of one part */
 static void begin(void *group, command_line *l)
 {
     chosen_formulations *o = group;
@@ -29,7 +29,7 @@ static status load(const char *element, fault *f)
     return formulations_add(type, element, f);
 }
 
-/* Applies the time limit, now that it is known, to the first answer of a process. */
+/* Applies the time limit, which is known only now, to the first answer of a process. */
 static status end(void *group, command_line *l, fault *f)
 {
     chosen_formulations *o = group;
@@ -82,7 +82,7 @@ solution_request defaults_request(const defaults *d)
     return out;
 }
 
-/* Adds a line to the note. */
+/* Appends a line to the note. */
 static void add_note(char note[DEFAULTS_NOTE], const char *choice, const char *why,
                      const char *option)
 {

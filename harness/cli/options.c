@@ -11,8 +11,8 @@
 #include "harness/numerics/numerics.h"
 #include "harness/records/records.h"
 
-/* Letters of version 0.1. They are accepted until the next version, with a note on the new names.
- */
+/* Letters of version 0.1. They are accepted until the next version, with a note on the new
+ * names. */
 static const struct {
     char letter;
     const char *name;
@@ -34,7 +34,7 @@ static const struct {
               {'u', "integrator"}, {'a', "step"},           {'3', "conservation-only"},
               {'1', "expected"}};
 
-/* Names of version 0.2. They are accepted until the next version, with a note on the new ones. */
+/* Names of version 0.2. They are accepted until the next version, with a note on the new names. */
 static const struct {
     const char *was, *name;
 } renamed[] = {{"keep-all", "all-dofs"},           {"beside", "imported"},
@@ -48,7 +48,8 @@ const verb_option verb_help[] = {
     {"usage", 0, NULL, "a short list of the options", .traits = OPTION_ASIDE},
     {0}};
 
-/* Option i of an array; if i is too large, reduces it by the number of options. */
+/* Returns option i of an array. If i is too large, reduces it by the number of options and returns
+ * NULL. */
 static const verb_option *among(const verb_option *list, int *i)
 {
     for (; list != NULL && list->name != NULL; list++)
@@ -80,7 +81,8 @@ const char *verb_former_name(const verb_option *o)
     return NULL;
 }
 
-/* Returns 2 if `name` equals the text of this length, 1 if it begins with it, otherwise 0. */
+/* Returns 2 if `name` equals the text of this length, 1 if `name` begins with the text, otherwise
+ * 0. */
 static int match_name(const char *name, const char *text, size_t length)
 {
     if (name == NULL || strncmp(name, text, length) != 0)
@@ -218,7 +220,7 @@ status option_take(const verb_option *o, void *member, const char *value, fault 
     return STATUS_OK;
 }
 
-/* Reads one entry of the list; returns the position after it, NULL: invalid. */
+/* Reads one entry of the list. Returns the position after it; NULL: the entry is invalid. */
 static const char *parse_one(const char *at, double *out)
 {
     char *end;
@@ -386,7 +388,7 @@ static status check_pair(const named_place *a, const named_place *b, fault *f)
 
 static status find_scenes(const char *folder, glob_t *found, fault *f)
 {
-    /* characters of the folder's name are not wildcards */
+    /* escapes the folder's name, whose characters are not wildcards */
     char *pattern = malloc(2 * strlen(folder) + sizeof "/*.yaml"), *at = pattern;
     if (pattern == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for scene files");
@@ -421,7 +423,7 @@ static status visit_command(const char *command, file_visit *visit, const void *
     char **word;
     struct stat there;
     if (words_split(command, &word, NULL) != STATUS_OK)
-        return STATUS_OK; /* reported when it is loaded */
+        return STATUS_OK; /* an error is reported when the file is loaded */
     status outcome = STATUS_OK;
     for (int i = 0; word[i] != NULL && outcome == STATUS_OK; i++)
         if (stat(word[i], &there) == 0 && S_ISREG(there.st_mode))
@@ -441,7 +443,7 @@ status files_named(const char *input, file_visit *visit, const void *context, fa
                : visit(context, input, f);
 }
 
-/* Checks arguments, which are files or names. */
+/* Checks the arguments, which are files or names. */
 static status check_arguments(const named_place *out, const command_line *l, fault *f)
 {
     const int read =

@@ -23,12 +23,12 @@ typedef struct plot_request {
 enum { INSTANTS = 300, STATES = 20, COULD_NOT = 4 }; /* COULD_NOT: as in reports/graph.py */
 
 static const char python[] = "/usr/bin/python3";
-/* Isolated from the environment, as for beamwork-report. */
+/* Starts the plotting program isolated from the environment, as for beamwork-report. */
 static const char begin_program[] =
     "import runpy, sys; sys.path.insert(0, sys.argv.pop(1)); "
     "runpy.run_module('reports.graph', run_name='__main__', alter_sys=True)";
 
-/* Does a quantity of the analysis depend on the given stations? */
+/* Returns 1 if a quantity of the analysis depends on the given stations. */
 static int takes_stations(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++)
@@ -37,7 +37,8 @@ static int takes_stations(const scene *s, int analysis)
     return 0;
 }
 
-/* Replaces the stations of a path by equal parts from begin to end, with or without begin. */
+/* Replaces the stations of a path by the ends of equal parts from begin to end, with or without
+ * begin. */
 static status divide(scene_path *path, double begin, double end, int parts, int first, fault *f)
 {
     double *more = realloc(path->value, ((size_t)parts + 1) * sizeof *more);
@@ -50,8 +51,8 @@ static status divide(scene_path *path, double begin, double end, int parts, int 
     return STATUS_OK;
 }
 
-/* Motions are read at many stations, which does not change their steps; static paths with one
- * station get more stations. */
+/* Adds stations. Motions are read at many stations, which does not change their steps; a static
+ * path with one station is given more stations. */
 static status read_densely(scene *s, int analysis, fault *f)
 {
     scene_analysis *a = &s->analysis[analysis];
@@ -66,7 +67,7 @@ static status read_densely(scene *s, int analysis, fault *f)
                   path->value[path->stations - 1], INSTANTS, later, f);
 }
 
-/* Adds the phase of an amplitude, as in a Bode diagram, unless the scene has it. */
+/* Adds the phase of an amplitude, as in a Bode diagram, unless the scene already has it. */
 static status add_phase(scene *s, int quantity, fault *f)
 {
     const scene_quantity *q = &s->quantity[quantity];
@@ -122,7 +123,7 @@ static int make_curve(scene *s, scene_quantity *q)
     return 0;
 }
 
-/* Removes envelopes of other quantities, which are about to become curves. */
+/* Removes envelopes of other quantities, because these quantities become curves. */
 static void drop_envelopes(scene *s)
 {
     int kept = 0;
@@ -134,7 +135,7 @@ static void drop_envelopes(scene *s)
     s->quantities = kept;
 }
 
-/* Keeps the quantities that can be drawn, as curves. */
+/* Keeps the quantities that can be drawn and makes them curves. */
 static status make_curves(scene *s, fault *f)
 {
     int kept = 0;
@@ -160,8 +161,8 @@ static status make_curves(scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Solves with one formulation and appends the solution. The caller, draw_from, frees *s and *why.
- */
+/* Solves with one formulation and appends the solution. The caller, draw_from, frees *s and
+ *why. */
 static status solve_one(const plot_request *r, const case_type *type, int index, sweep *s,
                         solution_choice *why, FILE *to, fault *f)
 {
@@ -182,7 +183,7 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
                               .meshes = &meshes,
                               .truths = &usual};
     TRY(defaults_fill(&missing, note, why, f));
-    solution_choice_free(why); /* its results are values, not curves */
+    solution_choice_free(why); /* it contains values, not curves */
     const solution_request what = defaults_request(&missing);
     TRY(solution_plan(&what, s, f));
     TRY(make_curves(&s->point[0].scene, f));
@@ -199,7 +200,8 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
     return json_write_solution(to, s, &none, f);
 }
 
-/* Solves with all formulations; of several, one that cannot be solved is reported and skipped. */
+/* Solves with all formulations. If there are several, one that cannot be solved is reported and
+ * skipped. */
 static status solve_all(const plot_request *r, const case_type *type, FILE *to, fault *f)
 {
     status outcome = STATUS_OK;
@@ -223,7 +225,7 @@ static status solve_all(const plot_request *r, const case_type *type, FILE *to, 
                            "a temporary file cannot be written (is the disk full?)");
 }
 
-/* Runs in the child process. */
+/* Becomes the plotting program in the child process. */
 static void become(int from, int to, const char *folder, const char *form)
 {
     if (dup2(from, STDIN_FILENO) >= 0 && dup2(to, STDOUT_FILENO) >= 0)
@@ -231,7 +233,7 @@ static void become(int from, int to, const char *folder, const char *form)
     _exit(127);
 }
 
-/* Draws the solutions in the file; the plotting program prints its own messages. */
+/* Draws the solutions in the file. The plotting program prints its own messages. */
 static status draw(FILE *solutions, const char *folder, const char *form, FILE *picture, fault *f)
 {
     int how = -1;
@@ -260,11 +262,11 @@ static const char *form_of(const char *path, fault *f)
     return NULL;
 }
 
-/* Folder of the package reports. */
+/* Finds the folder of the package reports. */
 static status find_reports(char folder[PATH_MAX], fault *f)
 {
     char script[PATH_MAX];
-    TRY(derive_script("../../reports/graph.py", script, f)); /* beside the reference values */
+    TRY(derive_script("../../reports/graph.py", script, f)); /* next to the reference values */
     if (access(script, R_OK) != 0 || realpath(script, folder) == NULL)
         return fault_set(f, STATUS_FAULT,
                          "%.200s: the plotting program was not found; run from a clone or an "

@@ -1,4 +1,4 @@
-/* Verb schema: contents of result files, from the tables that write them. */
+/* Verb schema: contents of result files, described by the tables that write them. */
 #include <stdio.h>
 #include <string.h>
 
@@ -31,8 +31,8 @@ const char *const results_about[] = {
     "columns.",
     NULL};
 
-/* Entry i of a NULL-terminated list; decreases i by the length if it is beyond the end, and returns
- * NULL. */
+/* Returns entry i of a NULL-terminated list. If i is beyond the end, decreases it by the length and
+ * returns NULL. */
 static const record_type *take(const record_type *const *list, int *i)
 {
     for (; *list != NULL; list++)
@@ -133,7 +133,7 @@ static int answer(const command_line *l, void *request)
         paragraph_write(stdout, 0, 0, results_about[i]);
     for (int i = 0; results_record_at(l->verbs, i).type != NULL; i++)
         show(results_record_at(l->verbs, i));
-    return EXIT_AS_EXPECTED; /* main flushes */
+    return EXIT_AS_EXPECTED; /* main flushes the output */
 }
 
 #define IN(at) .member = offsetof(schema_request, at)

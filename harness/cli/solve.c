@@ -16,18 +16,18 @@ typedef struct solve_request {
     truths_options truths;
     solver_options solver;
     const char *select, *output, *format;
-    double error; /* 0: not given */
+    double error; /* 0: no error was given */
     int steps;
     int shapes;                 /* number of path states with stored shapes; 0: none */
     const char *follow;         /* NAME=A..B/N: follow modes over this parameter */
     const char *matrices;       /* folder for the matrices of all states */
-    int state_space;            /* 1: also linear models */
-    const char *reduce;         /* also reduced models */
-    const char *ends, *restart; /* files: output for the final state of motions; state from which
+    int state_space;            /* 1: also writes linear models */
+    const char *reduce;         /* also writes reduced models */
+    const char *ends, *restart; /* files: output for the final states of motions; state from which
                                    motions continue */
 } solve_request;
 
-/* One solution, from the request to the result. */
+/* The data of one solution, from the request to the result. */
 typedef struct solve_work {
     solution_request what;
     solution_choice why;
@@ -45,7 +45,7 @@ static void work_free(solve_work *w)
     solution_choice_free(&w->why);
 }
 
-/* Request for the choice of -f and -n. */
+/* Returns the request for the choice of -f and -n. */
 static defaults defaults_of(solve_request *r, const case_type *type)
 {
     return (defaults){.wanted = {.type = type,
@@ -63,7 +63,8 @@ static defaults defaults_of(solve_request *r, const case_type *type)
                       .truths = &r->truths};
 }
 
-/* note: explains what was chosen by default; printed before text output. */
+/* Writes the results. note: explains what was chosen by default; it is printed before text
+ * output. */
 static status write_to(FILE *to, const solve_request *r, const char *note, const sweep *s,
                        const truths *t, fault *f)
 {
@@ -87,7 +88,7 @@ static status write_out(const solve_request *r, const char *note, const sweep *s
         fputs(note, stdout);
         table_solution(stdout, s, t);
         TRY(store_write_solution(r->output, s, &e, f));
-        return output_flush(f); /* the reader of the table may have gone */
+        return output_flush(f); /* because the reader of the table may have ended */
     }
     TRY(output_open(r->output, &file, f));
     return output_finish(&file, write_to(file.stream, r, note, s, t, f), f);
@@ -134,8 +135,8 @@ static void tell_reduced(const scene *s, const system_matrices *all, const state
     fprintf(stderr, "\n");
 }
 
-/* Reports that feedback is only in the state spaces of harmonic analyses; in other matrices its
- * loads are inputs. */
+/* Reports that only the state spaces of harmonic analyses include feedback. In other matrices the
+ * loads with feedback are inputs. */
 static void tell_loops(const scene *s, const system_matrices *of)
 {
     int closed = 0;
@@ -150,12 +151,12 @@ static void tell_loops(const scene *s, const system_matrices *of)
                     closed ? " but those in state_space of harmonic analyses" : "");
 }
 
-/* Writes the matrices of all states, if requested. */
+/* Writes the matrices of all states, if they were requested. */
 static status write_matrices(const solve_request *r, const sweep *s, fault *f)
 {
     const cell_result *cell = &s->series[0].cell[0];
     char title[256];
-    if (r->matrices == NULL || cell->solve.systems.label == NULL) /* the reason is reported */
+    if (r->matrices == NULL || cell->solve.systems.label == NULL) /* already reported */
         return STATUS_OK;
     snprintf(title, sizeof title, "%s, %s, %d elements per member", s->point[0].scene.name,
              r->chosen.formulation[0].key, r->meshes.elements[0]);
@@ -168,7 +169,7 @@ static status write_matrices(const solve_request *r, const sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Reads NAME=A..B/N; both ends must be within the limits of the parameter. */
+/* Reads NAME=A..B/N. Both ends must be within the limits of the parameter. */
 static status range_of(const solve_request *r, const case_type *type, follow_request *out, fault *f)
 {
     const char *ends = strchr(r->follow, '='), *dots = ends != NULL ? strstr(ends, "..") : NULL,
@@ -215,7 +216,7 @@ static status write_curves(const solve_request *r, const char *note, const char 
     return output_finish(&file, written, f);
 }
 
-/* --follow: follows modes over a parameter instead of computing one solution. */
+/* Handles --follow: follows modes over a parameter instead of computing one solution. */
 static status follow_modes(solve_request *r, const case_type *type, fault *f)
 {
     char name[SCENE_NAME], note[DEFAULTS_NOTE];
@@ -242,7 +243,8 @@ static status follow_modes(solve_request *r, const case_type *type, fault *f)
     return written;
 }
 
-/* A continued motion uses the formulation and the elements of its first part. */
+/* Reads the state from which a motion continues. The motion uses the formulation and the elements
+ * of its first part. */
 static status take_restart(solve_request *r, restart *from, fault *f)
 {
     TRY(restart_read(r->restart, from, f));
@@ -311,8 +313,8 @@ static status write_all(const solve_request *r, const solve_work *w, fault *f)
     return write_matrices(r, &w->s, f);
 }
 
-/* Reports a quantity without a value; the others are still computed. If the mesh has no such mode,
- * or the path no such point, the missing value counts as a result. */
+/* Reports a quantity without a value; the others are still computed. If the mesh has no such mode
+ * or the path has no such point, the missing value counts as a result. */
 static int tell_missing(status solved, const cell_result *cell, const fault *f)
 {
     const int refused = cell_values(cell) > 0 && solved == STATUS_REFUSED;

@@ -15,23 +15,23 @@ typedef struct sweep_options {
     truths_options truths;
     shard_options shards;
     const char *select, *output, *format;
-    double error;       /* 0: not given */
-    text_list vary;     /* NAME=A..B/N ...: varied parameters */
+    double error;       /* 0: no error was given */
+    text_list vary;     /* parameters that vary, NAME=A..B/N ... */
     const char *design; /* design of the points; NULL: a grid */
     int points, seed;   /* for designs other than a grid */
     int derive;         /* 1: computes reference values that are not stored */
     int verbose;
 } sweep_options;
 
-/* A sweep and its data during the run. */
+/* A sweep and the data used while it runs. */
 typedef struct sweeping {
     range_sweep_request asked;
     range_sweep sweep;
-    char script[PATH_MAX]; /* of --compute-references */
+    char script[PATH_MAX]; /* script of --compute-references */
     identity_texts texts;
     const shard_options *shards;
-    int spread;     /* 1: runs as a shard, or from batches */
-    spread_end end; /* outcome of that */
+    int spread;     /* 1: computed as a shard, or read from batches */
+    spread_end end; /* outcome of the shard or of reading */
 } sweeping;
 
 static status read_design(const sweep_options *r, ranges_request *q, fault *f)
@@ -134,14 +134,14 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
     TRY(prepare(r, type, s, f));
     if (!csv && !quiet)
         ranges_table_head(stdout, &s->sweep.ranges);
-    if (r->output == NULL) /* otherwise standard output remains free for other data */
+    if (r->output == NULL) /* the results follow on standard output */
         TRY(output_flush(f));
     if (s->spread && s->asked.take == NULL)
         return spread_work(&r->shards, &s->sweep.all, &s->end, f);
     return experiment_run(&experiment_sweep, &s->asked, &to, &s->sweep, f);
 }
 
-/* Reports missing points, which repeating the command computes. */
+/* Reports missing points, which are computed if the command is repeated. */
 static int tell(const sweep_options *r, const sweeping *s)
 {
     if (s->spread)
@@ -294,7 +294,7 @@ static status compute(const shard_options *r, const shard_work *w, spread_end *o
     return output_flush(f);
 }
 
-/* Names all processor types. */
+/* Lists all processor types. */
 static void name_processors(const stock *s, spread_end *out)
 {
     size_t at = 0;

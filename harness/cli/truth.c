@@ -17,7 +17,8 @@ typedef struct truth_request {
 
 enum { NAME = 28, INDENT = 6 };
 
-/* The smallest number of digits that gives the value to within a thousandth of its uncertainty. */
+/* Writes the value with the smallest number of digits that represents it to within a thousandth of
+ * its uncertainty. */
 static void digits_of(double value, double uncertainty, char text[32])
 {
     for (int digits = 1; digits <= 17; digits++) {
@@ -27,7 +28,7 @@ static void digits_of(double value, double uncertainty, char text[32])
     }
 }
 
-/* Prints two lines: the value and its source. */
+/* Prints two lines, one with the value and one with its source. */
 static void print_value(const char *quantity, double value, double uncertainty, const char *unit,
                         const char *kind, const char *whose, const char *source, const char *note)
 {
@@ -40,7 +41,7 @@ static void print_value(const char *quantity, double value, double uncertainty, 
     paragraph_say(stdout, 0, INDENT, "%s%s%s", source, note[0] != '\0' ? "; " : "", note);
 }
 
-/* Prints the stored rows of this point; returns the number of rows for the continuum and the same
+/* Prints the stored rows of this point. Returns the number of rows for the continuum and the same
  * model. */
 static int print_stored(const truths *t, const case_type *type, const double parameter[])
 {
@@ -92,7 +93,7 @@ static status print_derived(const case_type *type, const double parameter[], fau
     return outcome;
 }
 
-/* Prints all parameters of the scene, since a line without them would apply to any values. */
+/* Prints all parameters of the scene, because a line without them would apply to any values. */
 static void print_point(const case_type *type, const double parameter[])
 {
     const parameter_type *p;
@@ -122,7 +123,7 @@ static void print_line(const derived_value *v, const case_type *type, const doub
     printf("}\n");
 }
 
-/* The caller, print_scene, closes the file, also after a failure. */
+/* Prints the values. The caller, print_scene, closes the file, also after a failure. */
 static status print_scene_of(const case_type *type, const double parameter[], FILE *text, fault *f)
 {
     char script[PATH_MAX];

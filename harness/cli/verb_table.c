@@ -20,7 +20,7 @@ static const verb exchange = {.name = "exchange", .place = VERB_EXCHANGE};
 static const verb *verbs[] = {&look, &compute, &judge, &exchange, VERB_TYPES(VERB_OF) NULL};
 enum { COUNT = sizeof verbs / sizeof verbs[0] - 1 };
 
-/* Puts the verbs in the order of the help. */
+/* Sorts the verbs in the order of the help. */
 static void arrange(void)
 {
     for (int i = 1; i < COUNT; i++)
@@ -111,7 +111,7 @@ static int help(void)
     return EXIT_AS_EXPECTED;
 }
 
-/* Handles `beamwork help VERB`; a different `write` prints a manual page. */
+/* Handles `beamwork help VERB`. A different `write` prints a manual page. */
 static int help_of(const char *name, void write(FILE *, const verb *))
 {
     const verb *v = verb_find(verbs, name);
@@ -143,7 +143,8 @@ static int list_pages(void)
     return EXIT_AS_EXPECTED;
 }
 
-/* "beamwork.1", "beamwork-scene.5", "beamwork-solve.1" or "solve". */
+/* Writes the page with a name such as "beamwork.1", "beamwork-scene.5", "beamwork-solve.1" or
+ * "solve". */
 static int write_page(const char *name)
 {
     char bare[80];
@@ -156,7 +157,7 @@ static int write_page(const char *name)
     return help_of(bare, manual_write_verb);
 }
 
-/* Completes verbs, and words that are not verbs. */
+/* Offers verbs, and words that are not verbs. */
 static void complete_verb(const char *begun, int others)
 {
     const offer o = {stdout, begun, 0, begun};

@@ -11,15 +11,14 @@ typedef struct verify_request {
     report_options reports;
     shard_options shards;
     const char *select, *output;
-    text_list imported;     /* stored imports: other programs to compare */
-    int imported_must_pass; /* 1: their verdicts affect the exit status */
-    int exit_zero;          /* 1: verdicts do not change the exit status */
+    text_list imported;     /* stored imports: other programs for comparison */
+    int imported_must_pass; /* 1: verdicts of these programs affect the exit status */
+    int exit_zero;          /* 1: verdicts do not affect the exit status */
     double tolerance;       /* replaces the tolerances of the cases */
-    const char
-        *former; /* previous results, with which this run is compared; it must not be worse */
-    int refine;  /* number of refinements beyond the finest mesh */
-    int shapes;  /* number of path states with stored shapes; 0: none */
-    int verbose; /* verbose: every limit; shards.quiet: only unexpected results */
+    const char *former;     /* previous results; this run must not be worse */
+    int refine;             /* number of refinements beyond the finest mesh */
+    int shapes;             /* number of path states with stored shapes; 0: none */
+    int verbose; /* verbose: prints every limit; shards.quiet: prints only unexpected results */
 } verify_request;
 
 enum { PICTURED_STATES = 5 };

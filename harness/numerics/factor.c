@@ -24,9 +24,8 @@ static status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a
 
 struct matrix_factor {
     int n;
-    factor_operator by; /* with functions NULL: there is no operator */
-    factor_symmetric
-        *symmetric; /* one of the next two is set; both are for a matrix with by_numbers */
+    factor_operator by;              /* with functions NULL: there is no operator */
+    factor_symmetric *symmetric;     /* LDL^T; a matrix with by_numbers has both */
     factor_unsymmetric *unsymmetric; /* KLU; both NULL: there are no unknowns */
     by_numbers *whole;               /* for a matrix with by_numbers, otherwise NULL */
     int upper;                       /* 1: `symmetric` contains the last factors */

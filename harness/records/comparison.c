@@ -8,15 +8,15 @@
 
 /* Counts a line and writes its beginning: kind, name, mesh. */
 static void comparison_lines_heading(const listing *l, comparison_kind kind);
-/* Compares sums over `meshes` meshes; the threshold is that of one mesh, whatever the number of
+/* Compares sums over `meshes` meshes. The threshold is that of one mesh, whatever the number of
  * meshes. */
 static void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
                                   const long after[RESULTS_WORKS], int meshes);
 /* Writes the difference of counted work if both are known. */
 static void comparison_lines_cost(const listing *l, double before, double after);
 static void comparison_cells(const listing *l, const result_cell *a, const result_cell *b);
-/* Compares two sweeps, with a line also for each point, formulation and mesh that exists in one of
- * them only. */
+/* Compares two sweeps; also writes a line for each point, formulation and mesh that exists in only
+ * one of them. */
 static void comparison_sweeps(const listing *l, const char *select);
 
 const comparison_limits comparison_limits_default = {0.01, RESULTS_FLOOR, 0.02};
@@ -87,8 +87,9 @@ static int has_series(const stored_results *r, const char *name)
     return 0;
 }
 
-/* Handles a series, or a mesh of it (elements > 0), that exists in one run only. which: 0: in the
- * old run. *last: the last series counted, in the order of their names. */
+/* Handles a series, or a mesh of it (elements > 0), that exists in one run only. which: 0: the old
+ * run, 1: the new one. *last: the last series counted; series are visited in the order of their
+ * names. */
 static void tell_lone(const listing *l, int which, const char **last)
 {
     const stored_results *here = which == 0 ? l->before : l->after,
@@ -189,7 +190,8 @@ static const result_value *value_named(const result_cell *c, int near, const cha
     return NULL;
 }
 
-/* Errors are compared by magnitude; a value without a reference value can only change. */
+/* Compares the errors of two values by magnitude. A value without a reference value can only be
+ * reported as changed. */
 static void compare_value(const listing *l, const result_value *a, const result_value *b)
 {
     const comparison_limits *m = l->limits;
@@ -307,7 +309,7 @@ static void comparison_lines_cost(const listing *l, double before, double after)
 
 /* Compares two series, at least one of which is known only from the short table. */
 
-/* Largest relative difference due to rounding to that many digits. */
+/* Returns the largest relative difference due to rounding to this number of digits. */
 static double last_digit(int digits)
 {
     return 0.5 * pow(10, 1 - digits);
@@ -428,15 +430,16 @@ void comparison_series(const listing *l, const result_series *a, const result_se
 
 enum { TOLD = 1 << 14, NAME = 2048 };
 
-/* Entries that only one of the runs has, and entries that were printed. */
+/* Records entries that exist in only one of the runs, and entries that were printed. */
 typedef struct lone {
     comparison_kind kind;
     const stored_results *other;
-    char told[TOLD];  /* formulations and meshes, one per line */
-    char where[NAME]; /* the last point */
+    char told[TOLD];  /* formulations and meshes that were printed, one per line */
+    char where[NAME]; /* the last point printed */
 } lone;
 
-/* Do this cell and `next` have the same first `length` characters in their names? */
+/* Returns 1 if the name of cell `next` - 1 or `next` of the run begins with the first `length`
+ * characters of `name`. */
 static int is_beside(const stored_results *r, int next, const char *name, size_t length)
 {
     for (int i = next - 1; i <= next; i++)
@@ -461,8 +464,8 @@ static void tell_point(const listing *l, lone *only, int length)
     tell(l, only->kind, only->where, 0);
 }
 
-/* Reports an entry that only one run has, at all points: case/formulation, or a mesh of the case.
- */
+/* Reports an entry that exists in only one run at all points: case/formulation, or a mesh of the
+ * case. */
 static void tell_column(const listing *l, lone *only, const char *key, int elements)
 {
     const size_t used = strlen(only->told);
@@ -475,8 +478,8 @@ static void tell_column(const listing *l, lone *only, const char *key, int eleme
     tell(l, only->kind, name, elements);
 }
 
-/* Handles a cell that only one run has; `next` is the position of neighbouring cells in the other
- * run. */
+/* Handles a cell that exists in only one run. `next`: position of the neighbouring cells in the
+ * other run. */
 static void tell_cell(const listing *l, int next, lone *only)
 {
     const char *key = strrchr(l->name, '/');

@@ -5,8 +5,8 @@
 
 #include "cases/scene/scene.h"
 
-/* Writes a line for a value; for a curve a line for each point, and one with the reason if it ends
- * early. */
+/* Writes a line for a value. For a curve, writes a line for each point, and one with the reason if
+ * the curve ends early. */
 static void write_lines(FILE *to, int parts, csv_part row[], int value)
 {
     const subject s = row[value].s;
@@ -41,8 +41,8 @@ void csv_solution(FILE *to, const sweep *s)
     gather_free(&list);
 }
 
-/* Writes a line for each quantity of each mesh, or for those with a reference value only; `parts`
- * are records of the quantity and its cell. */
+/* Writes a line for each quantity of each mesh, or only for those with a reference value. `parts`
+ * records describe the quantity and its cell. */
 static void list_meshes(FILE *to, const gathering *g, int with_truth, int parts, csv_part row[])
 {
     const sweep *s = g->sweep;
@@ -184,7 +184,7 @@ typedef struct contents {
     const char *title;
     const scene *scene;
     const system_matrices *of;
-    const reduced_model *reduced; /* of its errors */
+    const reduced_model *reduced; /* model whose errors are written */
 } contents;
 
 /* A matrix with its comment. */
@@ -193,7 +193,7 @@ typedef struct titled {
     const char *comment;
 } titled;
 
-/* Name of an analysis, with '_' for characters that a folder name cannot have. */
+/* Returns the name of an analysis, with '_' for characters that a folder name cannot contain. */
 static scene_words plain_folder(const scene *s, int analysis)
 {
     scene_words out;
@@ -257,8 +257,8 @@ static void write_rows(FILE *to, const void *what)
     }
 }
 
-/* Writes the range of the member that a load acts on, and its vector at the end of that range;
- * nothing for a load on a node. */
+/* Writes the range of the member on which a load acts, and the load's vector at the end of that
+ * range; writes nothing for a load on a node. */
 static void write_extent(FILE *to, const scene_load *l)
 {
     const double *last = l->varies ? l->last : l->vector;
@@ -392,7 +392,7 @@ static void write_errors(FILE *to, const void *what)
                 i % c->of->inputs + 1, m->apart[i], m->at[i]);
 }
 
-/* Title with the number of elements, and whether feedback loops are closed. */
+/* Writes the title with the number of elements, and says whether feedback loops are closed. */
 static void titled_state(const contents *c, const char *name, int closed, char out[TITLE])
 {
     snprintf(out, TITLE, "%.120s%s, %.90s", c->title,
@@ -402,7 +402,7 @@ static void titled_state(const contents *c, const char *name, int closed, char o
              name);
 }
 
-/* T: of a reduced model, or NULL. */
+/* Adds the matrices of a linear model. T: reduction matrix, or NULL. */
 static status add_model(const output_folder *folder, const char *state, const linear_model *m,
                         const triplets *T, const contents *c, fault *f)
 {

@@ -117,7 +117,7 @@ int digest_add_file(digest *d, const char *path)
     return bad ? -1 : 0;
 }
 
-enum { MOST_RANK = 8, CHUNK = 1 << 20 /* [bytes] of rows that are read together */ };
+enum { MOST_RANK = 8, CHUNK = 1 << 20 /* CHUNK: [bytes] of rows that are read together */ };
 
 typedef struct walk {
     digest d;
@@ -148,7 +148,7 @@ static void add_float(walk *w, const char *at, size_t size)
 
 static void add_value(walk *w, hid_t type, const char *at);
 
-/* Adds the members in order, without times. */
+/* Adds the members in order, except times. */
 static void add_compound(walk *w, hid_t type, const char *at)
 {
     const int members = H5Tget_nmembers(type);
@@ -205,12 +205,12 @@ static void add_value(walk *w, hid_t type, const char *at)
     }
 }
 
-/* A dataset, opened. */
+/* An open data set. */
 typedef struct table {
     hid_t set, space, type; /* of memory */
     int rank;
     hsize_t size[MOST_RANK];
-    size_t row; /* bytes per first index */
+    size_t row; /* number of bytes per first index */
 } table;
 
 /* Adds rows first to first + count - 1. */
@@ -271,7 +271,7 @@ static int is_left_out(const char *path)
     return strcmp(leaf, "timings") == 0 || strncmp(leaf, "seconds", 7) == 0;
 }
 
-/* Visits links, since the function for objects changed in HDF5 1.12. */
+/* Visits links, because the function that visits objects changed in HDF5 1.12. */
 static herr_t visit(hid_t file, const char *path, const H5L_info_t *link, void *context)
 {
     walk *w = context;

@@ -14,7 +14,7 @@ static void get_features(const subject *s, field_value *out)
     out->text = out->room;
 }
 
-/* Lines that do not fit are cut off. */
+/* Lines that do not fit are truncated. */
 static void get_left_out(const subject *s, field_value *out)
 {
     const cell_result *cell = fields_keys_cell(s);
@@ -55,7 +55,7 @@ static void get_strains(const subject *s, field_value *out)
     out->whole = size->strains + size->inner;
 }
 
-/* Cost of a run; imported runs have no counts. */
+/* Returns the cost of a run; imported runs have no counts. */
 static void get_cost(const subject *s, field_value *out)
 {
     schema_set_number(out, s->series->imported == NULL
@@ -98,7 +98,7 @@ static void get_model(const subject *s, field_value *out)
     schema_set_text(out, s->series->imported != NULL ? s->series->imported->model : "beam");
 }
 
-/* NAN: no physics is omitted, or the change is unknown. */
+/* Sets the change of the model; NAN: no physics is omitted, or the change is unknown. */
 static void get_model_change(const subject *s, field_value *out)
 {
     schema_set_number(out, s->series->without.what != 0 ? s->series->without.change : NAN);
@@ -282,7 +282,7 @@ static const rounds_reading *reading_of(const field_value *out, const cell_timin
     return out->of->offset < offsetof(cell_timing, keep_all) ? &t->as_is : &t->keep_all;
 }
 
-/* NAN if nothing was measured; the offset selects a number or a round. */
+/* Sets NAN if nothing was measured. The offset selects a number or a round. */
 static void get_measured(const subject *s, field_value *out)
 {
     const cell_timing *t = timing_of(s);
@@ -393,8 +393,8 @@ const record_type record_timing = {
     "repeated runs of a cell",
     {keys_of_point, keys_of_series, key_of_mesh, fields_of_readings, fields_of_parts}};
 
-/* Records of results of other programs: each value with its position in the file it was read from.
- */
+/* Records of results of other programs: each value with its position in the file from which it was
+ * read. */
 
 static void get_file(const subject *s, field_value *out)
 {

@@ -196,7 +196,7 @@ static void get_noise_measured(const subject *s, field_value *out)
     out->whole = s->series->noise != NULL && isfinite(s->series->noise[s->index]);
 }
 
-/* The offset is the index of the level. */
+/* Sets the number of elements for a level, whose index is the offset. */
 static void get_reach(const subject *s, field_value *out)
 {
     const int mesh = reach_mesh(s->sweep, s->verdict, reach_level[out->of->offset]);

@@ -7,7 +7,7 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-/* A value that does not exist is null, since JSON has no NaN. */
+/* Converts numbers. A value that does not exist becomes null, because JSON has no NaN. */
 static json_t *json_record_numbers(int count, const double value[]);
 
 enum { DUMP = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };
@@ -26,7 +26,7 @@ static json_t *values_of(const assignment_list *l, const double value[])
     return all;
 }
 
-/* All applicable reference values of the continuum, with the error against each. */
+/* Lists all applicable reference values of the continuum, each with the error relative to it. */
 static json_t *truths_of(const subject *s, const truths *t)
 {
     const sweep_point *p = s->point;
@@ -72,7 +72,8 @@ static void add_quantities(json_t *root, const gathering *g)
     gather_free(&list);
 }
 
-/* HDF5 stores the points of all curves in shared arrays; here each curve has its own. */
+/* Adds the points of curves. HDF5 stores those of all curves in shared arrays; here each curve has
+ * its own. */
 static void add_curves(json_t *root, const gathering *g)
 {
     subjects list = {0};
@@ -140,8 +141,7 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     return json_finish(root, to, f);
 }
 
-/* Text before and after the verdicts if the document has no other contents, in the same layout.
- */
+/* Text before and after the verdicts, in the same layout, for a document with no other contents. */
 static const char alone_before[] = "{\n \"verdicts\": [", alone_behind[] = "\n ]\n}",
                   none[] = "\n \"verdicts\": []";
 
@@ -184,7 +184,7 @@ void json_part_free(json_part *part)
     *part = (json_part){.verdicts = 0};
 }
 
-/* Assumptions of all points. */
+/* Lists the assumptions of all points. */
 static json_t *assumptions_of(const sweep *s)
 {
     json_t *all = json_array();
@@ -215,7 +215,7 @@ static json_t *regressions_of(const judgement *j)
     return all;
 }
 
-/* The document without the verdicts. */
+/* Returns the document without the verdicts. */
 static json_t *around_verdicts(const sweep *s, const judgement *j, const environment *e)
 {
     const gathering g = {s, j, NULL};
@@ -292,7 +292,7 @@ static json_t *json_record_numbers(int count, const double value[])
     return list;
 }
 
-/* A square matrix row by row. */
+/* Converts a square matrix row by row. */
 static json_t *matrix(int count, const double value[])
 {
     const int size = (int)lround(sqrt(count));

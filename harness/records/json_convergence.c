@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Values of one quantity on every mesh, with the runs that computed them. */
+/* Lists the values of one quantity on every mesh, with the runs that computed them. */
 static json_t *meshes_of(const gathering *g, int series_index, int quantity)
 {
     json_t *all = json_array();
@@ -42,8 +42,8 @@ static json_t *number(double x)
     return isfinite(x) ? json_real(x) : json_null();
 }
 
-/* A curve: difference of each mesh from the finest one, and of the finest mesh from another
- * formulation. */
+/* Describes a curve by the difference of each mesh from the finest one, and of the finest mesh from
+ * the other formulation. */
 static json_t *curve_of(const sweep *s, const series *one, int quantity, const series *other)
 {
     const scene *what = &s->point[one->point].scene;
@@ -98,7 +98,7 @@ static char *said(void (*write)(FILE *, const sweep *, const truths *, double), 
     return NULL;
 }
 
-/* Conclusion, as in the last lines of the text output. */
+/* Returns the conclusion, as in the last lines of the text output. */
 static json_t *sentence_of(const sweep *s, const truths *t, double level)
 {
     char *line = said(reach_line_write, s, t, level),
@@ -111,8 +111,8 @@ static json_t *sentence_of(const sweep *s, const truths *t, double level)
     return out;
 }
 
-/* Formulations within the level, in the order of the line. rank 0: its verdict is not a pass, or it
- * is not ranked by cost. */
+/* Lists the formulations within the level, in the order of the line. rank 0: the verdict of the
+ * formulation is not a pass, or the formulation is not ranked by cost. */
 static json_t *answers_of(const sweep *s, const truths *t, double level)
 {
     json_t *out = json_array();
@@ -194,7 +194,7 @@ static void write_defective(FILE *to, const reach_question *q, const reached lis
     }
 }
 
-/* Writes first those with the lowest cost, then the others, then those with a defect. */
+/* Writes the formulations with the lowest cost first, then the others, then those with a defect. */
 static void write_ranking(FILE *to, const reach_question *q, const reached list[], int count)
 {
     const int ties = reach_ties(list, count);
@@ -233,8 +233,8 @@ static int is_reached(const reached list[], int count, int series_index)
     return found;
 }
 
-/* Writes the requested quantity in which the series is not within the level: that with the largest
- * error on the finest mesh, or without a value there. */
+/* Writes the requested quantity in which the series is not within the level: the quantity without a
+ * value on the finest mesh, or with the largest error there. */
 static void write_worst(FILE *to, const reach_question *q, int series_index)
 {
     const series *one = &q->s->series[series_index];
@@ -298,8 +298,8 @@ static int has_reference(const reach_question *q, int quantity)
     return known;
 }
 
-/* Writes the requested quantities: all except curves, or those with a reference value, naming the
- * others. Returns how many have a reference value. */
+/* Writes the requested quantities: all except curves, or those with a reference value and the names
+ * of the others. Returns the number of quantities with a reference value. */
 static int write_asked(FILE *to, const reach_question *q)
 {
     const char *before = " (without a reference: ";
@@ -328,7 +328,8 @@ static int write_asked(FILE *to, const reach_question *q)
     return known;
 }
 
-/* Returns 1 if its model error is the difference from a computed solid, plate or shell. */
+/* Returns 1 if the model error of the verdict is the difference from a computed solid, plate or
+ * shell. */
 static int is_of_another_model(const verdict *v)
 {
     const truth *other = v->model_truth;
@@ -336,8 +337,8 @@ static int is_of_another_model(const verdict *v)
            strcmp(other->kind, "agreement") != 0 && strcmp(other->kind, "experiment") != 0;
 }
 
-/* Writes the largest difference of the passing formulations from another model; if none passes,
- * that of the one with the lowest cost. */
+/* Writes the largest difference of the passing formulations from another model; if none passes, the
+ * difference of the formulation with the lowest cost. */
 static void write_model_error(FILE *to, const reach_question *q, reached list[])
 {
     const int count = reach_ranking(q, list);
@@ -363,7 +364,7 @@ static void write_model_error(FILE *to, const reach_question *q, reached list[])
             most->model_error > 0 ? "+" : "", percent, 100 * q->level);
 }
 
-/* Writes why no formulation runs. Returns 0 if one does. */
+/* Writes the reason why no formulation runs. Returns 0 if any formulation runs. */
 static int write_nothing_runs(FILE *to, const sweep *s)
 {
     const char *before = "nothing was run: ";
@@ -401,7 +402,7 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
     fputc('\n', to);
 }
 
-/* Asks about all quantities. */
+/* Writes the answer for all quantities with `write`. */
 static void reach_write(FILE *to, const sweep *s, const truths *t, double level,
                         void (*write)(FILE *, const reach_question *, reached[]))
 {

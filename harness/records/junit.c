@@ -64,7 +64,7 @@ static void open_test(FILE *to, const sweep_point *p)
     escaped(to, p->text[0] != '\0' ? p->text : "default");
 }
 
-/* An unexpected skip counts as a failure. */
+/* Returns 1 if the verdict is skipped as expected. An unexpected skip counts as a failure. */
 static int is_skipped(const verdict *v)
 {
     return (v->kind == VERDICT_SKIP || v->kind == VERDICT_OTHER_MODEL) && v->matches;
@@ -119,7 +119,7 @@ typedef struct junit_counts {
     int tests, failures, skipped;
 } junit_counts;
 
-/* Counts the entries that will be written, by the same rules. */
+/* Counts the entries that will be written, by the same rules as the functions that write them. */
 static junit_counts count_all(const sweep *s, const judgement *j)
 {
     const int nothing = judgement_exit(j) == JUDGED_NOTHING;
@@ -208,7 +208,7 @@ static int of_section(const scene *s, assumption *a)
     return a->physics[0] != '\0';
 }
 
-/* Only users' scenes have assumptions; data of a built-in case come from its source. */
+/* Only users' scenes have assumptions. The data of a built-in case come from its source. */
 int assumptions_at(const sweep_point *p, int index, assumption *out)
 {
     int found = 0;
@@ -226,7 +226,7 @@ int assumptions_at(const sweep_point *p, int index, assumption *out)
 
 void assumptions_words(const sweep_point *p, size_t size, char out[])
 {
-    const size_t rest = 40; /* room for the number of the remaining ones */
+    const size_t rest = 40; /* room for the number of the remaining assumptions */
     size_t used = 0;
     int left = 0;
     assumption a;

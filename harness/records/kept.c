@@ -37,8 +37,8 @@ static status unfit(const char *path, fault *f)
                      path);
 }
 
-/* Locks a file, waiting up to `patience` tenths of a second; -1: without limit. Returns 0 on
- * success, -1 with errno. */
+/* Locks a file and waits for it up to `patience` tenths of a second; -1: without limit. Returns 0
+ * on success, otherwise -1 and sets errno. */
 static int hold(int file, int kind, int patience)
 {
     const int wait = patience < 0 ? 0 : LOCK_NB;
@@ -50,8 +50,8 @@ static int hold(int file, int kind, int patience)
     return 0;
 }
 
-/* Waits for another writer: the HDF5 library locks files that it writes and cannot read locked
- * files. */
+/* Waits for another writer, because the HDF5 library locks files that it writes and cannot read
+ * locked files. */
 static status await_writer(const char *path, int patience, fault *f)
 {
     const int file = open(path, O_RDONLY | O_CLOEXEC), held = hold(file, LOCK_SH, patience),
@@ -73,7 +73,7 @@ static int is_ours(hid_t file)
             strcmp(schema, SCHEMA_NAME) == 0);
 }
 
-/* *file: -1: there is nothing to keep. */
+/* Opens the existing file. *file -1: there is nothing to keep. */
 static status open_former(const char *path, int patience, hid_t *file, fault *f)
 {
     *file = -1;
@@ -116,7 +116,7 @@ static herr_t copy_attribute(hid_t from, const char *name, const H5A_info_t *unu
     return 0;
 }
 
-/* Copies links that do not exist here yet. */
+/* Copies the links that do not exist in the new file yet. */
 static void copy_links(record_file *r, hid_t from, hid_t to)
 {
     enum { NAME = 256 };
@@ -172,8 +172,8 @@ static void put_schema(record_file *r)
     record_count(r, r->file, "schema_version", SCHEMA_VERSION);
 }
 
-/* Merges the previous content. The new content is written to disk first, since the previous one may
- * be larger than the memory. */
+/* Merges the previous content. The new content is written to disk first, because the previous one
+ * may be larger than the memory. */
 static status merge(record_file *r, const char *name, hid_t former, const char *path, fault *f)
 {
     record_file all;
@@ -206,7 +206,7 @@ static status close_merged(record_file *r, const char *name, const file_place *a
     return record_close(r, path, f);
 }
 
-/* Does the lock file still exist after waiting, or has its previous owner removed it? */
+/* Returns 1 if the lock file still exists after waiting, 0 if its previous owner has removed it. */
 static int is_there(int lock, const char *name)
 {
     struct stat own, there;
@@ -215,8 +215,8 @@ static int is_there(int lock, const char *name)
 }
 
 /* Uses a separate lock file, because the results file is replaced. A lock file left by a killed run
- * is harmless, because the lock ends with its process. Returns -1 with errno if there is no lock.
- */
+ * is harmless, because the lock ends with its process. Returns -1 and sets errno if there is no
+ * lock. */
 static int take_lock(const char *name, int patience)
 {
     for (;;) {
@@ -259,7 +259,7 @@ static void unlock(const char *beside, int lock)
 
 status kept_check(const char *path, fault *f)
 {
-    enum { PATIENCE = 100 }; /* [0.1 s] longer than writing a file takes */
+    enum { PATIENCE = 100 }; /* [0.1 s] longer than the time needed to write a file */
     char beside[PATH_MAX];
     hid_t file;
     file_place at;

@@ -6,9 +6,9 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-enum { MOST_ROWS = 50 }; /* a comment should stay readable; the JSON contains the rest */
+enum { MOST_ROWS = 50 }; /* keeps comments readable; JSON contains all rows */
 
-/* A cell of a table; escapes bars and line ends, which would break it. */
+/* Writes a cell of a table. Escapes vertical bars and line ends, which would break the table. */
 static void cell(FILE *to, const char *text)
 {
     for (; *text != '\0'; text++)
@@ -78,7 +78,7 @@ static void write_unexpected(FILE *to, const sweep *s, const judgement *j)
         fprintf(to, "\n… and %d more.\n", j->unexpected - rows);
 }
 
-/* One row for each formulation: its verdicts by kind. */
+/* Writes one row for each formulation, with its verdicts by kind. */
 static void write_formulations(FILE *to, const sweep *s, const judgement *j)
 {
     fprintf(to, "\n| formulation");
@@ -139,7 +139,8 @@ static void write_row(FILE *to, const overview *o, int row)
     fprintf(to, " |\n");
 }
 
-/* Lists cases without a row, of which something is evaluated, or nothing. */
+/* Lists the cases without a row: those in which something is evaluated, or those in which nothing
+ * is. */
 static void write_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     int named = 0;
@@ -152,7 +153,7 @@ static void write_unshown(FILE *to, const overview *o, int judged, const char *w
     fputs(named > 0 ? ".\n" : "", to);
 }
 
-/* A row for each case, a column for each formulation. */
+/* Writes a row for each case and a column for each formulation. */
 static void write_overview(FILE *to, const overview *o)
 {
     fprintf(to, "\n| case");
@@ -173,7 +174,7 @@ static void write_overview(FILE *to, const overview *o)
     write_legend(to, o);
 }
 
-/* Was anything computed there? */
+/* Returns 1 if anything was computed at the point. */
 static int is_run(const sweep *s, int point)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -182,7 +183,8 @@ static int is_run(const sweep *s, int point)
     return 0;
 }
 
-/* Writes the omitted physics: a line for each case, and for each point that differs from it. */
+/* Writes the omitted physics, with one line for each case and for each point that differs from its
+ * case. */
 static void write_omitted(FILE *to, const sweep *s)
 {
     int lines = 0;
@@ -209,7 +211,7 @@ static void write_omitted(FILE *to, const sweep *s)
         fprintf(to, "\n</details>\n");
 }
 
-/* Writes the assumptions about their sections. */
+/* Writes the assumptions about the sections of the points. */
 static void write_assumed(FILE *to, const sweep *s)
 {
     int lines = 0;

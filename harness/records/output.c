@@ -14,10 +14,10 @@
 enum {
     MOST_TRIES = 100,
     LEAF = 100
-}; /* LEAF: bytes of the given name that a temporary name begins with */
+}; /* LEAF: number of bytes of the given name with which a temporary name begins */
 
-/* Temporary files and folders that exist now, up to MOST_OPEN. owner: the process; 0: free, -1: a
- * name is being written. */
+/* Temporary files and folders that exist now, up to MOST_OPEN. owner: their process; 0: unused, -1:
+ * a name is being written. */
 enum { MOST_OPEN = 16 };
 static struct {
     atomic_int owner;
@@ -43,10 +43,11 @@ static void output_forget(const char *path)
             atomic_store(&unfinished[i].owner, 0);
 }
 
-/* Removes all outputs. From here on only system calls are used, as a signal handler requires. */
+/* Removes all outputs. The functions from here on use only system calls, as a signal handler
+ * requires. */
 static void remove_all(int at, const char *name);
 
-/* Returns the number of entries found. */
+/* Removes the entries of a folder. Returns the number of entries found. */
 static int empty_once(int folder)
 {
     _Alignas(struct dirent64) char room[4096];
@@ -66,8 +67,8 @@ static int empty_once(int folder)
     return entries;
 }
 
-/* Removes a file, or a folder with its contents; repeats, because removed entries may reveal
- * others. */
+/* Removes a file, or a folder with its contents. Repeats this, because the removal of entries may
+ * reveal others. */
 static void remove_all(int at, const char *name)
 {
     if (unlinkat(at, name, 0) == 0 || errno == ENOENT)
@@ -99,8 +100,8 @@ static status fail(const char *path, int why, fault *f)
                      strerror(why));
 }
 
-/* Calls `make` with an unpredictable name next to `path` and returns its result (-1 with errno:
- * failed). The file counts as incomplete until output_forget. */
+/* Calls `make` with an unpredictable name next to `path` and returns its result, or -1 with errno
+ * set. The file counts as incomplete until output_forget is called. */
 static int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX])
 {
     const char *leaf = place_leaf(path);
@@ -114,7 +115,7 @@ static int output_beside(const char *path, int (*make)(const char *name), char t
             errno = ENAMETOOLONG;
             return -1;
         }
-        remember(temporary); /* before the file exists, since a signal may come at any time */
+        remember(temporary); /* before the file exists, because a signal may arrive at any time */
         const int made = make(temporary);
         if (made >= 0)
             return made;
@@ -142,7 +143,7 @@ static int open_stream(const file_place *to)
 {
     if (to->descriptor < 0)
         return open(to->path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
-    /* preserves the order of output to the same file */
+    /* preserves the order of outputs to the same file */
     fflush(to->descriptor == STDOUT_FILENO ? stdout : stderr);
     return dup(to->descriptor);
 }
@@ -211,7 +212,8 @@ static void discard(output *out)
     }
 }
 
-/* Writes to the disk; a file that cannot be synchronised (a pipe, a device) counts as stored. */
+/* Writes to the disk. Returns 1 also for a file that cannot be synchronised, such as a pipe or a
+ * device. */
 static int is_stored(FILE *stream)
 {
     if (ferror(stream) || fflush(stream) != 0)
@@ -263,7 +265,7 @@ status output_try(const char *path, output_form form, file_place *where, fault *
     char temporary[PATH_MAX];
     TRY(place_find(path, where, f));
     TRY(check_form(path, where, form, f));
-    if (where->kind == PLACE_STREAM) /* opening a pipe would wake its reader */
+    if (where->kind == PLACE_STREAM) /* opening a pipe would wake up its reader */
         return STATUS_OK;
     const int file = output_beside(where->path, make_file, temporary);
     if (file < 0)
@@ -316,7 +318,7 @@ static int make_folder(const char *name)
     return mkdir(name, S_IRWXU);
 }
 
-/* An empty folder may exist at its path. */
+/* Creates the folder; an empty folder may already exist at its path. */
 static status create(output_folder *out, fault *f)
 {
     if (output_beside(out->to.path, make_folder, out->temporary) < 0) {
@@ -364,7 +366,7 @@ status output_folder_try(const char *path, file_place *where, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 0 if the path is too long. */
+/* Sets the path of a file in the folder. Returns 0 if the path is too long. */
 static int name_inside(const output_folder *out, const char *name, char path[PATH_MAX])
 {
     return snprintf(path, PATH_MAX, "%s/%s", out->temporary, name) < PATH_MAX;

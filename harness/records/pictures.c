@@ -10,7 +10,7 @@
 
 enum { RING = 24 }; /* number of sides of a tube */
 
-/* Corners of a wall with thickness t and a mid-line from a to b. */
+/* Adds the corners of a wall with thickness t and a mid-line from a to b. */
 static void add_wall(outline *out, const double a[2], const double b[2], double t)
 {
     const double length = hypot(b[0] - a[0], b[1] - a[1]);
@@ -24,8 +24,8 @@ static void add_wall(outline *out, const double a[2], const double b[2], double 
     }
 }
 
-/* Side k of a tube drawn as a polygon: its corners lie on the circles of the tube, inner before
- * outer at each end. */
+/* Adds side k of a tube that is drawn as a polygon. The corners of the side lie on the circles of
+ * the tube, the inner corner before the outer one at each end. */
 static void add_side(outline *out, const section_spec *spec, int k)
 {
     double(*corner)[2] = out->corner[out->walls++];
@@ -46,7 +46,7 @@ static void principal(const section *s, const double point[2], double out[2])
     out[1] = c * z - d * y;
 }
 
-/* Sides along y and z of a rectangle that represents a section. */
+/* Computes the sides along y and z of a rectangle that represents a section. */
 static void sides_of(const section_spec *spec, const section *c, double side[2])
 {
     const double ratio = sqrt(c->Iy / c->Iz); /* ratio of width to height: Iy/Iz = (w/h)^2 */
@@ -58,7 +58,7 @@ static void sides_of(const section_spec *spec, const section *c, double side[2])
     }
 }
 
-/* The mid-line is along y or along z. */
+/* Adds a rectangle whose mid-line is along y or along z. */
 static void add_rectangle(outline *out, const double side[2], int along_y)
 {
     const double to[2] = {along_y ? side[0] / 2 : 0, along_y ? 0 : side[1] / 2};
@@ -87,7 +87,7 @@ void outline_of_far_end(const section_spec *spec, const section *c, const sectio
         return;
     }
     sides_of(spec, near, side);
-    const int along_y = side[1] < side[0]; /* the longer one */
+    const int along_y = side[1] < side[0]; /* the mid-line is along the longer side */
     sides_of(spec, c, side);
     add_rectangle(out, side, along_y);
 }
@@ -108,14 +108,15 @@ void outline_between(const outline *near, const outline *far, double x, outline 
 
 enum { POLY_LINE = 4, QUAD = 9 }; /* cell types of VTK */
 
-/* Each point of a centre line is followed by both edges of every wall there. */
+/* Points and cells of a picture. Each point of a centre line is followed by the points of both
+ * edges of every wall there. */
 typedef struct grid {
     const scene *scene;
     const shapes *shapes;
     outline *outline; /* [sections] */
     outline *far; /* [members] outlines at the far ends of tapered members; NULL: none is tapered */
     int points, cells, ids; /* numbers for one state */
-    int states, *state;     /* states that are written as time steps */
+    int states, *state;     /* the states that are written as time steps */
 } grid;
 
 static const outline *outline_at(const grid *g, int member)
@@ -138,7 +139,8 @@ static void count(grid *g)
     }
 }
 
-/* Chooses the states: those of a motion, otherwise of a path, otherwise solutions and modes. */
+/* Chooses the states: those of a motion; if there is none, those of a path; otherwise solutions and
+ * modes. */
 static void choose_states(grid *g)
 {
     int paths = 0, frames = 0;
@@ -212,8 +214,8 @@ static const struct {
                    {"moment (Mx, My, Mz)", "N m", 3},
                    {"bimoment", "N m^2", 1}};
 
-/* Fields of a point at (0, y, z) of the section of a centre-line point; rest: the same point
- * undeformed. */
+/* Fills the fields of a point at (0, y, z) of the section at a centre-line point. rest: the same
+ * point, undeformed. */
 static void fill_point(const centreline_point *p, const centreline_point *rest, double y, double z,
                        double *out[FIELDS])
 {
@@ -277,7 +279,7 @@ static void put_fields(record_file *r, hid_t at, const grid *g)
     H5Gclose(data);
 }
 
-/* [states] or [states x 1]: 0, step, 2 step, ... */
+/* Writes offsets [states] or [states x 1]: start, start + step, start + 2 step, ... */
 static void put_offsets(record_file *r, hid_t at, const char *name, const grid *g, int rank,
                         int64_t start, int64_t step)
 {
@@ -291,7 +293,8 @@ static void put_offsets(record_file *r, hid_t at, const char *name, const grid *
     free(value);
 }
 
-/* Cells do not change; the points of successive states follow one another. */
+/* Writes the time steps. The cells do not change; the points of successive states follow one
+ * another. */
 static void put_steps(record_file *r, hid_t at, const grid *g)
 {
     const hid_t steps = record_group(r, at, "Steps");
@@ -343,7 +346,7 @@ static void put_grid(record_file *r, const grid *g)
     H5Gclose(at);
 }
 
-/* Outlines of all sections, and of the far ends of members along which they change. */
+/* Creates the outlines of all sections, and of the far ends of members whose section varies. */
 static void make_outlines(record_file *r, grid *g)
 {
     const scene *sc = g->scene;

@@ -11,8 +11,8 @@ static void check(record_file *r, int good)
     r->bad |= !good;
 }
 
-/* Creates an HDF5 file of the oldest format, because an image of newer formats has a wrong checksum
- * in its header (HDF5 1.10). FAULT: nothing was created. */
+/* Creates an HDF5 file of the oldest format, because an image of a newer format has a wrong
+ * checksum in its header (HDF5 1.10). FAULT: nothing was created. */
 static status open_file(record_file *r, const char *name, hid_t access, fault *f)
 {
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
@@ -26,8 +26,8 @@ static status open_file(record_file *r, const char *name, hid_t access, fault *f
 
 status record_open(record_file *r, fault *f)
 {
-    static unsigned
-        number; /* files in memory that are open at the same time need different names */
+    static unsigned number; /* makes the names different, because several files in memory may be
+                               open at the same time */
     char name[40];
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     snprintf(name, sizeof name, "beamwork-%u", number++);
@@ -52,7 +52,7 @@ static status write_bytes(const char *image, size_t size, const char *path, faul
     char line[CHECKSUM_LENGTH + 1];
     TRY(output_open_whole(path, &file, f));
     checksum_write(image, size, line);
-    /* the stream remembers an error until it is closed */
+    /* the stream stores an error until it is closed */
     fwrite(image, 1, size, file.stream);
     fputs(line, file.stream);
     return output_close(&file, f);
@@ -101,7 +101,7 @@ static status close_on_disk(record_file *r, fault *f)
                         "%.200s: the results could not be written (disk or memory)", r->to.to.path);
     if (outcome == STATUS_OK) {
         fseek(r->to.stream, 0, SEEK_END);
-        fputs(line, r->to.stream); /* the stream remembers an error until it is closed */
+        fputs(line, r->to.stream); /* the stream stores an error until it is closed */
     }
     return output_finish(&r->to, outcome, f);
 }
@@ -173,7 +173,8 @@ void record_ascii(record_file *r, hid_t at, const char *name, const char *text)
     H5Tclose(type);
 }
 
-/* Layout of a data set: large ones are compressed, in chunks along the first dimension. */
+/* Returns the layout of a data set: large ones are compressed, in chunks along the first
+ * dimension. */
 static hid_t layout_of(hid_t type, int rank, const hsize_t size[])
 {
     enum { LEAST = 4096, PIECE = 1 << 20, LEVEL = 3 }; /* [bytes]; LEVEL: of compression */
@@ -226,8 +227,8 @@ hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int c
     return record_array(r, at, name, type, 1, &size, row);
 }
 
-/* Concatenates text[count], each padded to the length of the longest, which is returned. NULL: out
- * of memory. */
+/* Returns text[count] concatenated, each padded to the length of the longest one, which *longest
+ * receives. NULL: out of memory. */
 static char *side_by_side(int count, const char *const text[], size_t *longest)
 {
     *longest = 1;
@@ -273,7 +274,7 @@ typedef struct rows_column {
     size_t offset, size;
 } rows_column;
 
-/* bytes of one value; for a text the length of the longest in its column */
+/* number of bytes of one value; for a text, the length of the longest one in its column */
 static const size_t size_of_kind[FIELD_KINDS] = {[FIELD_INT] = sizeof(int),
                                                  [FIELD_LONG] = sizeof(long),
                                                  [FIELD_DOUBLE] = sizeof(double),
@@ -296,7 +297,7 @@ static size_t longest_text(const schema_field *which, int count, const subject r
     return longest;
 }
 
-/* Sets the columns; returns the size of a row. */
+/* Sets the columns and returns the size of a row. */
 static size_t lay_out(int fields, const schema_field *const list[], int count, const subject row[],
                       rows_column out[])
 {
@@ -310,7 +311,7 @@ static size_t lay_out(int fields, const schema_field *const list[], int count, c
     return size;
 }
 
-/* Boolean type as used by h5py and others. */
+/* Returns the boolean type that h5py and other programs use. */
 static hid_t boolean_type(void)
 {
     const hid_t type = H5Tenum_create(H5T_NATIVE_INT8);

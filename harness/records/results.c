@@ -8,8 +8,8 @@
 const char *const results_work_names[RESULTS_WORKS] = {"iterations", "evaluations",
                                                        "factorisations"};
 
-/* Appends a zeroed item to *list (the address of its pointer), which grows by `step` items; NULL:
- * out of memory. */
+/* Appends a zeroed item to *list (`list` is the address of its pointer), which grows by `step`
+ * items. Returns the item; NULL: out of memory. */
 static void *add(void *list, int *count, int step, size_t size)
 {
     char *all;
@@ -106,7 +106,7 @@ static int take_limits(result_series *s, const result_cell *cell)
     return 1;
 }
 
-/* Returns 0 if out of memory. */
+/* Adds a cell to the series. Returns 0 if out of memory. */
 static int take_cell(result_series *s, const result_cell *cell)
 {
     result_mesh *mesh = results_add_mesh(s);
@@ -149,7 +149,7 @@ const char results_table_head[] =
     "series,meshes,iterations,evaluations,factorisations,errors,decades,least,least_elements,"
     "least_quantity,largest,largest_elements,largest_quantity,limits";
 
-/* Writes "1:singular 2 4 8": the status is given if it is not ok. */
+/* Writes the meshes as in "1:singular 2 4 8"; a status is given if it is not ok. */
 static void write_meshes(FILE *to, const result_series *s)
 {
     for (int i = 0; i < s->meshes; i++) {
@@ -193,8 +193,8 @@ void results_table_write(FILE *to, const stored_results *r)
     }
 }
 
-/* Reads the short table of a run. Everything is checked, because a file may be foreign, truncated
- * or damaged. */
+/* Reads the short table of a run. All its contents are checked, because a file may be foreign,
+ * truncated or damaged. */
 
 enum {
     SERIES,
@@ -251,7 +251,7 @@ static int number(const char *text, double *out)
     return end != text && *end == '\0' && fabs(*out) < most_number;
 }
 
-/* A text that is neither empty nor too long. */
+/* Copies a text. Returns 0 if it is empty or too long. */
 static int word(const char *text, char *out, size_t size)
 {
     const size_t length = strlen(text);
@@ -276,7 +276,7 @@ static int take_mesh(char *text, result_series *s)
            (s->meshes == 1 || mesh[-1].elements < mesh->elements);
 }
 
-/* "quantity=1.234". */
+/* Reads a limit, such as "quantity=1.234". */
 static int take_limit(char *text, result_series *s)
 {
     char *value = strrchr(text, '=');
@@ -297,7 +297,8 @@ static int take_words(char *list, result_series *s, int take(char *text, result_
     return 1;
 }
 
-/* Reads size, elements and quantity; all of them, or none if no value has an error. */
+/* Reads the size, the elements and the quantity of an error: all of them, or none if no value has
+ * an error. */
 static int take_error(char *field[], int errors, result_error *e)
 {
     long elements = 0;

@@ -123,7 +123,7 @@ typedef struct limit_row {
     double limit;
 } limit_row;
 
-/* A text column with the name of the member. */
+/* Defines a text column with the name of the member. */
 #define TEXT(row, member) #member, FIELD_TEXT, offsetof(row, member), sizeof((row *)0)->member
 static const table_column point_columns[] = {{TEXT(case_point_row, point)},
                                              {TEXT(case_point_row, parameters)}};
@@ -153,7 +153,7 @@ static const table_column limit_columns[] = {
     {"limit", FIELD_DOUBLE, offsetof(limit_row, limit), 0}};
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
-/* Tables of one case. limits: -1: nothing was evaluated. */
+/* Tables of one case. limits -1: nothing was evaluated. */
 typedef struct case_tables {
     int points, cells, values, limits;
     case_point_row *point;
@@ -170,7 +170,7 @@ static void free_tables(case_tables *t)
     free(t->limit);
 }
 
-/* Returns NULL, or the name of the damaged table. */
+/* Reads the tables. Returns NULL, or the name of the damaged table. */
 static const char *read_tables(hid_t at, case_tables *t)
 {
     void *rows;
@@ -196,7 +196,7 @@ static const char *read_tables(hid_t at, case_tables *t)
     return t->limits < 0 ? "verdicts" : NULL;
 }
 
-/* Text of the parameters of a point; NULL: no such point. */
+/* Returns the parameters of a point as text; NULL: there is no such point. */
 static const char *parameters_of(const case_tables *t, const char *name)
 {
     for (int i = 0; i < t->points; i++)
@@ -212,8 +212,8 @@ static int is_of(const cell_row *cell, const case_value_row *value)
            strcmp(cell->point, value->point) == 0;
 }
 
-/* Takes the values of one cell, from *next on; values are in the order of their cells. Returns 0 if
- * out of memory. */
+/* Takes the values of one cell, starting at *next; the values are in the order of their cells.
+ * Returns 0 if out of memory. */
 static int take_values(const case_tables *t, const cell_row *row, int *next, result_cell *cell)
 {
     int count = 0;
@@ -234,7 +234,8 @@ static int take_values(const case_tables *t, const cell_row *row, int *next, res
     return cell->value != NULL;
 }
 
-/* Are the counts of work plausible, and small enough for their sums? */
+/* Returns 1 if the counts of work are plausible, and small enough that their sums do not
+ * overflow. */
 static int are_counts(const cell_row *row)
 {
     static const long most = 1L << 50;
@@ -267,7 +268,7 @@ static status take_cell(const char *path, const char *of, const case_tables *t, 
     return STATUS_OK;
 }
 
-/* Row of the finest mesh of the series of a limit; -1: none. */
+/* Returns the row of the finest mesh in the series of a limit; -1: there is none. */
 static int finest_cell(const case_tables *t, const limit_row *limit)
 {
     int finest = -1;
@@ -305,7 +306,7 @@ static status take_limits(const char *path, const char *of, const case_tables *t
     return STATUS_OK;
 }
 
-/* The caller, results_case_read, frees *t, also after a failure. */
+/* Takes the cells of a case. The caller, results_case_read, frees *t, also after a failure. */
 static status take_case(const char *path, hid_t at, const char *name, case_tables *t,
                         stored_results *out, fault *f)
 {
@@ -323,7 +324,7 @@ static status take_case(const char *path, hid_t at, const char *name, case_table
     return take_limits(path, name, t, out->cells > first ? &out->cell[first] : NULL, f);
 }
 
-/* Adds the cells of a case. at: its group; the name of the case is given. */
+/* Adds the cells of the case with the given name. at: group of the case. */
 static status results_case_read(const char *path, hid_t at, const char *name, stored_results *out,
                                 fault *f)
 {
@@ -334,7 +335,8 @@ static status results_case_read(const char *path, hid_t at, const char *name, st
     return outcome;
 }
 
-/* Reads results.h5. Everything is checked, because a file may be foreign, truncated or damaged. */
+/* Reads results.h5. All its contents are checked, because a file may be foreign, truncated or
+ * damaged. */
 
 enum { HDF5_NAME = 200 };
 
@@ -375,7 +377,7 @@ static status hdf5_read_tables(const char *path, hid_t at, stored_results *out, 
     return outcome;
 }
 
-/* Copies a text attribute; NULL if it is missing. Returns 0 if out of memory. */
+/* Copies a text attribute; *out NULL: it is missing. Returns 0 if out of memory. */
 static int read_text(hid_t file, const char *name, char **out)
 {
     enum { MOST = 1 << 16 };
@@ -393,7 +395,8 @@ typedef struct declared_row {
     signed char is_new;
 } declared_row;
 
-/* Reads the keys of formulations that do not affect the exit status; a file may declare none. */
+/* Reads the keys of formulations that do not affect the exit status. A file need not declare
+ * any. */
 static status read_fresh(const char *path, hid_t file, results_part *out, fault *f)
 {
     static const table_column columns[] = {
@@ -447,8 +450,8 @@ static status check_version(const char *path, hid_t file, fault *f)
                      path, version, SCHEMA_OLDEST, SCHEMA_VERSION);
 }
 
-/* Opens the group of an experiment; -1: none. The root belongs to verify, or to a sweep in its own
- * file. */
+/* Opens the group of an experiment; -1: there is none. The root belongs to verify, or to a sweep in
+ * its own file. */
 static hid_t open_group(hid_t file, const char *name)
 {
     const int is_sweep = strcmp(name, KEPT_SWEEP) == 0, is_own = strcmp(name, "verify") == 0;

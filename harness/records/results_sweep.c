@@ -10,8 +10,9 @@
 enum {
     VERSION = 1,
     NAME = 200,
-    WORDS = 1 << 14, /* length of an attribute */
-    DIGITS = 12,     /* digits of a value of an axis: different ranges share their common points */
+    WORDS = 1 << 14, /* largest length of an attribute */
+    DIGITS = 12, /* digits of a value of an axis, so few that different ranges share their common
+                    points */
     MOST_LISTED = 4096,
     RANKS = 4
 };
@@ -35,11 +36,11 @@ typedef enum sweep_column {
 
 typedef struct sweep_file {
     const char *path;
-    hid_t at; /* group of the sweep, or its file */
+    hid_t at; /* group of the sweep, or the file */
     char name[NAME], fixed[PARAMETERS_TEXT], status[WORDS];
     int points, axes, quantities, formulations, meshes;
     name_row *axis, *quantity, *formulation;
-    char (*word)[WORDS]; /* [axes] for an axis of words, one per line */
+    char (*word)[WORDS]; /* [axes] words of an axis, one per line */
     int *mesh;
     void *column[COLUMNS];
 } sweep_file;
@@ -72,8 +73,8 @@ static hid_t open_set(const sweep_file *s, const char *name)
     return H5Lexists(s->at, name, H5P_DEFAULT) > 0 ? H5Dopen2(s->at, name, H5P_DEFAULT) : -1;
 }
 
-/* Reads an array of that shape completely; an extent of 0 accepts the actual one up to `most`.
- * NULL: it is missing or of another shape. */
+/* Reads a whole array of this shape. An extent of 0 accepts the actual extent up to `most`. NULL:
+ * the array is missing or has a different shape. */
 static void *read_array(const sweep_file *s, const char *name, hid_t type, int ranks,
                         hsize_t size[RANKS])
 {
@@ -96,7 +97,7 @@ static void *read_array(const sweep_file *s, const char *name, hid_t type, int r
     return out;
 }
 
-/* Reads one text column of a table; returns the number of rows, 0 if it is missing. */
+/* Reads one text column of a table. Returns the number of rows; 0 if the column is missing. */
 static int read_names(const sweep_file *s, const char *table, const char *column, name_row **out)
 {
     const table_column columns[] = {{column, FIELD_TEXT, 0, sizeof(name_row)}};
@@ -106,7 +107,7 @@ static int read_names(const sweep_file *s, const char *table, const char *column
     return count > 0 && count <= MOST_LISTED ? count : 0;
 }
 
-/* Reads a text attribute of an array; empty if it is missing. */
+/* Reads a text attribute of an array; out is empty if it is missing. */
 static void read_words(const sweep_file *s, const char *array, const char *name, char out[WORDS])
 {
     const hid_t set = open_set(s, array);
@@ -116,7 +117,7 @@ static void read_words(const sweep_file *s, const char *array, const char *name,
     handles_close(1, &set);
 }
 
-/* Returns NULL, or the name of the damaged part. */
+/* Reads the lists. Returns NULL, or the name of the damaged part. */
 static const char *read_lists(sweep_file *s)
 {
     hsize_t meshes[RANKS] = {0};
@@ -185,7 +186,7 @@ static const char *read_request(sweep_file *s, stored_results *out)
     return out->part.select != NULL ? NULL : "selection";
 }
 
-/* Copies line `at` of a text, at most size - 1 bytes; empty if there is none. */
+/* Copies line `at` of a text, at most size - 1 bytes; out is empty if there is no such line. */
 static void take_line(const char *lines, double at, char *out, int size)
 {
     const char *line = lines;
@@ -230,7 +231,7 @@ static int fixed_words(const sweep_file *s, char word[MOST_WORDS][WORD])
     return count;
 }
 
-/* Text of all parameters that the file contains. */
+/* Writes all parameters that the file contains as text. */
 static void point_text(const sweep_file *s, int which, char *out, size_t size)
 {
     char word[MOST_WORDS][WORD];
@@ -264,7 +265,7 @@ static result_cell *add_cell(const sweep_file *s, const char *text, const char *
     return cell;
 }
 
-/* Adds the reference values of the errors; they belong to no mesh. */
+/* Adds the reference values of the errors, which belong to no mesh. */
 static int add_references(const sweep_file *s, int which, const char *text, stored_results *out)
 {
     result_cell *cell = add_cell(s, text, "reference", out);
@@ -297,7 +298,7 @@ static int add_mesh(const sweep_file *s, size_t row, int mesh, const char *text,
     return 1;
 }
 
-/* Checks the size first, because some systems promise memory that they do not have and then end the
+/* Checks the size first, because some systems grant memory that they do not have and then end the
  * program. */
 static status check_size(const sweep_file *s, fault *f)
 {
@@ -359,7 +360,7 @@ status results_sweep_read(const char *path, hid_t at, stored_results *out, fault
 enum { MOST_ROWS = 50000000 };
 static const size_t most_bytes = (size_t)1 << 31;
 
-/* Memory type for a stored member; -1: it is of another kind. */
+/* Returns the memory type for a stored member; -1: the member is of another kind. */
 static hid_t memory_type(hid_t member, const table_column *c)
 {
     const H5T_class_t class = H5Tget_class(member);
@@ -375,12 +376,11 @@ static hid_t memory_type(hid_t member, const table_column *c)
         return -1;
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, c->room);
-    H5Tset_cset(type,
-                H5Tget_cset(member)); /* because the library does not convert ASCII to UTF-8 */
+    H5Tset_cset(type, H5Tget_cset(member)); /* the library converts no ASCII */
     return type;
 }
 
-/* Returns 0 if the stored type has no such column. */
+/* Adds a column to a row type. Returns 0 if the stored type has no such column. */
 static int add_column(hid_t type, hid_t stored, const table_column *c)
 {
     const int index = H5Tget_member_index(stored, c->name);
@@ -391,7 +391,7 @@ static int add_column(hid_t type, hid_t stored, const table_column *c)
     return good;
 }
 
-/* The type of a row in memory, or -1. */
+/* Returns the type of a row in memory, or -1. */
 static hid_t row_type(hid_t stored, int columns, const table_column column[], size_t size)
 {
     if (stored < 0 || H5Tget_class(stored) != H5T_COMPOUND)

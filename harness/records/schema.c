@@ -94,7 +94,7 @@ const char *schema_kind_name(field_kind kind)
     return kind < FIELD_KINDS ? name[kind] : "?";
 }
 
-enum { MOST_LINKS = 40 }; /* limit of the kernel */
+enum { MOST_LINKS = 40 }; /* limit of the Linux kernel */
 
 const char *place_leaf(const char *path)
 {
@@ -108,7 +108,7 @@ static status fail(const char *path, int why, fault *f)
                      strerror(why));
 }
 
-/* Replaces a path by the target of the link there. Returns 0 if it is not a link. */
+/* Replaces a path by the target of the link at this path. Returns 0 if there is no link. */
 static int follow_link(char path[PATH_MAX])
 {
     char text[PATH_MAX], next[2 * PATH_MAX];
@@ -148,7 +148,7 @@ static void set_kind(const struct stat *there, file_place *out)
         out->kind = S_ISREG(there->st_mode) && out->descriptor < 0 ? PLACE_FILE : PLACE_STREAM;
 }
 
-/* Finds the folder for out->path if that does not exist. */
+/* Finds the folder of out->path if that path does not exist. */
 static status find_folder(const char *given, file_place *out, fault *f)
 {
     char folder[PATH_MAX] = ".";
@@ -215,7 +215,7 @@ int results_part_has(const char *lines, const char *text)
     return 0;
 }
 
-/* Formulation part of case/parameters/formulation. */
+/* Returns the formulation part of case/parameters/formulation. */
 static const char *formulation_of(const char *series_name)
 {
     const char *slash = strrchr(series_name, '/');
@@ -254,7 +254,7 @@ int results_part_selects(const results_part *p, const char *series_name, const c
     return p->select == NULL || select_matches(p->select, text) != 0;
 }
 
-/* Does the run have a quantity of the series that this selection omits? */
+/* Returns 1 if the run has a quantity of the series that this selection omits. */
 static int leaves_out(const results_part *p, const stored_results *known, const char *series_name)
 {
     for (int i = 0; p->select != NULL && i < known->cells; i++)
@@ -279,8 +279,9 @@ int results_part_differ(const stored_results *a, const stored_results *b, const 
            leaves_out(&b->part, a, series_name) || leaves_out(&b->part, b, series_name);
 }
 
-/* Does `name` belong to the series, or, if the series has no options, to its case? With options,
- * only the quantities that depend on them are evaluated, namely those with limits. */
+/* Returns 1 if `name` is the series or, if the series has no options, belongs to its case. For a
+ * series with options, only the quantities that depend on them are evaluated, namely those with
+ * limits. */
 static int speaks_for(const char *name, const char *series_name)
 {
     return strchr(formulation_of(series_name), ':') != NULL
@@ -288,7 +289,7 @@ static int speaks_for(const char *name, const char *series_name)
                : strncmp(name, series_name, strcspn(series_name, "/") + 1) == 0;
 }
 
-/* Does the selection include any quantity that a run contains? */
+/* Returns 1 if the selection includes any quantity that a run contains. */
 static int selects_any(const results_part *p, const stored_results *known, const char *series_name)
 {
     const int judged = strchr(formulation_of(series_name), ':') != NULL;
@@ -308,7 +309,7 @@ static int selects_any(const results_part *p, const stored_results *known, const
     return 0;
 }
 
-/* Does any series of the run have that formulation? */
+/* Returns 1 if any series of the run has this formulation. */
 static int has_formulation(const stored_results *r, const char *key)
 {
     for (int i = 0; i < r->seriess; i++)
@@ -317,7 +318,7 @@ static int has_formulation(const stored_results *r, const char *key)
     return 0;
 }
 
-/* Does the run have any series of the same case and parameters? */
+/* Returns 1 if the run has any series of the same case and parameters. */
 static int is_run(const stored_results *r, const char *series_name)
 {
     const size_t point = (size_t)(formulation_of(series_name) - series_name);

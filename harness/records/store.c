@@ -5,7 +5,8 @@
 
 #include "cases/format/format.h"
 
-/* Writes a group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */
+/* Writes a group below `at` with the centre lines, sections and bodies; the caller closes it with
+ * H5Gclose. */
 static hid_t store_shapes(record_file *r, hid_t at, const char *name, const scene *sc,
                           const shapes *s);
 
@@ -30,8 +31,8 @@ static void put_noise(record_file *r, hid_t at)
     record_text(r, at, "cost_noise", noise); /* smaller ratios of costs count as ties */
 }
 
-/* A separate column for each parameter. The record is the point; the offset is the index of the
- * parameter. */
+/* Defines a separate column for each parameter. The record is the point; the offset is the index of
+ * the parameter. */
 static void get_choice(const subject *s, field_value *out)
 {
     const size_t i = out->of->offset;
@@ -70,9 +71,8 @@ static void put_points(record_file *r, hid_t at, const case_type *type, const su
     record_rows(r, at, record_point.table, count, fields, list->count, list->row);
 }
 
-/* The record of a scene is its text; "" for a rejected point, or a scene that a file cannot
- * express.
- */
+/* Stores scenes. The record of a scene is its text; it is "" for a rejected point, or a scene that
+ * a file cannot express. */
 static void put_scenes(record_file *r, hid_t at, subjects *list)
 {
     char **text = calloc((size_t)list->count + 1, sizeof *text);
@@ -91,8 +91,8 @@ static void put_scenes(record_file *r, hid_t at, subjects *list)
     free(text);
 }
 
-/* Points of all curves in one array; the records of curves contain the index of their first point.
- */
+/* Stores the points of all curves in one array. The records of curves contain the index of their
+ * first point. */
 static void put_curves(record_file *r, hid_t at, const subjects *list)
 {
     size_t points = 0;
@@ -112,7 +112,7 @@ static void put_curves(record_file *r, hid_t at, const subjects *list)
     free(value);
 }
 
-/* Stores one picture per point, of the first formulation with a solution. */
+/* Stores one picture per point, that of the first formulation with a solution. */
 static void put_pictures(record_file *r, hid_t at, const subjects *cells)
 {
     hid_t all = -1;
@@ -144,8 +144,9 @@ static void put_records(record_file *r, hid_t at, const gathering *g, const reco
         put_points(r, at, of, &list);
     else if (type == &record_scene)
         put_scenes(r, at, &list);
-    else if (!r->bad && ((type != &record_motion && type != &record_assumption) || /* few have */
-                         list.count > 0))
+    else if (!r->bad &&
+             ((type != &record_motion && type != &record_assumption) || /* few have these */
+              list.count > 0))
         record_rows_of_type(r, at, type, list.count, list.row);
     if (type == &record_curve)
         put_curves(r, at, &list);
@@ -166,7 +167,8 @@ static void put_case(record_file *r, hid_t cases, const gathering *g, const case
     H5Gclose(here);
 }
 
-/* Attribute with names, one per line. at(s, i): name i, NULL after the last. */
+/* Stores an attribute with names, one per line. at(s, i) returns name i, or NULL after the last
+ * one. */
 static void put_names(record_file *r, hid_t group, const char *attribute, const sweep *s,
                       const char *(*at)(const sweep *s, int i))
 {
@@ -231,7 +233,7 @@ void store_case(store *to, const case_type *of)
     put_case(&to->file, to->cases, &g, of);
 }
 
-/* Stores how the run ended, in the words of its last line. */
+/* Stores the result of the run, in the words of its last line. */
 static void put_outcome(record_file *r, hid_t at, const sweep *s, const judgement *j)
 {
     char sentence[SENTENCE_OF_RUN];
@@ -292,7 +294,7 @@ status store_write_solution(const char *path, const sweep *s, const environment 
 
 /* Centre lines of a cell in the result file: docs/reference/result_files.md. */
 
-/* Columns [first, first + count) of the points of every state: [states x points x count]. */
+/* Stores columns [first, first + count) of the points of every state: [states x points x count]. */
 static void put_columns(record_file *r, hid_t at, const char *name, const shapes *s, int first,
                         int count, const char *unit, const char *columns)
 {
@@ -399,7 +401,7 @@ static void put_sections(record_file *r, hid_t at, const scene *sc)
     H5Gclose(all);
 }
 
-/* Stores the sections at the far ends of tapered members, by the member's number. */
+/* Stores the sections at the far ends of tapered members, by the number of the member. */
 static void put_far_ends(record_file *r, hid_t at, const scene *sc)
 {
     if (!scene_tapers(sc))

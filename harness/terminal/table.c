@@ -53,7 +53,7 @@ void table_point(FILE *to, const sweep_point *p)
     fprintf(to, "%s%s%s", p->type->name, p->text[0] != '\0' ? ": " : "", p->text);
 }
 
-/* Physics that the source of a case omits, if all physics was requested. */
+/* Returns the physics that the source of a case omits if all physics was requested. */
 static unsigned omitted_by_source(const sweep_point *p)
 {
     double value[CASE_MAX_PARAMETERS];
@@ -74,7 +74,7 @@ static void assumed(FILE *to, const sweep_point *p)
         paragraph_write(to, fprintf(to, "%s: ", assumptions_kind(a.kind)), INDENT, a.text);
 }
 
-/* Prints the members with more elements than the mesh specifies. */
+/* Prints the members that have more elements than the mesh specifies. */
 static void divided(FILE *to, const sweep_point *p)
 {
     char words[FAULT_TEXT];
@@ -121,7 +121,7 @@ void table_series(FILE *to, const sweep *s, int index)
         paragraph_write(to, 0, 2, words);
 }
 
-/* Number of columns of that many bytes of UTF-8. */
+/* Returns the number of columns of a UTF-8 text with this number of bytes. */
 static int columns_of(const char *text, size_t bytes)
 {
     int columns = 0;
@@ -135,7 +135,8 @@ int paragraph_columns(const char *text)
     return columns_of(text, strlen(text));
 }
 
-/* Number of bytes of the next word; in commands, blanks within quotes belong to it. */
+/* Returns the number of bytes of the next word. In commands, blanks within quotes belong to the
+ * word. */
 static size_t word_at(const char *text, int command)
 {
     size_t length = strcspn(text, " \n'");
@@ -149,11 +150,11 @@ static size_t word_at(const char *text, int command)
     return length;
 }
 
-/* joint: ends a line that is continued. */
+/* Writes words with line breaks. joint: ends a line that is continued. */
 static void write_words(FILE *to, int at, int indent, const char *joint, const char *text)
 {
     const int width = PARAGRAPH_WIDTH - columns_of(joint, strlen(joint));
-    int column = at, begun = 0; /* begun: the line has a word */
+    int column = at, begun = 0; /* begun: 1 if the line has a word */
     static const char blank[] = " \n";
     for (text += strspn(text, blank); *text != '\0'; text += strspn(text, blank)) {
         const size_t word = word_at(text, joint[0] != '\0');
@@ -211,7 +212,7 @@ void paragraph_say(FILE *to, int at, int indent, const char *format, ...)
     if (vasprintf(&text, format, arguments) >= 0) {
         paragraph_write(to, at, indent, text);
         free(text);
-    } else { /* no memory: one long line */
+    } else { /* out of memory: one long line */
         fputc(' ', to);
         vfprintf(to, format, again);
         fputc('\n', to);
@@ -232,7 +233,7 @@ static int has_colour(FILE *to)
            (none == NULL || none[0] == '\0');
 }
 
-/* Is the locale of the environment UTF-8, whatever locale the program itself uses? */
+/* Returns 1 if the locale of the environment is UTF-8, whatever locale the program itself uses. */
 static int has_utf8(void)
 {
     const locale_t here = newlocale(LC_CTYPE_MASK, "", (locale_t)0);

@@ -12,24 +12,25 @@ enum {
     DIGITS = 9
 };
 
-/* A series that ran, and its reference. */
+/* A series that was run, and its reference value. */
 typedef struct beside_column {
     const series *one;
-    const truth *row; /* NULL: none */
+    const truth *row; /* reference value; NULL: there is none */
     verdict shown;
-    const char *name; /* rest of its name that the header does not contain yet */
+    const char *name; /* rest of the name that the header does not contain yet */
     char title[FORMULATION_KEY + 16];
 } beside_column;
 
-/* A quantity for some of the formulations. */
+/* Table of a quantity for some of the formulations. */
 typedef struct block {
     const scene_quantity *q;
     int quantity, count;
-    int known; /* 1: some formulation has a reference value */
+    int known; /* 1: at least one formulation has a reference value */
     beside_column list[COLUMNS];
 } block;
 
-/* Length of the part of a name for one line: up to the last separator that fits. */
+/* Returns the length of the part of a name that one line contains, up to the last separator that
+ * fits. */
 static int piece_of(const char *name)
 {
     const int length = (int)strlen(name);
@@ -42,7 +43,7 @@ static int piece_of(const char *name)
     return fits > 0 ? fits : COLUMN - 1;
 }
 
-/* Writes one line of the names; returns 0 when they are complete. */
+/* Writes one line of the names. Returns 0 when the names are complete. */
 static int write_names(FILE *to, block *b, const char *head)
 {
     int left = 0, last = -1;
@@ -68,7 +69,8 @@ static const solve_result *result_of(const series *one, int elements)
     return NULL;
 }
 
-/* Writes the error, the value if there is no reference, or the reason why there is none. */
+/* Writes the error; the value if there is no reference value; or the reason why there is no
+ * value. */
 static void write_cell(FILE *to, const block *b, const beside_column *c, int elements)
 {
     const solve_result *r = result_of(c->one, elements);
@@ -141,7 +143,7 @@ static void write_meshes(FILE *to, const block *b)
     }
 }
 
-/* Describes in words the limits that do not pass. */
+/* Describes the limits that do not pass. */
 static void write_sentences(FILE *to, const block *b)
 {
     for (int i = 0; i < b->count; i++) {
@@ -150,7 +152,7 @@ static void write_sentences(FILE *to, const block *b)
         if (c->shown.kind == VERDICT_PASS || c->shown.kind == VERDICT_OTHER_MODEL)
             continue; /* undecided limits are listed once, at the end */
         if (c->shown.kind == VERDICT_NO_TRUTH && (c->row != NULL || !b->known))
-            continue; /* the heading states it for all of them */
+            continue; /* the heading states the verdict for all of them */
         sentence_of_verdict(&c->shown, b->q->least_order, text, sizeof text);
         paragraph_write(to, fprintf(to, "  %s: ", c->one->formulation.key), 4, text);
     }
@@ -170,7 +172,8 @@ static void write_block(FILE *to, block *b)
     write_sentences(to, b);
 }
 
-/* "; exact 11419457.12 (haringx)"; an agreement says whose. */
+/* Appends a reference value, such as "; exact 11419457.12 (haringx)". For an agreement, names the
+ * formulations that agree. */
 static void add_truth(char *line, size_t size, const truth *row)
 {
     const size_t used = strlen(line);
@@ -183,7 +186,7 @@ static void add_truth(char *line, size_t size, const truth *row)
              agreed ? row->source : "");
 }
 
-/* Says why there is nothing to compare values with. */
+/* Writes the reason why there is nothing with which values can be compared. */
 static void write_why(FILE *to, int at, const sweep *s, const truths *t, int quantity)
 {
     paragraph words;
@@ -193,8 +196,8 @@ static void write_why(FILE *to, int at, const sweep *s, const truths *t, int qua
     paragraph_end(&words, at, 4);
 }
 
-/* Writes name, unit and the references of the formulations, without duplicates. Returns 0 if there
- * is none. */
+/* Writes the name, the unit and the reference values of the formulations, without duplicates.
+ * Returns 0 if there is no reference value. */
 static int write_heading(FILE *to, const sweep *s, const truths *t, int quantity)
 {
     const sweep_point *p = &s->point[0];
@@ -248,7 +251,8 @@ static void write_quantity(FILE *to, const sweep *s, const truths *t, int quanti
     }
 }
 
-/* Writes formulations that lack the same features on one line, at the first of them. */
+/* Writes the formulations that lack the same features on one line, which comes at the first of
+ * them. */
 static void write_missing(FILE *to, const sweep *s)
 {
     for (int i = 0; i < s->seriess; i++) {

@@ -1,4 +1,4 @@
-/* Steps, events and matrices of a path; a summary of a motion. */
+/* Steps, events and matrices of a path, and the summary of a motion. */
 #include "harness/terminal/terminal_impl.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ static void corrections(FILE *to, int column, const solve_result *r, const step_
     paragraph_end(&words, column, column);
 }
 
-/* Number of steps to report; those of motions have a short form. */
+/* Returns the number of steps to report; the steps of motions are reported in a short form. */
 static int steps_told(const solve_result *r)
 {
     int steps = r->steps;
@@ -57,7 +57,7 @@ static void matrix(FILE *to, const double value[36], const char *const row[6],
         fprintf(to, "%7s", row[i]);
         for (int j = 0; j < 6; j++)
             if (isfinite(value[6 * i + j]))
-                fprintf(to, " %14.7g", value[6 * i + j] + 0.0); /* no "-0" */
+                fprintf(to, " %14.7g", value[6 * i + j] + 0.0); /* avoids "-0" */
             else
                 fprintf(to, " %14s", "-");
         fputc('\n', to);
@@ -104,7 +104,7 @@ void table_path_events(FILE *to, const solve_result *r)
 
 enum { MOTION_INDENT = 2 };
 
-/* Records [first, end) of one motion, starting with the initial state. */
+/* Records [first, end) of one motion, which start with the initial state. */
 typedef struct motion_extent {
     const motion_record *record;
     int first, end;
@@ -190,7 +190,7 @@ static void energy_line(FILE *to, const motion_extent *e)
     paragraph_end(&words, at, MOTION_INDENT);
 }
 
-/* Largest energy dissipated by the integrator, relative to the largest energy. */
+/* Prints the largest energy dissipated by the integrator, relative to the largest energy. */
 static void damping_line(FILE *to, const motion_extent *e)
 {
     account so_far = {.largest = 0};
@@ -213,7 +213,7 @@ static void damping_line(FILE *to, const motion_extent *e)
                       when, lost, 100 * part, of);
 }
 
-/* Largest change of a vector from its initial value. */
+/* Returns the largest change of a vector from its initial value. */
 static double change_of(const motion_extent *e, int of)
 {
     const double *begin = e->record[e->first].at.balance + of;

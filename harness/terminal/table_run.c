@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* "case (parameters), formulation, n = 1, 2: WHY" for the meshes of a series without a solution,
- * with the reason of the finest of them. */
+/* Prints "case (parameters), formulation, n = 1, 2: WHY" for the meshes of a series without a
+ * solution; WHY is the reason for the finest of them. */
 static void failed_series(FILE *to, const sweep *s, int index, int *lines)
 {
     const series *one = &s->series[index];
@@ -29,7 +29,7 @@ static void failed_series(FILE *to, const sweep *s, int index, int *lines)
                   status_name(last->status), last->reason);
 }
 
-/* Cells without a solution, even if finer meshes have one and determine the verdict. */
+/* Prints the cells without a solution, even if finer meshes have one and determine the verdict. */
 static void failed_cells(FILE *to, const sweep *s)
 {
     int lines = 0;
@@ -37,7 +37,8 @@ static void failed_cells(FILE *to, const sweep *s)
         failed_series(to, s, i, &lines);
 }
 
-/* How often the limits of each formulation lie within their uncertainty, over all cases. */
+/* Prints how often the limits of each formulation lie within their uncertainty of exact reference
+ * values, over all cases. */
 static void coverage_lines(FILE *to, const judgement *j)
 {
     if (j->coverages > 0)
@@ -65,8 +66,8 @@ static void coverage_lines(FILE *to, const judgement *j)
     }
 }
 
-/* Published values that are incompatible with limits that agree with the reference value; each is
- * printed once. */
+/* Prints the published values that are incompatible with limits that agree with the reference
+ * value, each of them once. */
 static void contradictions(FILE *to, const sweep *s, const judgement *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
@@ -109,7 +110,7 @@ void table_run_details(FILE *to, const sweep *s, const judgement *j)
     coverage_lines(to, j);
 }
 
-/* "9705 pass; 75 undecided". */
+/* Prints counts such as "9705 pass; 75 undecided". */
 static void print_kinds(FILE *to, const judgement *j)
 {
     int parts = 0;
@@ -196,15 +197,15 @@ typedef struct head {
     char line[HEAD_LINES][WIDEST_WORD + 1];
 } head;
 
-/* Columns from..to-1. */
+/* The columns from `from` to `to` - 1. */
 typedef struct overview_block {
     int from, to;
     int name;   /* width of the column of case names */
     head *head; /* [columns] */
 } overview_block;
 
-/* Length of the first piece of a name: as many words as fit into `limit`; a longer word is
- * hyphenated. */
+/* Returns the length of the first piece of a name, with as many words as fit into `limit`. A longer
+ * word is hyphenated. */
 static int piece_of(const char *name, int limit, int *cut)
 {
     int fits = 0;
@@ -223,7 +224,7 @@ static int piece_of(const char *name, int limit, int *cut)
     return most < limit - 1 ? most : limit - 1;
 }
 
-/* mark: a line above the name, or "". */
+/* Divides a name into lines. mark: a line above the name, or "". */
 static head head_of(const char *name, int limit, const char *mark)
 {
     head out = {0};
@@ -242,7 +243,8 @@ static head head_of(const char *name, int limit, const char *mark)
     return out;
 }
 
-/* Width of a block whose names have words of at most `limit`; also sets its headers. */
+/* Returns the width of a block in whose names words have at most `limit` characters; also sets its
+ * headers. */
 static int width_with(const overview *o, screen look, overview_block *b, int limit)
 {
     char text[OVERVIEW_TEXT];
@@ -259,7 +261,7 @@ static int width_with(const overview *o, screen look, overview_block *b, int lim
     return sum;
 }
 
-/* Chooses the widest names that the screen allows, and as many columns as fit, at least one. */
+/* Chooses the widest names that the screen allows, and as many columns as fit, but at least one. */
 static void lay_out(const overview *o, screen look, overview_block *b)
 {
     for (b->to = o->columns; b->to > b->from + 1; b->to--)
@@ -330,7 +332,8 @@ static int width_of_names(const overview *o)
     return width;
 }
 
-/* Lists cases without a row, of which something is evaluated, or nothing. */
+/* Lists the cases without a row: those in which something is evaluated, or those in which nothing
+ * is. */
 static void print_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     paragraph words;
@@ -347,14 +350,14 @@ static void print_unshown(FILE *to, const overview *o, int judged, const char *w
     paragraph_end(&words, 0, 0);
 }
 
-/* Lists cases that pass everywhere, if they have no rows. */
+/* Lists the cases without a row that pass everywhere. */
 static void print_passing(FILE *to, const overview *o)
 {
     print_unshown(to, o, 1, "more pass in all verdicts");
     print_unshown(to, o, 0, "more have no verdict");
 }
 
-/* Appends "text" to the line, or starts a new one. */
+/* Appends the text to the line, or starts a new line with it. */
 static void print_entry(FILE *to, int *column, const char *text)
 {
     const int width = paragraph_columns(text);

@@ -11,8 +11,8 @@
 static void loop_lines(FILE *to, const scene *s);
 
 enum { NAME = 28, VALUE = 20, UNIT = 9, DIGITS = 10, INDENT = 2 };
-static const double least_rounding = 1e-11, /* relative, of any computed value */
-    noise = 1e-4; /* round-off relative to the scale of values that are zero */
+static const double least_rounding = 1e-11, /* smallest relative round-off of any computed value */
+    noise = 1e-4; /* round-off relative to the scale, below which values count as zero */
 
 /* Prints estimates of analytic models, which are not reference values. */
 static void predictions(FILE *to, const sweep_point *p, const truths *t)
@@ -33,20 +33,20 @@ static void predictions(FILE *to, const sweep_point *p, const truths *t)
     }
 }
 
-/* Does the previous quantity have no value for the same reason? */
+/* Returns 1 if the previous quantity has no value for the same reason. */
 static int is_told(const solve_result *r, int index)
 {
     return index > 0 && r->quantity[index - 1].status != STATUS_OK &&
            strcmp(r->quantity[index - 1].reason, r->quantity[index].reason) == 0;
 }
 
-/* Is the value only round-off? */
+/* Returns 1 if the value is only round-off. */
 static int is_zero(const scene *s, int index, const solve_result *r)
 {
     return fabs(r->quantity[index].value) < change_scale(s, index, r) * noise;
 }
 
-/* Bound on the change of a value due to round-off and mesh refinement. */
+/* Returns a bound on the change of a value due to round-off and mesh refinement. */
 static double uncertainty_of(const scene *s, int index, const solve_result *r)
 {
     const quantity_result *v = &r->quantity[index];
@@ -57,7 +57,7 @@ static double uncertainty_of(const scene *s, int index, const solve_result *r)
     return isfinite(of_mesh) ? fmax(of_rounding, of_mesh) : of_rounding;
 }
 
-/* Prints the digits that this bound allows. */
+/* Prints a value with the digits that this bound allows. */
 static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
 {
     const series *one = &s->series[0];
@@ -93,7 +93,7 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
     fputc('\n', to);
 }
 
-/* Number of load steps used, and of rejected longer steps. */
+/* Writes the number of load steps used, and the number of rejected longer steps. */
 static void count_steps(const counters *c, char text[FAULT_TEXT])
 {
     const char *plural = c->steps == 1 ? "" : "s";
@@ -127,7 +127,7 @@ static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
                     s->quantity[i].name, r->quantity[i].rounding);
 }
 
-/* "ULS = 1.35 dead + 1.5 wind; ...": the combinations, if loads have cases. */
+/* Prints the combinations if loads have cases: "ULS = 1.35 dead + 1.5 wind; ...". */
 static void combinations(FILE *to, const scene *s)
 {
     if (s->combinations == 0)
@@ -148,7 +148,7 @@ static void combinations(FILE *to, const scene *s)
     paragraph_end(&words, at, INDENT);
 }
 
-/* Initial shapes, and the analyses that do not have them. */
+/* Prints the initial shapes, and the analyses that do not have them. */
 static void imperfections(FILE *to, const scene *s)
 {
     if (s->imperfections == 0)
@@ -172,8 +172,8 @@ static void imperfections(FILE *to, const scene *s)
     paragraph_end(&words, at, INDENT);
 }
 
-/* Does an analysis that is linear about a state hold the driven components fixed? Names the kinds
- * of these analyses. */
+/* Returns 1 if an analysis that is linear about a state holds the driven components fixed; words:
+ * the kinds of these analyses. */
 static int holding(const scene *s, char words[40])
 {
     static const struct {
@@ -191,7 +191,7 @@ static int holding(const scene *s, char words[40])
     return used > 0;
 }
 
-/* Is this motion the input of a response? */
+/* Returns 1 if this prescribed motion is the input of a response. */
 static int is_input(const scene *s, int driver)
 {
     for (int i = 0; i < s->quantities; i++)
@@ -210,7 +210,7 @@ static void put_driven(FILE *text, const scene *s, int node, const int driver[3]
                     scene_name(s, SCENE_NODES, node).text, names + 2 * k);
 }
 
-/* "held: stage ux, driven (modal)": driven components that are fixed in an analysis. */
+/* Prints the driven components that are fixed in an analysis: "held: stage ux, driven (modal)". */
 static void driven(FILE *to, const scene *s)
 {
     char kinds[40], *words = NULL;
@@ -238,7 +238,7 @@ static int has_no_inertia(const scene_body *b)
     return none;
 }
 
-/* Can the node rotate, and does no other node with a body move with it? */
+/* Returns 1 if the node can rotate and no other node with a body moves with it. */
 static int turns_alone(const scene *s, int node)
 {
     const scene_node *n = &s->node[node];
@@ -260,7 +260,8 @@ static int is_weighed(const scene *s)
     return 0;
 }
 
-/* "mass: bodies 500 kg, members 0.0125 kg": a wrong unit shows here. members [kg] */
+/* Prints the masses, in which a wrong unit shows: "mass: bodies 500 kg, members 0.0125 kg". members
+ * [kg] */
 static void masses(FILE *to, const scene *s, double members)
 {
     enum { MOST_NAMES = 8 };

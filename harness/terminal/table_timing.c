@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lowest cost for the quantities of a point (`every`), or for the first with a reference value.
- * Returns 0 if none has one. list[series]: work space. */
+/* Prints the lowest cost for the quantities of a point (`every` 1), or for the first one with a
+ * reference value. Returns 0 if none has a reference value. list[series]: workspace. */
 static int table_cheapest(FILE *to, const sweep *, const judgement *, int point, int every,
                           reached list[]);
 
 enum { NAME = 23 };
 
-/* The verdict of a series on a quantity that has a reference value for it, or NULL. */
+/* Returns the verdict of a series on a quantity if it has a reference value; otherwise NULL. */
 static const verdict *judged_on(const judgement *j, int series_index, int quantity)
 {
     for (int i = 0; i < j->verdicts; i++)
@@ -31,7 +31,8 @@ static double error_on(const sweep *s, const verdict *v, int mesh)
                : NAN;
 }
 
-/* Prints formulation and mesh; a longer name gets its own line. Returns its width in columns. */
+/* Prints the formulation and the mesh; a longer name has its own line. Returns the width in
+ * columns. */
 static int subject(FILE *to, const series *one, int mesh)
 {
     if (fprintf(to, "  %-*s", NAME, one->formulation.key) > 2 + NAME)
@@ -59,14 +60,14 @@ static void row(FILE *to, const sweep *s, const series *one, const verdict *v, i
         paragraph_say(to, column, 6, " %s", c->solve.reason);
 }
 
-/* Number of meshes of a series of that point that were run. */
+/* Returns the number of meshes of a series that were run, if the series belongs to point `at`. */
 static int meshes_run(const series *one, int at)
 {
     return one->point == at && one->missing[0] == '\0' ? one->meshes : 0;
 }
 
-/* The first quantity with a reference value for a formulation whose errors were not shown yet;
- * done[series]: 1: its errors were shown. -1: none. */
+/* Returns the first quantity with a reference value for a formulation whose errors have not been
+ * shown yet; -1: there is none. done[series] 1: the errors of the series have been shown. */
 static int next_quantity(const sweep *s, const judgement *j, int at, const char done[])
 {
     for (int q = 0; q < s->point[at].scene.quantities; q++)
@@ -82,7 +83,7 @@ static void mark_shown(const sweep *s, const judgement *j, int at, int quantity,
         done[i] |= s->series[i].point == at && judged_on(j, i, quantity) != NULL;
 }
 
-/* Prints errors in other quantities for formulations without a reference value of the first
+/* Prints the errors in other quantities for formulations that have no reference value of the first
  * quantity. */
 static void errors_of(FILE *to, const sweep *s, const judgement *j, int at, int quantity)
 {
@@ -126,7 +127,7 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at, char done
     }
 }
 
-/* Prints microseconds per iteration for each part and for the rest of the solution; the dense
+/* Prints microseconds per iteration for each part and for the rest of the solution, and the dense
  * reference if it was timed. */
 static void parts_of(FILE *to, const series *one, int mesh)
 {
@@ -147,7 +148,7 @@ static void parts_of(FILE *to, const series *one, int mesh)
                 dense_reference_seconds(&t->dense, iterations) / rounds_least(&t->as_is));
 }
 
-/* Were the parts of the iterations timed separately? */
+/* Returns 1 if the parts of the iterations were timed separately. */
 static int is_parted(const series *one, int mesh)
 {
     double sum = 0;
@@ -218,7 +219,7 @@ static void way(FILE *to, const sweep *s, const reached *r)
         fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
-/* After those that pass: others that were faster in every round. */
+/* Prints, after the formulations that pass, others that were faster in every round. */
 static void faster_ones(FILE *to, const sweep *s, const reached list[], int count, int ties)
 {
     int told = 0;
@@ -231,7 +232,7 @@ static void faster_ones(FILE *to, const sweep *s, const reached list[], int coun
         }
 }
 
-/* Prints the formulations within the error, grouped by defect, if none passes. */
+/* If no formulation passes, prints those within the error, grouped by defect. */
 static void defective_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {
@@ -250,8 +251,8 @@ static void defective_ones(FILE *to, const sweep *s, const reached list[], int c
     }
 }
 
-/* After the ranked ones: unranked formulations that pass, and that do not. Returns how many pass.
- */
+/* Prints, after the ranked formulations, those that are not ranked: first those that pass, then the
+ * others. Returns the number of those that pass. */
 static int unranked_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     int i = 0, told = 0;
@@ -263,8 +264,8 @@ static int unranked_ones(FILE *to, const sweep *s, const reached list[], int cou
     return i;
 }
 
-/* Formulation of lowest counted work at a point, and those tied with it. The caller frees the text;
- * NULL: out of memory. */
+/* Returns a text with the formulation of lowest counted work at a point and those tied with it. The
+ * caller frees the text; NULL: out of memory. */
 static char *cheapest(const reach_question *q, reached list[])
 {
     char *text = NULL;
@@ -300,7 +301,7 @@ static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
     return 0;
 }
 
-/* The formulation of lowest cost for a quantity at every level. */
+/* The formulation of lowest cost for a quantity, for every level. */
 typedef struct cheapest_answer {
     int quantity, told; /* 1: has been printed */
     char *text[REACH_LEVELS];
@@ -319,8 +320,8 @@ static int same_answer(const cheapest_answer *a, const cheapest_answer *b)
     return same;
 }
 
-/* "u_x, F_y within 10, 1 %: collocation, n = 1": one line for all quantities with the same answers
- * as the first; adjacent levels with equal answers are combined. */
+/* Writes one line for all quantities with the same answers as the first one: "u_x, F_y within 10, 1
+ * %: collocation, n = 1". Adjacent levels with equal answers are combined. */
 static void write_together(FILE *out, const scene *here, cheapest_answer a[], int count)
 {
     for (int level = 0, next; level < REACH_LEVELS; level = next) {

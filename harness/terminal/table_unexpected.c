@@ -10,7 +10,7 @@
 
 enum { INDENT = 4 };
 
-/* "--set a=1 --set b=2" for "a=1;b=2". */
+/* Prints the options for parameters, such as "--set a=1 --set b=2" for "a=1;b=2". */
 static void print_settings(FILE *to, const char *parameters)
 {
     if (*parameters != '\0')
@@ -22,7 +22,7 @@ static void print_settings(FILE *to, const char *parameters)
             fputc(*parameters, to);
 }
 
-/* Prints the source of the formulation, if it is not built in. */
+/* Prints the source of the formulation if the formulation is not built in. */
 static void print_element(FILE *to, const element_type *type)
 {
     const char *element = type != NULL ? formulations_element(type) : NULL;
@@ -32,7 +32,7 @@ static void print_element(FILE *to, const element_type *type)
     words_quote(to, element);
 }
 
-/* Prints the command that shows a series again; quantity: one of its quantities, or NULL. */
+/* Prints the command that shows a series again. quantity: one of its quantities, or NULL. */
 static void print_command(FILE *to, const sweep_point *p, const series *one, const char *quantity)
 {
     paragraph words;
@@ -53,7 +53,7 @@ static void print_command(FILE *to, const sweep_point *p, const series *one, con
     paragraph_end_command(&words, 0, INDENT);
 }
 
-/* A numbered heading. */
+/* Prints a numbered heading. */
 static void print_heading(FILE *to, int number, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -112,7 +112,7 @@ static void print_verdict(FILE *to, screen look, const sweep *s, const verdict *
             v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
     paragraph_say(to, 0, INDENT, "%s", sentence);
     print_numbers(to, one, v);
-    if (v->reason[0] != '\0' && isfinite(v->finest)) /* otherwise the sentence contains it */
+    if (v->reason[0] != '\0' && isfinite(v->finest)) /* otherwise in the sentence */
         paragraph_say(to, 0, INDENT, "%s", v->reason);
     if (v->rule != NULL)
         paragraph_say(to, 0, INDENT, "known deviation %s: %s", v->rule->name, v->rule->cause);
@@ -157,7 +157,7 @@ static void print_rules(FILE *to, const truths *t, int *number)
     }
 }
 
-/* Reference values without a case, point or quantity. */
+/* Prints the reference values that have no case, point or quantity. */
 static void print_unmet(FILE *to, const truths *t, int *number)
 {
     for (int i = 0; i < t->rows; i++) {
@@ -226,8 +226,8 @@ static const curve *curve_of(const scene *s, const solve_result *r, int quantity
     return c->points > 0 ? c : NULL;
 }
 
-/* Analysis whose stations are the points of the curve, if steps end there; SCENE_NONE: the points
- * are not those of a path with given stations. */
+/* Returns the analysis whose stations are the points of the curve, if steps end there. SCENE_NONE:
+ * the points are not those of a path with given stations. */
 static int path_of(const scene *s, int quantity)
 {
     const int analysis = s->quantity[quantity].analysis;
@@ -238,7 +238,7 @@ static int path_of(const scene *s, int quantity)
     return kind == SCENE_STATIC || kind == SCENE_ROTATION ? path : SCENE_NONE;
 }
 
-/* Do both curves have the same abscissae? */
+/* Returns 1 if both curves have the same abscissae. */
 static int beside(const scene *s, const solve_result *r, int a, int b)
 {
     const curve *p = curve_of(s, r, a), *q = curve_of(s, r, b);
@@ -264,14 +264,14 @@ static double largest_of(int points, const double value[])
     return largest;
 }
 
-/* Value; 0 if it is round-off relative to the largest one. */
+/* Returns the value; 0 if it is round-off relative to the largest one. */
 static double without_noise(int points, const double value[], int at)
 {
     const double noise = 1e-13;
     return fabs(value[at]) < noise * largest_of(points, value) ? 0 : value[at];
 }
 
-/* Prints the digits that refinement does not change. */
+/* Prints a value with the digits that refinement does not change. */
 static void write_value(FILE *to, const quantity_result *r, int at)
 {
     const curve *c = &r->curve;
@@ -285,7 +285,7 @@ static void write_value(FILE *to, const quantity_result *r, int at)
         table_digits(to, COLUMN, value, DIGITS);
 }
 
-/* Prints curves list[count] over the abscissae of the first. */
+/* Prints the curves list[count] over the abscissae of the first one. */
 static void write_block(FILE *to, const scene *s, const solve_result *r, int count,
                         const int list[])
 {
@@ -330,7 +330,8 @@ void table_curves_values(FILE *to, const scene *s, const solve_result *r)
     }
 }
 
-/* Is the curve the same on all meshes of all formulations, as for a prescribed value? */
+/* Returns 1 if the curve is the same on all meshes of all formulations, as for a prescribed
+ * value. */
 static int is_given(const sweep *s, int quantity, int reference)
 {
     const series *other = &s->series[reference];

@@ -15,9 +15,9 @@ typedef struct verdicts_block {
     const sweep_point *at;
     int count;
     const verdict **verdict; /* [count] verdicts of the point, set to NULL after printing */
-    int name;                /* width of the column of names; a longer one gets its own line */
+    int name;                /* width of the column of names; a longer name has its own line */
     int rules;
-    const rule *rule[MOST_RULES]; /* rules that are referred to, numbered from 1 */
+    const rule *rule[MOST_RULES]; /* rules to which the table refers, numbered from 1 */
 } verdicts_block;
 
 static const series *series_of(const verdicts_block *b, const verdict *v)
@@ -31,7 +31,7 @@ static void print_columns(const verdicts_block *b)
             "+-", ORDER, "order", "error", "verdict");
 }
 
-/* Prints the result of another model, for a quantity with a reference value. */
+/* Prints the result of another model for a quantity with a reference value. */
 static void print_other_model(const verdicts_block *b, const truth *other)
 {
     char value[ROUNDING_TEXT];
@@ -39,7 +39,7 @@ static void print_other_model(const verdicts_block *b, const truth *other)
     paragraph_say(b->to, 0, 4, "another model: %s (%s, %s)", value, other->kind, other->source);
 }
 
-/* Prints a quantity and the reference value for the verdict and those below it. */
+/* Prints a quantity and the reference value that applies to the verdict and to those below it. */
 static void print_quantity(const verdicts_block *b, const scene_quantity *q, const verdict *v)
 {
     const truth *row = v->truth;
@@ -58,7 +58,7 @@ static void print_quantity(const verdicts_block *b, const scene_quantity *q, con
         print_other_model(b, v->model_truth);
 }
 
-/* Number of a rule; 0: none, or the list is full. */
+/* Returns the number of a rule; 0: there is no rule, or the list is full. */
 static int number_of_rule(verdicts_block *b, const rule *r)
 {
     int i = 0;
@@ -85,7 +85,7 @@ static void add_difference(const verdict *v, char *text, size_t size)
                  other->kind);
 }
 
-/* Text of the last column. */
+/* Writes the text of the last column. */
 static void verdict_words(verdicts_block *b, const verdict *v, char *text, size_t size)
 {
     const int number = v->matches ? number_of_rule(b, v->rule) : 0;
@@ -117,7 +117,7 @@ static void print_verdict(verdicts_block *b, const verdict *v)
     verdict_words(b, v, words, sizeof words);
     fputc(' ', b->to);
     paragraph_write(b->to, column, 6, words);
-    if (v->reason[0] != '\0' && v->kind != VERDICT_OTHER_MODEL) /* it is printed once, at the end */
+    if (v->reason[0] != '\0' && v->kind != VERDICT_OTHER_MODEL) /* printed at the end */
         paragraph_say(b->to, 0, 6, "%s", v->reason);
 }
 
@@ -247,15 +247,15 @@ static const char *const words_of[] = {[STEP_OPEN] = "not decided by pivots",
                                        [STEP_GROWS] = "unstable",
                                        [STEP_HELD] = "stable without damping"};
 
-/* Appends text as far as it fits. */
+/* Appends a word as far as it fits. */
 static void add(char *text, const char *word)
 {
     const size_t used = strlen(text);
     snprintf(text + used, WORDS - used, "%s", word);
 }
 
-/* Describes steps `first` to `last` of a path, which have equal stability; `end`: they end the
- * path. */
+/* Describes steps `first` to `last` of a path, which have equal stability. end 1: they are the last
+ * steps of the path. */
 static void add_run(const solve_result *r, int first, int last, int begin, int end, char *text)
 {
     const step_record *a = &r->step[first], *b = &r->step[last];
@@ -273,8 +273,8 @@ static void add_run(const solve_result *r, int first, int last, int begin, int e
     add(text, run);
 }
 
-/* "stable up to 1.35, unstable 1.4 to 1.6, stable from 1.65"; "" if it is stable everywhere or
- * stability is unknown. */
+/* Describes a path: "stable up to 1.35, unstable 1.4 to 1.6, stable from 1.65". The text is "" if
+ * the path is stable everywhere or if its stability is unknown. */
 static void words_of_path(const solve_result *r, int analysis, char text[WORDS])
 {
     int begin = -1, last = -1, runs = 0, told = 0;
