@@ -1,4 +1,4 @@
-"""Members: quantities along members, in their parts and as discretised."""
+"""Quantities along members: exact values, pieces between loads, and errors of the discretisation."""
 import json
 import math
 import unittest
@@ -6,19 +6,19 @@ import unittest
 from harness.tools.kit.program import ProgramTest, run
 
 
-# Loads along a member with one element and linear theory, for every formulation: as exact as with
-# forces and moments at the nodes. The closed forms are those of the Timoshenko beam (J.S.
+# Loads along a member with one element and linear theory, for every formulation: they are as exact
+# as forces and moments at the nodes. The closed forms are those of the Timoshenko beam (J.S.
 # Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5 and 10).
 L, q, m = 0.7, 3.0, 2.0
 E, G, A, Iy, Iz, It = 70e3, 27e3, 0.04, 3e-4, 2e-4, 4e-4
 HELD = {"clamped": ("all", "all"), "cantilever": ("all", "[]"), "propped": ("all", "[ux, uy, uz, rx]"),
         "hinged": ("[ux, uy, uz, rx]", "[ux, uy, uz]"), "guided": ("all", "[ux, rx, ry, rz]")}
-#: Rigid in shear along y, in one theory or in both directions.
+#: Rigid in shear along y, by its theory or in both directions.
 RIGID = {"beamw_vlasov": "yz", "sheet_second": "y", "sheet_third": "y", "sheet_third_printed": "y"}
 
 
 def flexibility(formulation, along):
-    """1/(k G A) [1/N] of the formulation; zero if it is rigid in shear."""
+    """Returns 1/(k G A) [1/N] of the formulation; zero if it is rigid in shear."""
     return 0 if along in RIGID.get(formulation, "") else 12 / (G * A)
 
 
@@ -44,7 +44,7 @@ quantities:
 
 
 def forces(formulation, support):
-    """Exact values under forces q along y, z and x and moments m about x."""
+    """Returns the exact values under forces q along y, z and x and moments m about x."""
     exact = {}
     for along, turn, moment, inertia, sign in (("y", "rz", "Mz", Iz, 1), ("z", "ry", "My", Iy, -1)):
         EI, soft = E * inertia, flexibility(formulation, along)
@@ -79,7 +79,7 @@ def forces(formulation, support):
 
 
 def moments(formulation, support):
-    """Under moments m about y and z."""
+    """Returns the exact values under moments m about y and z."""
     exact = {}
     for along, turn, moment, inertia, sign in (("y", "rz", "Mz", Iz, 1), ("z", "ry", "My", Iy, -1)):
         EI, soft = E * inertia, flexibility(formulation, along)
@@ -124,9 +124,9 @@ class AlongMembers(ProgramTest):
                         self.check(formulation, support, kind)
 
 
-# Loads that begin, end or act within a member add nodes to the mesh. Resultants on both sides of
-# jumps follow statics and agree with members that end there, in either order of the member's nodes;
-# orders of convergence are the same as without such loads.
+# Loads that begin, end or act within a member add nodes to the mesh. The resultants on both sides
+# of a jump follow statics and agree with those of members that end there, in either order of the
+# member's nodes. The orders of convergence are the same as without such loads.
 SECTION = """sections: {s: {constants: {A: 0.04, Iy: 3e-4, Iz: 2e-4, It: 4e-4,
                F: [0.001, 0, 0, 0, 0.001, 0, 0, 0, 0]}, young: 70e3, shear_modulus: 27e3}}
 """
@@ -214,7 +214,7 @@ class DividedMember(ProgramTest):
                 step = [values[i + 1][name] - values[i][name] for i in range(3)]
                 for i in range(2):
                     if abs(step[i + 1]) < 1e-11 * abs(values[0][name]):
-                        continue  # only rounding: collocation includes loads in its equilibrium
+                        continue  # rounding only: collocation includes loads in its equilibrium
                     order = math.log2(abs(step[i] / step[i + 1]))
                     self.assertGreater(order, 3.6, f"{formulation}, {name}")
 
@@ -246,8 +246,8 @@ class DividedMember(ProgramTest):
         self.assertIn("'beam' is a member; a tension acts between two nodes; name a node", done.stderr)
 
 
-# Artefacts of the mesh are not reported as results: a stiffness that is indefinite at rest, a
-# critical load that grows with the square of the number of elements.
+# Artefacts of the mesh, such as a stiffness that is indefinite at rest or a critical load that
+# grows with the square of the number of elements, are not reported as results.
 RING = """beamwork: 1
 sections: {leaf: {rectangle: {width: 20e-3, thickness: %(t)s}, young: 200e9, shear_modulus: 80e9}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0.1, 0.1, 0]}}
@@ -308,8 +308,8 @@ class Discretised(ProgramTest):
         return done.returncode, values, said
 
     def test_arcs(self):
-        """Only EA l^4 k^2/EI of one element matters: 64 rise^2, with the rise in radii of gyration; the limit is 2
-        radii."""
+        """Whether an arc is accepted depends only on EA l^4 k^2/EI of one element, which is 64 rise^2 with the rise in
+        radii of gyration. The limit is a rise of 2 radii of gyration."""
         for n in (1, 2, 4, 8):
             turn = math.pi / 2 / n
             for side in (0.25, 0.98, 1.02, 30):
@@ -341,8 +341,8 @@ class Discretised(ProgramTest):
                 self.assertGreater(values["compression"], 0, (formulation, n))
 
     def test_tension_of_states(self):
-        """N l^2/EI of one element: 12, 60 and 30 + sqrt(1620). Beyond this limit the tip displacement may have either
-        sign."""
+        """The limits of N l^2/EI for one element are 12, 60 and 30 + sqrt(1620). Beyond the limit the tip displacement
+        may have either sign."""
         for formulation, most in (("geometrically_exact:nodes=2", 12), ("geometrically_exact", 60),
                                   ("sheet_third", 30 + math.sqrt(1620)), ("sheet_third_printed", 30 + math.sqrt(1620))):
             for n in (1, 2, 16):
@@ -372,8 +372,8 @@ class Discretised(ProgramTest):
         self.assertNotIn("too long for its axial force", " ".join(run("list", "collocation").stdout.split()))
 
     def test_tension_with_shear(self):
-        """With three nodes and shear, bending does not replace the shear; with two nodes it acts in addition to
-        shear."""
+        """In elements with three nodes, bending does not replace the shear; in elements with two nodes, it acts in
+        addition to the shear."""
         shear = ", F: [%r, 0, 0, 0, %r, 0, 0, 0, 0]" % (8e10 * 1e-4, 8e10 * 1e-4)  # 1/GA = 1e-4
         for formulation, N, status in (("geometrically_exact", 9000.0, 0), ("geometrically_exact:nodes=2", 1900.0, 0),
                                        ("geometrically_exact:nodes=2", 1990.0, 1)):

@@ -1,5 +1,5 @@
-/* Continuation: limit points, bifurcations and branch jumps, against closed forms and each other.
- */
+/* Continuation: limit points, bifurcations and branch jumps, compared with closed forms and with
+ * each other. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -55,8 +55,8 @@ static void limit_points(void)
     }
 }
 
-/* A perfect cantilever column with its smallest stiffness about z: bifurcations at P (1 - P/EA) =
- * (2 k - 1)^2 pi^2 EI/(4 L^2). */
+/* A perfect cantilever column with its smallest stiffness about z. Its bifurcations are at P (1 -
+ * P/EA) = (2 k - 1)^2 pi^2 EI/(4 L^2). */
 static status build_column(const double value[], scene *s, fault *f)
 {
     (void)f;
@@ -103,7 +103,8 @@ static void bifurcations(const char *assignment)
     cell_result_free(&r);
 }
 
-/* A space frame with both kinds: it buckles out of its plane before the limit point is reached. */
+/* A space frame with a limit point and a bifurcation: it buckles out of its plane before it reaches
+ * the limit point. */
 static void both_kinds(void)
 {
     static const event_kind kind[] = {EVENT_BIFURCATION, EVENT_LIMIT_POINT, EVENT_LIMIT_POINT};
@@ -182,9 +183,9 @@ static status build_long_arcs(const double value[], scene *s, fault *f)
     return outcome;
 }
 
-/* Steps in which the path rotates too far are repeated in smaller steps. Most led to the same
- * branch, and nothing has jumped; arcs of 0.5 meet another branch, on which the loaded point has
- * swayed by 35 m instead of 94 m at the same deflection. */
+/* Steps in which the path rotates too far are repeated in smaller steps. Most of them lead to the
+ * same branch without a jump. Arcs of 0.5 meet another branch, on which the loaded point has swayed
+ * by 35 m instead of 94 m at the same deflection. */
 static void long_arcs(void)
 {
     static const char *const step[] = {"step=0.02", "step=0.05", "step=0.15", "step=0.2"};
@@ -262,8 +263,8 @@ static double value_of(const char *case_name, const char *chosen, int n,
     return value;
 }
 
-/* Strong-axis bending 1e6 times as stiff as weak-axis bending: the result of linear
- * prestress, 4.012599344, plus the first-order term in 1/ratio. */
+/* Strong-axis bending 1e6 times as stiff as weak-axis bending: the critical load is that of linear
+ * prestress, 4.012599344, plus a first-order term in 1/ratio. */
 static void stiff_before_buckling(void)
 {
     const char *const included[] = {"prebuckling=included", "ratio=1e6", NULL};
@@ -274,7 +275,7 @@ static void stiff_before_buckling(void)
                  "critical load, hardly any deflection before it");
 }
 
-/* Exact: derive/equilibrium.py. */
+/* The critical load is exact: derive/equilibrium.py. */
 static void deflected_before_buckling(void)
 {
     static const struct {
@@ -288,8 +289,8 @@ static void deflected_before_buckling(void)
     }
 }
 
-/* A cantilever with unit constants under a dead tip force P along -x or a dead tip moment M about
- * z, then an analysis about that state. */
+/* Solves a cantilever with unit constants under a dead tip force P along -x or a dead tip moment M
+ * about z, and then an analysis about this state. */
 static status solve_column(scene_analysis_kind kind, double P, double M, double end, double *value,
                            fault *f)
 {
@@ -368,7 +369,7 @@ static void equilibrium_tests(void)
     refused();
 }
 
-/* Mechanisms and unstable states: large rotations in one step, few iterations, inertia of the
+/* Mechanisms and unstable states: large rotations in one step, number of iterations, inertia of the
  * tangent, both directions of elements. */
 
 /* Solves a case with n elements; assignments end with NULL. The caller frees the result. */
@@ -428,8 +429,8 @@ static void few_iterations(void)
     }
 }
 
-/* Predicting the next state saves iterations and changes no result: more steps between the stations
- * lead to the same result. */
+/* Predicting the next state saves iterations but changes no result: the result does not depend on
+ * the number of steps between stations. */
 static void guesses_change_nothing(void)
 {
     const char *const defaults[] = {NULL};
@@ -449,13 +450,13 @@ static void guesses_change_nothing(void)
     cell_result_free(&halved);
 }
 
-/* Formulations that treat both ends alike are independent of the direction of the elements; the
- * others depend on it by a discretisation error. */
+/* Formulations that treat both ends alike do not depend on the direction of the elements; the
+ * others depend on the direction by a discretisation error. */
 static void directions(void)
 {
     static const struct {
         const char *formulation;
-        double least, most; /* relative change */
+        double least, most; /* smallest and largest relative change */
     } row[] = {{"sheet_second", 1e-3, 5e-3},
                {"sheet_third", 1e-3, 5e-3},
                {"collocation", 0, 1e-10},
@@ -476,8 +477,8 @@ static void directions(void)
     }
 }
 
-/* Largest stiffnesses with one element per sheet; independent prototype: 9.37, 9.720, 9.92 x 10^5
- * N/m. */
+/* The largest stiffnesses with one element per sheet agree with those of an independent prototype:
+ * 9.37, 9.720, 9.92 x 10^5 N/m. */
 static void fold_warping(void)
 {
     static const char *const choice[3] = {"fold_warping=fixed", "fold_warping=shared",
@@ -494,8 +495,8 @@ static void fold_warping(void)
     gsl_test_rel(value[2], 9.92e5, 2e-3, "folds free to warp");
 }
 
-/* A cantilever of length 1 with EIy = 4 EIz = 4 under P = path [N], straight. Its critical loads
- * are (2k - 1)^2 pi^2 EI/4. */
+/* Builds a straight cantilever of length 1 with EIy = 4 EIz = 4 under P = path [N]. Its critical
+ * loads are (2k - 1)^2 pi^2 EI/4 in both planes. */
 static void straight_column(scene *s, int stations, const double path[])
 {
     const section_spec spec = sections_of(1e8, 4, 1, 10);
@@ -544,7 +545,7 @@ static void inertia_counts_critical_loads(void)
     }
 }
 
-/* The order of sums is fixed: several threads give the same bits and the same work, also with
+/* Sums have a fixed order: several threads give the same bits and the same work, even with
  * incomplete blocks and with more blocks than are stored at a time. */
 static void threads_change_no_bit(void)
 {

@@ -8,7 +8,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
 
-/* Last station's matrices of a sheet case with collocation elements. */
+/* Matrices of the last station of a sheet case with collocation elements. */
 typedef struct convention_matrices {
     double C[36], K[36];
 } convention_matrices;
@@ -66,7 +66,7 @@ static void inverse(void)
     gsl_test(worst > 1e-12, "stiffness times compliance is the unit matrix: %.1e", worst);
 }
 
-/* The cases of N 4.1: effect of the convention. */
+/* Effect of the convention in the cases of N 4.1. */
 static void sheets(void)
 {
     const convention_matrices near =
@@ -112,7 +112,7 @@ static void reciprocity(void)
     }
 }
 
-/* Each correction in the last step's iterations is about the square of the previous one. */
+/* In the last step, each correction is about the square of the previous one. */
 static void quadratic(void)
 {
     const char *const none[] = {NULL};
@@ -154,8 +154,8 @@ static void turn_vector(const double q[4], double v[3])
     rotation_apply(q, v, v);
 }
 
-/* The cross-flexure hinge under a force at an offset that tilts its arm; optionally the whole scene
- * in other axes. */
+/* Builds the cross-flexure hinge under a force at an offset that tilts its arm, optionally with the
+ * whole scene in other axes. */
 static status tilted_hinge(const double value[], scene *s, fault *f)
 {
     double q[4];
@@ -198,7 +198,7 @@ static convention_matrices of_hinge(const char *rotation, const char *convention
     return out;
 }
 
-/* B = Q A Q^T by blocks of three. */
+/* Computes B = Q A Q^T by blocks of three. */
 static void in_other_axes(const double A[36], double B[36])
 {
     double q[4], Q[9];
@@ -214,7 +214,7 @@ static void in_other_axes(const double A[36], double B[36])
         }
 }
 
-/* Largest difference in a 3 x 3 block, relative to the block's largest entry. */
+/* Returns the largest difference in a 3 x 3 block, relative to the largest entry of the block. */
 static double block_difference(const double A[36], const double B[36])
 {
     double worst = 0;
@@ -233,7 +233,8 @@ static double block_difference(const double A[36], const double B[36])
     return worst;
 }
 
-/* Partly free rotations span a plane that is oblique in other axes, and in a tilted state. */
+/* Partly free rotations span a plane, which may be oblique because of the axes or because the state
+ * is tilted. */
 static void partly_free_turns(void)
 {
     static const char *const rotation[] = {"rotation=hinge", "rotation=first", "rotation=last",
@@ -259,7 +260,7 @@ static void partly_free_turns(void)
             }
 }
 
-/* The plane, which differs at every angle, is found to round-off. */
+/* The plane, which is different at every angle, is found to round-off. */
 static void at_every_angle(void)
 {
     for (int i = -20; i <= 20; i++) {
@@ -289,8 +290,8 @@ static void convention_tests(void)
     quadratic();
 }
 
-/* The closed-form solution of a clamped-free sheet against one third-order element, from the same
- * potential. */
+/* The closed-form solution of a clamped-free sheet is compared with one third-order element, which
+ * is based on the same potential. */
 
 static void prediction_solve(const char *const assignment[], cell_result *out)
 {
@@ -301,7 +302,7 @@ static void prediction_solve(const char *const assignment[], cell_result *out)
 }
 
 /* In the plane the element's inverse of N Eq. 37 is accurate enough for all digits to agree. Out of
- * it the two differ by fourth-order terms; `apart` is their size for C_zz. */
+ * the plane the two differ by fourth-order terms; `apart` is the size of these for C_zz. */
 static void beside_the_element(const char *const assignment[], double in_plane, double apart)
 {
     cell_result r;
@@ -322,7 +323,7 @@ static void beside_the_element(const char *const assignment[], double in_plane, 
     cell_result_free(&r);
 }
 
-/* L^3/3EIy + L/kGA. */
+/* The compliance of the undeformed sheet is L^3/3EIy + L/kGA. */
 static void undeformed(void)
 {
     const char *const straight[] = {"tip_deflection=1e-9", NULL};
@@ -353,7 +354,7 @@ static void prediction_tests(void)
 }
 
 /* Work along a path: a step reuses the work of earlier steps, and the values are the same as
- * without reuse. */
+ * without this reuse. */
 
 enum { STATIONS = 15 };
 
@@ -394,7 +395,8 @@ static void compliances(void)
     cell_result_free(&own);
 }
 
-/* The axis of the joint's tilt goes once around: each of its components has two extrema. */
+/* The axis of the joint's tilt makes one revolution, so that each of its components has two
+ * extrema. */
 static void turning_back(void)
 {
     enum { BEGINNING = 10 };
@@ -407,7 +409,7 @@ static void turning_back(void)
     cell_result_free(&r);
 }
 
-/* The initial step size is that of the first station, and successful steps keep it. */
+/* The initial step size is that of the first station, and successful steps do not reduce it. */
 static void shorter_first_steps(void)
 {
     cell_result whole, shorter;

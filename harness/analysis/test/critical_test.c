@@ -24,8 +24,8 @@ static void unloaded(scene *s, const double direction[3])
     bar_push(s, bar_cantilever(s, direction), direction, 0);
 }
 
-/* Clamped at both ends and pushed in the middle: one half is compressed, the other is in tension.
- */
+/* A bar clamped at both ends and pushed in the middle: one half is in compression, the other in
+ * tension. */
 static void half_and_half(scene *s, const double direction[3])
 {
     const int a = scene_add_node(s, 0, 0, 0), b = bar_end(s, direction, length / 2),
@@ -38,8 +38,8 @@ static void half_and_half(scene *s, const double direction[3])
     bar_push(s, b, direction, 1);
 }
 
-/* The force acts on a rigid arm of the bar's length, which points outwards or inwards from its tip.
- */
+/* A bar with the force on a rigid arm that has the bar's length and points outwards or inwards from
+ * the tip. */
 static void with_arm(scene *s, const double direction[3], double arm)
 {
     const int tip = bar_cantilever(s, direction);
@@ -59,7 +59,7 @@ static void arm_before(scene *s, const double direction[3])
     with_arm(s, direction, -length / 2);
 }
 
-/* tan(kL) = 1/(k a) in (0, pi/2) for a > 0, (pi/2, pi) for a < 0. */
+/* Solves tan(kL) = 1/(k a): kL in (0, pi/2) for a > 0, in (pi/2, pi) for a < 0. */
 static double load_with_arm(double arm)
 {
     double low = (arm > 0 ? 1e-9 : 0.5 + 1e-9) * PI / length,
@@ -86,7 +86,7 @@ static void expect_none(const element_type *e, const char *what, const loads *l,
                  "%s, %s: %g, %s", e->name, what, l->value[sign][i], l->why[sign][i]);
 }
 
-/* Every load twice, about y and about z. */
+/* Every load occurs twice, about y and about z. */
 static void columns(const element_type *e, ask_tally *tally, const double direction[3])
 {
     const double first = bar_euler() / 4, exact[WANTED] = {first, first, 9 * first, 9 * first};
@@ -136,8 +136,8 @@ static void critical_tests(void)
 /* Structures without a critical load, or almost without one, for every formulation: rounding is not
  * reported as a load, and loads of one sign do not depend on those of the other. */
 
-/* States in which one element, or none, can buckle: a critical load, if one is reported, must not
- * be an artefact of rounding. */
+/* States in which one element, or none, can buckle. A critical load that is reported must not be
+ * due to rounding. */
 static void bent_between_forks(scene *s, const double direction[3], int component)
 {
     const int a = scene_add_node(s, 0, 0, 0), b = bar_end(s, direction, length);
@@ -164,7 +164,7 @@ static void pushed_across(scene *s, const double direction[3])
     bar_push(s, bar_cantilever(s, direction), across, 1);
 }
 
-/* Displaced ends without load: no stress that depends on a load factor. */
+/* Displaced ends without a load: no stress depends on a load factor. */
 static void bent_in_a_frame(scene *s, const double direction[3])
 {
     const int tip = bar_cantilever(s, direction), low = bar_end(s, direction, length / 2);
@@ -209,8 +209,8 @@ static void angle_compressed(scene *s, const double direction[3])
     bar_push(s, head, direction, -1);
 }
 
-/* Loads of one sign do not depend on whether the others are requested, or found: some formulations
- * have one spurious load of the other sign per element. */
+/* The loads of one sign do not depend on whether those of the other sign are requested or found.
+ * Some formulations have one spurious load of the other sign per element. */
 static void one_side_alone(const element_type *e, ask_tally *tally)
 {
     for (int n = 2; n <= 64; n *= 2) {
@@ -230,8 +230,8 @@ static void one_side_alone(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A load that buckles this bar on this mesh is at most n^2 times Euler's, with a margin; loads due
- * to rounding are of the order of 1e16. */
+/* A critical load of this bar on this mesh is at most n^2 times Euler's load, with a margin; loads
+ * due to rounding are of the order of 1e16. */
 static void no_rounding(const element_type *e, ask_tally *tally)
 {
     static build *const state[] = {angle_bent, bent_about_y, bent_about_z, pushed_across,

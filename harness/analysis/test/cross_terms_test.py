@@ -1,5 +1,5 @@
-"""Springs with unsymmetric stiffness and damping at bodies, at offset and released ends, and in constraints:
-against matrices computed independently."""
+"""Springs with unsymmetric stiffness and damping at bodies, at offset and released ends, and in constraints, compared
+with matrices computed independently."""
 import math
 
 import numpy
@@ -36,7 +36,7 @@ COMPONENTS = ("ux", "uy", "uz", "rx", "ry", "rz")
 
 
 def cross(scale, skewed):
-    """A positive definite symmetric part, and a skew part."""
+    """Returns a matrix with a positive definite symmetric part and a skew part."""
     A, B = RANDOM.normal(size=(6, 6)), RANDOM.normal(size=(6, 6))
     units = numpy.diag([1, 1, 1, 0.1, 0.1, 0.1])
     return scale * units @ (A @ A.T + skewed * (B - B.T)) @ units
@@ -47,14 +47,14 @@ SPRINGS = {"SP": cross(100, 0.2), "DP": cross(4, 0.2), "SC": cross(80, 0.2), "DC
 
 
 def shift(arm):
-    """Motion [6] of a point due to the motion of its body."""
+    """Returns the motion [6] of a point due to the motion of its body."""
     T = numpy.eye(6)
     T[:3, 3:] = -numpy.array([[0, -arm[2], arm[1]], [arm[2], 0, -arm[0]], [-arm[1], arm[0], 0]])
     return T
 
 
 def beam_end(release):
-    """Stiffness [6 x 6] of the end of the clamped beam, in the scene's axes."""
+    """Returns the stiffness [6 x 6] of the end of the clamped beam, in the scene's axes."""
     along = numpy.array([1, 0.15, 0.12])
     length = numpy.linalg.norm(along)
     x = along / length
@@ -72,7 +72,7 @@ def beam_end(release):
 
 
 def matrices(release):
-    """K, C, M for the motions of b [6], c along z and e [6], and the motions of b, p, c, e due to these."""
+    """Returns K, C, M for the motions of b [6], c along z and e [6], and the motions of b, p, c, e due to these."""
     G = {"b": numpy.eye(13)[:6], "p": shift((0.1, 0.15, -0.05)) @ numpy.eye(13)[:6], "e": numpy.eye(13)[7:], "c": numpy.zeros((6, 13))}
     G["c"][0, 0], G["c"][2, 6] = -2, 1
     end, apart = shift((0, -0.05, 0.02)) @ G["b"], G["e"] - G["b"]
@@ -95,7 +95,7 @@ class CrossTerms(ProgramTest):
         self.assertLess(abs(found - wanted), within * size, f"{words}: {found} instead of {wanted}")
 
     def test_linear(self):
-        """Displacements and compliances of the node itself, and of a node on an arm."""
+        """Displacements and compliances of the node itself, and of a node on an arm, agree with the matrices."""
         for release in (False, True):
             K, _, _, G = matrices(release)
             load = (G["b"].T @ [3, 2, -4, 0.3, -0.2, 0.1] + G["p"].T @ [1, 2, 3, 0, 0, 0] + G["c"].T @ [2, 0, 5, 0, 0, 0])
@@ -114,7 +114,7 @@ class CrossTerms(ProgramTest):
                     self.near(found[name], value, abs(value), f"{formulation}, release {release}: {name}")
 
     def test_vibration(self):
-        """Damped modes and responses."""
+        """Damped modes and responses agree with the matrices."""
         for release in (False, True):
             K, C, M, G = matrices(release)
             A = numpy.block([[numpy.zeros((13, 13)), numpy.eye(13)], [-numpy.linalg.solve(M, K), -numpy.linalg.solve(M, C)]])
@@ -136,7 +136,7 @@ class CrossTerms(ProgramTest):
                 self.near(complex(found[f"real{k}"], found[f"imaginary{k}"]), H, abs(H), f"response {sees[k]}, release {release}")
 
     def test_motion(self):
-        """Small motions under the loads from rest."""
+        """Small motions from rest under the loads agree with the matrices."""
         for release, how in ((False, "radau, step: 2e-4"), (True, "alpha, step: 2e-5")):
             K, C, M, G = matrices(release)
             until = 0.05

@@ -1,8 +1,8 @@
 /* An element is stress-free along any arc of constant torsion and curvature, including initial
  * elongation and shear: for every formulation that supports initial curvature, with every choice of
- * its options. About such an arc its stress still derives from its energy. Its geometric stiffness
- * is the derivative of its tangent if it is so about the straight element (the other formulations
- * neglect the contribution of the strains in the prestressed state). */
+ * its options. About such an arc, the stress is still the derivative of the energy. The geometric
+ * stiffness is the derivative of the tangent wherever it is for a straight element; the other
+ * formulations neglect the contribution of the strains in the prestressed state. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -33,7 +33,8 @@ static section rectangle(void)
     return sections_computed(&spec);
 }
 
-/* Rotations up to `most` [rad]. Wagner torque and initial torsion are not supported together. */
+/* Prepares an element with rotations up to `most` [rad]. Wagner torque and initial torsion are not
+ * supported together. */
 static status prepare(const formulation *chosen, const section *c, double most, uint64_t *state,
                       element_subject *out, fault *f)
 {
@@ -62,7 +63,7 @@ static status prepare(const formulation *chosen, const section *c, double most, 
     return outcome;
 }
 
-/* r = int_0^x R (e_x + strain) dt and R = exp(x turn~), by quadrature. */
+/* Computes r = int_0^x R (e_x + strain) dt and R = exp(x turn~) by quadrature. */
 static void along_arc(const element_subject *s, double x, const double strain[3], double r[3],
                       double R[9])
 {
@@ -83,7 +84,7 @@ static void along_arc(const element_subject *s, double x, const double strain[3]
     }
 }
 
-/* Nodes of the stress-free element, moved as a rigid body. */
+/* Sets the nodes of the stress-free element, moved as a rigid body. */
 static void place(const element_subject *s, const double motion[6], node_state x[])
 {
     const double none[3] = {0};
@@ -113,7 +114,7 @@ static status stress_at(element_subject *s, const double e[], stress_output *out
     return type->stress(s->data, e, s->inner, out);
 }
 
-/* Largest stress, relative to the stress of a unit strain. */
+/* Returns the largest stress, relative to the stress due to a unit strain. */
 static double stress_of_arc(element_subject *s, const double motion[6])
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -131,8 +132,8 @@ static double stress_of_arc(element_subject *s, const double motion[6])
     return worst;
 }
 
-/* Largest difference between the derivative of the energy and the stress about the arc, relative to
- * that stress. */
+/* Returns the largest difference between the derivative of the energy and the stress about the arc,
+ * relative to that stress. */
 static double error_of_stress(element_subject *s)
 {
     const double h = 1e-5 * s->length;
@@ -153,8 +154,8 @@ static double error_of_stress(element_subject *s)
     return worst / largest;
 }
 
-/* The same for the derivative of the tangent along the strain due to the prestress, and the
- * geometric stiffness. */
+/* Returns the same difference between the derivative of the tangent along the strain due to the
+ * prestress and the geometric stiffness. */
 static double error_of_geometric(element_subject *s)
 {
     const int n = s->strains;
@@ -196,8 +197,7 @@ static void arcs(const formulation *chosen, const section *c)
         if (outcome == STATUS_OK) {
             stress =
                 worst_of(stress, worst_of(stress_of_arc(&s, still), stress_of_arc(&s, motion)));
-            if (chosen->type->inner ==
-                NULL) { /* inner unknowns: their stress belongs to a different state */
+            if (chosen->type->inner == NULL) { /* inner unknowns belong to a different state */
                 derived = worst_of(derived, error_of_stress(&s));
                 geometric = whole ? worst_of(geometric, error_of_geometric(&s)) : 0;
             }
@@ -280,7 +280,7 @@ static void values_of(const scene *s, int stages, int n, double out[VALUES])
         out[i] = a.value[i];
 }
 
-/* Largest error with n elements, and the order between n and 2 n. */
+/* Checks the largest error with n elements, and the order between n and 2 n. */
 static void order_of(const char *name, const scene *s, int stages, int n, double least,
                      double error)
 {
@@ -318,7 +318,7 @@ static void large_rotations(void)
         {"a uniform load", STRAIGHT, UNIFORM, {5.7, 7.5}, {1e-5, 2e-7}},
         {"a linear one", STRAIGHT, LINEAR, {5.7, 7.5}, {1e-5, 2e-7}},
         {"one along a curved member", CURVED, LINEAR, {5.5, 7}, {1e-5, 2e-7}},
-        /* with the field that all types share */
+        /* with the displacement field that all types share */
         {"one that follows", STRAIGHT, FOLLOWER, {3.6, 3.6}, {1e-2, 1e-2}},
         {"a moment along", STRAIGHT, MOMENT, {3.6, 3.6}, {1e-2, 1e-2}},
     };
@@ -333,8 +333,9 @@ static void large_rotations(void)
     }
 }
 
-/* Castigliano, EI = 1, R = 1, load 1 downwards per length of an arc of 1 rad: the moment at t is
- * due to the load beyond it, and the tip's displacement is int M m, without axial strain. */
+/* Castigliano's theorem for an arc of 1 rad with EI = 1, R = 1 and a downward load of 1 per length:
+ * the moment at t is due to the load beyond t, and the tip's displacement is int M m, without axial
+ * strain. */
 static void arc_by_castigliano(void)
 {
     enum { POINTS = 20 };
@@ -358,7 +359,8 @@ static void arc_by_castigliano(void)
     scene_free(&s);
 }
 
-/* A column under its own weight about a loaded state: q L^3/EI = 7.837347 (Greenhill). */
+/* A column under its own weight, with the critical load about a loaded state: q L^3/EI = 7.837347
+ * (Greenhill). */
 static void own_weight(void)
 {
     const double stations[1] = {1}, option[ELEMENT_MAX_OPTIONS] = {0}, right = 7.83734744;

@@ -36,8 +36,8 @@ quantities:
   along:   {deflection: {analysis: sta, member: cd, where: 0.4, component: ux}}
 omit: [shear, trapeze, wagner_moments, wagner_torque]
 """
-# Large displacements, against the node of an identical member that is divided there: on a path, in
-# a continuation, a rotation and a motion; also curved.
+# Large displacements compared with the node of an identical member that is divided there: on a
+# path, in a continuation, a rotation and a motion; also for a curved member.
 FAR = """beamwork: 1
 sections:
   s: {rectangle: {width: 0.02, thickness: 0.002}, young: 210e9, shear_modulus: 81e9, density: 7800}

@@ -5,9 +5,9 @@ import unittest
 from harness.tools.kit.program import ProgramTest
 
 
-# Frequencies of degenerate structures: equal frequencies, motions without stiffness or mass, ends
-# that transmit no force. Compared with closed forms, or with an equivalent description of the
-# structure, for all formulations.
+# Frequencies of degenerate structures: equal frequencies, motions without stiffness or mass, and
+# ends that transmit no force. They are compared with closed forms, or with an equivalent
+# description of the structure, for all formulations.
 YOUNG, SHEAR, DENSITY, AREA, INERTIA, TWIST = 2e11, 8e10, 8000.0, 1e-4, 1e-9, 1.4e-9
 LINE = DENSITY * AREA
 WAVE = math.sqrt(YOUNG * INERTIA / LINE) / (2 * math.pi)  # Hz of factor 1, length 1
@@ -42,7 +42,7 @@ def cross(a, b):
 
 
 def turned(v):
-    """Rotates by a quaternion with a general direction."""
+    """Rotates a vector by a quaternion with a general direction."""
     size = math.sqrt(0.7**2 + 0.4**2 + 0.3**2 + 0.5**2)
     w, *r = (q / size for q in (0.7, 0.4, -0.3, 0.5))
     half = [c + w * x for c, x in zip(cross(r, v), v)]
@@ -52,7 +52,7 @@ def turned(v):
 class Degenerate(ProgramTest):
 
     def each(self):
-        """All formulations, and the variants with a different mass or different nodes."""
+        """Returns all formulations, and the variants with a different mass or different nodes."""
         return [f["formulation"] for f in self.record("list", "formulations")["formulations"]] + [
             "geometrically_exact:nodes=2", "beamw:mass=lumped"]
 
@@ -62,7 +62,7 @@ class Degenerate(ProgramTest):
         return path
 
     def found(self, formulation, nodes, members, more="", wanted=8, n=4):
-        """Frequencies [Hz], ascending; None: the mesh has no further mode."""
+        """Returns the frequencies [Hz], ascending; None: the mesh has no further mode."""
         path = self.scene(nodes, members, more, wanted)
         return [q["value"] for q in self.record("solve", "--scene", path, "-f", formulation, "-n", n)["quantities"]]
 
@@ -75,8 +75,8 @@ class Degenerate(ProgramTest):
                                      (found, right, *what))
 
     def test_two_of_each(self):
-        """A section with equal stiffness in all directions has frequencies in pairs, clamped and free; for the free
-        bar they follow six zeros."""
+        """If a section has equal stiffness in all directions, the frequencies occur in pairs, for a clamped and for a
+        free bar; those of the free bar follow six zeros."""
         for formulation in self.each():
             within = 3e-2 if formulation.endswith("lumped") else 1e-3 if "exact" in formulation else 2e-4
             found = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=4, n=8)
@@ -105,8 +105,8 @@ class Degenerate(ProgramTest):
             self.refused(1, words, "solve", "--scene", self.scene(*scene), "-f", "collocation", "-n", 2, silent=False)
 
     def test_zeros(self):
-        """There are as many zero frequencies as the supports leave: in space, in a plane, for two separate bars, for
-        a hinge."""
+        """There are as many zero frequencies as there are motions that the supports allow: in space, in a plane, for
+        two separate bars, for a hinge."""
         apart = f"{FREE}, {tip()}, c: {{at: [0, 3, 0]}}, d: {{at: [1, 3, 0]}}"
         two = f"{bar()}, n: {{from: c, to: d, section: s, y: [0, 1, 0]}}"
         hinge = f"{bar()}, {BEYOND % ('s', ', release: {from: [rz]}')}"
@@ -135,8 +135,8 @@ class Degenerate(ProgramTest):
             self.same(one, many, 1e-8, formulation)
 
     def test_light_member_between_masses(self):
-        """Held: sqrt(3 EI/m L^3), and no modes other than those of the mass. Free: two bodies joined by a spring with
-        the bar's stiffness."""
+        """A held bar has the frequency sqrt(3 EI/m L^3), and no modes other than those of the mass. A free bar acts as
+        a spring between two bodies."""
         stretch, twist, bend = YOUNG * AREA, SHEAR * TWIST, YOUNG * INERTIA
         for formulation in self.each():
             found = self.found(formulation, f"{HELD}, {tip(', mass: 2')}", bar("light"), wanted=5, n=2)
@@ -150,7 +150,7 @@ class Degenerate(ProgramTest):
             self.same(found[7:11:2], found[8:11:2], 1e-8, formulation)
 
     def test_bodies(self):
-        """A body held by springs only; a body without mass has no mode."""
+        """A body may be held by springs alone; a body without mass has no mode."""
         spring = "springs: {k: {to: b, stiffness: [100, 200, 300, 40, 50, 60]}}"
         mass, about = (100, 200, 300), (40, 50, 60)
         right = sorted(math.sqrt(k / m) / 2 / math.pi for m, all_of in ((2, mass), (3, about)) for k in all_of)
@@ -163,7 +163,8 @@ class Degenerate(ProgramTest):
             self.assertEqual(bare, none, formulation)
 
     def test_released_at_both_ends(self):
-        """Hinges in both directions at both ends: pi^2 and 4 pi^2, each twice, as with nodes that rotate."""
+        """A bar with hinges in both directions at both ends has pi^2 and 4 pi^2, each twice, like one whose nodes
+        rotate."""
         ends = f"{HELD}, {tip(', hold: all')}"
         hinged = bar(more=", release: {from: [ry, rz], to: [ry, rz]}")
         turning = "a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, b: {at: [1, 0, 0], hold: [ux, uy, uz, rx]}"
@@ -191,7 +192,7 @@ class Degenerate(ProgramTest):
             self.same(alone[::2], alone[1::2], 1e-9, formulation)
 
     def test_springs_to_the_ground(self):
-        """A stiff bar on two soft springs: sqrt(2 k/m) and sqrt(6 k/m) across, each twice."""
+        """A stiff bar on two soft springs has the transverse frequencies sqrt(2 k/m) and sqrt(6 k/m), each twice."""
         k = 0.02
         springs = (f"springs: {{p: {{to: a, stiffness: [0, {k}, {k}, 1, 0, 0]}}, "
                    f"q: {{to: b, stiffness: [{k}, {k}, {k}, 0, 0, 0]}}}}")
@@ -203,8 +204,8 @@ class Degenerate(ProgramTest):
             self.same(found, right, 1e-3, formulation)
 
     def test_offsets(self):
-        """A node beyond a rigid arm: as a support it is equivalent to the clamped end, as a body to its mass at that
-        place."""
+        """A node at the end of a rigid arm is equivalent, as a support, to the clamped end and, as a body, to its mass
+        at that place."""
         for formulation in self.each():
             plain = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=6)
             beside = "z: {at: [0, 0.3, 0.2], hold: all}, a: {at: [0, 0, 0], part_of: z}"
@@ -215,7 +216,7 @@ class Degenerate(ProgramTest):
             self.same(heavy, carried, 1e-9, formulation)
 
     def test_turned(self):
-        """The frequencies do not depend on the direction in space or the order of the nodes."""
+        """The frequencies depend neither on the direction in space nor on the order of the nodes."""
         for formulation in self.each():
             right = self.found(formulation, f"{HELD}, {tip()}", bar("flat"), wanted=6)
             x, y = turned((1, 0, 0)), turned((0, 1, 0))
@@ -225,8 +226,8 @@ class Degenerate(ProgramTest):
                 self.same(self.found(formulation, nodes, member % (ends, *y), wanted=6), right, 1e-8, formulation)
 
 
-# Frequencies of straight unstressed members against closed forms: bending with shear and rotary
-# inertia, axial vibration, torsion, restrained warping, with bodies and springs at the ends.
+# Frequencies of straight unstressed members compared with closed forms: bending with shear and
+# rotary inertia, axial vibration, torsion, restrained warping, with bodies and springs at the ends.
 E, NU, RHO, LENGTH = 2e11, 0.25, 8000.0, 1.0
 G = E / 2 / (1 + NU)
 ALL = ("collocation", "beamw", "beamw_vlasov", "beamw_first", "beamw_consistent", "sheet_second",
@@ -257,7 +258,7 @@ WITH_SHEAR = "trapeze, wagner_moments, wagner_torque"
 
 
 def root(function, low, high):
-    """Root of a function that changes sign once between `low` and `high`."""
+    """Returns the root of a function that changes sign once between `low` and `high`."""
     sign = function(low) > 0
     for _ in range(200):
         middle = (low + high) / 2
@@ -269,7 +270,8 @@ def root(function, low, high):
 
 
 def timoshenko(section, wave, upper=False):
-    """Frequency [Hz] of a hinged beam: deflection and rotation are sine and cosine of wave x (2 x 2 problem)."""
+    """Returns the frequency [Hz] of a hinged beam, whose deflection and rotation are a sine and a cosine of wave x (2 x
+    2 problem)."""
     area, inertia, shear = section["A"], section["Iz"], G / section["F"][0]
     k11, k12, k22 = shear * wave**2, -shear * wave, shear + E * inertia * wave**2
     m1, m2 = RHO * area, RHO * inertia
@@ -280,7 +282,7 @@ def timoshenko(section, wave, upper=False):
 
 
 def warped(section):
-    """First torsional frequency [Hz] of a cantilever with warping restrained at the root."""
+    """Returns the first torsional frequency [Hz] of a cantilever with warping restrained at the root."""
     EIw, GIt, inertia = E * section["Iw"], G * section["It"], RHO * (section["Iy"] + section["Iz"])
 
     def determinant(f):
@@ -304,7 +306,7 @@ def warped(section):
 
 class FrequencyOrder(ProgramTest):
     def near(self, exact, formulation, n, constants=None, omit=NO_SHEAR, a="", b="", more=""):
-        """Relative error of the frequency nearest to exact [Hz]."""
+        """Returns the relative error of the frequency nearest to exact [Hz]."""
         words = ", ".join(f"{k}: {v!r}" for k, v in (constants or SECTION).items())
         file = self.folder / "scene.yaml"
         file.write_text(FREQUENCY_ORDER_SCENE % {"constants": words, "young": E, "shear": G, "density": RHO, "a": a,
@@ -322,11 +324,11 @@ class FrequencyOrder(ProgramTest):
                     self.assertGreater(math.log2(coarse / fine), least)
 
     def bending(self, factor):
-        """Frequency [Hz] of the slender beam, omega = factor sqrt(EI/rho A)/L^2."""
+        """Returns the frequency [Hz] of the slender beam, omega = factor sqrt(EI/rho A)/L^2."""
         return factor * math.sqrt(E * SECTION["Iz"] / (RHO * SECTION["A"])) / (2 * math.pi)
 
     def test_slender_bending(self):
-        """3.51602 and 22.0345 for a cantilever, 22.3733 for the free bar, and higher modes."""
+        """The factors are 3.51602 and 22.0345 for a cantilever, 22.3733 for the free bar, and higher modes follow."""
         for formulation in ALL:
             for factor, held in ((3.5160152685, ", hold: all"), (22.034491565, ", hold: all"),
                                  (22.373285448, "")):
@@ -339,7 +341,7 @@ class FrequencyOrder(ProgramTest):
                     a=", hold: all")
 
     def test_shear(self):
-        """Hinged beams with shear and rotary inertia, with elements as short as 3 radii of gyration."""
+        """Hinged beams with shear and rotary inertia are correct with elements as short as 3 radii of gyration."""
         section = {**SECTION, "Iz": 4e-6, "Iy": 9e-6, "It": 1.3e-5,
                    "F": [1.2 / 4e-4, 0, 0, 0, 1.2 / 4e-4, 0, 0, 0, 0]}
         held = {"a": ", hold: [ux, uy, uz, rx]", "b": ", hold: [uy, uz]"}
@@ -348,7 +350,7 @@ class FrequencyOrder(ProgramTest):
                         omit=WITH_SHEAR, **held)
 
     def test_stretch_and_twist(self):
-        """Fixed and free ends."""
+        """Axial and torsional frequencies are correct with fixed and with free ends."""
         for mode in (1, 3):
             speeds = (math.sqrt(E / RHO),
                       math.sqrt(G * SECTION["It"] / RHO / (SECTION["Iy"] + SECTION["Iz"])))
@@ -356,7 +358,7 @@ class FrequencyOrder(ProgramTest):
                 self.fourth(ALL, mode * speed / 4, a=", hold: all")
 
     def test_bodies_and_springs(self):
-        """Axial and bending modes with a mass at the tip, axial modes against a spring."""
+        """Axial and bending modes with a mass at the tip, and axial modes with a spring at the end, are correct."""
         speed, line = math.sqrt(E / RHO), RHO * SECTION["A"]
         x = root(lambda b: b * math.tan(b) - 1, 0.1, 1.5)
         self.fourth(ALL, x * speed / (2 * math.pi), a=", hold: all", b=f", mass: {line!r}")
@@ -371,7 +373,7 @@ class FrequencyOrder(ProgramTest):
                     more=f"springs:\n  s: {{to: b, stiffness: [{stiffness!r}, 0, 0, 0, 0, 0]}}\n")
 
     def test_warping(self):
-        """Warping restrained at the root, with decay lengths from 0.3 to 0.03."""
+        """Torsional frequencies with warping restrained at the root are correct for decay lengths from 0.3 to 0.03."""
         for decay in (3, 30):
             section = {**SECTION, "Iw": G * SECTION["It"] / E / decay**2}
             self.fourth(WARPING, warped(section), constants=section, least=3.4, meshes=(16, 32),

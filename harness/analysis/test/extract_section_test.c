@@ -1,6 +1,6 @@
-/* Resultants inside members against statics, the elastica and Vlasov torsion, for every
- * formulation; values inside converge as those at the ends do. Also resultants and stresses inside
- * members that twist far, rotate steadily, or have an eccentric shear centre. */
+/* Resultants inside members compared with statics, the elastica and Vlasov torsion, for every
+ * formulation; values inside members converge like those at the ends. Also resultants and stresses
+ * inside members that twist far, rotate steadily, or have an eccentric shear centre. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -11,15 +11,15 @@
 
 #define BARS "harness/analysis/test/bars.yaml"
 
-/* Tip force, tip moment and a distributed load: N, Qy, Qz, Mx, My, Mz at 0.35 of the length, and
- * the extremes of Mz. */
+/* A bar under a tip force, a tip moment and a distributed load: N, Qy, Qz, Mx, My, Mz at 0.35 of
+ * the length, and the extremes of Mz. */
 static void statics(const element_type *e, ask_tally *tally, int elements)
 {
     static answer a;
     scenes_ask(BARS, e, elements, &a, "load=all");
     if (!ask_count(tally, &a, "statics of %d elements", elements))
         return;
-    const double b = 1.3, /* length beyond the section */
+    const double b = 1.3, /* length beyond this position */
         top = 0.5 / 0.9;  /* Mz' = 0: 0.4 - 0.9 b + 0.1 */
     const double exact[] = {0.5 + 0.1 * b,
                             0.4 - 0.9 * b,
@@ -42,7 +42,7 @@ static double slope(double u, void *top)
     return sqrt(2) / sqrt(1 - sine * sine);
 }
 
-/* Arc length from the tip to the point with u. */
+/* Returns the arc length from the tip to the point with u. */
 static double arc(double top, double u)
 {
     double sum, error;
@@ -52,12 +52,12 @@ static double arc(double top, double u)
     return sum;
 }
 
-/* Inextensible cantilever of length 2, EI = 1, under a dead transverse unit force: Bernoulli's
- * elastica. M/EI = sqrt(2) u at arc length `beyond` from the tip. */
+/* Returns the moment in an inextensible cantilever of length 2 with EI = 1 under a dead transverse
+ * unit force (Bernoulli's elastica): M/EI = sqrt(2) u at the arc length `beyond` from the tip. */
 static double elastica(double beyond)
 {
     double low = 0.5, high = 0.99999, least = 0, most;
-    for (int i = 0; i < 100; i++) { /* the tip's sine: theta = 0 at the root */
+    for (int i = 0; i < 100; i++) { /* finds the sine at the tip for which theta = 0 at the root */
         const double top = (low + high) / 2;
         *(arc(top, sqrt(top)) < 2 ? &low : &high) = top;
     }
@@ -92,8 +92,8 @@ static void bends(const element_type *e, ask_tally *tally)
                  i ? "inside" : "at the root", coarse[i], fine[i]);
 }
 
-/* Torque on a bar that warps, with warping restrained at its root: B = T/lambda sinh(lambda
- * b)/cosh(lambda l), b from the tip (Vlasov). */
+/* A torque on a bar with warping restrained at its root: B = T/lambda sinh(lambda b)/cosh(lambda
+ * l), where b is measured from the tip (Vlasov). */
 static int twisted(const element_type *e, ask_tally *tally, int elements, double Iw,
                    double error[4])
 {
@@ -121,9 +121,9 @@ static void twists(const element_type *e, ask_tally *tally)
                  coarse[i], fine[i]);
 }
 
-/* A flat bar, free to warp, pulled, bent and twisted at its tip: M/W at the root and Saint-Venant
- * shear stress everywhere. Also the stress in a flanged beam with restrained warping, from its
- * bimoment. */
+/* A flat bar that is free to warp, under tension, bending and torsion at its tip: the stress at the
+ * root is M/W, and Saint-Venant shear stress acts everywhere. Also the stress due to the bimoment
+ * in a flanged beam with restrained warping. */
 static void flat_bar(const element_type *e, ask_tally *tally)
 {
     const double w = 0.05, h = 0.004, l = 0.3;
@@ -161,8 +161,7 @@ static void flanged(const element_type *e, ask_tally *tally)
              a.value[0]);
 }
 
-/* A rotating bar next to one at rest, in either order: each quantity belongs to its own analysis.
- */
+/* A rotating bar and one at rest, in either order: each quantity belongs to its own analysis. */
 static void turns_beside_rest(const element_type *e, ask_tally *tally, int turning_first)
 {
     const double tension = 2; /* rho A Omega^2 l^2/2 */
@@ -177,8 +176,8 @@ static void turns_beside_rest(const element_type *e, ask_tally *tally, int turni
                  turning_first);
 }
 
-/* A strip, free to shorten and to warp, twisted by 0.6 rad: kappa is uniform, M = G J kappa + 4 E c
- * kappa^3, and the edges are in tension. */
+/* A strip that is free to shorten and to warp, twisted by 0.6 rad: the twist rate kappa is uniform,
+ * M = G J kappa + 4 E c kappa^3, and the edges are in tension. */
 static void strip(const element_type *e, ask_tally *tally)
 {
     const double w = 0.04, h = 1e-3, l = 0.4;
@@ -229,7 +228,8 @@ static void channel(const element_type *e, ask_tally *tally)
         return;
     const double l = 1.5, F = 40, k = sqrt(80e9 * c.It / (200e9 * c.Iw)),
                  B = F * fabs(c.ys) / k * tanh(k * l);
-    /* at the ends of flanges and at their corners: e of a thin C, and the warping function there */
+    /* at the ends and the corners of the flanges: distance e of the shear centre of a thin C, and
+     * the warping function */
     const double f = 0.05, h = 0.1, web = 3 * f * f / (h + 6 * f), tip_omega = h / 2 * (f - web),
                  corner = h / 2 * web, bend = F * l * h / 2 / c.Iy,
                  most = fmax(bend + B * corner / c.Iw, fabs(bend - B * tip_omega / c.Iw));
@@ -239,8 +239,8 @@ static void channel(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[2], most, 3e-3, "%s: bending and bimoment together", e->name);
 }
 
-/* A bar that tapers from h to h/4 under a force at its thin tip: 6 F b/(w h(b)^2) is largest a
- * third of the length from the tip, whatever the number of elements; each element has the section
+/* A bar that tapers from h to h/4 under a force at its thin tip. 6 F b/(w h(b)^2) is largest at a
+ * third of the length from the tip, whatever the number of elements. Each element has the section
  * at its middle. */
 static void tapered(const element_type *e, ask_tally *tally, int elements)
 {
@@ -257,7 +257,7 @@ static void tapered(const element_type *e, ask_tally *tally, int elements)
 }
 
 /* An angle section whose legs change along the member, so that its principal axes rotate: forces at
- * its ends refer to the axes of the end sections, not of the element. */
+ * its ends refer to the axes of the end sections, not to those of the element. */
 static void turning_axes(const element_type *e, ask_tally *tally, int elements)
 {
     const double F[3] = {0, 30, 50};
@@ -317,7 +317,7 @@ static void everything(scene *s, int whole)
     }
 }
 
-/* The result does not change if the member is reversed, divided in two, or described in
+/* The result does not change if the member is reversed, divided into two, or described in
  * millimetres. */
 static void in_other_words(const element_type *e, ask_tally *tally)
 {

@@ -1,4 +1,5 @@
-"""Loads without a potential: frequencies, growth and critical loads, by flutter or divergence, against closed forms."""
+"""Frequencies, growth and critical loads, by flutter or divergence, under loads without a potential, compared with
+closed forms."""
 import json
 import math
 import unittest
@@ -22,7 +23,8 @@ MOTIONS = """  f0: {frequency: {analysis: v, which: 0}}
   g: {growth: {analysis: v}}"""
 DEFAULT = {"Iy": 3.0, "density": ", density: 1e-7", "at": "[1, 0, 0]", "tip": "", "member": "", "more": "", "quantities": CRITICAL}
 FORMULATIONS = ("geometrically_exact", "beamw_consistent", "beamw")
-# Hinged arch of 120 degrees under a follower pressure, in one plane: 8 EI/R^3.
+# Hinged arch of 120 degrees under a follower pressure, in one plane: the critical pressure is 8
+# EI/R^3.
 ARCH = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: 1, Iz: 1, It: 1}, young: 1, shear_modulus: 1e3%s}}
 nodes: {%s}
@@ -33,7 +35,8 @@ quantities: {P: {critical_factor: {analysis: b}}}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia, warping]
 """
 
-# Ziegler's double pendulum with almost rigid bars, springs of 1 N m and masses of 2 and 1 kg: 7/2 - sqrt 2.
+# Ziegler's double pendulum with almost rigid bars, springs of 1 N m and masses of 2 and 1 kg: the
+# critical load is 7/2 - sqrt 2.
 ZIEGLER = """beamwork: 1
 plane: xy
 sections: {s: {constants: {A: 1e7, Iy: %(EI)r, Iz: %(EI)r, It: 1e5}, young: 1, shear_modulus: 1}}
@@ -100,12 +103,13 @@ class Flutter(ProgramTest):
             self.assertLess(abs(7*found/40.0537 - 1), 1e-5, formulation)
 
     def test_any_load(self):
-        """From a thousandth of the critical load to a thousand times it."""
+        """The critical load does not depend on the load about which it is computed, from a thousandth of it to a thousand
+        times it."""
         for size in (0.02, 19, 21, 20000):
             self.assertLess(abs(size*self.critical(tip_force(size))/20.05132 - 1), 1e-6, size)
 
     def test_round(self):
-        """Flutter in two planes at the same load, or nearly so."""
+        """Flutter in two planes at the same load, or almost the same, is found."""
         single = self.critical(tip_force(20))
         for Iy in (1.0, 1 + 1e-9, 1.0001):
             self.assertLess(abs(self.critical(tip_force(20), Iy=Iy)/single - 1), 1e-6, Iy)
@@ -115,7 +119,7 @@ class Flutter(ProgramTest):
             self.assertLess(abs(self.critical(tip_force(1), tip=f", mass: {mass}")/exact - 1), 2e-5, mass)
 
     def test_ziegler(self):
-        """The bending of the bars is of the order of 1/EI."""
+        """The critical load differs from that of rigid bars by the order of 1/EI."""
         for EI, part in ((1e4, 1e-4), (1e5, 1e-5)):
             for formulation in FORMULATIONS[:2]:
                 found = self.values(ZIEGLER % {"EI": EI}, 1, formulation)[0][0]
@@ -133,14 +137,14 @@ class Flutter(ProgramTest):
         self.assertRegex(said, "no critical load from path 0 to .* no divergence, and flutter needs mass: add a density to a section")
 
     def test_of_the_mesh(self):
-        """Without mass Beck's column has no critical load: on a coarse mesh only its elements diverge."""
+        """Without mass, Beck's column has no critical load; on a coarse mesh only its elements diverge."""
         for formulation in ("collocation", "beamw", "geometrically_exact"):
             _, said = self.values(COLUMN % {**DEFAULT, "load": tip_force(1), "density": ""}, 4, formulation, status=1)
             self.assertRegex(said, "is an artefact of the mesh|no critical load from path 0 to", formulation)
 
     def test_wound(self):
-        """Greenhill's shaft twisted by less and more than half a turn, then compressed, with and without mass: M^2/4
-        + P = pi^2, a double point; above a torque of 2 pi it buckles by the torque alone."""
+        """Greenhill's shaft, twisted by less or more than half a turn and then compressed, with and without mass, has a
+        double point at M^2/4 + P = pi^2; above a torque of 2 pi it buckles by the torque alone."""
         for density in ("", ", density: 1e-9"):
             for angle in (0, 1e-9, 1, 3, 3.5, 5, 10):
                 found = self.values(WOUND % (density, angle), 8, "collocation")[0][0]
@@ -148,7 +152,8 @@ class Flutter(ProgramTest):
                 self.assertLess(abs(found/exact - 1), 1e-5, (density, angle))
 
     def test_with_damping_or_without(self):
-        """Frequencies about symmetric states are undamped, and this is reported; others are damped."""
+        """Frequencies about symmetric states are undamped, and this is reported; frequencies about other states include
+        damping."""
         one = self.folder / "scene.yaml"
         said, found = {}, {}
         for follows in ("", ", follower: true"):
@@ -189,7 +194,7 @@ class Flutter(ProgramTest):
                     self.assertGreater(abs(found[2]/plain[2] - 1), damping/100)
 
     def test_growth(self):
-        """Sum and product of the squares are smooth through flutter, where the two frequencies coincide."""
+        """The sum and the product of the squares are smooth through flutter, where the two frequencies coincide."""
         sums = []
         for size in (20.0, 20.04, 20.06, 20.1):
             (f0, f1, growth), _ = self.values(COLUMN % {**DEFAULT, "load": tip_force(size), "quantities": MOTIONS, "Iy": 100.0})
@@ -209,7 +214,7 @@ class Flutter(ProgramTest):
             self.assertEqual(self.values(COLUMN % {**DEFAULT, **dead, "more": zero})[0], plain, zero)
 
     def test_arch(self):
-        """The assembled tangent is symmetric only in the limit of fine meshes."""
+        """The assembled tangent of the arch is symmetric only in the limit of fine meshes."""
         for density in ("", ", density: 1e-6"):
             for formulation in FORMULATIONS[:2]:
                 found = [self.values(arch(n, 3.0, density), 1, formulation)[0][0]*3 for n in (8, 16)]

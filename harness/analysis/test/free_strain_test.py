@@ -1,4 +1,4 @@
-"""Temperature, pretension, unstressed lengths and free curvatures against closed forms, for all formulations."""
+"""Temperature, pretension, unstressed lengths and free curvatures compared with closed forms, for all formulations."""
 import json
 import math
 import unittest
@@ -18,7 +18,7 @@ sections:
 
 
 def solved(text, formulation, elements=4):
-    """Values of the quantities."""
+    """Returns the values of the quantities."""
     done = run("solve", "--scene", "/dev/stdin", "-f", formulation, "-n", elements, "--format", "json", input=HEAD + text)
     assert done.returncode == 0, done.stderr + done.stdout
     return {q["quantity"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
@@ -89,7 +89,7 @@ quantities:
             self.assertIn(words, solve.stderr)
 
     def test_clamped(self):
-        """Held at both ends, the member carries -EA alpha T and EI alpha g, about both axes, without moving."""
+        """A member held at both ends carries -EA alpha T and EI alpha g, about both axes, without moving."""
         text = beam("all", loads="t: {temperature: 20, gradient: [300, 500], on: m}", more="""
 analyses: {li: {linear: {}}, st: {static: {stations: [1]}}}
 quantities:
@@ -106,8 +106,8 @@ quantities:
                     self.assertAlmostEqual(got[name], size, delta=tolerance * abs(size))
 
     def test_length(self):
-        """A member that is too short is in tension, and a pretensioned member has its pretension; half of it remains
-        if an equal member is in series."""
+        """A member that is too short is in tension. A pretensioned member has its pretension, or half of it if an equal
+        member is in series."""
         for keys, force in ((", pretension: 500", 500), (f", unstressed_length: {L * (1 - 1e-5)}", E * A * 1e-5),
                             (", strain: [-1e-5, 0, 0]", E * A * 1e-5)):
             text = f"""nodes: {{a: {{at: [0, 0, 0], hold: all}}, b: {{at: [{L}, 0, 0], hold: [uy, uz, rx, ry, rz]}},
@@ -124,8 +124,8 @@ quantities: {{li: {{internal: {{analysis: li, member: n, end: to, resultant: N}}
                         self.assertAlmostEqual(got[name], force / 2, delta=1e-5 * force)
 
     def test_bent(self):
-        """A straight blank mounted along an arc between two clamps has the moment -EI k, a bent blank mounted
-        straight has EI k; released at one end, both take their stress-free shape."""
+        """A straight blank mounted along an arc between two clamps has the moment -EI k, and a bent blank mounted
+        straight has EI k; if one end is released, both take their stress-free shape."""
         k = 0.5
         for formulation in ("collocation", "geometrically_exact", "sheet_second_consistent"):
             for own, free in ((k, -k), (0, k)):
@@ -146,8 +146,8 @@ quantities:
                     self.assertAlmostEqual(loose["rz"], free * length, delta=1e-6)
 
     def test_stability_and_frequencies(self):
-        """Pinned and heated: buckling at alpha T = pi^2 I/(A L^2), also on a path; f = f_0 sqrt(1 + N/N_E). Also a
-        string in tension."""
+        """A pinned member that is heated buckles at alpha T = pi^2 I/(A L^2), also on a path, and has f = f_0 sqrt(1 +
+        N/N_E). A string in tension is also checked."""
         text = beam("[ux, uy, uz, rx]", loads="t: {temperature: 1, on: m}", more="""
 analyses: {cold: {modal: {}}, lin: {buckling: {}}, st: {static: {stations: [2, 4]}}, on: {buckling: {about: st}},
            warm: {modal: {about: st}}}
@@ -169,8 +169,8 @@ omit: [rotary_inertia, trapeze]
                 self.assertAlmostEqual(got["f"] / square, math.sqrt(1 - 4 / critical), delta=rough)
 
     def test_in_time(self):
-        """A member heated slowly between walls develops the static force with each integrator, and its energy is the
-        work of the heating."""
+        """A member that is heated slowly between walls develops the static force with each integrator, and its energy
+        is the work of the heating."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent", "sheet_second"):
             for integrator in ("alpha", "radau"):
                 text = beam("[uy, uz, rx, ry, rz]", loads="t: {temperature: 10, gradient: [100, 0], on: m, time: t^2}",
@@ -193,8 +193,8 @@ quantities:
                     self.assertAlmostEqual(got["drift"] / work, 0, delta=2e-4)
 
     def test_part(self):
-        """A third of the member, starting at a fifth, is heated: it elongates accordingly, and the tip rotates if
-        that part bends."""
+        """A third of the member, starting at a fifth, is heated: the member elongates accordingly, and the tip rotates
+        if the heated part bends."""
         text = beam("[]", loads=f"t: {{temperature: 90, gradient: [900, 0], on: m, from: 0.2, to: {0.2 + 1 / 3}}}", more="""
 analyses: {li: {linear: {}}}
 quantities:

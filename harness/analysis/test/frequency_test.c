@@ -11,16 +11,16 @@
 
 enum { MODES = 10, ELEMENTS = 24, RIGID = 6 };
 
-/* A square bar along an oblique direction, slender enough for the theories of shear and rotary
- * inertia to agree. */
+/* A square bar along an oblique direction, so slender that the theories of shear and rotary inertia
+ * agree. */
 static const double young = 2e11, density = 7800, side = 0.01, length = 1;
 static const double direction[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3}, y_axis[3] = {0.1, 1, 0.05};
 
 typedef struct request {
-    int held;            /* 1: at one end, 0: nowhere */
-    double force;        /* at the free end, along the bar ... */
+    int held;            /* 1: held at one end, 0: free */
+    double force;        /* force at the free end, along the bar ... */
     double arm;          /* ... or on a rigid arm beyond it [m] */
-    scene_family family; /* of all quantities */
+    scene_family family; /* family of all requested modes */
 } request;
 
 static void make(scene *s, const request *what)
@@ -51,7 +51,7 @@ static void make(scene *s, const request *what)
     }
 }
 
-/* 1: answered. */
+/* Solves the request. Returns 1 if the formulation answered. */
 static int find(const element_type *e, const request *what, ask_tally *tally, answer *out)
 {
     scene s;
@@ -63,7 +63,7 @@ static int find(const element_type *e, const request *what, ask_tally *tally, an
     return ask_count(tally, out, "bar, force %g N", what->force);
 }
 
-/* f = (k L)^2/(2 pi L^2) sqrt(E I/(rho A)). */
+/* Returns f = (k L)^2/(2 pi L^2) sqrt(E I/(rho A)). */
 static double bending(double root)
 {
     return root * root / (2 * PI * length * length) * sqrt(young * side * side / (12 * density));
@@ -73,8 +73,8 @@ static const double clamped[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.99
                                  14.137168391};
 static const double loose[] = {4.7300407449, 7.8532046241};
 
-/* Bending frequencies in pairs. The axial frequency c/(4 L) and the torsional one lie between them
- * and are not counted unless requested. */
+/* Bending frequencies occur in pairs. The axial frequency c/(4 L) and the torsional one lie between
+ * them and are counted only if requested. */
 static void cantilever(const element_type *e, ask_tally *tally)
 {
     static answer any, axial, across;
@@ -116,9 +116,10 @@ static void nothing_held(const element_type *e, ask_tally *tally)
                      "%s: frequency %d of the free bar", e->name, i + 1 - RIGID);
 }
 
-/* With t = T/(EI): w = A (cosh ax - cos bx) + B (sinh ax/a - sin bx/b), a^2 - b^2 = t, a^2 b^2 =
- * k^4; at the free end there is no moment, and no force across the bar's initial direction. Zero
- * where k^2 sqrt(EI/(rho A)) is a frequency. */
+/* Returns the determinant of a bar in tension, with t = T/(EI): w = A (cosh ax - cos bx) + B (sinh
+ * ax/a - sin bx/b), a^2 - b^2 = t, a^2 b^2 = k^4; at the free end there is no moment, and no force
+ * across the bar's initial direction. The determinant is zero where k^2 sqrt(EI/(rho A)) is a
+ * circular frequency. */
 static double determinant(double t, double k)
 {
     const double root = sqrt(t * t / 4 + k * k * k * k), a = sqrt(root + t / 2),
@@ -128,7 +129,7 @@ static double determinant(double t, double k)
            a * b * (a * S + b * s) * (b * S - a * s);
 }
 
-/* The smallest root k, found by a scan and bisection; the bar's length is 1. */
+/* Returns the smallest root k, found by a scan and bisection, for a bar of length 1. */
 static double first_root(double t)
 {
     const double step = 1e-3;
@@ -143,8 +144,8 @@ static double first_root(double t)
     return low;
 }
 
-/* Compression close to Euler's load and at half of it; tension of half of it and of twenty times as
- * much. */
+/* Compression close to Euler's load and at half of it; tension at half of Euler's load and at
+ * twenty times this load. */
 static void loaded(const element_type *e, ask_tally *tally)
 {
     static const double part[] = {-0.999, -0.5, 0.5, 20};
@@ -163,8 +164,8 @@ static void loaded(const element_type *e, ask_tally *tally)
     }
 }
 
-/* On an arm as long as the bar the critical load is k^2 EI with k tan k = 1: the frequency vanishes
- * at this load only. */
+/* If the load acts on an arm as long as the bar, the critical load is k^2 EI with k tan k = 1. The
+ * frequency vanishes at this load only. */
 static void loaded_on_arm(const element_type *e, ask_tally *tally)
 {
     const double critical = 0.86033358901937976 * 0.86033358901937976 * young * pow(side, 4) / 12;

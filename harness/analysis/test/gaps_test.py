@@ -10,7 +10,7 @@ STIFFNESS = 3*200e9*0.02*0.01**3/12/LENGTH**3
 
 
 def scene(seed, stations):
-    """A cantilever between stops on both sides that are up to a million times as stiff, with their gaps and
+    """Returns a cantilever between stops on both sides that are up to a million times as stiff, with their gaps and
     stiffness."""
     draw = random.Random(seed)
     stiffness, force = STIFFNESS*10**draw.uniform(0, 6), 10**draw.uniform(0, 2.5)

@@ -1,4 +1,4 @@
-"""Harmonic responses against closed forms, and inputs that a harmonic analysis rejects."""
+"""Harmonic responses compared with closed forms, and inputs that a harmonic analysis rejects."""
 import cmath
 import json
 import math
@@ -40,9 +40,9 @@ SHAKEN = reading("u", component="uy", drive="shake") + reading("r", component="u
 
 
 def beam(hertz, tension, length, by_mass=0.0, by_stiffness=0.0):
-    """Solves EI v'''' - N v'' - mu w^2 v = 0 by its four exponentials: returns the roots, and EI. Mass is
-    conserved, and moments are proportional to the rotation per initial length. Proportional damping: EI (1 +
-    i w b), mu (1 - i a/w)."""
+    """Solves EI v'''' - N v'' - mu w^2 v = 0 by its four exponentials and returns the roots, and EI. The mass does not
+    change with the length, and moments are proportional to the rotation per initial length. Proportional damping: EI
+    (1 + i w b), mu (1 - i a/w)."""
     w = 2*math.pi*hertz
     stiff = EI*length*(1 + 1j*w*by_stiffness)
     s = cmath.sqrt((tension/(2*stiff))**2 + MU/length*w*(w - 1j*by_mass)/stiff)
@@ -65,14 +65,14 @@ def solve(rows, right):
 
 
 def exact(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
-    """Deflection and slope at the tip, due to a force there or a displacement of the root."""
+    """Returns the deflection and the slope at the tip, due to a force there or a displacement of the root."""
     amplitude, roots, at, _ = waves(hertz, force, shift, tension, length, **damping)
     return (sum(a*e for a, e in zip(amplitude, at)),
             sum(a*k*e for a, k, e in zip(amplitude, roots, at)))
 
 
 def waves(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
-    """Amplitudes of the exponentials, their roots, their values at the tip, and the force on the root."""
+    """Returns the amplitudes of the exponentials, their roots, their values at the tip, and the force on the root."""
     w = 2*math.pi*hertz
     roots, stiff = beam(hertz, tension, length, **damping)
     at = [cmath.exp(k*length) for k in roots]
@@ -82,7 +82,7 @@ def waves(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
     return amplitude, roots, at, sum(a*(stiff*length*k**3 - tension*k) for a, k in zip(amplitude, roots))
 
 
-# Point masses on springs and dashpots along y, each with a post that has no mass; and modes.
+# Point masses on springs and dashpots along y, each at a post that has no mass; and their modes.
 MASSES = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 2e11, shear_modulus: 8e10}}
 nodes:
@@ -106,7 +106,7 @@ def modes(count):
 class DampedModesTest(ProgramTest):
 
     def found(self, text, formulation="collocation", n=1):
-        """Eigenvalues s, and damping ratios."""
+        """Returns the eigenvalues s, and the damping ratios."""
         path = self.folder/"scene.yaml"
         path.write_text(text, encoding="utf-8")
         record = self.record("solve", "--scene", path, "-f", formulation, "-n", n)
@@ -125,7 +125,7 @@ class DampedModesTest(ProgramTest):
             self.assertLess(abs(one - other), most*abs(other), (found, expected))
 
     def test_one_mass(self):
-        """One mass with frequency 20 rad/s: damped, undamped, and with two decay rates."""
+        """One mass with a frequency of 20 rad/s is damped, undamped, or has two decay rates."""
         for ratio in (1e-6, 0.1, 0.9, 0.999):
             found, ratios = self.masses(1, 2*ratio*40)
             self.same(found, [20*complex(-ratio, math.sqrt(1 - ratio**2))])
@@ -162,8 +162,8 @@ class DampedModesTest(ProgramTest):
         return path
 
     def test_dashpot_at_the_tip(self):
-        """The determinant of the exact beam vanishes at the eigenvalue: 1/u(s) by the secant method. Without tension,
-        about a state in tension, and beyond the critical load, where a mode grows."""
+        """The determinant of the exact beam vanishes at the eigenvalue: 1/u(s) = 0 by the secant method. This holds
+        without tension, about a state in tension, and beyond the critical load, where a mode grows."""
         scene = BEAM.replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {damped: yes%s}}")
         stretched = 1 + 2000/(210e9*0.02*0.01)
         load = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
@@ -201,10 +201,10 @@ class DampedModesTest(ProgramTest):
 
 
 class ByModesTest(ProgramTest):
-    """Modal solutions against direct solutions of the same scene, and against closed forms."""
+    """Modal solutions compared with direct solutions of the same scene, and with closed forms."""
 
     def solved(self, text, formulation="collocation", n=8):
-        """Curves, values and the stated errors."""
+        """Returns the curves, the values and the stated errors."""
         path = self.folder/"scene.yaml"
         path.write_text(text, encoding="utf-8")
         record = self.record("solve", "--scene", path, "-f", formulation, "-n", n)
@@ -228,7 +228,7 @@ class ByModesTest(ProgramTest):
 
     @staticmethod
     def scenes():
-        """A force, a shaking base, a state in tension, and a free and a driven pinned beam."""
+        """Returns scenes with a force, a shaking base, a state in tension, and a free and a driven pinned beam."""
         load = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
         shake = "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}"
         yield lambda k: BEAM % ("hold: all", "", "", k, FORCED)
@@ -248,7 +248,7 @@ class ByModesTest(ProgramTest):
                 self.close(text, ", solution: modal", formulation, n=4)
 
     def test_few_modes(self):
-        """The error is within the stated bound, which is not much larger."""
+        """The error is within the stated bound, which is not much larger than the error."""
         for text in self.scenes():
             for damping in ("", ", damping: {mass: 7, stiffness: 1e-3}"):
                 for modes, most in ((5, 1e-3), (8, 1e-5), (14, 1e-6)):
@@ -280,7 +280,7 @@ class ByModesTest(ProgramTest):
         self.assertRegex(done.stdout + done.stderr, "require a symmetric stiffness")
 
     def test_many_modes_wanted(self):
-        """More modes are requested than exist, for a structure that is mostly massless."""
+        """More modes may be requested than exist, for a structure that is mostly massless."""
         text = MASSES.replace("analyses: {modes: {modal: {%s}}}",
                               "analyses: {steady: {harmonic: {frequencies: [1, 3, 9]%s}}}")
         each = "0..1"
@@ -294,7 +294,7 @@ class ByModesTest(ProgramTest):
             self.close(scene(c, ", damping: {ratio: 0.3}"), ", solution: modal")
 
     def test_one_mass(self):
-        """At 0, 1 and 2 times the resonance; without damping there is no response at resonance."""
+        """Responses at 0, 1 and 2 times the resonance are exact; without damping there is no response at resonance."""
         base = MASSES.replace("to: body_$i, ", "from: base, to: body_$i, ").replace(
             "nodes:", "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}\nnodes:\n"
             "  base: {at: [0, -1, 0], hold: [ux, uz, rx, ry, rz], drive: {uy: shake}}")
@@ -318,7 +318,7 @@ class ByModesTest(ProgramTest):
 
 
 class ExtremesTest(ProgramTest):
-    """Extremes between the frequencies of the analysis, for one mass on a spring: closed form."""
+    """Extremes between the frequencies of the analysis, for one mass on a spring, compared with the closed form."""
     OSCILLATOR = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 2e11, shear_modulus: 8e10}}
 nodes: {body: {at: [0, 0, 0], mass: 2, hold: [ux, uz, rx, ry, rz]}, top: {at: [1, 0, 0]}}
@@ -388,8 +388,8 @@ quantities:
 """
 
     def test_what_is_not_excited(self):
-        """The response is never unbounded due to undamped modes of another part, or a mode that a force in the middle
-        does not excite."""
+        """Neither undamped modes of another part nor a mode that a force in the middle does not excite make the
+        response unbounded."""
         w = 2*math.pi*numpy.linspace(0.5, 9, 850001)
         k, own = 700/3, 800/3 - w*w
         exact = {"middle": own/(own*(2j*w + 2*k) - 2*k*k), "left": k/(own*(2j*w + 2*k) - 2*k*k)}
@@ -419,7 +419,7 @@ class HarmonicTest(ProgramTest):
         return path
 
     def curves(self, text, formulation, n):
-        """Returns name -> complex values at the frequencies."""
+        """Returns a dictionary from names to complex values at the frequencies."""
         record = self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", n)
         by_name = {}
         for curve in record["curves"]:
@@ -436,7 +436,7 @@ class HarmonicTest(ProgramTest):
         return [f["formulation"] for f in self.record("list", "formulations")["formulations"]]
 
     def test_dashpot_at_the_tip(self):
-        """A beam in bending, with every formulation; velocities are derivatives of displacements."""
+        """Responses of a beam in bending are exact with every formulation; velocities are rates of displacements."""
         text = BEAM % ("hold: all", "", "", "", FORCED)
         expected = [exact(f, force=1) for f in FREQUENCIES]
         for formulation in self.formulations():
@@ -453,8 +453,8 @@ class HarmonicTest(ProgramTest):
         self.near(found["r"], [u - 1 for u in expected], 2e-6, "as seen from the base")
 
     def test_reaction(self):
-        """Reaction of the root to a force at the tip and to its own motion, directly and by modes; also of a mass on
-        a base."""
+        """The reaction of the root to a force at the tip and to its own motion is exact, directly and by modes; so is
+        that of a mass on a base."""
         for keys in ("", ", solution: modal", ", solution: modal, modes: 40"):
             text = BEAM % ("hold: [ux, uz, rx, ry, rz], drive: {uy: shake}",
                            "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}", "", keys,
@@ -485,7 +485,7 @@ class HarmonicTest(ProgramTest):
                 self.assertRegex(done.stdout + done.stderr, words)
 
     def test_proportional_damping(self):
-        """Proportional damping with all formulations; with a shaking base the mass is damped by its absolute
+        """Proportional damping is exact with all formulations. With a shaking base the mass is damped by its absolute
         velocity."""
         damping = {"by_mass": 7, "by_stiffness": 2e-3}
         keys = ", damping: {mass: 7, stiffness: 2e-3}"
@@ -499,7 +499,7 @@ class HarmonicTest(ProgramTest):
                   [exact(f, shift=1, **damping)[0] for f in FREQUENCIES], 2e-6, "base")
 
     def test_stiffness_is_that_of_all_members_and_springs(self):
-        """About a bent state in tension, and with a spring and a foundation."""
+        """Proportional damping includes the stiffness of a bent state in tension, of a spring and of a foundation."""
         loads = "loads: {pull: {force: [-300, 200, 50], on: tip}}"
         with_spring = BEAM.replace("damping: [0, c", "stiffness: [0, 900, 0, 0, 0, 3], damping: [0, c")
         keys = with_spring % ("hold: all", loads, "  before: {static: {stations: [1], steps: 4}}",
@@ -534,7 +534,8 @@ quantities:
         self.assertAlmostEqual(got["im"] / exact.imag, 1, delta=1e-9)
 
     def test_about_a_state(self):
-        """Under tension: about a static path, along which the beam elongates, and about a linear analysis."""
+        """Responses under tension are exact about a static path, along which the beam elongates, and about a linear
+        analysis."""
         loads = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
         stretched = 1 + 2000/(210e9*0.02*0.01)
         for kind, length in (("{static: {stations: [1]}}", stretched), ("{linear: {}}", 1)):
@@ -558,7 +559,7 @@ quantities:
             self.assertLess(abs(one - other), 1e-9*abs(one))
 
     def test_force_in_a_member(self):
-        """A stiff spring in a cut at the root carries the moment given there by the beam's exponentials."""
+        """A stiff spring in a cut at the root carries the moment that the beam's exponentials give there."""
         scene = BEAM.replace("  tip: {at", "  cut: {at: [0, 0, 0]}\n  tip: {at").replace("from: root", "from: cut").replace(
             "springs: {", "springs: {joint: {from: root, to: cut, stiffness: [k, k, k, k, k, k]}, ").replace("c: 15", "c: 15, k: 1e10")
         scene = scene % ("hold: all", "", "", "", "".join(

@@ -1,7 +1,7 @@
-/* Structures with hinges against closed forms: a beam with an inner hinge, a three-hinged frame,
- * columns, vibration, a truss that snaps through. Also the axes of released ends: those in which
- * the section is described, whatever its principal axes; for a curved member, the axes at its end.
- */
+/* Structures with hinges compared with closed forms: a beam with an inner hinge, a three-hinged
+ * frame, columns, vibration, a truss that snaps through. Also the axes of released ends: those in
+ * which the section is described, whatever its principal axes; for a curved member, the axes at its
+ * end. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -15,7 +15,7 @@
 
 #define HINGES "harness/analysis/test/hinges.yaml"
 
-/* scale: magnitude for a value that is zero. */
+/* Checks value i. scale: magnitude for a value that is zero. */
 static void check(const cell_result *r, int i, double exact, double allowed, double scale,
                   const char *chosen)
 {
@@ -26,7 +26,7 @@ static void check(const cell_result *r, int i, double exact, double allowed, dou
              there ? r->scene.quantity[i].name : "a quantity", value, exact);
 }
 
-/* With bending and axial deformation only, one element per member is nodally exact. */
+/* With bending and axial deformation only, one element per member is exact at the nodes. */
 static void statics(const char *chosen, double allowed)
 {
     cell_result r;
@@ -80,7 +80,7 @@ static void eigenvalues(const char *chosen, int n, double allowed)
     cell_result_free(&r);
 }
 
-/* Bars with axial deformation only. */
+/* Bars of a truss, with axial deformation only. */
 static void roof(const char *chosen)
 {
     cell_result r;
@@ -94,8 +94,8 @@ static void roof(const char *chosen)
 
 enum { REACTIONS = 3 };
 
-/* The nodes are clamped, and their reactions have no component along the axes of the hinges: the
- * test lists which of the six are zero; the others are clamping moments. */
+/* The nodes are clamped, and their reactions have no component along the axes of the hinges. The
+ * test lists which of the six components are zero; the others are clamping moments. */
 static void axes(const char *of, const char *chosen, int n, unsigned released, double least)
 {
     cell_result r;
@@ -130,12 +130,12 @@ static void hinge_tests(void)
     }
 }
 
-/* An end released from a clamped node is equivalent to an end at a support that is free there: in
- * every analysis, with every formulation and Newton algorithm. */
+/* An end released from a clamped node is equivalent to an end at a support that is free in this
+ * component, in every analysis and with every formulation and Newton algorithm. */
 
 #define SPRINGS "harness/analysis/test/springs.yaml"
 
-/* A released end at a clamped node, and a support that is free there. */
+/* Compares a released end at a clamped node with a support that is free in this component. */
 static void supported(const char *chosen, int dense)
 {
     static const char *const released[] = {"hinge", "two_turns", "ball", "slide"};
@@ -168,7 +168,7 @@ static void hinge_support_tests(void)
         for (int k = 0; k < 3; k++) {
             char chosen[80];
             snprintf(chosen, sizeof chosen, "%s%s", registry_formulations[i]->name, newton[k]);
-            supported(chosen, k == 2); /* omitting analyses that follow a factored tangent */
+            supported(chosen, k == 2); /* omits analyses that follow a factored tangent */
         }
 }
 

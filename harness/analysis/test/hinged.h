@@ -18,7 +18,7 @@ static inline int add_section(scene *s)
     return scene_add_section(s, &spec);
 }
 
-/* Zero of g between a and b by bisection. */
+/* Returns the zero of g between a and b, found by bisection. */
 static inline double hinged_zero(double (*g)(double), double a, double b)
 {
     for (int i = 0; i < 200; i++) {

@@ -1,4 +1,4 @@
-"""Accelerations, jerks and spectra of motions, against closed forms."""
+"""Accelerations, jerks and spectra of motions, compared with closed forms."""
 import cmath
 import json
 import math
@@ -6,7 +6,8 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# A mass on a spring with an eccentric point: pushed from rest, with an initial velocity, and twisted.
+# A mass on a spring with an eccentric point: pushed from rest, with an initial velocity, and
+# twisted.
 PUSHED = """beamwork: 1
 let: {m: 2, k: 200, J: 1, c: 100}
 sections:
@@ -71,7 +72,7 @@ class Histories(ProgramTest):
             self.assertLess(abs(got - e), within*largest)
 
     def test_rates(self):
-        """Errors of integrators decrease with their orders, at the start as well as later."""
+        """The errors of integrators decrease with their orders, at the start as well as later."""
         w, v = math.sqrt(200/2), math.sqrt(100)
         for integrator, coarse, factor in (("radau", 2e-5, 7), ("alpha", 0.06, 3.5)):
             errors = []
@@ -128,7 +129,7 @@ class Histories(ProgramTest):
         self.assertEqual([got[n]["unit"] for n in ("lines", "power", "force")], ["m", "m^2/Hz", "N^2/Hz"])
 
     def test_parseval(self):
-        """Sums of squares over time and frequency are equal for any number of stations: even, odd, prime."""
+        """The sums of squares over time and over frequency are equal for any number of stations: even, odd, prime."""
         for stations, count in (("0..1/60", 60), ("0..1/45", 45), ("0..1/97", 97), ("0..1/2", 2)):
             got, _ = self.curves(SHAKEN % {"shake": "1e-3*(exp(-3*t)*sin(40*t) + t^2)", "stations": stations, "when": ""})
             history = got["history"]["curve_value"][:count]
@@ -140,7 +141,7 @@ class Histories(ProgramTest):
                 self.assertLess(abs(line - exact), 1e-15)
 
     def test_window(self):
-        """A part of the motion with the Hann window agrees with its formulas."""
+        """The spectrum of a part of the motion with the Hann window agrees with the window's formulas."""
         got, _ = self.curves(SHAKEN % {"shake": SINES, "stations": "0..1/200", "when": "from: 0.25, until: 0.75, taper: hann"})
         history = got["history"]["curve_value"][50:150]
         weights = [math.sin(math.pi*n/100)**2 for n in range(100)]

@@ -39,8 +39,8 @@ static void superposition(const scene_input *in, const element_type *e, const an
                      "%s: linear, %s: superposition of %s", e->name, in->name, with->name[i]);
 }
 
-/* Force, and moment about x, of the load on the second member, from 0.5 to 1, beyond `place`: the
- * load is linear there, so Simpson's rule is exact. */
+/* Computes the force, and the moment about x, of the load on the second member, from 0.5 to 1,
+ * beyond `place`. The load is linear there, so Simpson's rule is exact. */
 static void resultants(const scene_load *load, double place, double x, double out[6])
 {
     static const double weight[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
@@ -74,7 +74,7 @@ static int load_alone(const scene_input *in, posed *p, scene *s, scene_load *loa
     return scene_load_along(own) && own->kind != SCENE_GRAVITY && own->kind != SCENE_TEMPERATURE;
 }
 
-/* The root's reaction balances the whole load on a member. */
+/* The reaction of the root balances the whole load on a member. */
 static void reactions(const scene_input *in, const element_type *e)
 {
     static answer a;
@@ -134,7 +134,7 @@ static void sections(const scene_input *in, const element_type *e)
 
 static int is_load(const scene_input *in)
 {
-    return in - scene_inputs <= 21; /* and initial strains of members */
+    return in - scene_inputs <= 21; /* includes initial strains of members */
 }
 
 static int is_called(const scene_input *in, const char *name)
@@ -147,8 +147,8 @@ static int is_motion(const scene_input *in)
     return is_called(in, "motion of a node") || is_called(in, "motion of a case");
 }
 
-/* Largest difference between values of the same names from `first` on, relative to the largest
- * value. */
+/* Returns the largest difference between values with the same names, from `first` on, relative to
+ * the largest value. */
 static double largest_apart(const answer *a, const answer *b, const char *const name[])
 {
     double largest = 0, size = 1e-12;
@@ -186,7 +186,7 @@ static void law_of_continuation(const scene_input *in, const element_type *e, co
     static answer path;
     posed p = pose(in->name, SCENE_OF_STATIC, 1);
     p.end = answer_of(with, "factor");
-    if (!(p.end > 0)) /* a path only increases */
+    if (!(p.end > 0)) /* because a path only increases */
         return;
     solve(&p, e, &path);
     gsl_test_rel(answer_of(&path, "v_1"), end_of_continuation, 1e-7,
@@ -229,8 +229,8 @@ static void law_of_modal(const scene_input *in, const element_type *e, const ans
     posed p = pose(in->name, SCENE_OF_MODAL_ABOUT, 1);
     p.end = 1e-9;
     p.turns = 0;
-    /* the bending due to a stress-free curvature changes it as much, and the undeformed structure
-     * has no such bending */
+    /* the bending due to a stress-free curvature changes it as much as the input, and the
+     * undeformed structure has no such bending */
     if (is_called(in, "constant load") || is_called(in, "free curvature"))
         return;
     solve(&p, e, &about);
@@ -254,7 +254,8 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
     p.end = 1e-9;
     p.size = 1e-9;
     solve(&p, e, &rest);
-    /* the bending of a closed frame changes it as much, and a linear analysis neglects it */
+    /* the bending of a closed frame changes the frequency as much, and a linear analysis neglects
+     * this */
     if (linear.values == 0 || path.values == 0 || is_called(in, "node attached to another") ||
         is_called(in, "imperfection by shifts"))
         return;
@@ -284,7 +285,7 @@ static void law_of_modal_about(const scene_input *in, const element_type *e)
     answer_to(&s, &p, e, &a);
     for (int i = 0; i < 3; i++) {
         const double g = answer_of(&a, (const char *[]){"g0", "g1", "g2"}[i]);
-        if (!isnan(g)) /* a rotation rejects states whose tangent is not symmetric */
+        if (!isnan(g)) /* a rotation analysis rejects states whose tangent is not symmetric */
             gsl_test_rel(answer_of(&a, modes[i]), g, 1e-6,
                          "%s: modal about a path, %s: %s of a frame at rest", e->name, in->name,
                          modes[i]);
@@ -338,8 +339,8 @@ static void law_of_buckling_about(const scene_input *in, const element_type *e, 
                  "%s: buckling about a path, %s: the first critical point", e->name, in->name);
 }
 
-/* At zero frequency the response is the compliance; at other frequencies all modes give the same
- * response. */
+/* At zero frequency the response is the compliance; at other frequencies the solution with all
+ * modes gives the same response. */
 static void law_of_harmonic(const scene_input *in, scene_column column, const element_type *e,
                             const answer *with)
 {
@@ -352,7 +353,7 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
         in->name,
         column == SCENE_OF_HARMONIC_ABOUT ? SCENE_OF_COMPLIANCE_ABOUT : SCENE_OF_COMPLIANCE, 1);
     scene s;
-    if (column != SCENE_OF_HARMONIC_LINEAR && !is_called(in, "feedback")) { /* rejected */
+    if (column != SCENE_OF_HARMONIC_LINEAR && !is_called(in, "feedback")) { /* these are rejected */
         solve(&p, e, &a);
         const double off = largest_apart(with, &a, at_rest);
         gsl_test(!(off <= 1e-7), "%s: %s, %s: at 0 Hz the compliance (%g)", e->name,
@@ -372,7 +373,8 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
              scene_column_name[column], in->name, off, by_modes.reason);
 }
 
-/* About the start of a motion from equilibrium the response is that about the equilibrium state. */
+/* About the start of a motion from equilibrium, the response equals that about the equilibrium
+ * state. */
 static void law_of_harmonic_instant(const scene_input *in, const element_type *e)
 {
     static answer state, instant;
@@ -381,7 +383,7 @@ static void law_of_harmonic_instant(const scene_input *in, const element_type *e
     for (int about = 0; about < 2; about++) {
         scene s;
         structure(&p, &s);
-        s.lumped = 1; /* as in the motions of some formulations */
+        s.lumped = 1; /* as some formulations have in motions */
         int of = scene_add_static(&s, 1, &p.end, 2);
         of = about ? move(&s, of, p.column) : of;
         const int harmonic = scene_add_harmonic(&s, of, 2, (const double[]){0, shaking});
@@ -408,8 +410,8 @@ static void law_of_rotation(const scene_input *in, const element_type *e, const 
              in->name, off);
 }
 
-/* Successive motions, the first of which starts from equilibrium, stay there: inputs without a
- * function of time are held. */
+/* Successive motions, the first of which starts from equilibrium, remain in this equilibrium:
+ * inputs without a function of time are held. */
 static void law_of_motion(const scene_input *in, const element_type *e, int continued)
 {
     static answer path, motion;
@@ -420,7 +422,7 @@ static void law_of_motion(const scene_input *in, const element_type *e, int cont
     p.end = 0.7;
     if (in->part[SCENE_OF_MOTION] == SCENE_PART_REFUSED)
         return;
-    for (int last = 0; last < 2; last++) { /* the start of the motions, and their end */
+    for (int last = 0; last < 2; last++) { /* at the start and at the end of the motions */
         scene s;
         structure(&p, &s);
         const int state = analyse(&s, &p), before = scene_add_motion(&s, state, 1, &first, how),
@@ -435,7 +437,7 @@ static void law_of_motion(const scene_input *in, const element_type *e, int cont
              scene_column_name[p.column], in->name, off, motion.reason);
 }
 
-/* The answer obeys the law of its analysis. */
+/* Checks that the answer obeys the law of its analysis. */
 static void obey(const scene_input *in, scene_column column, const element_type *e,
                  const answer *with)
 {
@@ -489,7 +491,7 @@ static void obey(const scene_input *in, scene_column column, const element_type 
     }
 }
 
-/* An input with an effect in rotating axes, or without a potential, has that effect here. */
+/* An input that has an effect in rotating axes, or without a potential, has this effect here. */
 static void part_of_inertia(const scene_input *in, scene_column column, const element_type *e)
 {
     static answer with, without;
@@ -501,7 +503,7 @@ static void part_of_inertia(const scene_input *in, scene_column column, const el
     p.times = 0;
     solve(&p, e, &without);
     const double change = apart(&with, &without);
-    if (column == SCENE_OF_MODAL_ABOUT && /* damping changes growth there, but no frequency */
+    if (column == SCENE_OF_MODAL_ABOUT && /* damping changes the growth there, but no frequency */
         (is_called(in, "damping") || strstr(in->name, "dashpot") != NULL))
         return;
     gsl_test(with.values == 0 || !(change > 1e-6), "%s: %s, %s: changes the answer there (%g; %s)",
@@ -517,7 +519,7 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     if ((column == SCENE_OF_MOTION || is_instant(column)) &&
         (is_called(in, "constant load") || is_motion(in) || is_called(in, "rotating axes")))
         return;
-    posed p = pose(in->name, column, is_motion(in) /* or held there */ || divides(in->name));
+    posed p = pose(in->name, column, is_motion(in) /* or is held there */ || divides(in->name));
     p.times = 0;
     solve(&p, e, &without);
     p = pose(in->name, column, 1);
@@ -577,13 +579,13 @@ static void alike(const char *name, const char *other, scene_column column, cons
     solve(&p, e, &one);
     solve(&q, e, &two);
     const double off = apart(&one, &two);
-    const double most = is_instant(column) ? 1e-4 : 1e-7; /* of the smallest response */
+    const double most = is_instant(column) ? 1e-4 : 1e-7; /* relative to the smallest response */
     gsl_test(one.outcome != two.outcome || !(off <= most), "%s: %s, %s: as %s (%g; %s; %s)",
              e->name, scene_column_name[column], name, other, off, one.reason, two.reason);
 }
 
 /* An arm at rest in rotating axes keeps rotating with its drive, apart from the effect of its mass,
- * which lies along the elements there and at the nodes here. */
+ * which is distributed along the elements in the rotation and lumped at the nodes here. */
 static void start_turning(const element_type *e)
 {
     static answer a;

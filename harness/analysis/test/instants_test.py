@@ -1,4 +1,5 @@
-"""Small motions about instants of motions: closed forms, a steady rotation, and motions with nearby initial states."""
+"""Small motions about instants of motions, compared with closed forms, a steady rotation, and motions with nearby
+initial states."""
 import csv
 import json
 import math
@@ -103,7 +104,8 @@ class Instants(ProgramTest):
         self.assertLess(abs(value / right - 1), tolerance, (value, right))
 
     def test_pendulum(self):
-        """theta'' = -(g/l) cos(theta) dtheta, at the start, between steps, at the end and above the pin."""
+        """A pendulum obeys theta'' = -(g/l) cos(theta) dtheta at the start, between steps, at the end and above the
+        pin."""
         for formulation in FORMULATIONS:
             for integrator in ("radau", "alpha"):
                 for time in (0, 0.31, 0.7):
@@ -123,7 +125,7 @@ class Instants(ProgramTest):
         self.near(found["decay"]**2, -square)
 
     def test_rotor(self):
-        """A disc spinning between bearings: (I s^2 - i J w s + c s + k) x = 0."""
+        """A disc spinning between bearings obeys (I s^2 - i J w s + c s + k) x = 0."""
         found = self.solved(ROTOR)
         exact = [abs(numpy.roots([0.02, 0.1 + sign * 0.03j * 300, 400]).imag) for sign in (1, -1)]
         bounce = math.sqrt(1600 / 2 - (0.4 / 4)**2)
@@ -138,7 +140,7 @@ class Instants(ProgramTest):
                 self.near(found[f"m_{i}"], found[f"r_{i}"])
 
     def test_bead(self):
-        """Rotation softens the structure: (k/m - w^2 + s^2) (l/m - w^2 + s^2) + 4 w^2 s^2 = 0."""
+        """Rotation softens a bead on springs: (k/m - w^2 + s^2) (l/m - w^2 + s^2) + 4 w^2 s^2 = 0."""
         for time in (0, 0.123, 0.3):
             found = self.solved(BEAD % {"time": time})
             p, q, w = 800 - 144, 1800 - 144, 12
@@ -194,7 +196,7 @@ class Instants(ProgramTest):
         self.assertIn("replace 'axes_of'", self.solved(scene, status=1))
 
     def test_feedback(self):
-        """Loops are not closed about instants: refused by name, unless they are left open."""
+        """Feedback loops are not closed about instants: they are rejected by name, unless they are left open."""
         scene = (PENDULUM % {"integrator": "radau", "time": 0.31, "start": ""}).replace(
             "on: bob}}", "on: bob}, servo: {moment: [0, 0, 1], on: pin, feedback: "
             "{node: pin, component: rz, proportional: 3, derivative: 1}}}")

@@ -1,7 +1,7 @@
-/* Properties that need no reference value, for every formulation on every case it runs on: the same
- * mesh described differently, mirror images, rotated symmetric structures, reciprocity. Differences
- * are relative to the size of the numbers. Two discretisations of the same continuum may differ,
- * but the difference decreases as the mesh is refined. Questions are counted: see
+/* Properties that need no reference value, for every formulation on every case that it runs: the
+ * same mesh described differently, mirror images, rotated symmetric structures, reciprocity.
+ * Differences are relative to the size of the numbers. Two discretisations of the same continuum
+ * may differ, but the difference decreases as the mesh is refined. Questions are counted: see
  * harness/tools/kit/ask.h. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -15,8 +15,8 @@
 
 static const scene_edit unchanged = {SCENE_EDIT_NONE, 0};
 
-/* Largest relative difference of all values that exist, and the name of its quantity. A frequency
- * that the mesh does not have is missing in both. */
+/* Compares all values that exist, by their largest relative difference. A frequency that the mesh
+ * does not have is missing in both answers. */
 static double apart_of(double a, double b, double scale)
 {
     const double size = fmax(fmax(fabs(a), fabs(b)), scale);
@@ -25,7 +25,7 @@ static double apart_of(double a, double b, double scale)
     return size > 0 ? fabs(a - b) / size : 0;
 }
 
-/* Largest difference of two curves, relative to the curve's largest value. */
+/* Returns the largest difference of two curves, relative to the largest value of the curve. */
 static double curves_apart(const answer *a, const answer *b, int i)
 {
     double scale = a->scale[i], worst = a->points[i] == b->points[i] ? 0 : INFINITY;
@@ -49,15 +49,15 @@ static double difference(const answer *a, const answer *b, const char **whose)
     return worst;
 }
 
-/* NULL: the case has no parameter of that name. */
+/* Returns the parameter of this name; NULL: the case has none. */
 static const parameter_type *parameter_of(const case_type *type, const char *name)
 {
     const int i = parameter_index(type->parameters, name);
     return i < 0 ? NULL : parameter_at(type->parameters, i);
 }
 
-/* Few stations, if the case has such a parameter; and few constant steps of a motion, because error
- * control depends on the size of its members. */
+/* Requests few stations, if the case has such a parameter, and few constant steps of a motion,
+ * because error control depends on the size of the members. */
 static void short_path(const case_type *type, int size, char words[])
 {
     const parameter_type *step = parameter_of(type, "step"), *steps = parameter_of(type, "steps");
@@ -73,7 +73,8 @@ typedef struct invariants_subject {
     const case_type *type;
     const element_type *formulation;
     ask_tally *tally;
-    int coarse; /* elements per member that the case needs: 2 if these can follow the path */
+    int coarse; /* number of elements per member that the case needs; 2 if two can follow the path
+                 */
 } invariants_subject;
 
 static void ask_about(const invariants_subject *s, int n, int keep_all, scene_edit edit,
@@ -90,8 +91,8 @@ static int found(const invariants_subject *s, int n, int keep_all, scene_edit ed
     return ask_count(s->tally, out, "%s, n = %d", s->type->name, n);
 }
 
-/* Two elements cannot follow every path (a circle). Finds the coarsest mesh that can, together with
- * the next mesh, and their answers. 0: no mesh answers. */
+/* Finds the coarsest mesh that can follow the path, the next mesh, and the answers on both; two
+ * elements cannot follow every path (a circle). Returns 0 if no mesh has an answer. */
 static int found_coarsest(invariants_subject *s, answer *out, answer *next)
 {
     for (s->coarse = 2; s->coarse <= 32; s->coarse *= 2) {
@@ -103,7 +104,7 @@ static int found_coarsest(invariants_subject *s, answer *out, answer *next)
     return ask_count(s->tally, out, "%s, n = 2 to 32", s->type->name);
 }
 
-/* An edit of the scene does not change the answer. */
+/* Checks that an edit of the scene does not change the answer. */
 static void same(const invariants_subject *s, const char *what, const answer *before, int n,
                  scene_edit edit)
 {
@@ -116,8 +117,9 @@ static void same(const invariants_subject *s, const char *what, const answer *be
              whose, apart);
 }
 
-/* Warping coordinates that are kept where nothing warps make the twist cubic in some formulations:
- * a better mesh of the same continuum. Twice the coarsest mesh must have an answer. */
+/* Checks the retention of all coordinates. Warping coordinates that are kept where nothing warps
+ * make the twist cubic in some formulations, which is a better mesh of the same continuum. Twice
+ * the coarsest mesh must have an answer. */
 static void keep_all(const invariants_subject *s, const answer *fine)
 {
     static answer finer, full;
@@ -147,8 +149,8 @@ static void one_case(const case_type *type, const element_type *e, ask_tally *ta
     const int both = ask_count(tally, &fine, "%s, n = %d", type->name, 2 * s.coarse);
     if (both)
         keep_all(&s, &fine);
-    /* Other formulations depend on it by a discretisation error, which the sweep of extremes shows.
-     */
+    /* Other formulations depend on this order by a discretisation error, which the sweep of
+       extremes shows. */
     if (!(e->limits & LIMIT_ORDER_DEPENDENT))
         same(&s, "the other order of nodes changes nothing", &coarse, s.coarse,
              (scene_edit){SCENE_EDIT_REVERSE, 0});
@@ -168,7 +170,7 @@ static void every_case(const element_type *e)
     ask_conclude(&tally, e, "the same in other words");
 }
 
-/* A mirror image of the structure: certain values change sign. */
+/* In a mirror image of the structure certain values change sign. */
 static void mirrors(const element_type *e)
 {
     static const struct {
@@ -205,7 +207,7 @@ static void mirrors(const element_type *e)
     ask_conclude(&tally, e, "mirror images");
 }
 
-/* Three equal folds: a third of a turn leaves the joint unchanged. */
+/* With three equal folds, a rotation by a third of a turn leaves the joint unchanged. */
 static void thirds(const element_type *e)
 {
     static answer a;
@@ -223,8 +225,9 @@ static void thirds(const element_type *e)
     ask_conclude(&tally, e, "thirds of a turn");
 }
 
-/* Maxwell's and Betti's theorems hold for loads with a potential: for semitangential moments, but
- * not for moments about fixed axes. Returns the largest difference between C and its transpose. */
+/* Returns the largest difference between the compliance C and its transpose. Maxwell's and Betti's
+ * theorems hold for loads with a potential: for semitangential moments, but not for moments about
+ * fixed axes. */
 static double asymmetry(const answer *a)
 {
     static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"};

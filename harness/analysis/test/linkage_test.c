@@ -18,7 +18,8 @@ enum { STATIONS = 5, BARS = 3 };
 static const double straight[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const double crank = 1, coupler = 3.5, rocker = 3, ground = 4, begin = 0.4;
 
-/* Joint of coupler and rocker, above the line of the ground, for the crank's angle. */
+/* Computes the position of the joint of coupler and rocker, above the line of the ground, for an
+ * angle of the crank. */
 static void fourth(double angle, double out[2])
 {
     const double x = crank * cos(angle), y = crank * sin(angle), dx = ground - x, dy = -y,
@@ -30,7 +31,7 @@ static void fourth(double angle, double out[2])
 
 static double Q[9]; /* axes in which the scene is written */
 static double linkage_turned,
-    pushed; /* [rad] of the crank, [N] on the joint of coupler and rocker */
+    pushed; /* angle of the crank [rad], and force [N] on the joint of coupler and rocker */
 
 static int add_at(scene *s, double x, double y)
 {
@@ -40,7 +41,7 @@ static int add_at(scene *s, double x, double y)
     return scene_add_node(s, r[0], r[1], r[2]);
 }
 
-/* A node that rotates about the normal of the plane only; motion: SCENE_FREE or a driver. */
+/* Makes a node rotate about the normal of the plane only. motion: SCENE_FREE or a driver. */
 static void pivot(scene *s, int node, int motion)
 {
     static const double z[3] = {0, 0, 1};
@@ -112,7 +113,7 @@ static void solve_four_bar(const char *chosen, double angle, double force, const
     cells_solve(build_four_bar, chosen, 1, r);
 }
 
-/* Without a load: rigid bars, through more than half a turn of the crank. */
+/* Without a load: the bars are rigid, and the crank rotates by more than half a turn. */
 static void four_bar(const char *chosen)
 {
     cell_result r;
@@ -136,7 +137,7 @@ static void four_bar(const char *chosen)
     cell_result_free(&r);
 }
 
-/* Bent by a force, in the plane z = 0 and in a different plane. */
+/* A linkage bent by a force, in the plane z = 0 and in a different plane. */
 static void in_other_axes(const char *chosen)
 {
     static const double about[3] = {0.7, -1.1, 0.4};
@@ -167,7 +168,8 @@ static void in_other_axes(const char *chosen)
     cell_result_free(&b);
 }
 
-/* Two shafts at an angle of 0.6 rad, joined by a cross whose first pin is perpendicular to both. */
+/* Builds two shafts at an angle of 0.6 rad, joined by a cross whose first pin is perpendicular to
+ * both. */
 static status build_universal(const double value[], scene *s, fault *f)
 {
     static const double path[] = {0, 1}, angle[] = {0, 2.6}, beta = 0.6;
@@ -210,7 +212,7 @@ static void universal_joint(const char *chosen)
     cell_result_free(&r);
 }
 
-/* Four bars without a drive, linear and nonlinear. */
+/* Builds four bars without a drive, which are rejected in linear and nonlinear analyses. */
 static status build_loose(const double value[], scene *s, fault *f)
 {
     const double end = 1;
@@ -225,7 +227,7 @@ static status build_loose(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Held at both ends, with releases that leave it a mechanism. */
+/* Builds a structure held at both ends, whose releases make it a mechanism. */
 static status build_between(const double value[], scene *s, fault *f)
 {
     (void)value;
@@ -285,12 +287,13 @@ static void linkage_tests(void)
     }
 }
 
-/* Structures with springs against closed forms: a beam on rotational springs (deflection, buckling,
- * frequency), a sprung cantilever rolled up by a moment, a spring between two moving bodies. */
+/* Structures with springs compared with closed forms: a beam on rotational springs (deflection,
+ * buckling, frequency), a sprung cantilever rolled up by a moment, a spring between two moving
+ * bodies. */
 
 #define SPRINGS "harness/analysis/test/springs.yaml"
 
-static const double length = 1.3, kappa = 3.7; /* kappa: of the springs, in EI/L */
+static const double length = 1.3, kappa = 3.7; /* kappa: stiffness of the springs, in EI/L */
 
 static void check(const cell_result *r, int i, double exact, double allowed, const char *chosen)
 {
@@ -301,7 +304,8 @@ static void check(const cell_result *r, int i, double exact, double allowed, con
         gsl_test(1, "%s: quantity %d is there", chosen, i);
 }
 
-/* Equilibrium of moments about the origin: forces and moments at two nodes, and the load. */
+/* Checks the equilibrium of moments about the origin, of the forces and moments at two nodes and
+ * the load. */
 static void equilibrium(const cell_result *r, const char *chosen)
 {
     const double load[3] = {0.3, 1, 0.2},
@@ -321,8 +325,9 @@ static void equilibrium(const cell_result *r, const char *chosen)
     }
 }
 
-/* A cantilever with a spring at its tip and a second body there on a spring with six entries: the
- * tip's spring carries its part of the load, the clamp and the ground the rest. */
+/* A cantilever with a spring at its tip, where a second body is attached by a spring with six
+ * entries: the tip's spring carries its part of the load, and the clamp and the ground carry the
+ * rest. */
 static void supported(const char *chosen)
 {
     cell_result r;
@@ -336,7 +341,8 @@ static void supported(const char *chosen)
     cell_result_free(&r);
 }
 
-/* Half the wave number times the length: tan u = -2 u/kappa, tan u + tanh u = -4 u/kappa. */
+/* Functions whose zeros u are half the wave number times the length: tan u = -2 u/kappa in
+ * buckling, tan u + tanh u = -4 u/kappa in vibration. */
 static double buckled(double u)
 {
     return sin(u) + 2 * u / kappa * cos(u);

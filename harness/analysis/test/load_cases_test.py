@@ -31,7 +31,7 @@ QUANTITIES = """  u: {displacement: {analysis: A, WHICH node: c, component: uy}}
 
 
 def loads(factors=None, live=1.0, skip=()):
-    """Entries of the loads with their cases, or without cases and multiplied by these factors."""
+    """Returns the entries of the loads with their cases, or without cases and multiplied by these factors."""
     out = ["loads:"]
     for name, (text, case) in LOADS.items():
         if case in skip:
@@ -136,7 +136,7 @@ quantities:
             self.same(cases, plain, formulation=formulation, delta=1e-8)
 
     def test_one_factorisation(self):
-        """Many cases and combinations cost one factorisation, and each has the same result as on its own."""
+        """Many cases and combinations require only one factorisation, and each has the same result as on its own."""
         kinds = {"ULS": "combination: ULS", "SLS": "combination: SLS", "lift": "combination: lift", "dead": "case: dead",
                  "live": "case: live"}
         head = (HEAD + COMBINATIONS).replace("PRETENSION", ", pretension: 200") + loads()
@@ -157,7 +157,7 @@ quantities:
 
     def test_envelopes(self):
         """An envelope gives the largest value, the smallest value or the largest magnitude over the combinations, and
-        names the governing one."""
+        names the governing combination."""
         head = (HEAD + COMBINATIONS).replace("PRETENSION", "") + loads() + "analyses: {x: {linear: {}}}\nquantities:\n"
         one = {c: values(solved(head + QUANTITIES.replace("A, WHICH", f"x, combination: {c},"))) for c in ("ULS", "SLS", "lift")}
         for kind, best in (("max", max), ("min", min), ("largest", lambda v, key: max(v, key=lambda c: abs(key(c))))):
@@ -238,7 +238,7 @@ quantities:
 
 
 class EnvelopeTest(ProgramTest):
-    """Envelopes of nonlinear analyses: existing quantities, and the governing one."""
+    """Envelopes of nonlinear analyses use existing quantities and name the governing one."""
     TEXT = """beamwork: 1
 UNITS
 sections: {bar: {tube: {diameter: DIAMETER, thickness: WALL}, young: YOUNG, shear_modulus: SHEAR, density: RHO}}
@@ -319,7 +319,8 @@ quantities:
             self.assertIn(words, done.stderr)
 
     def test_sign_of_extremes(self):
-        """The largest value refers to the reported quantity with its sign, in paths, motions and along members."""
+        """The maximum and minimum are those of the reported quantity, including its sign, over paths, over motions and
+        along members."""
         got = values(solved("""beamwork: 1
 sections: {bar: {tube: {diameter: 0.05, thickness: 3e-3}, young: 210e9, shear_modulus: 81e9, density: 7850}}
 nodes: {foot: {at: [0, 0, 0], hold: all}, head: {at: [3, 0, 0], hold: [ux, uy, uz]}, middle: {at: [1.5, 0, 0]}}
