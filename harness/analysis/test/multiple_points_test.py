@@ -6,7 +6,8 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# E Iz = 1, L = 1, pinned or clamped: P = (c pi)^2 E I, with negligible shortening.
+# E Iz = 1, L = 1, pinned or clamped: the critical load is P = (c pi)^2 E I, with negligible
+# shortening.
 COLUMN = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: %(Iy)r, Iz: 1, It: 1}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: %(a)s}, b: {at: [1, 0, 0]%(b)s}}
@@ -48,8 +49,8 @@ quantities:
   P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
-# A stiff cantilever bent in its plane while a thrust rises and falls; it withstands the thrust or
-# buckles out of that plane.
+# A stiff cantilever is bent in its plane while a thrust rises and falls. It withstands the thrust or
+# buckles out of its plane.
 PASSING = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: 1, Iz: 1000, It: 1000}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -109,7 +110,7 @@ class MultiplePoints(ProgramTest):
             self.assertLess(abs(value / right - 1), part, (found, about))
 
     def test_equal_and_almost_equal(self):
-        """Two points or one double point are found, never none, in one step over all of them or in many steps."""
+        """Two points or one double point are found, never none, both in one step over all of them and in many steps."""
         for off in (0, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3):
             for step in (1e-6, 1e-5, 4.5e-5):
                 self.near(self.points(Iy=1 + off, step=step, to=4.5e-5, **PINNED),
@@ -122,7 +123,7 @@ class MultiplePoints(ProgramTest):
                           [PI2 / 4] * 2 + [9 * PI2 / 4] * 2, 2e-2, formulation, n)
 
     def test_zero_loads(self):
-        """The result is bitwise the same as without zero loads."""
+        """The result is bitwise the same as without the zero loads."""
         for ends in (PINNED, CLAMPED):
             for Iy in (1, 3):
                 found = [self.points(Iy=Iy, step=1e-3, to=1e-3, **{**ends, "more": more})
@@ -132,7 +133,7 @@ class MultiplePoints(ProgramTest):
         self.near(self.points(Iy=3, step=1e-3, to=1e-3, **PINNED), (PI2, 3 * PI2, 4 * PI2), 1e-3)
 
     def test_lost_and_regained(self):
-        """The two-bar arch, in steps of a hundredth of its path and in one step."""
+        """The critical points of the two-bar arch are found in steps of a hundredth of its path and in one step."""
         fine = self.points(n=4, scene=ARCH, step=0.0024, more="")
         self.near(fine, (2.15466, -0.612777, 2.99647, -0.620572), 1e-5)
         for step in (0.024, 0.08, 0.24):
@@ -141,8 +142,8 @@ class MultiplePoints(ProgramTest):
                 self.near(self.points(n=4, scene=ARCH, step=step, more=more), fine, 1e-7, step)
 
     def test_greenhill(self):
-        """A round shaft under thrust P and a torque m P of fixed direction: double points at (m P/2)^2 + P = pi^2,
-        which the sign of the determinant does not show; a shaft that is not quite round has two points."""
+        """A round shaft under thrust P and a torque m P of fixed direction: the double points at (m P/2)^2 + P = pi^2,
+        which the sign of the determinant does not show, are found; a shaft that is not quite round has two points."""
         for m in (1e-8, 0.1, 0.5, 2):
             exact = PI2 if m < 1e-3 else 2 * (math.sqrt(1 + m ** 2 * PI2) - 1) / m ** 2
             for twist in (1, 1e4):
@@ -159,8 +160,8 @@ class MultiplePoints(ProgramTest):
                           fine[:2], 1e-8, Iy, step)
 
     def test_partly_following(self):
-        """The fraction eta of a force on a free head follows the rotation: stability is lost and regained at cos sqrt
-        P = -eta/(1 - eta); for eta above one half there is no such point."""
+        """The fraction eta of a force on a free head follows the rotation. Stability is lost and regained at cos sqrt P
+        = -eta/(1 - eta); for eta above one half there is no such point."""
         for eta in (0.2, 0.4, 0.49, 0.4999, 0.501, 1):
             self.follow(eta, 1, (1e-6, 3e-6, 1e-5))
         self.follow(0.4, 3, (1e-6, 3e-6, 1e-5, 3e-5))
@@ -176,7 +177,7 @@ class MultiplePoints(ProgramTest):
             self.assertEqual(found[len(exact):], [None] * (4 - len(exact)), (eta, step))
 
     def test_words_without_symmetry(self):
-        """Without mass no divergence is reported up to the first point; with mass the frequencies decide."""
+        """Without mass, no divergence is reported up to the first point; with mass, the frequencies decide."""
         for density, said in ((0, ["no divergence"] * 3 + ["unstable (2)"] * 3),
                               (1e-9, ["stable"] * 3 + ["unstable: grows"] * 3)):
             path = self.folder / "scene.yaml"
@@ -187,7 +188,7 @@ class MultiplePoints(ProgramTest):
             self.assertEqual([step["stability"] for step in json.loads(done.stdout)["steps"]], said)
 
     def test_frequencies_judge_what_the_determinant_does_not(self):
-        """Beck's column: the determinant never changes its sign, flutter begins at 20.05."""
+        """In Beck's column the determinant never changes its sign; flutter begins at 20.05."""
         path = self.folder / "scene.yaml"
         for density, said in ((0, ["no divergence"] * 6), (1e-9, ["stable"] * 4 + ["unstable: grows"] * 2)):
             path.write_text((FOLLOWED % {"Iy": 2, "fixed": 0.0, "eta": -1.0, "to": 3e-5, "step": 5e-6})
@@ -196,7 +197,7 @@ class MultiplePoints(ProgramTest):
             self.assertEqual([step["stability"] for step in json.loads(done.stdout)["steps"]], said)
 
     def test_passing_thrust(self):
-        """A loss of stability over a fifth of the step is found wherever it occurs, and so are two of them."""
+        """A loss of stability over a fifth of the step is found wherever it occurs; so are two such losses."""
         for middle in (0.21, 0.25, 0.28, 0.33, 0.42, 0.5, 0.58, 0.67, 0.75, 0.79):
             found = self.points(n=4, scene=PASSING, factor=[0, 0, 1, 0, 0], step=0.01,
                                 path=[0] + [30 * (middle + away) for away in (-0.2, 0, 0.2)] + [40])
@@ -208,7 +209,7 @@ class MultiplePoints(ProgramTest):
         self.near(whole, fine, 1e-7)
 
     def test_static_paths_are_looked_into(self):
-        """The same thrust on a static path with one station: steps end in the unstable range."""
+        """The same thrust is applied on a static path with one station, whose steps end in the unstable range."""
         path = self.folder / "scene.yaml"
         for more, well in (("", "stable"), (", z: {moment: [1e-3, 0, 0], on: b}", "no divergence")):
             for middle in (0.21, 0.3, 0.5, 0.66, 0.79):
@@ -222,7 +223,8 @@ class MultiplePoints(ProgramTest):
                 self.assertEqual(said[-1], well, (more, middle))
 
     def test_what_is_undecided_is_said(self):
-        """Half of the load follows the rotation: an eigenvalue touches zero at pi^2."""
+        """If half of the load follows the rotation, an eigenvalue touches zero at pi^2, and the stability is reported
+        as undecided."""
         path = self.folder / "scene.yaml"
         for step in (2e-6, 1.2e-5):
             path.write_text(FOLLOWED % {"Iy": 3, "fixed": -0.5, "eta": -0.5, "to": 1.2e-5,
@@ -234,8 +236,8 @@ class MultiplePoints(ProgramTest):
                 self.assertRegex(q["reason"], "undecided: between load factors 9.8[67][0-9]* and 9.8[67]")
 
     def test_held_turn_under_torque(self):
-        """Greenhill's shaft held against twist at one end, which is free about the other axes: the support moment
-        keeps its direction as the load does."""
+        """A pinned shaft under Greenhill's loads is held against twist at one end, which is free about the other axes;
+        the support moment keeps its direction as the load does."""
         for step in (1.5e-5, 1.5e-6):
             path = self.folder / "scene.yaml"
             path.write_text(COLUMN % {"a": "[ux, uy, uz, rx]", "b": ", hold: [uy, uz]", "Iy": 1, "step": step, "to": 1.5e-5,
@@ -247,8 +249,8 @@ class MultiplePoints(ProgramTest):
             self.assertEqual(found[2:], [None, None])
 
     def test_held_turn_in_linear_buckling(self):
-        """Forces on two arms cause a torque that one support carries: rejected by name; without the forces, Euler's
-        load twice."""
+        """Forces on two arms cause a torque that one support carries: this is rejected by name. Without the forces,
+        Euler's load is found twice."""
         for arms, found in ((1, None), (0, [PI2, PI2])):
             path = self.folder / "scene.yaml"
             path.write_text(TWISTED_BY_ARMS % (arms, -arms))

@@ -1,7 +1,7 @@
 /* Information about a path: the abscissas of its points, and which points are limit points.
  *
- * At a limit point the load factor has an extremum, at a bifurcation it has none: the number of
- * limit points follows from the points of the path alone. */
+ * At a limit point the load factor has an extremum, but not at a bifurcation. The number of limit
+ * points therefore follows from the points of the path alone. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -15,10 +15,10 @@
 #include "harness/tools/kit/accepted.h"
 #include "harness/tools/kit/ask.h"
 
-static const double times = -3, shift = 0.7; /* of the abscissa */
+static const double times = -3, shift = 0.7; /* factor and offset of the abscissa */
 
-/* A cantilever bent by a force that rises, falls and rises again: the largest deflection is at the
- * station 0.4. Or continued in its deflection. */
+/* A cantilever bent by a force that rises, falls and rises again: its largest deflection is at the
+ * station 0.4. Alternatively the path is continued in the deflection. */
 static status build(const double value[], scene *s, fault *f)
 {
     static const double station[] = {0.1, 0.4, 0.7, 1}, deflection[] = {0.1, 0.2, 0.3},
@@ -105,7 +105,7 @@ static void abscissas(int continued)
     cell_result_free(&r);
 }
 
-/* Number of extrema of the load factor along the points of a path. */
+/* Returns the number of extrema of the load factor along the points of a path. */
 static int turns_of(const curve *c)
 {
     int turns = 0;
@@ -123,7 +123,8 @@ static const curve *load_curve(const cell_result *r)
     return NULL;
 }
 
-/* The last step has no later points, so one extremum may be missing. */
+/* Checks the kinds of critical points. The last step has no later points, so one extremum may be
+ * missing. */
 static void kinds_of(const char *name, const element_type *type, int n, const char *parameters,
                      int count[EVENT_KINDS])
 {
@@ -164,7 +165,8 @@ static void events(void)
              count[EVENT_BIFURCATION]);
 }
 
-/* Lengths in a different unit: the same points, the same fraction of the load's work. */
+/* If lengths are given in a different unit, the points and the fraction of the load's work are the
+ * same. */
 static void units(const char *name, const char *parameters)
 {
     cell_result in_metres, r;
@@ -196,9 +198,10 @@ static void path_tests(void)
     units("lee_frame", "plane=0");
 }
 
-/* Limits within one formulation: if a parameter vanishes, the answer is that without it. */
+/* Limits within one formulation: if a parameter vanishes, the answer is that without the
+ * parameter. */
 
-/* Asks a case on a mesh; 1: answered. */
+/* Solves a case on a mesh. Returns 1 if the formulation answered. */
 static int found(const char *name, const char *parameters, const element_type *e, int n,
                  ask_tally *tally, answer *out)
 {
@@ -208,8 +211,8 @@ static int found(const char *name, const char *parameters, const element_type *e
     return ask_count(tally, out, "%s, %s, n = %d", name, parameters, n);
 }
 
-/* As GA tends to infinity, the shear-flexible cantilever becomes the elastica (L = 1, load 10, EI =
- * 10). */
+/* As GA tends to infinity, the solution of the shear-flexible cantilever becomes the elastica (L =
+ * 1, load 10, EI = 10). */
 static void stiff_in_shear(const element_type *e)
 {
     static const int n[2] = {4, 16};
@@ -232,7 +235,7 @@ static void stiff_in_shear(const element_type *e)
                      i == 0 ? "deflection" : "shortening", apart[0][i]);
 }
 
-/* Deflection of the elastica beam with an initial curvature [1/m]; NAN: not solved. */
+/* Returns the deflection of the elastica beam with an initial curvature [1/m]; NAN: not solved. */
 static double curved(const element_type *e, double curvature, ask_tally *tally)
 {
     static answer a;
@@ -290,9 +293,9 @@ static void limits_tests(void)
     }
 }
 
-/* Iterative refinement: criteria that end it; slender bars along oblique axes, whose accuracy is
- * limited by the rounding of their forces; and compliances with so many elements that two
- * refinements are not enough. */
+/* Iterative refinement: the criteria that end it; slender bars along oblique axes, whose accuracy
+ * is limited by the rounding of their forces; and compliances with so many elements that two
+ * refinements do not suffice. */
 
 static const double length = 1;
 
@@ -328,7 +331,8 @@ static void sequences(void)
     gsl_test(steps > 100, "what falls slowly ends after %d corrections", steps);
 }
 
-/* A square bar pushed along its axis at its tip: displacements of the tip. */
+/* Builds a square bar that is pushed along its axis at its tip; the quantities are the
+ * displacements of the tip. */
 static void bar(scene *s, double side, const double direction[3])
 {
     static const double y_axis[3] = {0.1, 1, 0.05};
@@ -397,8 +401,8 @@ static void slender_bars(const element_type *e, ask_tally *tally)
                 pushed(e, tally, slenderness, direction[d], n);
 }
 
-/* If the factors have only two correct digits, the result is the same as with fewer elements, which
- * converge. */
+/* If the factors have only two correct digits, the result is the same as with fewer elements, with
+ * which the refinement converges. */
 static void compliance_of_many(void)
 {
     static answer coarse, fine;

@@ -1,5 +1,4 @@
-/* Builds and solves a small frame with one row of the table of inputs and one analysis.
- */
+/* Builds and solves a small frame with one row of the table of inputs and one analysis. */
 #ifndef BEAMWORK_POSED_H
 #define BEAMWORK_POSED_H
 
@@ -38,7 +37,7 @@ static void base(scene *s)
     scene_add_load(s, SCENE_FORCE, TIP, -300, 90, 60);
 }
 
-/* Half a shallow arch of the same members, which snaps through whatever else acts. */
+/* Half a shallow arch of the same members, which snaps through whatever other inputs act. */
 static void arch(scene *s)
 {
     base(s);
@@ -68,11 +67,11 @@ static scene_load *spread(scene *s, double from, double to)
 static void twist(scene *s)
 {
     s->section[0].constants.Iw = 5e-9;
-    scene_set_body(s, TIP, (scene_body){.inertia = {2, 1, 1, 0, 0, 0}}); /* it rotates first */
+    scene_set_body(s, TIP, (scene_body){.inertia = {2, 1, 1, 0, 0, 0}}); /* acts first */
     scene_add_load(s, SCENE_FORCE, scene_add_attached(s, TIP, 1, 0.2, 0), 0, 5, 40);
 }
 
-/* The base cannot rotate about its axis at the tip. */
+/* Puts the tip on a fork, so that it cannot rotate about the axis of the cantilever. */
 static void ended_in_a_fork(scene *s)
 {
     const double *to = s->node[TIP].position, axis[3] = {to[0], to[1], to[2]},
@@ -103,7 +102,7 @@ static void combine(scene *s)
     scene_add_term(s, all, scene_add_case(s, "live"), -1.5);
 }
 
-/* Adds what the input needs to act on, then the input. */
+/* Adds what the input requires, then the input. */
 static void add(scene *s, const char *name)
 {
     static const double from = 0, whole = 1;
@@ -299,12 +298,12 @@ static void add(scene *s, const char *name)
         for (int i = 0; i < s->members; i++)
             scene_member_at(s, i)->damping = 1e-4;
     else if (!IS("velocity at the start") &&
-             !IS("rotating axes")) /* which belong to the analysis */
+             !IS("rotating axes")) /* these belong to the analysis */
         s->name[0] = '\0';
 #undef IS
 }
 
-/* Adds what the input needs, without the input itself. */
+/* Adds what the input requires, without the input itself. */
 static void carry(scene *s, const char *name)
 {
     static const char *const held[] = {"temperature",       "strain of a member", "pretension",
@@ -327,16 +326,16 @@ typedef struct posed {
     const char *name;
     scene_column column;
     int with;
-    double times; /* factor of the input's loads, strains and motions */
-    double size;  /* factor of all loads, strains and motions, */
-    double grown; /* and of the loads that are not constant */
-    double end;   /* of the static path */
-    double pull;  /* [N] at the tip along y, from the start of the path */
+    double times; /* factor of the loads, strains and motions of the input */
+    double size;  /* factor of all loads, strains and motions ... */
+    double grown; /* ... and of the loads that are not constant */
+    double end;   /* end of the static path */
+    double pull;  /* [N] force at the tip along y, from the start of the path */
     int turns;    /* 1: the axes of the paths rotate */
     int follows;  /* 1: a force at the tip follows it */
 } posed;
 
-/* For loads without a potential, flutter is requested. */
+/* Returns 1 for loads without a potential, for which flutter is requested. */
 static int flutters(const char *name, scene_column column)
 {
     for (const scene_input *in = scene_inputs; in->name != NULL; in++)
@@ -347,7 +346,8 @@ static int flutters(const char *name, scene_column column)
     return 0;
 }
 
-/* Does the input add nodes to the mesh? Then its member has other elements without it. */
+/* Returns 1 if the input adds nodes to the mesh. Its member then has different elements without the
+ * input. */
 static int divides(const char *name)
 {
     return strstr(name, "within a member") != NULL || strstr(name, "part of a member") != NULL;
@@ -368,7 +368,7 @@ static posed pose(const char *name, scene_column column, int with)
 
 static const double shaking = 17; /* [Hz] */
 
-/* Adds responses of a node to a force or a moment on it, by real or imaginary part. */
+/* Adds responses of a node to a force or a moment on this node, by real or imaginary part. */
 static void respond(scene *s, const char *name, int analysis, int node, int component, int along,
                     scene_vibration_part part, double at)
 {
@@ -399,7 +399,7 @@ static int move(scene *s, int from, scene_column column)
                                            .step = 1e-3});
 }
 
-/* Adds the analysis of a column, after the analysis that it follows, if any. */
+/* Adds the analysis of a column, after the analysis that it follows, if there is one. */
 static int analyse(scene *s, const posed *p)
 {
     const scene_column column = p->column;
@@ -530,7 +530,7 @@ static void strain(scene_member *m, double length, double times)
 static void structure(const posed *p, scene *s)
 {
     static const double from = 0, whole = 1;
-    if (p->column == SCENE_OF_BUCKLING_ABOUT && !p->follows) /* which flutters */
+    if (p->column == SCENE_OF_BUCKLING_ABOUT && !p->follows) /* the structure then flutters */
         arch(s);
     else
         base(s);

@@ -1,6 +1,6 @@
 /* Without loads, drives and initial strains all displacements and forces are zero: in every case at
  * every verified parameter point, for every formulation and every evaluated choice of its options.
- * Checks are counted. */
+ * The checks are counted. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,8 +13,8 @@
 #include "harness/study/study.h"
 
 enum { COMPONENTS = 6, CHOICES = 64 };
-/* Relative to the structure's size, one radian, and the largest EA of its members; the source is
- * rounding of an arc's curvature in slender members. */
+/* Limits relative to the structure's size, one radian, and the largest EA of its members. The
+ * source of these values is rounding of an arc's curvature in slender members. */
 static const double still = 1e-10, unstressed = 1e-12;
 
 enum { FORMULATIONS = 64 };
@@ -45,7 +45,7 @@ static double stiffest(const scene *s)
     return EA;
 }
 
-/* The structure alone: loads and drives exist, with value zero. */
+/* Leaves the structure alone: the loads and drives exist, but their values are zero. */
 static void leave_alone(scene *s)
 {
     for (int i = 0; i < s->loads; i++)
@@ -73,7 +73,7 @@ static int carries(const scene_node *n, int component)
                : n->rotation == SCENE_ROTATION_SPATIAL && n->angle[component - 3] != SCENE_FREE;
 }
 
-/* Every displacement and rotation, and every reaction. */
+/* Requests every displacement, rotation and reaction. */
 static void ask_for_all(scene *s)
 {
     const double end = 1;
@@ -90,7 +90,7 @@ static void ask_for_all(scene *s)
             }
 }
 
-/* Largest value relative to its limit, and its quantity. */
+/* Returns the largest value relative to its limit, and its quantity. */
 static double largest(const scene *s, const solve_result *r, const char **whose)
 {
     const double size = dimension(s), EA = stiffest(s);
@@ -129,7 +129,7 @@ static void rests(const sweep_point *p, const formulation *chosen, int elements)
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, &f);
         worst = outcome == STATUS_OK ? largest(&s, &r, &whose) : INFINITY;
-        /* Elements whose arcs rise beyond their declared limit are rejected by name. */
+        /* elements whose arcs rise beyond their declared limit are rejected by name */
         if (outcome == STATUS_NOT_CONVERGED && chosen->type->limits & LIMIT_FLAT_ARC &&
             strstr(f.text, "radii of gyration") != NULL)
             worst = 0;
@@ -141,7 +141,7 @@ static void rests(const sweep_point *p, const formulation *chosen, int elements)
     scene_free(&s);
 }
 
-/* The default and the evaluated choices. */
+/* Lists the default and the evaluated choices of the options. */
 static int choices_of(const element_type *type, formulation list[CHOICES])
 {
     int count = 1;

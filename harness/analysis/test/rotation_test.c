@@ -35,8 +35,8 @@ static double value_of(const char *case_name, const char *chosen, int n,
     return value;
 }
 
-/* k = Omega L/c = 1/2 with c the speed of sound: L (tan k/k - 1), with elements of higher order,
- * and in the limit with the others. */
+/* With k = Omega L/c = 1/2, where c is the speed of sound, the elongation is L (tan k/k - 1): with
+ * elements of higher order, and in the limit with the others. */
 static void stretch(void)
 {
     const char *const thick[] = {"omega_star=5", "slenderness=10", NULL};
@@ -83,7 +83,7 @@ static const parameter_type with_body_parameters[] = {
     {0},
 };
 
-/* An inclined channel that rotates about an axis next to it. */
+/* Builds an inclined channel that rotates about an axis next to it. */
 static status build_with_body(const double value[], scene *s, fault *f)
 {
     (void)f;
@@ -110,7 +110,7 @@ static status build_with_body(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* The centrifugal and gyroscopic terms of a rigid offset: the same structure in other
+/* Tests the centrifugal and gyroscopic terms of a rigid offset with the same structure in other
  * coordinates. */
 static void reference_point(void)
 {
@@ -145,7 +145,7 @@ static void reference_point(void)
     }
 }
 
-/* Counted work of the same path with and without a rotating frame. */
+/* Compares the counted work of the same path with and without a rotating frame. */
 static void at_rest(void)
 {
     const char *const slow[] = {"omega=1e-6", NULL};
@@ -195,8 +195,8 @@ static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.
                     density = 7300; /* m, m, m, Pa, kg/m^3 */
 static const double root[2] = {4.7300407448627040, 7.8532046240958376};
 
-/* Index 0: bending about the weak axis; then about the strong axis, then the second mode of each.
- */
+/* Returns frequency i: 0 is bending about the weak axis, 1 about the strong axis; the second modes
+ * of each follow. */
 static double exact(int i)
 {
     const double height = i % 2 == 0 ? thickness : width, k = root[i / 2] / length;
@@ -222,8 +222,8 @@ static void free_beam_tests(void)
 {
     frequencies("beamw_vlasov", 32, 1e-5);
     frequencies("beamw_first", 32, 1e-5);
-    /* so many elements that rounding in the assembly changes the stiffness: solutions are refined
-     */
+    /* so many elements that rounding in the assembly changes the stiffness, and solutions are
+       refined */
     frequencies("beamw_vlasov", 600, 2e-7);
     frequencies("beamw_vlasov", 2400, 2e-7);
 }
@@ -284,7 +284,7 @@ static void newton(void)
              "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
 }
 
-/* In a first step of 15 degrees the ends of short elements change places: the strains cannot show
+/* In a first step of 15 degrees the ends of short elements change places. The strains cannot show
  * this, so the solver must detect it. */
 static void no_element_is_turned_round(void)
 {
@@ -320,8 +320,8 @@ static void frame_of_strips(void)
     }
 }
 
-/* Equal elements have equal rounding errors, which add up to much more than independent errors; the
- * inertia is that of the sums. */
+/* Equal elements have equal rounding errors, which add up to much more than independent errors
+ * would. The inertia is that of the sums. */
 static void equal_elements(void)
 {
     const double critical = solve_value_of("lateral_buckling", "geometrically_exact", 256, 0,

@@ -6,7 +6,7 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# Overhung disc: bending is a problem of two unknowns in the complex plane.
+# Overhung disc. Bending is a problem of two unknowns in the complex plane.
 SHAFT = """beamwork: 1
 let: {d: 0.02}
 sections:
@@ -22,7 +22,8 @@ omit: [%(omit)s]
 """
 # A point mass on a massless shaft whose end does not tilt: 12 E I/L^3, multiplied by `flat` in one plane.
 JEFFCOTT = SHAFT.replace("mass: 5, inertia: [%(polar)r, 0.02, 0.02, 0, 0, 0]", "mass: 5, hold: [ux, rx, ry, rz]")
-# Stiff arm with a mass at its tip, in an eccentric hinge with a soft spring: three coordinates have a mass.
+# Stiff arm with a mass at its tip, in an eccentric hinge with a soft spring. Three coordinates have
+# a mass.
 ARM = """beamwork: 1
 let: {W: 20, e: 0.1, L: 0.9, k: 1}
 sections: {arm: {constants: {A: 1e-2, Iy: 1e-4, Iz: 1e-4, It: 2e-4}, young: %s, shear_modulus: 80e9}}
@@ -52,7 +53,7 @@ DEFAULT = {"flat": 1.0, "density": 1e-6, "polar": 0.04, "omega": 300.0, "last": 
 
 
 def bending(omega, polar):
-    """|w - W| of det(K - w^2 M + w W G) = 0, a polynomial of degree four whose roots are real."""
+    """Returns |w - W| for the roots w of det(K - w^2 M + w W G) = 0, a polynomial of degree four with real roots."""
     def value(w):
         return (K11 - MASS*w*w)*(K22 - DIAMETRAL*w*w + polar*omega*w) - K12*K12
     limit = 10*(FIRST + math.sqrt(K22/DIAMETRAL) + polar/DIAMETRAL*omega)
@@ -76,7 +77,7 @@ def expected(omega, polar):
 
 
 def critical(polar):
-    """Speed at which a frequency in the rotating frame is zero."""
+    """Returns the speed at which a frequency in the rotating frame is zero."""
     a, b = 1.0, 300.0
     for _ in range(200):
         m = (a + b)/2
@@ -124,15 +125,15 @@ class Rotors(ProgramTest):
                 self.close(self.frequencies(SHAFT % DEFAULT, formulation, n), expected(300, 0.04), 300, 2e-9)
 
     def test_masses(self):
-        """The shaft's own mass is 2e-4 of the disc's at 7.85 kg/m^3, and its effect is of that size."""
+        """The shaft's own mass is 2e-4 of the disc's at 7.85 kg/m^3, and its effect has this order of magnitude."""
         for density in (7.85, 1e-3, 1e-6, 1e-9, 1e-12):
             for n in (2, 16):
                 found = self.frequencies(SHAFT % {**DEFAULT, "density": density}, "collocation", n)
                 self.close(found, expected(300, 0.04), 300, 1e-9 + 4e-5*density)
 
     def test_too_light(self):
-        """If the shaft is too light for its own frequencies to have correct digits, none are reported, with the
-        reason."""
+        """If the shaft is too light for its own frequencies to have correct digits, they are not reported, and the
+        reason is given."""
         for density in (1e-9, 1e-13):
             for omega in (0.5*FIRST, 3*FIRST):
                 scene = JEFFCOTT % {**DEFAULT, "density": density, "omega": omega, "last": 3}
@@ -141,7 +142,7 @@ class Rotors(ProgramTest):
                 self.assertIn("distinguishable from round-off", done["quantities"][2]["reason"])
 
     def test_speeds(self):
-        """Below, next to and above the critical speed; a flat disc and a long one."""
+        """Frequencies are correct below, next to and above the critical speed, for a flat disc and for a long one."""
         for polar in (0.04, 0.01):
             at = critical(polar)
             for omega in (1e-2, 1.0, at/2, at*(1 - 1e-3), at*(1 - 1e-6), at*(1 + 1e-6), at*(1 + 1e-3), 300.0, 1e4):
@@ -160,7 +161,8 @@ class Rotors(ProgramTest):
                 self.assertIn("critical point", done.stderr)
 
     def known(self, scene, formulation, n, exact, within, floor=2e-13):
-        """Values, and that their errors lie within the estimates of round-off, which are no larger than `within`."""
+        """Checks the values, and that their errors lie within the estimates of round-off, which are no larger than
+        `within`."""
         done = self.solved(scene, formulation, n)
         self.assertEqual(len(done["quantities"]), len(exact))
         for q, right in zip(done["quantities"], exact):
@@ -170,8 +172,8 @@ class Rotors(ProgramTest):
             self.assertLess(abs(q["value"]/right - 1), q["rounding"] + floor, (formulation, n, q["quantity"]))
 
     def test_massless(self):
-        """Three coordinates have a mass; the others have no frequency. With 200e9 the matrix of 32 elements has 3
-        digits for the soft motions, but the frequencies keep all their digits."""
+        """Three coordinates have a mass; the others have no frequency. With 200e9 Pa the matrix of 32 elements has only
+        3 digits for the soft modes, but the frequencies keep all their digits."""
         exact = (math.sqrt(400/9 + 1/0.81)/2/math.pi, math.sqrt(400*(1 + 1/9) + 1/0.81)/2/math.pi)
         for young, stretch in (("20e9", 1e-5), ("200e9", 1e-6)):
             for formulation in ("geometrically_exact", "collocation", "beamw"):
@@ -208,7 +210,8 @@ class Rotors(ProgramTest):
                     self.known(scene, "collocation", n, expected(omega, 0.04), within)
 
     def test_growth(self):
-        """Growth rates between the two critical speeds of a shaft with unequal stiffnesses, and their errors."""
+        """Growth rates between the two critical speeds of a shaft with unequal stiffnesses are correct, and so are
+        their error estimates."""
         for flat in (1.001, 1.3):
             high = math.sqrt(flat)
             for part, within in ((1 + 1e-6, 1e-7), ((1 + high)/2, 1e-9), (high*(1 - 1e-6), 1e-7)):
@@ -223,7 +226,8 @@ class Rotors(ProgramTest):
                                within)
 
     def test_moment(self):
-        """Matrices are stored in full if a moment may make them unsymmetric: the gyroscopic matrix is included once."""
+        """Matrices are stored in full if a moment may make them unsymmetric; the gyroscopic matrix is then included
+        once."""
         for moment in ("0", "1e-9"):
             scene = SHAFT % {**DEFAULT, "density": 1e-13}
             scene = scene.replace("analyses:", f"loads: {{turn: {{moment: [0, 0, {moment}], on: disc}}}}\nanalyses:")
@@ -242,7 +246,7 @@ class Rotors(ProgramTest):
         return self.solved(scene, "collocation", n)["steps"][-1]["stability"]
 
     def test_stability(self):
-        """Stiffnesses k and 1.3 k: K has 0, 0, 1, 2 and 2 negative eigenvalues."""
+        """With stiffnesses k and 1.3 k, K has 0, 0, 1, 2 and 2 negative eigenvalues."""
         for part, said in ((0.5, "stable"), (0.9, "stable"), (1.05, "unstable: grows"),
                            (1.2, "stable without damping"), (1.5, "stable without damping")):
             scene = JEFFCOTT % {**DEFAULT, "flat": 1.3, "omega": part*FIRST, "last": 0}
@@ -252,7 +256,8 @@ class Rotors(ProgramTest):
             self.assertEqual("stable without damping" in told, part > 1.1, told)
 
     def test_round_shaft(self):
-        """Equal stiffnesses: |w -+ W|; undamped, the shaft is stable above the critical speed."""
+        """With equal stiffnesses the frequencies are |w -+ W|; without damping, the shaft is stable above the critical
+        speed."""
         for part in (0.5, 0.999, 1.001, 1.5, 3.0):
             scene = JEFFCOTT % {**DEFAULT, "omega": part*FIRST, "last": 1}
             right = sorted(abs(FIRST*(1 + s*part))/2/math.pi for s in (-1, 1))
@@ -270,7 +275,7 @@ class Rotors(ProgramTest):
 
 
 def across(a, b, c, d):
-    """36 entries, with a, b; c, d between uy and uz."""
+    """Returns the 36 entries of a spring matrix with a, b; c, d between uy and uz."""
     rows = [[0]*6 for _ in range(6)]
     rows[1][1:3], rows[2][1:3] = (a, b), (c, d)
     return sum(rows, [])
@@ -316,7 +321,7 @@ omit: [shear, rotary_inertia]
 
 
 def dynamic(s):
-    """[a, b, c, d] for the disc's coordinates, with the bearings' coordinates eliminated."""
+    """Returns [a, b, c, d] for the disc's coordinates, with the bearings' coordinates eliminated."""
     k = SHAFT_STIFFNESS
     a, b, c, d = (2*x + s*2*y for x, y in zip(BEARING, FILM))
     a, d = a + k, d + k
@@ -335,7 +340,7 @@ class Bearings(ProgramTest):
         return done.returncode, " ".join((done.stdout + done.stderr).split())
 
     def test_journal(self):
-        """The determinant vanishes at damped modes, and responses are the inverse of the dynamic stiffness."""
+        """The determinant vanishes at the damped modes, and the responses are the inverse of the dynamic stiffness."""
         for formulation in ("collocation", "geometrically_exact", "beamw"):
             got = self.values(JOURNAL, 2, formulation, stiffness=across(*BEARING), damping=across(*FILM),
                               analyses="d: {modal: {damped: yes}}, A: {harmonic: {frequencies: [9]}}, L: {linear: {}}",
@@ -355,7 +360,7 @@ class Bearings(ProgramTest):
             self.assertLess(abs(got["y"]/(98.1*b/(a*d - b*c)) - 1), 1e-7)
 
     def test_onset(self):
-        """Cross stiffness q and damping c: the whirl grows above q = c w, and there is no steady vibration then."""
+        """With cross stiffness q and damping c, the whirl grows above q = c w; there is no steady vibration then."""
         stiffness, damping = 192*200e9*8e-9, 40
         onset = damping*math.sqrt(stiffness/10)
         for part in (0.999, 1.001):
@@ -367,8 +372,8 @@ class Bearings(ProgramTest):
             self.assertEqual((code != 0, "a mode grows at" in told), (part > 1, part > 1), told)
 
     def test_motion(self):
-        """Motion z = y + i u from an initial velocity: m z'' + (c - i g) z' + (K - i q) z = 0, and the energy
-        supplied by the films."""
+        """A motion z = y + i u from an initial velocity obeys m z'' + (c - i g) z' + (K - i q) z = 0, and its energy
+        includes the energy supplied by the films."""
         m, K, q, c, g, t = 10, 192*200e9*8e-9 + 1e5, 3e4, 300, 900, 0.03
         half = complex(c, -g)/(2*m)
         root = cmath.sqrt(half**2 - complex(K, -q)/m)
@@ -386,7 +391,7 @@ class Bearings(ProgramTest):
             self.assertLess(abs(got["lost"]/(m*1e-12/2 - energy) - 1), within, integrator)
 
     def test_part(self):
-        """A rotated part rotates the matrix with it."""
+        """If a part is rotated, its spring matrix rotates with it."""
         part = """beamwork: 1
 sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
 parts:
@@ -414,7 +419,7 @@ omit: [shear]
             self.assertLess(abs(by_part[name]/in_scene[name] - 1), 1e-9)
 
     def test_refused(self):
-        """Analyses that need a potential name the spring and the analysis to use."""
+        """Analyses that need a potential name the spring and the analysis to be used instead."""
         words = {"stiffness": across(*BEARING), "damping": across(*FILM)}
         for analyses, quantities, said in (
                 ("m: {modal: {}}", "f: {frequency: {analysis: m}}", "analysis m (modal) and spring a (unsymmetric spring): "

@@ -16,7 +16,7 @@ from harness.tools.kit.program import ProgramTest, run
 
 
 def turned(q, v):
-    """v[..., 3] rotated by unit quaternions q[..., 4] (w x y z)."""
+    """Returns v[..., 3] rotated by the unit quaternions q[..., 4] (w x y z)."""
     w, u = q[..., :1], q[..., 1:]
     return v + 2 * numpy.cross(u, numpy.cross(u, v) + w * v)
 
@@ -34,7 +34,7 @@ class Solution(ProgramTest):
         return file, next(iter(tables["shapes"].values())), tables
 
     def test_path(self):
-        """The position of the cantilever's tip agrees with its quantity; the resultants at the root are the
+        """The position of the cantilever's tip agrees with its quantity, and the resultants at the root are the
         reactions."""
         for formulation, n in (("sheet_third", 1), ("collocation", 3),
                                ("geometrically_exact:nodes=3", 2)):
@@ -59,7 +59,7 @@ class Solution(ProgramTest):
             self.assertLess(numpy.abs(balance).max(), 1e-9 * scale, formulation)
 
     def test_structure(self):
-        """Sections, bodies and one line per member; nodes lie where the members end."""
+        """Sections, bodies and one line per member are stored; nodes lie where the members end."""
         _, shapes, _ = self.solve("spherical_joint", "sheet_third", 2, "--shapes=3")
         self.assertEqual(list(shapes["value"][()]), [0, 1, 25, 50])
         members, first = shapes["members"][()], shapes["first_point"][()]
@@ -94,7 +94,7 @@ class Solution(ProgramTest):
 
     def test_lines(self):
         """The line between two nodes is the cubic whose end tangents are the nodes' x axes times the element length;
-        the sections between are perpendicular to it."""
+        the sections between the nodes are perpendicular to it."""
         for formulation in ("sheet_third", "collocation"):
             _, shapes, tables = self.solve("sheet_cantilever", formulation, 1, "--shapes")
             position, length = shapes["position"][-1], tables["points"]["length"][0]
@@ -183,11 +183,11 @@ class Solution(ProgramTest):
         area.SetInputData(grid)
         area.Update()
         covered = vtk_to_numpy(area.GetOutput().GetCellData().GetArray("Area")).sum()
-        # sheets keep their area, twisted quadrilaterals nearly
+        # sheets keep their area, and twisted quadrilaterals almost keep it
         self.assertAlmostEqual(covered / (12 * 0.0681 * 0.0282), 1, delta=2e-3)
 
     def test_vtk_steps(self):
-        """Several states are time steps: the layout is that of version 2.0, and each step contains the right state."""
+        """Several states are time steps. The layout is that of version 2.0, and each step contains the right state."""
         file, shapes, _ = self.solve("sheet_cantilever", "sheet_third", 2, "--shapes")
         root = file["VTKHDF"]
         self.assertEqual(list(root.attrs["Version"]), [2, 0])

@@ -35,7 +35,7 @@ static void let_go(scene *s, int node, int first, int last)
                        : &scene_node_at(s, node)->angle[k - SCENE_RX]) = SCENE_FREE;
 }
 
-/* Each case frees the second beam in one way, with the motion that results. */
+/* Frees the second beam in one way in each case, and lists the resulting motion. */
 static void everywhere(scene *s)
 {
     let_go(s, 2, SCENE_UX, SCENE_RZ);
@@ -53,7 +53,7 @@ static void about_a_hinge(scene *s)
     let_go(s, 2, SCENE_RY, SCENE_RY);
 }
 static void
-between_hinges(scene *s) /* held at both ends, free to rotate about the line between them */
+between_hinges(scene *s) /* held at both ends, free to rotate about the line between the ends */
 {
     let_go(s, 2, SCENE_RX, SCENE_RZ);
     scene_hold(s, 3, SCENE_UX, SCENE_UZ);
@@ -77,12 +77,12 @@ static void nothing(scene *s)
     (void)s;
 }
 
-/* motion: its components, largest 1; all zero: held. */
+/* motion: its components, the largest is 1; all zero: the beam is held */
 static const struct {
     const char *what;
     void (*change)(scene *);
     double motion[6];
-    int any; /* several motions are free: which of them is named does not matter */
+    int any; /* several motions are free, and it does not matter which of them is named */
 } changes[] = {
     {"all is held", nothing, {0}, 0},
     {"nothing holds it", everywhere, {0}, 1},
@@ -141,7 +141,7 @@ static status run(const char *case_name, const char *formulation_text, int eleme
     return cell_run(&request, out, f);
 }
 
-/* Every case is held: round-off is never called a missing support. */
+/* Every case is held: round-off is never reported as a missing support. */
 static void all_cases_are_held(void)
 {
     for (int i = 0; registry_cases[i] != NULL; i++) {
@@ -200,8 +200,8 @@ static void round_off(void)
     gsl_test(lost < 2, "%d were lost in round-off", lost);
 }
 
-/* A V of equal arms with different meshes: a drive of its apex along the axis moves it sideways
- * only by round-off, and cannot satisfy a condition there. */
+/* A V with equal arms and different meshes: a drive of its apex along the axis moves the apex
+ * sideways only by round-off, and cannot satisfy a condition there. */
 static void driver_that_moves_nothing(double half_angle, int condition_component)
 {
     const double c = cos(half_angle), d = sin(half_angle), z[3] = {0, 0, 1}, path[2] = {0, 1},

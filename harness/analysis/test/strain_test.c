@@ -1,5 +1,5 @@
-/* Initial strains (temperature, misfit) in analyses about the undeformed state, against closed
- * forms, for every formulation that supports them. */
+/* Initial strains (temperature, misfit) in analyses about the undeformed state, compared with
+ * closed forms, for every formulation that supports initial strains. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -43,7 +43,7 @@ static void two_members(scene *s, const char *name, const double first[3], const
                i ? second : first, 3 * sizeof *first);
 }
 
-/* Between rigid walls, free to rotate about y and z there. */
+/* Places the members between rigid walls, at which they are free to rotate about y and z. */
 static void pin(scene *s)
 {
     for (int i = 0; i < 3; i += 2)
@@ -57,7 +57,8 @@ static int asked(scene *s, const element_type *e, ask_tally *tally, int n, answe
     return ask_count(tally, a, "%s, %d elements", s->name, n);
 }
 
-/* Two clamped members, one of them hot: N = -EA eps/2, and the middle moves by eps L/4. */
+/* Two clamped members, one of them hot: N = -EA eps/2, and the node in the middle moves by eps
+ * L/4. */
 static void clamped(const element_type *e, ask_tally *tally)
 {
     static const double eps = 1e-4, hot[3] = {1e-4, 0, 0}, none[3] = {0};
@@ -79,7 +80,7 @@ static void clamped(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[3], eps * L / 4, 1e-9, "%s: the hot one pushes the other", e->name);
 }
 
-/* Free at one end: it elongates without bending. */
+/* A member that is free at one end elongates without bending. */
 static void cantilever(const element_type *e, ask_tally *tally)
 {
     static const double hot[3] = {1e-3, 0, 0}, cold[3] = {-2e-4, 0, 0};
@@ -122,8 +123,8 @@ static void portal(const element_type *e, ask_tally *tally)
     scene_add_quantity(&s, "N", "N", linear, scene_internal_at(1, 0.5, SCENE_N));
     if (!asked(&s, e, tally, 4, &a))
         return;
-    /* half of the frame: a column under a force at its head, restrained against rotation by the
-     * beam with 2 EI/width, and half of the beam */
+    /* half of the frame consists of a column under a force at its head, restrained against rotation
+     * by the beam with 2 EI/width, and half of the beam */
     const double k = E * Iz, head = height * height / (2 * k) / (height / k + width / (2 * k)),
                  flexibility = height * height * height / (3 * k) -
                                head * height * height / (2 * k) + width / (2 * E * A);
@@ -131,7 +132,8 @@ static void portal(const element_type *e, ask_tally *tally)
                  "%s: a beam that is too short pulls its columns", e->name);
 }
 
-/* f = f0 sqrt(1 - N/N_Euler), heated and cooled; and the deflection of the middle by a force. */
+/* Frequencies of a heated and of a cooled member, f = f0 sqrt(1 - N/N_Euler), and the deflection of
+ * its middle due to a force. */
 static void pinned(const element_type *e, ask_tally *tally)
 {
     static const double part[] = {0.5, -1.5}; /* relative to Euler's load, compression positive */
@@ -172,7 +174,7 @@ static void column(const element_type *e, ask_tally *tally)
     scene_add_load(&s, SCENE_FORCE, 1, -2, 0, 0);
     scene_add_quantity(&s, "P", "N", scene_add_buckling(&s, SCENE_NONE),
                        scene_critical_factor(1, 0));
-    if (asked(&s, e, tally, 16, &a)) /* determinant of two spans, derived here */
+    if (asked(&s, e, tally, 16, &a)) /* from the determinant of two spans, derived here */
         gsl_test_rel(2 * a.value[0], 28005.43, 1e-5, "%s: critical load of a hot column", e->name);
 }
 
@@ -236,8 +238,8 @@ static void strain_tests(void)
 enum { PLANE = 1, BALL = 2 };
 static const double turn_E = 210e9, I = 1e-6, P = 960;
 
-/* Two members of 1 m that meet in hinges about their z axis, rotated by `R`; how: PLANE: motion out
- * of the frame's plane is held, BALL: all rotations are released. */
+/* Two members of 1 m that meet in hinges about their z axis, rotated by `R`. how: PLANE: motion out
+ * of the frame's plane is held; BALL: all rotations are released. */
 static void two_hinges(scene *s, const double R[9], int how, int moment)
 {
     double at[3][3], y[3], force[3];
@@ -297,7 +299,7 @@ static void ask_one(const element_type *e, ask_tally *tally, const double R[9], 
     scene_free(&s);
     if (!ask_count(tally, &a, "%s", what))
         return;
-    /* two cantilevers share the load; with these sections shear adds little */
+    /* two cantilevers share the load; with these sections, shear adds little */
     gsl_test_rel(along_force(&a, R), P / 6 / (turn_E * I), 5e-3, "%s: %s", e->name, what);
     gsl_test(!(a.value[4] > 0), "%s: %s has a frequency", e->name, what);
 }
@@ -345,12 +347,12 @@ static void idle_turn_tests(void)
     scene_free(&s);
 }
 
-/* Linear buckling with one constant and one growing load: if both act along one line, the constant
+/* Linear buckling with one constant and one growing load. If both act along one line, the constant
  * load reduces the critical factor by its value. */
 
 enum { NO_MODE, PUSHES, PULLS, BOTH_GROW, CRITICAL, BENT, WAYS };
 
-/* A clamped bar of EI = 1 and 2 along x, pushed by the growing load 1. */
+/* Builds a clamped bar with EI = 1 and 2 along x that the growing load 1 pushes. */
 static void staying_column(int way, scene *s)
 {
     static const double stays[WAYS] = {0, -1.5, 2, -0.5, -4, 0}, zero = 0, one = 1,
@@ -360,7 +362,7 @@ static void staying_column(int way, scene *s)
     scene_init(s, "column");
     const int tip = scenes_cantilever(s, &spec);
     const int push = scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
-    if (way == BOTH_GROW) /* from a half to the full load */
+    if (way == BOTH_GROW) /* the load grows from half to its full value */
         scene_set_factor(s, push, 3, ends, growing);
     else if (way == BENT)
         scene_set_factor(s, push, 3, ends, bent);

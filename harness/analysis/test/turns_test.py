@@ -1,5 +1,5 @@
-"""States from which quantities are read: rotations, symmetry, states about which analyses are solved, and
-sheets with invalid input."""
+"""States from which quantities are read: rotations, symmetry, states about which analyses are solved, and sheets with
+invalid input."""
 import json
 import math
 import resource
@@ -8,10 +8,10 @@ import unittest
 from harness.tools.kit.program import ProgramTest, run
 
 
-# Critical loads about a loaded state: independent of the load of that state; several if requested;
-# and a searched range if there is none.
+# Critical loads about a loaded state: they do not depend on the load of that state, several are
+# found if requested, and the searched range is reported if there is none.
 
-# Euler's load is 1: E Iz = 4 L^2/pi^2 for the clamped column; its shortening is negligible.
+# Euler's load is 1, because E Iz = 4 L^2/pi^2 for the clamped column; its shortening is negligible.
 COLUMN = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: %(Iy)r, Iz: %(Iz)r, It: 1}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -36,7 +36,8 @@ class AboutState(ProgramTest):
                 " ".join((done.stdout + done.stderr).split()))
 
     def test_any_load(self):
-        """From a thousandth of the critical load to a thousand times it."""
+        """The critical load does not depend on the load of the state, from a thousandth of the critical load to a
+        thousand times it."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
             for force in (1e-3, 0.5, 0.99, 1.01, 30, 1000):
                 (factor,), _ = self.factors(formulation, -force)
@@ -54,7 +55,7 @@ class AboutState(ProgramTest):
         self.assertEqual(self.factors(more=ZERO)[0], self.factors()[0])
 
     def test_none(self):
-        """Under tension the searched range is named."""
+        """Under tension, the searched range is reported."""
         found, said = self.factors(force=1, status=1)
         self.assertEqual(found, [None])
         self.assertRegex(said, r"no critical load from path 1 to [0-9.e+]+: the structure loses no stiffness")
@@ -137,8 +138,8 @@ quantities: {P: {critical_factor: {analysis: b}}}
                     self.assertIsNone(self.values(scene, formulation, n, 1)["P"].get("value"), (formulation, n))
 
     def test_bent_column_by_stations(self):
-        """Far beyond Euler's load the column is bent to the side of its transverse load; a different state, in which
-        one long step ends, is unstable and reported as such."""
+        """Far beyond Euler's load the column is bent to the side of its transverse load. A different state, in which
+        one long step ends, is unstable and is reported as such."""
         scene = BAR + """loads: {p: {force: [-200, 0.5, 0], on: b}}
 analyses: {path: {static: {stations: %r}}}
 quantities: {u: {displacement: {analysis: path, node: b, component: uy}, unit: m}}
@@ -183,7 +184,7 @@ quantities:
   curve: {internal: {analysis: st, member: rod, end: from, resultant: Mx, take: curve}}
   turn:  {displacement: {analysis: st, node: b, component: rx, take: curve}}
 """
-# G It/L = 160 N m/rad; in bending E I/L = 200.
+# G It/L = 160 N m/rad; in bending, E I/L = 200.
 TWISTED = """beamwork: 1
 """ + ROD + """parameters: {load: {value: 1600, unit: N m, min: 0, max: 1e5, about: "at the end"}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]%s}}
@@ -195,7 +196,7 @@ quantities:
   last:  {displacement: {analysis: st, node: b, component: %s}}
   curve: {displacement: {analysis: st, node: b, component: %s, take: curve}}
 """
-# Driven: 160 N m/rad times the angle, with one element or many, or no value.
+# Driven: the moment is 160 N m/rad times the angle, with one element or many, or there is no value.
 DRIVEN = """beamwork: 1
 """ + ROD + """parameters: {angle: {value: 10, unit: rad, min: -100, max: 100, about: "of the driven end"}}
 nodes:
@@ -235,8 +236,8 @@ class Turns(ProgramTest):
         return values, {c["quantity"]: c["curve_value"] for c in record["curves"]}
 
     def test_wound_spring(self):
-        """The moment is proportional to the angle through several turns, in both directions, with few and many
-        steps."""
+        """The moment is proportional to the angle through several revolutions, in both directions, with few and with
+        many steps."""
         for formulation in EVERY:
             for angle, steps in ((10, 4), (-10, 4), (100, 40)):
                 values, curves = self.solved(WOUND % steps, formulation, 16, "--set", f"angle={angle}")
@@ -248,7 +249,7 @@ class Turns(ProgramTest):
                     self.assertLess(abs(turn/(-right*part/5) - 1), within*max(1, angle*angle/100), (formulation, angle))
 
     def test_readings(self):
-        """A node rotates by 10 rad, about its axis and about a perpendicular one."""
+        """The angle of a node that rotates by 10 rad about its axis, or about a perpendicular one, is read correctly."""
         for component, hold, moment, stiffness in (("rx", ", hold: [uy, uz, ry, rz]", "load, 0, 0", 160),
                                                    ("rz", "", "0, 0, load", 200), ("ry", "", "0, load, 0", 200)):
             for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
@@ -279,7 +280,7 @@ class Turns(ProgramTest):
                 self.assertLess(abs(torque/(160*angle)/right - 1), within, (formulation, n, angle))
 
     def test_spin_in_time(self):
-        """Angles are read through several turns with every integrator, also after a restart."""
+        """Angles are read through several revolutions with every integrator, also after a restart."""
         for integrator, within in (("alpha", 1e-3), ("conserving", 0.02), ("radau", 1e-3)):  # due to its steps of 0.1 rad
             values, _ = self.solved(SPINNING % ("2", integrator), "collocation", 1)
             self.assertAlmostEqual(values["rx"], 20, delta=within, msg=integrator)
@@ -290,8 +291,8 @@ class Turns(ProgramTest):
             self.assertAlmostEqual(values["rx"], 20, delta=within, msg=integrator)
 
 
-# Impossible or extreme sheets lead to one line and the documented exit status, or to an answer;
-# never to a wrong number without a message.
+# Impossible or extreme sheets lead either to one line and the documented exit status or to an
+# answer, never to a wrong number without a message.
 def question(case, formulation, n, *assignments, memory=None):
     """Returns the arguments of the command; `memory` [bytes] limits its memory."""
     def limit():
@@ -351,8 +352,8 @@ class BadInput(ProgramTest):
 
 
 class Extremes(unittest.TestCase):
-    """L/w 0.5 to 20, w/t 10 to 1000, u_y to 0.5 L: an answer, or the reason why there is none. Sheets too thick
-    for N Eq. 50 use a different model, and this is reported."""
+    """For L/w from 0.5 to 20, w/t from 10 to 1000 and u_y up to 0.5 L, there is an answer or the reason why there is
+    none. Sheets too thick for N Eq. 50 use a different model, and this is reported."""
 
     def test_answer_or_reason(self):
         answers = 0

@@ -1,4 +1,4 @@
-"""Synchronous response to an unbalance: the Jeffcott rotor, and an overhung disc with gyroscopic moments on
+"""Synchronous response to an unbalance of the Jeffcott rotor, and of an overhung disc with gyroscopic moments on
 general bearings."""
 import re
 
@@ -28,7 +28,7 @@ SIX = "ux", "uy", "uz", "rx", "ry", "rz"
 
 
 def matrix(**entries):
-    """36 numbers of a spring; `uy_uz` is in row uy, column uz."""
+    """Returns the 36 numbers of a spring; `uy_uz` is in row uy, column uz."""
     out = np.zeros((6, 6))
     for name, value in entries.items():
         row, column = name.split("_")
@@ -61,10 +61,10 @@ class Unbalance(ProgramTest):
                 for name, values in curves.items() if name.endswith("_real")}
 
     def test_jeffcott(self):
-        """Z = w^2/(K - i q - m w^2 + i c w) of y + i z in forward whirl: z lags y by 90 degrees."""
+        """The response y + i z in forward whirl is Z = w^2/(K - i q - m w^2 + i c w); z lags y by 90 degrees."""
         K = 3*E*I/L**3
         for film, cross, damping in ((0, 0, 30), (4e3, 1e3, 40)):
-            # the disc can tilt freely: its rotations follow, without rotary inertia
+            # the disc can tilt freely: its rotations follow the shaft, without rotary inertia
             scene = text(disc="hold: [ux, rx]", stiffness=matrix(uy_uy=film, uz_uz=film, uy_uz=cross, uz_uy=-cross),
                          damping=matrix(uy_uy=damping, uz_uz=damping), quantities=read("uy") + read("uz"))
             found = self.solved(scene.replace(", inertia: [0.01, 0.006, 0.006, 0, 0, 0]", ""))
@@ -87,7 +87,7 @@ class Unbalance(ProgramTest):
         return np.linalg.solve(K + 1j*w*C - w*w*M, w*w*np.array(axis_forces))
 
     def test_bearings(self):
-        """Anisotropic bearings with cross terms, and gyroscopic moments at one speed: orbits are ellipses."""
+        """With anisotropic bearings, cross terms and gyroscopic moments at one speed, the orbits are ellipses."""
         k, c, speed = np.array([[9e3, 2e3], [-1e3, 5e3]]), np.array([[90, 5], [5, 60.]]), 2*np.pi*11
         stiff = matrix(uy_uy=k[0, 0], uy_uz=k[0, 1], uz_uy=k[1, 0], uz_uz=k[1, 1])
         damp = matrix(uy_uy=c[0, 0], uy_uz=c[0, 1], uz_uy=c[1, 0], uz_uz=c[1, 1], ry_rz=0.01*speed, rz_ry=-0.01*speed)
@@ -107,8 +107,8 @@ class Unbalance(ProgramTest):
             self.assertLess(np.abs(modal[name] - values).max(), 1e-8*np.abs(values).max(), name)
 
     def test_axes(self):
-        """The unbalance starts along the next axis and is along the one after it 90 degrees later; its force acts on
-        the base."""
+        """The unbalance starts along the next axis and points along the one after that 90 degrees later; its force acts
+        on the base."""
         free = text(root="hold: all", disc="hold: [rx, ry, rz]", stiffness=matrix(ux_ux=1e4, uy_uy=2e4, uz_uz=3e4),
                     damping=matrix(ux_ux=30, uy_uy=30, uz_uz=30),
                     quantities="".join(read(c, axis) for axis in ("rx", "ry", "rz") for c in ("ux", "uy", "uz")))

@@ -1,4 +1,5 @@
-"""Compliances about loaded states against differences of paths with small unit loads, where nodes rotate by angles."""
+"""Compliances about loaded states compared with differences of paths with small unit loads, where nodes rotate by
+angles."""
 import numpy
 
 from harness.tools.kit.program import ProgramTest
@@ -40,13 +41,13 @@ def skew(v):
 
 
 def turn(v):
-    """Rotation matrix of a rotation vector."""
+    """Returns the rotation matrix of a rotation vector."""
     size = numpy.linalg.norm(v)
     return numpy.eye(3) + numpy.sin(size) / size * skew(v) + (1 - numpy.cos(size)) / size**2 * skew(v) @ skew(v)
 
 
 def spin(v):
-    """Spatial rotation by a change of a rotation vector."""
+    """Returns the spatial rotation due to a change of a rotation vector."""
     size = numpy.linalg.norm(v)
     return (numpy.eye(3) + (1 - numpy.cos(size)) / size**2 * skew(v)
             + (size - numpy.sin(size)) / size**3 * skew(v) @ skew(v))
@@ -57,7 +58,7 @@ class UnitLoads(ProgramTest):
         return self.values_of(text, "-f", "collocation", "-n", 1)
 
     def moved(self, text, node, unit):
-        """Displacements [6] with a unit load [6]."""
+        """Returns the displacements [6] under a unit load [6]."""
         text = text.replace("UNIT", f"u: {{force: {list(unit[:3])}, on: {node}}}, v: {{moment: {list(unit[3:])}, on: {node}}}")
         text += "analyses: {S: {static: {stations: [0.5, 1]}}}\nquantities:\n"
         text += "".join(f"  {c}: {{displacement: {{analysis: S, node: {node}, component: {c}}}}}\n" for c in COMPONENTS)
@@ -65,7 +66,7 @@ class UnitLoads(ProgramTest):
         return numpy.array([found[c] for c in COMPONENTS])
 
     def differences(self, text, node, size, about=(0,) * 6):
-        """C [6 x 6] by differences."""
+        """Returns C [6 x 6] from finite differences."""
         C = numpy.zeros((6, 6))
         for j in range(6):
             ends = [self.moved(text, node, [float(about[i]) + sign * size * (i == j) for i in range(6)]) for sign in (1, -1)]
@@ -85,7 +86,7 @@ class UnitLoads(ProgramTest):
         self.assertLess(numpy.max(numpy.abs(C - D) / numpy.outer(size, size)), 1e-6, words)
 
     def test_sequence(self):
-        """A guide holds an angle: its moment rotates with the node and is not a load."""
+        """A guide holds an angle: the moment of the guide rotates with the node and is not a load."""
         for x, y in (("held", "free"), ("free", "held"), ("free", "free")):
             text = BENT.replace("angle: X", f"angle: {x}").replace("angle: Y", f"angle: {y}")
             self.alike(self.compliance(text, "b"), self.differences(text, "b", 1e-2), f"{x}, {y}")

@@ -1,5 +1,5 @@
 /* Small motions about states with an unsymmetric stiffness: columns under a follower load at the
- * tip, against Beck's characteristic equation and LAPACK. */
+ * tip, compared with Beck's characteristic equation and LAPACK. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@
 #include "harness/study/study.h"
 
 /* Clamped column of length 1, EI = 1, mass 1, with a mass at its tip, in `planes` uncoupled planes;
- * the stiffness in the second plane is `ratio` times that in the first; P follows the tip. */
+ * the stiffness in the second plane is `ratio` times that in the first, and P follows the tip. */
 typedef struct checked_column {
     sparse K, M, C;
 } checked_column;
@@ -83,8 +83,8 @@ static void solve(const checked_column *c, int damped, int wanted, unsymmetric_r
     factor_free(fa);
 }
 
-/* Half the difference of the first two squares of frequencies, squared: negative where they meet.
- */
+/* Returns the square of half the difference of the first two squares of frequencies; it is negative
+ * beyond the load at which they meet. */
 static double difference(double P, int elements, double tip)
 {
     checked_column c;
@@ -99,7 +99,8 @@ static double difference(double P, int elements, double tip)
     return value;
 }
 
-/* Load at which two frequencies meet: bisection, then linear interpolation on the unstable side. */
+/* Returns the load at which two frequencies meet, found by bisection and then by linear
+ * interpolation on the unstable side. */
 static double flutter_load(double low, double high, int elements, double tip)
 {
     while (high - low > 1e-3 * high) {
@@ -130,7 +131,8 @@ static void columns(void)
     gsl_test_rel(flutter_load(12, 25, 16, 1), 16.21213, 2e-5, "Pflueger 1");
 }
 
-/* Frequencies, sum and product of the two that meet, and no growth below the flutter load. */
+/* Checks the frequencies, the sum and product of the two that meet, and that nothing grows below
+ * the flutter load. */
 static void near_flutter(void)
 {
     static const double load[] = {19, 20.05, 20.0509, 20.052, 20.1, 22};
@@ -164,7 +166,7 @@ static void near_flutter(void)
         }
 }
 
-/* Member damping changes the flutter load: 10.94 for small damping. */
+/* Damping of members changes the flutter load, to 10.94 for small damping. */
 static void damped(void)
 {
     static const double load[] = {10.9, 10.97, 20};
@@ -183,7 +185,8 @@ static void damped(void)
     }
 }
 
-/* Without a load the matrices are symmetric: frequencies of a clamped column, without growth. */
+/* Without a load the matrices are symmetric, and the frequencies are those of a clamped column,
+ * without growth. */
 static void unloaded(void)
 {
     static const double root[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.995540735};
@@ -208,8 +211,8 @@ static void unsymmetric_tests(void)
     unloaded();
 }
 
-/* A rigid body is equivalent to its point masses: masses at attached nodes give the motions of one
- * body with their centre and inertia, at rest, under load and in a rotating frame, for any
+/* A rigid body is equivalent to its point masses. Masses at attached nodes give the same motions as
+ * one body with their centre and inertia, at rest, under load and in a rotating frame, for any
  * reference point and any orientation of the body. */
 
 enum { AS, SUPPORT, LOADED };
@@ -230,7 +233,7 @@ static const double mass[MASSES] = {0.31, 0.17, 0.23, 0.41}, hub_at[3] = {0.53, 
                                         {0.58, 0.13, -0.16},
                                         {0.66, 0.02, -0.09}};
 
-/* Body equivalent to the points; its centre is measured from `from`. */
+/* Returns the body that is equivalent to the points; its centre is measured from `from`. */
 static scene_body body_of_points(const double from[3])
 {
     scene_body b = {0};
@@ -385,8 +388,8 @@ static void body_tests(void)
 enum { ELEMENTS = 24, MEMBERS = 2, MOST_WAVES = 5, TURN_Y = 4, TURN_Z = 5, WARPING = 6 };
 static const double length = 2;
 
-/* Two equal members along x', the first axis of a given triad; the second is not included in the
- * count of half-waves. */
+/* Creates two equal members along x', the first axis of a given triad. The second member is not
+ * included in the count of half-waves. */
 static int make(const double R[9], scene *s, model **m)
 {
     fault f = {""};
@@ -431,7 +434,7 @@ static void add(const model *m, const double R[9], int member, int k, int waves,
 }
 
 typedef struct modes_part {
-    int component, waves; /* of the member's own axes; on the first member */
+    int component, waves; /* in the axes of the member, the first one */
     double size;
 } modes_part;
 
@@ -472,7 +475,7 @@ static void in_direction(const double R[9])
                             (modes_part[]){{k, waves, k == 3 ? 1 / r : 1},
                                            {other, waves + 2, other == 3 ? 0.8 / r : 0.8}},
                             moved[k], waves, "the larger of two motions");
-            /* of sections that rotate in place, and of warping */
+            /* modes of sections that rotate in place, and of warping */
             static const int turn[] = {TURN_Z, TURN_Y, WARPING};
             const double unit[] = {1 / r, 1 / r, 1 / (r * r)};
             for (int k = 0; k < 3; k++) {
@@ -497,7 +500,7 @@ static void in_direction(const double R[9])
     scene_free(&s);
 }
 
-/* The request of a quantity: family and order. */
+/* Requests a quantity by family and order. */
 static void families(void)
 {
     for (int family = SCENE_AXIAL; family <= SCENE_TORSION; family++)

@@ -1,4 +1,4 @@
-/* Gravity on bodies: forces m g at centres of mass, which move with their nodes. */
+/* Gravity on bodies: forces m g at the centres of mass, which move with their nodes. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +26,7 @@ static int leaf_profile(scene *s)
 static const scene_body heavy = {
     .mass = 0.4, .centre = {0.02, -0.03, 0.05}, .inertia = {2e-4, 3e-4, 4e-4, 1e-5, 0, 0}};
 
-/* Adds the weight by gravity, or as a force by hand. */
+/* Adds the weight, by gravity or as an explicit force. */
 static void add_weight(scene *s, int node, const double by[3], int by_hand)
 {
     const double m = by_hand ? s->node[node].body.mass : 1;
@@ -47,7 +47,7 @@ static void add_balances(scene *s, int motion, int scheme)
     }
 }
 
-/* A cantilever with an eccentric body at its tip, in all analyses. */
+/* Builds a cantilever with an eccentric body at its tip, in all analyses. */
 static void all_analyses(scene *s, int by_hand)
 {
     static const double down[3] = {0.3, -9.81, 1.2}, spin[3] = {3, -2, 5}, path = 2e-4;
@@ -80,7 +80,7 @@ static void all_analyses(scene *s, int by_hand)
     }
 }
 
-/* Every analysis agrees bitwise with the force set by hand. */
+/* Every analysis with gravity agrees bitwise with that under the explicit force. */
 static void by_hand(void)
 {
     scene s;
@@ -98,8 +98,8 @@ static void by_hand(void)
                  one.value[i], other.value[i]);
 }
 
-/* Hung on a short stiff bar: the reaction is the sum of both weights, and the moment is about the
- * displaced centre. */
+/* A cantilever with bodies that hang on a short stiff bar: the reaction is the sum of both weights,
+ * and the moment is about the displaced centre. */
 static void hung(void)
 {
     static const double down[3] = {0, -9.81, 0};
@@ -127,7 +127,7 @@ static void hung(void)
                  "moment, but for the bar's own weight where it bends");
 }
 
-/* A body on a pin that rotates about z only, or freely, with the given supports. */
+/* Builds a body on a pin that rotates about z only, or freely, with the given supports. */
 static int pinned(scene *s, int holds, scene_body body)
 {
     static const int last[] = {SCENE_RY, SCENE_UZ, SCENE_UY, SCENE_UY},
@@ -143,8 +143,8 @@ static int pinned(scene *s, int holds, scene_body body)
     return pin;
 }
 
-/* Small oscillations of a body whose centre is at a distance from its pin, for any small amplitude:
- * 2 pi sqrt(I/m g d). */
+/* The period of small oscillations of a body whose centre is at a distance d from its pin is 2 pi
+ * sqrt(I/m g d), for any small amplitude. */
 static void period(void)
 {
     static const double steps[] = {[SCENE_ALPHA] = 5000,
@@ -179,8 +179,8 @@ static void period(void)
                      steps[i] > 1000 ? 2e-7 : 2e-8, "period of scheme %d: %s", i, a.reason);
 }
 
-/* A heavy top that falls, on a fixed pin or on a pin that slides along z or in the plane: the work
- * of its weight equals the decrease of -m g . r_c, and becomes energy completely. */
+/* A heavy top falls, on a fixed pin or on a pin that slides along z or in the plane. The work of
+ * its weight equals the decrease of -m g . r_c, and all of it becomes energy of the motion. */
 static void top(int holds)
 {
     static const scene_body body = {
@@ -222,7 +222,8 @@ static void top(int holds)
     gsl_test(!(moved > 0.1), "it falls: %g m", moved);
 }
 
-/* A massless column under a body whose centre is `above` its head: k L tan(k L) = L/above. */
+/* A massless column under a body whose centre is at the height `above` its head buckles at k L
+ * tan(k L) = L/above. */
 static void column(double above)
 {
     const double L = 0.5, mass = 0.25, EI = 210e9 * 10e-3 * pow(2e-3, 3) / 12;
@@ -263,17 +264,17 @@ static void weight_tests(void)
 
 /* Fork supports: the web stays between the guides however the beam is bent, the reaction rotates
  * with the section, and nothing depends on the axes of the scene. A rotation held about a fixed
- * axis fails all three checks. */
+ * axis would fail all three checks. */
 
 enum {
     MOVED = 0,
     MOMENT = 3,
     TURN = 6,
     VALUES = 9
-}; /* of the middle, on the first fork, and of the first fork */
+}; /* values of the middle, on the first fork, and of the first fork */
 
-/* Fork supports at both ends, translations held, a force in the middle; everything rotated by Q
- * from a beam along x with its web along z. */
+/* Builds a beam with fork supports at both ends, held translations and a force in the middle.
+ * Everything is rotated by Q from a beam along x with its web along z. */
 static void bent_beam(const double Q[9], const double force[3], scene *s)
 {
     static const char *const name[VALUES] = {"u0", "u1", "u2", "M0", "M1", "M2", "t0", "t1", "t2"};
@@ -308,7 +309,7 @@ static void bent_beam(const double Q[9], const double force[3], scene *s)
     }
 }
 
-/* 1: answered. */
+/* Returns 1 if the formulation answered. */
 static int solve(const element_type *type, const double Q[9], const double force[3],
                  ask_tally *tally, double value[VALUES])
 {
@@ -345,7 +346,7 @@ static void web_between_guides(const element_type *type, ask_tally *tally)
              "%s: the fork's moment %g is not across web and normal: %g", type->name, size, part);
 }
 
-/* The same beam in other axes: vectors rotate with it. */
+/* If the same beam lies in other axes, all vectors rotate with it. */
 static void in_other_axes(const element_type *type, ask_tally *tally)
 {
     const double force[3] = {0, 0.6, -6}, turn[3] = {0.7, -1.1, 0.4};
@@ -421,12 +422,12 @@ static void fork_tests(void)
 static const double young = 2e11, side = 0.02, length = 1;
 
 typedef struct released_request {
-    double force, moment; /* loads at the driven node, in units of EI/l^2, EI/l */
-    unsigned driven;      /* components of the tip */
+    double force, moment; /* loads at the driven node, in units of EI/l^2 and EI/l */
+    unsigned driven;      /* driven components of the tip */
 } released_request;
 
-/* A cantilever with a driven tip, and all entries of the compliance from Fx ... Mz to the driven
- * components. */
+/* Builds a cantilever with a driven tip, and requests all entries of the compliance from Fx ... Mz
+ * to the driven components. */
 static void make(scene *s, const released_request *what)
 {
     static const double to[6] = {-0.002, 0.06, -0.03, 0.04, 0.05, 0.1}, y[3] = {0, 1, 0.3},
@@ -466,8 +467,8 @@ static void released_solve(const element_type *type, const released_request *wha
     scene_free(&s);
 }
 
-/* Largest difference of an entry, relative to the geometric mean of the corresponding diagonal
- * entries. */
+/* Returns the largest difference of an entry, relative to the geometric mean of the corresponding
+ * diagonal entries. */
 static double apart(const answer *a, const answer *b)
 {
     double worst = 0;

@@ -1,6 +1,6 @@
 /* Cost of one evaluation of every formulation: kinematics (strains, gradient, second derivatives),
- * stress with stiffness, and the update of an element's own unknowns. In microseconds, the smallest
- * of many repetitions, for a sheet bent by 3 % of its length. */
+ * stress with stiffness, and the update of an element's own unknowns. The times are in
+ * microseconds, the smallest of many repetitions, for a sheet bent by 3 % of its length. */
 #include <stdio.h>
 
 #include "elements/test/chain.h"
@@ -9,7 +9,7 @@
 
 enum { REPEATS = 40, CALLS = 300, TIMED = 4 };
 
-/* Seconds of one call of phase `phase`. */
+/* Returns the seconds of one call of a phase. */
 static double lap(chain *c, chain_linearised *w, int phase)
 {
     const element_type *type = c->type;

@@ -1,4 +1,4 @@
-"""Initial shapes of members against closed forms: magnified moments, frequencies of a shallow arch, no stress."""
+"""Initial shapes of members compared with closed forms: magnified moments, frequencies of a shallow arch, no stress."""
 import math
 
 from cases.format.test.scene_case import SceneCase, values
@@ -43,7 +43,8 @@ class ImperfectionTest(SceneCase):
             self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", n, *more))
 
     def test_magnified_moment(self):
-        """The moment is N a/(1 - N/N_k) with the buckling load for the same number of half-waves, about both axes."""
+        """The moment is N a/(1 - N/N_k), where N_k is the buckling load for the same number of half-waves, about both
+        axes."""
         bow = 1e-5
         for half_waves, part, where in ((1, 0.5, 0.5), (2, 2.0, 0.25), (3, -3.0, 1 / 6)):
             for amplitude, resultant in ((f"[{bow}, 0]", "Mz"), (f"[0, {bow}]", "My")):
@@ -57,7 +58,7 @@ class ImperfectionTest(SceneCase):
                                            msg=(formulation, half_waves, resultant))
 
     def test_chords_converge(self):
-        """Formulations without initial curvature use chords: order 2."""
+        """Formulations without initial curvature use chords, and converge with order 2."""
         exact = 0.5 * CRITICAL * 1e-5 / 0.5
         for formulation in ("beamw", "beamw_consistent", "beamw_first", "beamw_vlasov"):
             error = [abs(abs(self.solve(column("[1e-5, 0]") + pushed(0.5), formulation, n)["moment"])
@@ -101,7 +102,7 @@ class ImperfectionTest(SceneCase):
                                            msg=(formulation, half_waves, name))
 
     def test_frequency_of_a_shallow_arch(self):
-        """Between fixed hinges: omega^2 = pi^4 E I/(rho A L^4) (1 + A a^2/(2 I)), for small slopes."""
+        """Between fixed hinges, omega^2 = pi^4 E I/(rho A L^4) (1 + A a^2/(2 I)) holds for small slopes."""
         area, bow = 1e-3, 0.02
         exact = math.sqrt(math.pi**4 * YOUNG * I / (7850 * area * LENGTH**4) *
                           (1 + area * bow**2 / (2 * I))) / (2 * math.pi)
@@ -133,7 +134,7 @@ class ImperfectionTest(SceneCase):
                     self.assertAlmostEqual(got["critical"], 2, delta=1e-5, msg=formulation)
 
     def test_mode_of_a_twisted_beam(self):
-        """The mode's twist is included: cases/examples/crooked_beam.yaml, order 2 for every formulation."""
+        """The twist of a mode is included, with order 2 for every formulation (cases/examples/crooked_beam.yaml)."""
         path = ROOT / "cases/examples/crooked_beam.yaml"
         for formulation in FORMULATIONS:
             error = [values(self.record("solve", "--scene", path, "-f", formulation, "-n", n))["moved"] / 1e-4 - 1
@@ -192,7 +193,7 @@ omit: [shear]
             self.assertAlmostEqual(one["later"] / one["uz"], 1, delta=1e-6)
 
     def test_shifts(self):
-        """Shifted nodes are equivalent to nodes given at the shifted positions, in a written file too, and in every
+        """Shifted nodes are equivalent to nodes given at the shifted positions, even in a written file, and in every
         analysis."""
         text = self.FRAME.replace("NODE", ", mass: 5").replace("MORE", "").replace("LEFT", "knee").replace(
             "RIGHT", "top")
@@ -216,7 +217,8 @@ omit: [shear]
             self.refused(2, words, "solve", "--scene", self.scene(filed), "-n", 1)
 
     def test_shifted_lengths(self):
-        """Strains refer to the shifted length: 0.979 m of 0.98 m, drawn as 1 m."""
+        """Strains refer to the shifted length: a member drawn with 1 m is 0.98 m long after the shift, and its unstressed
+        length is 0.979 m."""
         def bar(at, length, shift):
             return f"""beamwork: 1
 sections: {{bar: {{rectangle: {{width: 20e-3, thickness: 10e-3}}, young: 200e9, shear_modulus: 77e9}}}}

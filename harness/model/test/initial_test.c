@@ -1,4 +1,4 @@
-/* Initial elongation and shear strains (N Eq. 52): a free member takes them without stress, a held
+/* Initial elongation and shear strains (N Eq. 52): a free member takes them without stress; a held
  * member has the force EA g or GA g. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -17,8 +17,8 @@ static const char *const names[] = {
     "geometrically_exact", "geometrically_exact:nodes=2", "collocation"};
 enum { NAMES = sizeof names / sizeof names[0] };
 
-/* A rectangle of length 2 m, its strains g[3]; held[6]: components of the tip that are held. Values
- * of six coordinates, six reactions. */
+/* Solves a rectangular member of length 2 m with the strains g[3] whose tip is held in the
+ * components held[6]. Returns the six coordinates and six reactions. */
 static void solve(const char *name, const double g[3], const int held[6], double u[6], double F[6])
 {
     static const char *const quantity[12] = {"u0", "u1", "u2", "u3", "u4", "u5",
@@ -75,7 +75,8 @@ static void elongation(const char *name)
     gsl_test_rel(F[0], -EA * 1e-3, 1e-12, "%s: held at both ends it pushes with EA g", name);
 }
 
-/* Sections slide against each other: the axis is inclined to the sections, which do not rotate. */
+/* The sections slide against each other: the axis is inclined to the sections, which do not
+ * rotate. */
 static void shear(const char *name, int direction)
 {
     double g[3] = {0}, u[6] = {0}, F[6] = {0};
@@ -87,7 +88,8 @@ static void shear(const char *name, int direction)
                  "xyz"[direction]);
     gsl_test_abs(u[direction == 1 ? 5 : 4] / small, 0, 1e-5, "%s: and does not turn", name);
     solve(name, g, held, u, F);
-    /* Timoshenko's clamped beam under the imposed sliding L g: 12 EI L g/(L^3 (1 + Phi)). */
+    /* Timoshenko's clamped beam under the imposed sliding L g has the force 12 EI L g/(L^3 (1 +
+     * Phi)). */
     const double EI = 2e9 * (direction == 1 ? 0.2 * 0.1 * 0.1 * 0.1 : 0.1 * 0.2 * 0.2 * 0.2) / 12,
                  L = 2;
     const double Phi = 12 * EI / (GA * L * L), expected = -12 * EI * small / (L * L * (1 + Phi));
@@ -153,7 +155,7 @@ static void initial_tests(void)
 
 enum { POINTS = 13, MOST = 60 };
 
-/* One element whose tip is displaced and rotated. */
+/* Computes the centre line of one element whose tip is displaced and rotated. */
 static void moved(const char *name, const double tip[6], centreline_point out[POINTS])
 {
     const double end = 1;
@@ -184,8 +186,8 @@ static void moved(const char *name, const double tip[6], centreline_point out[PO
     scene_free(&s);
 }
 
-/* A cubic with end tangents of an arc deviates from it by angle^3/384; triads follow its tangents
- * and distribute a twist evenly. */
+/* A cubic with the end tangents of an arc deviates from the arc by angle^3/384. The triads follow
+ * its tangents and distribute a twist evenly. */
 static void arc(const char *name, double angle, double twist)
 {
     const double radius = angle > 0 ? 1 / angle : 0;
@@ -222,7 +224,7 @@ static void centreline_tests(void)
     }
 }
 
-/* Start and end of the pieces of members, and the element at a position. */
+/* Tests the start and end of the pieces of members, and the element at a position. */
 
 enum { WHOLE, LOADED, OWN };
 
@@ -314,7 +316,7 @@ static void division_tests(void)
     scene_free(&s);
 }
 
-/* Rigid motions about an origin, at a node in a given position. */
+/* Tests rigid motions about an origin, at a node in a given position. */
 
 static void supports_tests(void)
 {

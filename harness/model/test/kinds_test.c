@@ -55,7 +55,7 @@ static void row_of(int count, const kinds_link links[], double force, scene *s)
     }
 }
 
-/* Returns 1 if solved. value: reaction at the end, displacement of the first joint. */
+/* Returns 1 if it was solved. value: reaction at the end, and displacement of the first joint. */
 static int solve(const element_type *type, int count, const kinds_link links[], double force,
                  int elements, double value[2], int *kinds)
 {
@@ -80,8 +80,8 @@ static int solve(const element_type *type, int count, const kinds_link links[], 
     return outcome == STATUS_OK;
 }
 
-/* One kind for all elements of equal members, however many; one more kind for each property that
- * differs. */
+/* There is one kind for all elements of equal members, however many; each property that differs
+ * adds a kind. */
 static void counts(const element_type *type)
 {
     static const struct {
@@ -107,7 +107,7 @@ static void counts(const element_type *type)
     }
 }
 
-/* Arcs of equal length curved to opposite sides: they differ in curvature only. */
+/* Arcs of equal length that are curved to opposite sides differ in their curvature only. */
 static void arcs(const element_type *type)
 {
     const kinds_link links[] = {{0, 1, 0, 0.1}, {0, 1, 0, -0.1}};
@@ -117,7 +117,7 @@ static void arcs(const element_type *type)
         gsl_test_int(kinds, 2, "%s: arcs to either side", type->name);
 }
 
-/* Without loads and initial strains there is no stress; an element that used the length of another
+/* Without loads and initial strains there is no stress. An element that used the length of another
  * would be stressed. */
 static void lengths(const element_type *type)
 {
@@ -134,7 +134,8 @@ static void lengths(const element_type *type)
     }
 }
 
-/* Strain e in one of two equal links: -EA e/2 at the end, and the joint moves by e/2. */
+/* With the strain e in one of two equal links, the force at the end is -EA e/2, and the joint moves
+ * by e/2. */
 static void strains(const element_type *type)
 {
     static const double strain[] = {1e-3, -1e-7, 1e-10};
@@ -183,8 +184,8 @@ static void kinds_tests(void)
     gsl_test(offered < 3, "%d formulations with initial strains", offered);
 }
 
-/* The metric of arc length: the mean of (displacement/size)^2 + angle^2 over the moving bodies, for
- * any motion in any direction; small steps and differences of states have the same metric. */
+/* The metric of arc length is the mean of (displacement/size)^2 + angle^2 over the moving bodies,
+ * for any motion in any direction. Small steps and differences of states have the same metric. */
 
 enum { ELEMENTS = 3, BODIES = 6 }; /* one of seven vertices is held */
 
@@ -242,7 +243,7 @@ static void metric_tests(void)
 }
 
 /* Members whose section changes along their length: the number of kinds of elements, their
- * sections, and properties between the ends that the ends do not have. */
+ * sections, and properties along the member that the ends do not have. */
 
 enum { PROFILE_ELEMENTS = 5 };
 
@@ -253,7 +254,7 @@ static section_spec rectangle(double width)
     return spec;
 }
 
-/* Members in a row along x between the sections of these indices. */
+/* Builds members in a row along x between the sections of these indices. */
 static void profile_row_of(int members, const int ends[][2], scene *s)
 {
     const double y[3] = {0, 1, 0};
@@ -276,8 +277,8 @@ static model *meshed(const scene *s, const element_type *type, int elements, fau
     return model_alloc(&what, &m, f) == STATUS_OK ? m : NULL;
 }
 
-/* One kind for each element of a taper, however many members have that taper; one kind for a
- * prismatic member. */
+/* There is one kind for each element of a taper, however many members have this taper, and one kind
+ * for a prismatic member. */
 static void kinds(const element_type *type)
 {
     static const struct {
@@ -321,7 +322,8 @@ static void middles(const element_type *type)
     scene_free(&s);
 }
 
-/* Doubly symmetric at both ends, with the flanges on opposite sides, and a channel in between. */
+/* Returns a section with flanges, which are doubly symmetric at both ends of a member but on
+ * opposite sides, so that it is a channel in between. */
 static section_spec flanges(double upper, double lower)
 {
     const double point[][2] = {{upper, 0.05}, {0, 0.05}, {0, -0.05}, {lower, -0.05}},
@@ -362,14 +364,14 @@ static void profile_tests(void)
     between();
 }
 
-/* The same structure with its section described in axes rotated by any angle about the beam: every
+/* A structure whose section is described in axes rotated by any angle about the beam: every
  * formulation gives the same results. The test detects errors in terms of one axis only (a Wagner
  * moment, a distance of the shear centre, an entry of D). */
 
 enum { ANGLE = CASE_MAX_PARAMETERS - 1, ORIGINAL = CASE_MAX_PARAMETERS - 2 };
 
-/* y = y' cos - z' sin: the local y axis of every member along x rotates by the angle, the sections'
- * points by its negative. */
+/* Applies y = y' cos - z' sin: the local y axis of every member along x rotates by the angle, and
+ * the points of the sections rotate by its negative. */
 static status turned(const double value[], scene *s, fault *f)
 {
     const double c = cos(value[ANGLE]), d = sin(value[ANGLE]);

@@ -11,8 +11,8 @@
 #include "harness/experiments/experiments.h"
 #include "harness/model/model.h"
 
-/* Columns of T: `shifts` displacements along the axes, then rotations about unit axes in a plane
- * (or in space) of random orientation, at an offset of about `length`. */
+/* Fills the columns of T: `shifts` displacements along the axes, then rotations about unit axes in
+ * a plane (or in space) of random orientation, at an offset of about `length`. */
 static int fill(uint64_t *state, int shifts, int turns, int in_plane, double length, double T[36])
 {
     const int columns = shifts + turns;
@@ -51,7 +51,7 @@ static double apart_from_unit(const movable *v)
     return worst;
 }
 
-/* The part of a column outside the span. */
+/* Returns the size of the part of a column outside the span. */
 static double outside(int columns, const double *T, double length, const movable *v)
 {
     double worst = 0;
@@ -100,8 +100,8 @@ static void whole_components(void)
         gsl_test(v.span[i] != (double)(i == 6 || i == 9), "unit vectors: %g at %d", v.span[i], i);
 }
 
-/* Columns with one component each, one of them repeated and one zero: the motions are the same as
- * without detecting single components by their zeros. */
+/* Columns with one component each, one of them repeated and one zero, give the same motions as
+ * without the detection of single components by their zeros. */
 static void components_alone(void)
 {
     const double alone[24] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0,
@@ -162,12 +162,13 @@ static void movable_tests(void)
     prescribed_moment();
 }
 
-/* Masses at the nodes of straight elements: their moments, and those of sections by their matrices.
- */
+/* Masses at the nodes of straight elements: their moments, and the moments of sections given by
+ * matrices. */
 
 enum { MOST = SPECIMEN_COORDINATES };
 
-/* Mass matrix of a scene with `mass: lumped`, the same for all formulations. */
+/* Computes the mass matrix of a scene with `mass: lumped`, which is the same for all
+ * formulations. */
 static void at_nodes(const specimen *s, const node_state x[], double M[])
 {
     const lumped_mass whole = lumped_of(&s->section, s->request.features, s->request.length);
@@ -181,8 +182,8 @@ static void make(const char *name, const specimen_request *what, specimen *out)
 }
 
 /* Lumped masses at the nodes of an element follow the rule for loads: the trapezoidal rule with two
- * nodes, Simpson's rule with three, whose second moment about the end is exact. Twist has the
- * section's own polar inertia, however it is given. */
+ * nodes, Simpson's rule with three, whose second moment about the end is exact. The twist has the
+ * polar inertia of the section, however this is given. */
 static void lumped_moments(const char *name)
 {
     formulation chosen;
@@ -211,7 +212,7 @@ static void lumped_moments(const char *name)
     specimen_free(&s);
 }
 
-/* The mass matrix of one node of a two-node element is half that of the slice times the length. */
+/* The mass matrix of one node of a two-node element is that of the slice times half the length. */
 static void slice(const char *name)
 {
     formulation chosen;
@@ -244,8 +245,8 @@ static void inertia_moments_tests(void)
     slice("collocation");
 }
 
-/* Springs: derivatives against differences, for any relative rotation of their ends; no deformation
- * if both ends move as one rigid body; and known deformations. */
+/* Springs: derivatives compared with finite differences, for any relative rotation of their ends;
+ * no deformation if both ends move as one rigid body; and known deformations. */
 
 static void two_ends(const element_data *data, const node_state x[], strain_output *out)
 {
@@ -299,8 +300,8 @@ static void derivatives(int nodes, double angle, uint64_t *seed)
              angle, found.asymmetry);
 }
 
-/* Both ends move as one rigid body: no deformation; then one end rotates about an axis of the
- * other. */
+/* If both ends move as one rigid body, there is no deformation; then one end rotates about an axis
+ * of the other. */
 static void known(uint64_t *seed)
 {
     double d[SPRING_MOST], e[SPRING_STRAINS];
