@@ -43,7 +43,7 @@ static status set_up(const cell_request *request, const scene *s, model **m, cel
     return copy_left_out(*m, out, f);
 }
 
-/* Gives the scene of the request, or builds it and stores it in the result. */
+/* Sets *s to the scene of the request, or builds the scene and stores it in the result. */
 static status scene_of(const cell_request *request, const scene **s, cell_result *out, fault *f)
 {
     *s = request->scene;
@@ -125,16 +125,17 @@ void cell_result_free(cell_result *r)
 
 const double omission_most = 1e-4;
 const double omission_safety = 2;
-/* [s] longest estimated time of a solution; beyond it the change is reported as unknown */
+/* [s] longest estimated time of a solution; if it would be longer, the change is reported as
+ * unknown */
 static const double longest = 20;
-/* [s] estimated time of a solution that is always made */
+/* [s] a solution with a shorter estimated time is always made */
 static const double brief = 0.2;
-/* A change above this multiple of omission_most is significant without further checks. */
+/* A change larger than this multiple of omission_most is significant without further checks. */
 static const double surely = 100;
 /* relative to the largest value in the same unit: smaller values count as zero */
 static const double nothing = 1e-9;
 
-/* Physics that the section lacks, because the constants are zero. */
+/* Returns the physics that the section lacks, because the constants are zero. */
 static unsigned absent_in(const section *c)
 {
     const double length = sqrt(c->Ip / c->A), moment = 1e-12 * c->Ip * length;
@@ -152,8 +153,8 @@ static unsigned absent_in(const section *c)
     return absent | (c->Iw <= 0 ? FEATURE_WARPING : 0);
 }
 
-/* Physics without effect in the scene: second-order physics in linear analyses, inertia in analyses
- * at rest. */
+/* Returns the physics without effect in the scene: second-order physics in linear analyses, and
+ * inertia in static analyses. */
 static unsigned absent_in_analyses(const scene *s)
 {
     const unsigned higher = FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
@@ -180,8 +181,8 @@ static unsigned absent_in_sections(const scene *s)
     return absent;
 }
 
-/* Can the effect of the physics be shown by removing it from an element? Sections given by matrices
- * cannot be split. */
+/* Returns 1 when removing the physics from an element shows its effect. Sections given by
+ * matrices cannot be split. */
 static int can_be_shown(const scene *s)
 {
     int can = 1;
@@ -222,7 +223,7 @@ static status solve(const scene *s, const element_type *type, unsigned omit, int
     return cell_run(&request, out, f);
 }
 
-/* Largest value among quantities of the same unit. */
+/* Returns the largest value among quantities of the same unit. */
 static double size_of_unit(const scene *s, const solve_result *r, int quantity)
 {
     double size = 0;
@@ -238,7 +239,7 @@ static double relative(double apart, double scale)
     return apart > 0 ? apart / scale : isfinite(apart) ? 0 : INFINITY;
 }
 
-/* Largest difference over the points of a curve, relative to its largest value. */
+/* Returns the largest difference over the points of a curve, relative to its largest value. */
 static double change_of_curve(const curve *a, const curve *b, double least)
 {
     double apart = 0, size = least;
@@ -253,7 +254,7 @@ static double change_of_curve(const curve *a, const curve *b, double least)
     return relative(apart, size);
 }
 
-/* Relative change of one quantity; INFINITY when one of the two values is missing. */
+/* Returns the relative change of one quantity; INFINITY when one of the two values is missing. */
 static double change_of(const scene *s, const solve_result *with, const solve_result *without,
                         int quantity)
 {
@@ -267,7 +268,7 @@ static double change_of(const scene *s, const solve_result *with, const solve_re
     return relative(fabs(b->value - a->value), fmax(fabs(a->value), least));
 }
 
-/* Do all requested quantities have a value? */
+/* Returns 1 when all requested quantities have a value; otherwise `why` gives the reason. */
 static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
 {
     if (c->solve.status != STATUS_OK || c->solve.quantities < s->quantities) {
@@ -283,7 +284,7 @@ static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
     return 1;
 }
 
-/* Change on one mesh; NAN: some value is missing, and f gives the reason. */
+/* Returns the change on one mesh; NAN: some value is missing, and out->why gives the reason. */
 static double change_on(const scene *s, const element_type *type, int elements, omission *out)
 {
     cell_result with, without;
@@ -306,15 +307,16 @@ static double change_on(const scene *s, const element_type *type, int elements, 
     return largest;
 }
 
-/* Do two meshes give the same change? Changes below the noise count as rounding. */
+/* Returns 1 when two meshes give the same change. Changes below the noise count as rounding. */
 static int agree(double coarse, double fine)
 {
     const double noise = 1e-9, apart = 2;
     return fmax(coarse, fine) <= noise || (coarse <= apart * fine && fine <= apart * coarse);
 }
 
-/* Solves on successively doubled meshes until two of them agree; the larger change counts. A
- * clearly significant change is refined only within a short run time. */
+/* Solves on successively doubled meshes until two of them give the same change; the larger of
+ * these changes is used. A clearly significant change is computed on finer meshes only within a
+ * short run time. */
 static void estimate(const scene *s, const element_type *type, omission *out)
 {
     enum { FINEST = 32 };

@@ -6,8 +6,8 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* Scales: round-off is below a thousandth of these for strains, for positions and rotations, and
- * for other values. */
+/* Scales for strains, for positions and rotations, and for other values. Round-off is below a
+ * thousandth of the scale. */
 static const double small_strain = 1e-14, small_part = 1e-12, small_beside = 1e-9;
 
 double change_size(const scene *s)
@@ -24,7 +24,7 @@ double change_size(const scene *s)
     return sqrt(sum);
 }
 
-/* Largest EA [N]. */
+/* Returns the largest EA [N]. */
 static double stiffness_of(const scene *s)
 {
     double largest = 0;
@@ -63,7 +63,8 @@ static double of_resultant(const scene *s, scene_resultant which)
     return which <= SCENE_QZ ? force : force * size;
 }
 
-/* Scale of positions, rotations and dimensionless numbers; 0 (unknown) for rates and others. */
+/* Returns the scale of positions, rotations and dimensionless numbers; 0 (unknown) for rates and
+ * others. */
 static double of_reading(const scene *s, const char *unit)
 {
     if (strcmp(unit, "m") == 0)
@@ -99,7 +100,7 @@ static double physical_scale(const scene *s, const scene_quantity *q)
     }
 }
 
-/* Is the value the time or the number of an event? */
+/* Returns 1 when the value is the time or the number of an event. */
 static int is_of_time(const scene_quantity *q)
 {
     return q->reduction >= SCENE_MAX_TIME && q->reduction <= SCENE_PER_SECOND;
@@ -118,7 +119,7 @@ double change_scale(const scene *s, int quantity, const solve_result *r)
     return is_of_time(q) ? out : fmax(out, fabs(q->factor) * physical_scale(s, q));
 }
 
-/* Change of one quantity; NAN: both results lack the value. */
+/* Returns the change of one quantity; NAN: both results lack the value. */
 static double change_of(const scene *s, int index, const solve_result *a, const solve_result *b)
 {
     const double x = index < a->quantities ? a->quantity[index].value : (double)NAN,
@@ -159,7 +160,7 @@ void change_between(const scene *s, const cell_result *before, const cell_result
         out->largest = INFINITY;
 }
 
-/* Are the points of the curve those of steps, which differ between meshes? */
+/* Returns 1 when the points of the curve are those of steps, which differ between meshes. */
 static int has_own_points(const scene *s, const scene_quantity *q)
 {
     return s->analysis[q->analysis].kind == SCENE_CONTINUATION;

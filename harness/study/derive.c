@@ -22,7 +22,7 @@ status derive_script(const char *name, char out[PATH_MAX], fault *f)
                              : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", out);
 }
 
-/* Both streams of the script as files. */
+/* The input and output streams of the script. */
 typedef struct script {
     pid_t process;
     FILE *says, *complains;
@@ -32,7 +32,7 @@ typedef struct script {
 typedef struct derive_question {
     const char *path;
     const char *case_name, *parameters; /* NULL: none */
-    FILE *input;                        /* a scene; NULL: none */
+    FILE *input;                        /* text of a scene; NULL: none */
 } derive_question;
 
 static status start(const derive_question *q, script *s, fault *f)
@@ -55,8 +55,9 @@ static status start(const derive_question *q, script *s, fault *f)
         }
         if (q->input != NULL && dup2(fileno(q->input), STDIN_FILENO) < 0)
             _exit(127);
-        /* Uses the full name, because Python finds its libraries relative to the name by which it
-         * was called. -I isolates it from the environment, for users of virtual environments. */
+        /* Uses the full name, because Python finds its libraries relative to the name by which
+         * it was called. The option -I ignores environment variables, for users of virtual
+         * environments. */
         execl(python, python, "-I", "-B", q->path, q->case_name, q->parameters, (char *)NULL);
         _exit(127);
     }
@@ -111,7 +112,7 @@ static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
     return STATUS_OK;
 }
 
-/* Closes the streams of the script and waits for its end; returns its status from waitpid. */
+/* Closes the streams of the script and waits for it to end. Returns its status from waitpid. */
 static int stop(script *s)
 {
     int how = 0;
@@ -179,19 +180,20 @@ status derive_scene(const char *path, FILE *scene_text, derived_value **out, int
     return derive_asked(&q, out, count, f);
 }
 
-/* Data of an installed copy; only this file depends on the installation prefix. */
+/* Folder of the data of an installed copy. Only this file depends on the installation prefix. */
 #ifndef BEAMWORK_DATA
 #define BEAMWORK_DATA "/usr/local/share/beamwork"
 #endif
 
-/* Does the folder contain the data? */
+/* Returns 1 when the folder contains the data. */
 static int is_in(const char *folder, const char *below, const char *name, char path[PATH_MAX])
 {
     const int length = snprintf(path, PATH_MAX, "%s/%s%s", folder, below, name);
     return length < PATH_MAX && access(path, R_OK) == 0;
 }
 
-/* Searches next to bin/ and lib/, where share/ is; lib/x86_64-linux-gnu is one level deeper. */
+/* Searches next to bin/ and lib/, where share/ is. A folder such as lib/x86_64-linux-gnu is one
+ * level deeper. */
 static int is_near(const char *folder, const char *name, char path[PATH_MAX])
 {
     static const char *const below[] = {"", "../", "../../", "../share/beamwork/",
@@ -202,7 +204,7 @@ static int is_near(const char *folder, const char *name, char path[PATH_MAX])
     return 0;
 }
 
-/* Folder of the running program. */
+/* Finds the folder of the running program. */
 static void program_folder(char out[PATH_MAX])
 {
     const ssize_t length = readlink("/proc/self/exe", out, PATH_MAX - 1);
@@ -214,8 +216,8 @@ static void program_folder(char out[PATH_MAX])
         snprintf(out, PATH_MAX, ".");
 }
 
-/* Folder of the shared library that contains this code; returns 0 if the code is linked into a
- * program. */
+/* Finds the folder of the shared library that contains this code. Returns 0 if the code is
+ * linked into a program. */
 static int library_folder(char out[PATH_MAX])
 {
     static const char here = 0;

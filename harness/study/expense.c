@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Number of stations of the path that an analysis follows: its own path, or that of its base
- * analysis. */
+/* Returns the number of stations of the path that an analysis follows: its own path, or that of
+ * its base analysis. */
 static double stations_of(const scene *s, const scene_analysis *a)
 {
     while (scene_path_of(a) == NULL && a->follows != SCENE_NONE)
@@ -13,15 +13,16 @@ static double stations_of(const scene *s, const scene_analysis *a)
     return scene_path_of(a) != NULL ? scene_path_of(a)->stations : 1;
 }
 
-/* Number of load steps; shorter initial steps count as if they had full length. */
+/* Returns the number of load steps; shorter initial steps count as if they had full length. */
 static double steps_of(const scene_analysis *a, int steps)
 {
     const int between = steps > 0 ? steps : scene_walk_of(a)->steps_between;
     return scene_path_of(a)->stations + between - 1;
 }
 
-/* Estimated number of time steps. With a tolerance it is a power of the tolerance and depends
- * little on the motion, whose time scale is given by the scene (measured on four motions). */
+/* Returns the estimated number of time steps. With a tolerance it is a power of the tolerance
+ * and depends little on the motion, whose time scale is given by the scene (measured on four
+ * motions). */
 static double motion_steps(const scene_motion *m)
 {
     static const double usual = 1e-4, steps[] = {80, 40}, power[] = {0.45, 0.3};
@@ -100,12 +101,12 @@ double expense_of_cell(const sweep *s, int series_index, int mesh)
     return expense_of_scene(&p->scene, p->steps, one->formulation.type, one->mesh[mesh]);
 }
 
-/* relative to the work of one process; for series below it the order of tasks does not matter */
+/* relative to the work of one process; for cheaper series the order of tasks does not matter */
 static const double dear_share = 0.01;
 
 /* A series that is run. */
 typedef struct expense {
-    double all; /* cost of the series; 0: not expensive */
+    double all; /* cost of the series; 0: the series is not expensive */
     int series;
 } expense;
 
@@ -146,16 +147,17 @@ int expense_order(const sweep *s, int jobs, workload_task tasks[])
     return 0;
 }
 
-/* The result of a cell is a tree of arrays. Records and elements are sent as stored in memory, and
- * pointers are replaced by those of the receiving process. A new array requires a line in the
- * tables below; a new number does not. */
+/* The result of a cell is a tree of arrays. Records and elements are sent as stored in memory,
+ * and pointers are replaced by those of the receiving process. A new array in a record requires
+ * a line in the tables below; a new number does not. */
 typedef struct branch branch;
 struct branch {
     size_t pointer, size; /* position of the pointer in the record; size of an element [bytes] */
-    /* positions of the integers whose product is the number of elements; count 0: a string; times
-     * 0: one factor */
+    /* positions of the integers whose product is the number of elements; count 0: the array is a
+     * string; times 0: there is only one factor */
     size_t count, times;
-    size_t each, more;   /* elements per unit of the product, and additional ones */
+    size_t each, more;   /* number of elements per unit of the product, and number of additional
+                            ones */
     const branch *parts; /* arrays inside each element; NULL: none */
 };
 
@@ -242,7 +244,7 @@ static int put_parts(FILE *to, const void *record, const branch parts[])
     return 0;
 }
 
-/* Clears pointers that are valid only in the other process. */
+/* Clears pointers, which are valid only in the other process. */
 static void forget(void *record, const branch parts[])
 {
     for (const branch *b = parts; b->size > 0; b++)
@@ -320,7 +322,7 @@ int serialise_read(FILE *from, cell_result *cell)
         return -1;
     }
     forget(cell, of_cell);
-    memset(&cell->scene, 0, sizeof cell->scene); /* the point keeps the scene */
+    memset(&cell->scene, 0, sizeof cell->scene); /* the point owns the scene */
     const int bad = get_parts(from, cell, of_cell);
     if (bad == 0)
         return 0;

@@ -17,7 +17,8 @@ typedef struct families_known_limit {
     double value, uncertainty;
 } families_known_limit;
 
-/* Is the formulation known to have a biased or wrong limit for a feature of the scene? */
+/* Returns 1 when the formulation is known to have a biased or wrong limit for a feature of the
+ * scene. */
 static int is_known_wrong(const truths *t, unsigned features, const char *key)
 {
     for (int i = 0; i < t->rules; i++) {
@@ -29,7 +30,7 @@ static int is_known_wrong(const truths *t, unsigned features, const char *key)
     return 0;
 }
 
-/* Is the formulation allowed to take part in the agreement? */
+/* Returns 1 when the formulation may take part in the agreement. */
 static int may_vote(const sweep *s, const series *one, const truths *t)
 {
     const element_type *type = one->formulation.type;
@@ -80,7 +81,7 @@ static int agree(const scene_quantity *q, const families_known_limit *a,
     return d.apart + d.unknown <= FAMILIES_APART * size;
 }
 
-/* Returns the limits that agree with the given one: the nearest limit of each family. */
+/* Returns the limits that agree with the given one, with the nearest limit of each family. */
 static families_limit around(const scene_quantity *q, const families_known_limit *all, int count,
                              int centre)
 {
@@ -121,7 +122,7 @@ static mean mean_of(const families_known_limit *all, int count, const int in[])
     double sum = 0, weights = 0, squares = 0;
     mean out;
     for (int pass = 0; pass < 2; pass++) {
-        out.value = sum / weights; /* centre from the first pass */
+        out.value = sum / weights; /* centre found in the first pass */
         for (int i = 0; i < count; i++) {
             const double least = 1e-15 * fabs(all[i].value) + DBL_MIN,
                          u = fmax(all[i].uncertainty, least), w = 1 / (u * u);
@@ -145,8 +146,8 @@ static int is_near(const families_known_limit *one, const mean *m)
     return fabs(one->value - m->value) <= one->uncertainty + m->uncertainty;
 }
 
-/* Repeatedly removes from in[count] the limit that is farthest outside its uncertainty, until none
- * is outside. */
+/* Repeatedly removes from in[count] the limit that is farthest outside its uncertainty of the
+ * mean, until none is outside. Returns the mean of the others. */
 static mean settle(const families_known_limit *all, int count, int in[])
 {
     for (;;) {
@@ -166,8 +167,8 @@ static mean settle(const families_known_limit *all, int count, int in[])
     }
 }
 
-/* Mean of the limits that are within their uncertainty of the centre, if they belong to two
- * families. */
+/* Computes the mean of the limits that are within their uncertainty of the centre, if they
+ * belong to at least two families. */
 static void refine(const scene_quantity *q, const families_known_limit *all, int count, int centre,
                    families_limit *out)
 {
@@ -227,7 +228,7 @@ families_limit families_limit_of(const sweep *s, int point_index, int quantity, 
     return best;
 }
 
-/* Reason why a series takes no part in an agreement; NULL: it takes part. */
+/* Returns the reason why a series takes no part in an agreement; NULL: it takes part. */
 static const char *kept_out(const sweep *s, int index, int quantity, const truths *t)
 {
     const series *one = &s->series[index];
@@ -244,7 +245,7 @@ static const char *kept_out(const sweep *s, int index, int quantity, const truth
                : "without a limit on these meshes";
 }
 
-/* Finds a formulation of a different family that could take part. */
+/* Returns a formulation of a different family that could take part. */
 static const char *of_another_family(const sweep *s, int point_index, const char *family,
                                      const truths *t)
 {
@@ -264,7 +265,8 @@ static const char *of_another_family(const sweep *s, int point_index, const char
     return NULL;
 }
 
-/* Writes "A, B " for the series of a point with this reason (NULL: the series that take part). */
+/* Writes "A, B " for the series of a point with this reason. reason NULL: the series that take
+ * part. */
 static int put_series(FILE *to, const sweep *s, int point_index, int quantity, const truths *t,
                       const char *reason, const char *before)
 {
@@ -305,7 +307,8 @@ void families_why(FILE *to, const sweep *s, int point_index, int quantity, const
         fprintf(to, "; add -f %s", more);
 }
 
-/* "beamw_consistent (beamw) and collocation (reissner) agree": source of the reference value. */
+/* Returns the source of the reference value: "beamw_consistent (beamw) and collocation
+ * (reissner) agree". */
 static char *source_of(const sweep *s, const families_limit *l)
 {
     char *text = NULL;
@@ -371,7 +374,7 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
     return STATUS_OK;
 }
 
-/* May agreements become reference values at this point? */
+/* Returns 1 when agreements may become reference values at this point. */
 static int is_open(const sweep_point *p, int files_only)
 {
     return p->status == STATUS_OK && (!files_only || p->type->file != NULL);
@@ -452,8 +455,8 @@ static const char *quantity_at(const void *context, int i)
     return i < s->quantities ? s->quantity[i].name : NULL;
 }
 
-/* Reports words that match nothing, with the nearest name: among the quantities of the point,
- * otherwise among all names. */
+/* Reports words that match nothing, with the nearest name among the quantities of the point or,
+ * if none is near, among all names. */
 static status check_words(const sweep_point *p, const char *select, const select_words *words,
                           fault *f)
 {

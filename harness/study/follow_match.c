@@ -7,7 +7,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/scalar.h"
 
-/* Relative distance below which frequencies count as equal; their shapes are then not unique. */
+/* Frequencies count as equal if their relative difference is below this value. Their shapes are
+ * then not unique. */
 static const double alike = 1e-6;
 
 static status allocate(int modes, int rows, follow_shapes *out, fault *f)
@@ -29,7 +30,7 @@ void follow_match_free(follow_shapes *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Scales x to x^T M x = 1; y[rows]: becomes M x. */
+/* Scales x so that x^T M x = 1; y[rows] becomes M x. */
 static void normalise(const triplets *M, double x[], double y[])
 {
     triplets_mul(M, x, y);
@@ -52,7 +53,7 @@ static status first(const state_matrices *s, follow_shapes *out, double work[])
     return STATUS_OK;
 }
 
-/* Takes the first `modes` modes of a state. */
+/* Makes shapes of the first `modes` modes of a state. */
 static status follow_match_first(const state_matrices *s, int modes, follow_shapes *out, fault *f)
 {
     double *work = malloc(((size_t)s->M.rows + 1) * sizeof *work);
@@ -64,7 +65,7 @@ static status follow_match_first(const state_matrices *s, int modes, follow_shap
     return outcome;
 }
 
-/* End of the group of equal frequencies that starts at mode j. */
+/* Returns the end of the group of equal frequencies that starts at mode j. */
 static int group_end(const state_matrices *s, int j)
 {
     int end = j + 1;
@@ -73,7 +74,7 @@ static int group_end(const state_matrices *s, int j)
     return end;
 }
 
-/* Modes of a state, normalised to unit mass, and M times them. */
+/* Modes of a state, normalised to unit mass, and their products with M. */
 typedef struct match_workspace {
     double *mode, *product; /* [modes x rows] */
     double *share;          /* [modes] share of the followed shape in each mode */
@@ -217,9 +218,10 @@ enum { MOST_REFINEMENTS = 30 };
 static const double equal = 1e-9; /* relative difference of equal frequencies */
 static const double exact =
     1e-12; /* accuracy of the position of a crossing, relative to the step */
-static const double close_enough = 0.1; /* largest gap of a veering that is reported */
+static const double close_enough = 0.1; /* largest relative gap of a veering that is reported */
 
-/* f_i - f_j at a parameter value, with modes matched to sample k; *mean: mean of both [Hz]. */
+/* Computes f_i - f_j at a parameter value, with modes matched to sample k. *mean: mean of both
+ * frequencies [Hz]. */
 static status difference_at(follow_walk *w, int k, double value, const int mode[2],
                             double *difference, double *mean, double *least, fault *f)
 {
@@ -240,14 +242,14 @@ static double difference_of(const follow_sample *s, const int mode[2])
     return s->frequency[mode[0]] - s->frequency[mode[1]];
 }
 
-/* Difference of the two frequencies relative to their mean. */
+/* Returns the difference of the two frequencies relative to their mean. */
 static double gap_of(const follow_sample *s, const int mode[2])
 {
     return 2 * fabs(difference_of(s, mode)) / (s->frequency[mode[0]] + s->frequency[mode[1]]);
 }
 
 /* Finds the crossing between samples a and b, where the difference has opposite signs, by the
- * Illinois variant of regula falsi. */
+ * Illinois variant of the regula falsi. */
 static status find_crossing(follow_walk *w, int a, int b, follow_event *e, double *least, fault *f)
 {
     const follow_sample *s = w->out->sample;
@@ -264,7 +266,7 @@ static status find_crossing(follow_walk *w, int a, int b, follow_event *e, doubl
         TRY(difference_at(w, a, next, e->mode, &here, &e->frequency, least, f));
         if (*least < follow_sure || fabs(here) <= equal * e->frequency || change <= exact * width)
             return STATUS_OK;
-        const int side = (here > 0) == (d[1] > 0); /* the end that is replaced */
+        const int side = (here > 0) == (d[1] > 0); /* end of the interval that is replaced */
         x[side] = next;
         d[side] = here;
         d[!side] /= kept == !side ? 2 : 1;

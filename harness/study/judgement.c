@@ -9,25 +9,26 @@
 
 #include "harness/numerics/numerics.h"
 
-/* Marks missed rules (rule.missed) and counts them. whole 1: no selection was made, and every rule
- * should have been shown. Otherwise only those rules of user tables (rule.from) count whose
- * formulations and cases were run completely, with all points and quantities. A selection (-k)
- * includes a case completely if it matches the case name. */
+/* Marks missed rules (rule.missed) and returns their number. whole 1: no selection was made, and
+ * every rule should have been shown. Otherwise a rule counts only if it is in a user table
+ * (rule.from) and its formulations and cases were run completely, with all points and
+ * quantities. A selection (-k) includes a case completely if it matches the case name. */
 static int missed_rules(const sweep *s, truths *t, int whole);
-/* Counts the reference values that a complete run did not use: unmet, waiting and unread. An unread
- * value counts as met (truth.met) but is not evaluated: a run evaluates motions only for a few
- * instants and structures, `make lab L=motions` evaluates all of them. */
+/* Counts the reference values that a complete run did not use: unmet, waiting and unread. An
+ * unread value counts as met (truth.met) but is not evaluated, because a run evaluates motions
+ * only for a few instants and structures; `make lab L=motions` evaluates all of them. */
 static void missed_truths(const sweep *s, truths *t, judgement *out);
 
-/* Is the limit outside the range that the rule covers? For a derived limit, the distance from that
- * limit counts. */
+/* Returns 1 when the limit is outside the range that the rule covers. If a limit was derived,
+ * the distance from that limit counts. */
 static int is_beyond(const rule *r, const verdict *v)
 {
     return isfinite(v->departure) && isfinite(r->largest_error) &&
            fabs(v->departure) > r->largest_error;
 }
 
-/* A verdict other than pass is expected if exactly one known deviation applies to it. */
+/* Sets the expectation for a verdict: a verdict other than pass is expected if exactly one known
+ * deviation applies. */
 static void expect(const sweep *s, truths *t, verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -84,7 +85,7 @@ static status check_cells(const sweep *s, int index, judgement *out, fault *f)
     return STATUS_OK;
 }
 
-/* Marks the reference values of this quantity as used, including reference values of lower rank and
+/* Marks the reference values of this quantity as used, including those of lower rank and those
  * of other models. */
 static void mark_met(truths *t, const sweep_point *p, const formulation *chosen,
                      const char *quantity, int judged)
@@ -121,7 +122,7 @@ static status check_units(const sweep *s, const truths *t, fault *f)
     return STATUS_OK;
 }
 
-/* Does an imported series have any value of the quantity? */
+/* Returns 1 when an imported series has any value of the quantity. */
 static int is_imported(const series *one, int quantity)
 {
     for (int i = 0; i < one->meshes; i++)
@@ -130,7 +131,7 @@ static int is_imported(const series *one, int quantity)
     return 0;
 }
 
-/* Is the limit known to be within the tolerance, whatever the verdict? */
+/* Returns 1 when the limit is known to be within the tolerance, whatever the verdict. */
 static int is_within(const verdict *v)
 {
     return v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED ||
@@ -170,7 +171,7 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
              v->kind != VERDICT_SKIP && v->kind != VERDICT_OTHER_MODEL);
 }
 
-/* Could noise account for the whole last change, or is the verdict open? */
+/* Returns 1 when noise could account for the whole last change, or when the verdict is open. */
 static int noise_may_decide(const sweep *s, const truths *t, int index, int quantity)
 {
     const double small_change = 1e-7;
@@ -248,7 +249,7 @@ status judgement_add(const sweep *s, truths *t, int series_index, judgement *out
 
 void judgement_end(const sweep *s, truths *t, int whole, judgement *out)
 {
-    /* known deviations assume the tolerances of the cases */
+    /* the list of known deviations assumes the tolerances of the cases */
     out->unobserved = s->tolerance > 0 ? 0 : missed_rules(s, t, whole);
     if (whole)
         missed_truths(s, t, out);
@@ -301,7 +302,7 @@ static int is_run(const sweep *s, const case_type *type, const element_type *ele
     return 0;
 }
 
-/* Does the run include a formulation of that name with options? */
+/* Returns 1 when the run includes a formulation of that name with options. */
 static int key_is_run(const sweep *s, const char *word)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -310,7 +311,7 @@ static int key_is_run(const sweep *s, const char *word)
     return 0;
 }
 
-/* Does the run include every formulation that the word of a list can match? */
+/* Returns 1 when the run includes every formulation that the word of a list can match. */
 static int formulations_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;
@@ -324,7 +325,8 @@ static int formulations_are_run(const sweep *s, const char *word)
     return all && found;
 }
 
-/* Are all points and quantities of the cases included, so that the word selects only cases? */
+/* Returns 1 when all points and quantities of the cases are included, so that the word selects
+ * only cases. */
 static int cases_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;

@@ -2,19 +2,19 @@
 
 #include <math.h>
 
-/* Order from three values by bisection, at most bisected_order; NAN if no order fits the changes.
- */
+/* Returns the order from three values by bisection, at most bisected_order; NAN if no order fits
+ * the changes. */
 static double richardson_order(const double n[3], const double f[3]);
-/* Richardson's limit from the last two of three values. */
+/* Returns Richardson's limit from the last two of three values. */
 static double richardson_limit(const double n[3], const double f[3], double p);
-/* Amplification of errors: change of the extrapolated limit per change of the values, root of the
- * sum of squares. */
+/* Returns the amplification of errors: the change of the extrapolated limit per change of the
+ * values, as the root of the sum of squares. */
 static double richardson_amplification(const double n[3], const double f[3], double p);
 
-/* smallest ratio of elements between successive meshes; changes between closer meshes are mostly
- * noise */
+/* smallest ratio of the numbers of elements of successive meshes; changes between closer meshes
+ * are mostly noise */
 static const double least_refinement = 1.4;
-static const double unmeasured_noise = 3e-11, least_noise = 2.3e-16; /* relative */
+static const double unmeasured_noise = 3e-11, least_noise = 2.3e-16; /* relative noise */
 /* changes below this multiple of the noise do not show an order */
 static const double noisy_changes = 10;
 static const double least_seen_order = 0.5; /* smallest observed order that is accepted ... */
@@ -32,7 +32,7 @@ typedef struct meshes {
     int count;
     double n[LIMIT_MESHES], f[LIMIT_MESHES];
     double change[LIMIT_MESHES]; /* f[i + 1] - f[i] */
-    double order[LIMIT_MESHES];  /* of meshes i, i + 1, i + 2; NAN: none */
+    double order[LIMIT_MESHES];  /* order of meshes i, i + 1, i + 2; NAN: none */
     double scale, noise;         /* [unit of f] */
 } meshes;
 
@@ -43,8 +43,8 @@ const char *limit_kind_name(limit_kind kind)
     return names[kind];
 }
 
-/* The finest mesh with a value that is coarser than `fine` elements by at least least_refinement;
- * -1: none. */
+/* Returns the index of the finest mesh with a value whose number of elements is smaller than
+ * `fine` by at least the factor least_refinement; -1: none. */
 static int coarser_than(const limit_sequence *s, double fine)
 {
     int best = -1;
@@ -55,8 +55,8 @@ static int coarser_than(const limit_sequence *s, double fine)
     return best;
 }
 
-/* Selects meshes from the finest one down, each coarser than the previous one by at least
- * least_refinement. */
+/* Selects meshes, starting with the finest one. Each is coarser than the previous one by at
+ * least the factor least_refinement. */
 static void thin(const limit_sequence *s, meshes *m)
 {
     int kept[LIMIT_MESHES];
@@ -106,7 +106,7 @@ static double refinement(const meshes *m, int before_last)
     return m->n[i] / m->n[i - 1];
 }
 
-/* Sets the limit for fewer than three meshes, with an assumed order. */
+/* Sets the limit with an assumed order, for fewer than three meshes. */
 static void few(const meshes *m, mesh_limit *out)
 {
     out->kind = LIMIT_NOT_YET;
@@ -118,8 +118,8 @@ static void few(const meshes *m, mesh_limit *out)
             end_factor * m->noise;
 }
 
-/* Returns 1 when the last change is within the noise, and the previous one was not small by
- * accident. */
+/* Sets the limit and returns 1 when the last change is within the noise and the previous one was
+ * not small by accident. */
 static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const double a = fabs(m->change[m->count - 2]), b = fabs(m->change[m->count - 3]),
@@ -134,14 +134,14 @@ static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Limit from the meshes first, first + 1, first + 2 with their observed order. */
+/* Returns the limit from the meshes first, first + 1, first + 2 with their observed order. */
 static double own_limit(const meshes *m, int first)
 {
     return richardson_limit(m->n + first, m->f + first, m->order[first]);
 }
 
-/* Change of the limit due to the last mesh, and the factor for its uncertainty; the last three
- * meshes start at k > 0. */
+/* Returns the change of the limit due to the last mesh, and the factor for its uncertainty. The
+ * last three meshes start at k > 0. */
 static double change_of_limit(const limit_sequence *s, const meshes *m, int k, double *factor)
 {
     const double R = refinement(m, 0), value = own_limit(m, k);
@@ -164,15 +164,16 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     return measured ? change : fmax(change, doubted_step * fabs(value - m->f[k + 2]));
 }
 
-/* Is the middle order the smallest or largest, by more than the scatter of orders of a single error
- * term? */
+/* Returns 1 when the middle order is the smallest or the largest, by more than the scatter of
+ * orders of a single error term. */
 static int turns(double a, double b, double c)
 {
     static const double scatter = 0.1;
     return (a - b) * (b - c) < 0 && fmin(fabs(a - b), fabs(b - c)) > scatter;
 }
 
-/* Returns 1 when two orders agree; the change of the limit then bounds the remaining error. */
+/* Sets the limit and returns 1 when two orders agree; the change of the limit then bounds the
+ * remaining error. */
 static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int k = m->count - 3; /* start of the last three meshes */
@@ -195,8 +196,9 @@ static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* If the order still changes, or there are only three meshes: takes the largest of the last changes
- * and the smallest plausible order. Returns 1 if this applies. */
+/* If the order still changes, or there are only three meshes: sets the limit and its uncertainty
+ * from the largest of the last changes and the smallest plausible order. Returns 1 if this
+ * applies. */
 static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int k = m->count - 3;
@@ -227,8 +229,8 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Without an observed order: takes the largest of the last three changes, each reduced by the
- * nominal order; larger if the changes grow. */
+/* Without an observed order: sets the uncertainty from the largest of the last three changes,
+ * each reduced by the nominal order. The uncertainty is larger if the changes grow. */
 static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int last = m->count - 1;
@@ -276,7 +278,7 @@ mesh_limit limit_of(const limit_sequence *s)
 
 static const double lowest_order = 0.05, bisected_order = 40;
 
-/* (n0^-p - n1^-p)/(n1^-p - n2^-p), which increases with p. */
+/* Returns (n0^-p - n1^-p)/(n1^-p - n2^-p), which increases with p. */
 static double ratio_at(double p, const double n[3])
 {
     const double a = pow(n[2] / n[0], p), b = pow(n[2] / n[1], p);

@@ -54,7 +54,7 @@ void overview_text(const overview_cell *c, int utf8, char text[OVERVIEW_TEXT])
         snprintf(text, OVERVIEW_TEXT, "%s%s%d", first, sign, c->count);
 }
 
-/* Name of the column of a series. */
+/* Returns the name of the column of a series. */
 static const char *name_of(const series *one, int joined)
 {
     return joined && one->imported == NULL ? one->formulation.type->name : one->formulation.key;
@@ -90,7 +90,7 @@ static void add_columns(const sweep *s, overview *out, int of_new)
     }
 }
 
-/* Places new formulations after the others. */
+/* Finds the columns; new formulations come after the others. */
 static void find_columns(const sweep *s, overview *out, int joined)
 {
     out->joined = joined;
@@ -195,7 +195,7 @@ int overview_shown(const overview *o, int row)
     return o->rows <= MOST_ROWS || !overview_passes(o, row);
 }
 
-/* CRC-32 of IEEE 802.3; start with 0 and pass the previous result to continue. */
+/* Returns the CRC-32 of IEEE 802.3. To start, pass 0; to continue, pass the previous result. */
 static uint32_t checksum(uint32_t sum, const unsigned char *data, size_t size)
 {
     return (uint32_t)crc32_z(sum, data, size);
@@ -231,7 +231,7 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
 }
 
 /* Computes the checksum of all but the last CHECKSUM_LENGTH bytes, which are copied to `tail`.
- * Returns -1 when the file is shorter. */
+ * Returns the length of the file before these bytes; -1: the file is shorter than this. */
 static long read_body(FILE *from, uint32_t *sum, char tail[CHECKSUM_LENGTH + 1])
 {
     enum { PIECE = 1 << 18 };

@@ -71,7 +71,7 @@ static void check_case(findings_reader *r, const char *word)
               own_names_near_case(r->run, word, near));
 }
 
-/* Does the case have the quantity, at the defaults or at points with reference values? */
+/* Returns 1 when the case has the quantity, at its defaults or at points with reference values. */
 static int case_has(const findings_reader *r, const case_type *type, const char *quantity,
                     scene *defaults)
 {
@@ -81,7 +81,7 @@ static int case_has(const findings_reader *r, const case_type *type, const char 
     return own_names_quantity(defaults, quantity) != NULL;
 }
 
-/* Checks that some case of the rule has the quantity; otherwise the rule would never apply. */
+/* Checks that some case of the rule has the quantity. Otherwise the rule would never apply. */
 static void check_quantity(findings_reader *r, const char *word)
 {
     char near[FAULT_TEXT] = "", pattern[RULES_WORD];
@@ -111,7 +111,7 @@ static const char *verdict_at(const void *context, int i)
     return i < VERDICT_KINDS ? verdict_name((verdict_kind)i) : NULL;
 }
 
-/* "wrong limit|undecided" */
+/* Checks a list of verdicts: "wrong limit|undecided". */
 static void check_verdicts(findings_reader *r)
 {
     char word[RULES_WORD], near[FAULT_TEXT];
@@ -164,7 +164,7 @@ static void check_name(findings_reader *r)
                   r->t->rule[i].from != NULL ? r->t->rule[i].from : "the list of known deviations");
 }
 
-/* Requires the cause and how it is known. */
+/* Checks that the rule gives the cause and how it is known. */
 static void check_grounds(findings_reader *r)
 {
     if (r->row->field[CAUSE][0] == '\0' || strcmp(r->row->field[CAUSE], PROPOSAL_CAUSE) == 0)
@@ -202,7 +202,8 @@ static void check(findings_reader *r, double *largest)
         WRONG(r, LARGEST_ERROR, "largest_error '%.40s' is not a number of at least zero", text);
 }
 
-/* Cases of the run and built-in cases, NULL-terminated; the caller frees the list. */
+/* Returns the cases of the run and the built-in cases, NULL-terminated. The caller frees the
+ * list. */
 static const case_type **all_cases(const case_type *const run[])
 {
     int count = 0;
@@ -355,8 +356,8 @@ const char *own_names_near_quantity(const scene *s, const char *name, char text[
                            "; 'beamwork list CASE' shows them", text);
 }
 
-/* Returns 1 when all quotes end in the line; otherwise the field would continue on the next lines.
- */
+/* Returns 1 when all quotes end in the line. Otherwise the field would continue on the next
+ * line. */
 static int quotes_are_even(const char *line)
 {
     int quotes = 0;
@@ -395,7 +396,7 @@ static int count_columns(const char *columns)
     return count;
 }
 
-/* The caller, own_table_read, frees *line, also after a failure. */
+/* Reads the lines of a table. The caller, own_table_read, frees *line, also after a failure. */
 static status read_lines(FILE *from, const char *columns, char **line, own_table *out, mistakes *m,
                          fault *f)
 {

@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reasons against a formulation, the most serious first. The formulation with the least serious
- * reasons is chosen. */
+/* Reasons against a formulation, the most serious one first. The formulation with the least
+ * serious reasons is chosen. */
 enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
 typedef struct standing {
     int against[REASONS];
 } standing;
 
-/* Does the rule apply to a quantity of the scene? */
+/* Returns 1 when the rule applies to a quantity of the scene. */
 static int holds_here(const rule *r, const scene *s, rule_subject at)
 {
     for (int q = 0; q < s->quantities; q++)
@@ -24,7 +24,7 @@ static int holds_here(const rule *r, const scene *s, rule_subject at)
     return 0;
 }
 
-/* Number of features of the scene that the formulation lacks. */
+/* Returns the number of features of the scene that the formulation does not support. */
 static int count_omits(const scene *s, const element_type *type)
 {
     int count = 0;
@@ -33,7 +33,7 @@ static int count_omits(const scene *s, const element_type *type)
     return count;
 }
 
-/* Lowest order in the requested quantities. */
+/* Returns the lowest order in the requested quantities. */
 static int order_of(const scene *s, const element_type *type)
 {
     double options[ELEMENT_MAX_OPTIONS] = {0};
@@ -76,7 +76,8 @@ static int is_better(const standing *a, const standing *b)
     return 0;
 }
 
-/* Does the type support the whole scene or, with `other`, enough of it to run as another model? */
+/* Returns 1 when the type supports the whole scene or, with `other`, enough of it to run as
+ * another model. */
 static int can_run(const scene *s, const element_type *type, int other)
 {
     char words[OMIT_WORDS];
@@ -85,7 +86,8 @@ static int can_run(const scene *s, const element_type *type, int other)
     return !missing_words(s, type, words, sizeof words) && !lacks_of(s, type, words, sizeof words);
 }
 
-/* Candidates, best first: ranked equal to the first one, at most two per family. */
+/* Candidates, the best first. All are ranked equal to the first one; there are at most two per
+ * family. */
 enum { CANDIDATES = 5, OF_FAMILY = 2 };
 typedef struct preference_candidates {
     int count;
@@ -93,7 +95,7 @@ typedef struct preference_candidates {
     standing here[CANDIDATES];
 } preference_candidates;
 
-/* Is the type already a candidate, or does its family have enough candidates? */
+/* Returns 1 when the type is already a candidate, or when its family has enough candidates. */
 static int is_taken(const preference_candidates *all, const element_type *type)
 {
     int same = 0;
@@ -113,7 +115,8 @@ static int as_sound(const standing *a, const standing *b)
     return 1;
 }
 
-/* Appends the best candidate not yet chosen; returns 0 when none is ranked equal to the first. */
+/* Appends the best candidate that has not been chosen yet. Returns 0 when none is ranked equal
+ * to the first one. */
 static int take_next(const scene *s, const rule_subject *where, const rule *rules, int count,
                      int other, preference_candidates *all)
 {
@@ -145,7 +148,7 @@ static preference_candidates candidates_of(const scene *s, const rule_subject *w
     return out;
 }
 
-/* Finds the candidates, and writes the first half of the explanation. */
+/* Finds the candidates and writes the first half of the explanation. */
 static status find(const scene *s, const rule_subject *where, const rule *rules, int count,
                    preference_candidates *all, char why[FAULT_TEXT], fault *f)
 {
@@ -193,12 +196,12 @@ typedef struct runner {
     formulation chosen;
     cell_result cell[2];  /* results of the last two meshes, alternating */
     double asked;         /* relative change that counts as converged */
-    value_change last;    /* expected change from the last mesh on */
+    value_change last;    /* expected change from the last mesh to a finer one */
     double *former, *raw; /* [quantities] earlier changes, and changes between the last two
                              meshes */
     double slow;          /* largest change between the last two meshes if a further change is
                              expected; else 0 */
-    int tried, before, elements; /* number of meshes; elements of the last two */
+    int tried, before, elements; /* number of meshes; numbers of elements of the last two */
     int unstable;                /* 1: a mesh had unstable states that finer meshes may not have */
     double cost, next;           /* [s] cost of the last mesh; estimated cost of the next mesh */
 } runner;
@@ -232,8 +235,8 @@ static void end(runner *r)
     cell_result_free(&r->cell[1]);
 }
 
-/* Number of elements of the next mesh: the meshes of the scene, then twice the elements each
- * time. */
+/* Returns the number of elements of the next mesh: the meshes of the scene first, then twice the
+ * elements each time. */
 static int next_mesh(const scene *s, const runner *r)
 {
     return r->tried < s->meshes ? s->mesh[r->tried] : 2 * r->elements;
@@ -245,21 +248,21 @@ static int settled(const scene *s, const runner *r)
     return r->last.largest <= r->asked && (sure || r->tried >= s->meshes);
 }
 
-/* Is the next mesh too expensive? */
+/* Returns 1 when the next mesh is too expensive. */
 static int exhausted(const scene *s, const runner *r)
 {
     const int tells =
-        r->tried < 2 || isfinite(r->last.largest); /* could a finer mesh still converge? */
+        r->tried < 2 || isfinite(r->last.largest); /* a finer mesh could still converge */
     return r->tried >= s->meshes &&
            (!tells || r->next > PREFERENCE_COST || r->elements >= PREFERENCE_FINEST);
 }
 
-/* Below first order, the remaining change exceeds the last one: c (q + q^2 + ...), q = c / former
- * c. */
+/* If the order is below one, the remaining change exceeds the last change c. It is estimated as
+ * c (q + q^2 + ...), where q is the ratio of the last change to the former one. */
 static void expect_more(const scene *s, runner *r)
 {
-    const double seen = 1e-6, most = 9; /* relative change below which no order is visible; largest
-                                           multiple */
+    const double seen = 1e-6, most = 9; /* relative change below which no order is visible;
+                                           largest multiple of the last change */
     const double largest = r->last.largest;
     for (int i = 0; i < s->quantities; i++) {
         const double now = r->last.of_each[i], rate = now / r->former[i];
@@ -298,8 +301,8 @@ static void refine(const scene *s, runner *r)
     r->tried++;
 }
 
-/* Always advances the runner whose next mesh has the lowest cost, until one has converged; NULL: no
- * runner converges within the limits. */
+/* Always advances the runner whose next mesh has the lowest cost, until one runner has
+ * converged, and returns it; NULL: no runner converges within the limits. */
 static runner *race(const scene *s, runner of[], int count)
 {
     for (;;) {

@@ -42,7 +42,8 @@ static double count_of(const cell_result *c, price_count which)
     }
 }
 
-/* Is "key=value", of the given length, one of the options in "name:key=value,..."? */
+/* Returns 1 when "key=value", of the given length, is one of the options in
+ * "name:key=value,...". */
 static int has_option(const char *key, const char *option, size_t length)
 {
     const char *at = strchr(key, ':');
@@ -55,7 +56,8 @@ static int has_option(const char *key, const char *option, size_t length)
     return 0;
 }
 
-/* Number of options of the row that the formulation has, plus one; 0: the row does not apply. */
+/* Returns the number of options of the row that the formulation has, plus one; 0: the row does
+ * not apply. */
 static int match(const char *row, const char *key)
 {
     const size_t name = strcspn(row, ":");
@@ -71,7 +73,7 @@ static int match(const char *row, const char *key)
     return options;
 }
 
-/* Name of the matching rows with the most options, or "*". */
+/* Returns the name of the matching rows with the most options, or "*". */
 static const char *row_name(const price_row *rows, const char *key)
 {
     const char *best = "*";
@@ -142,8 +144,8 @@ const char *reach_defect_words(verdict_kind kind)
     }
 }
 
-/* Is the quantity part of the question: it is the named one, or some formulation has a reference
- * value for it? */
+/* Returns 1 when the quantity is part of the question: it is the named one, or some formulation
+ * has a reference value for it. */
 static int is_asked(const reach_question *q, int quantity)
 {
     int known = 0;
@@ -155,7 +157,7 @@ static int is_asked(const reach_question *q, int quantity)
     return known;
 }
 
-/* The verdict of a series on a quantity, or NULL. */
+/* Returns the verdict on a quantity of a series, or NULL. */
 static const verdict *verdict_on(const reach_question *q, int series_index, int quantity)
 {
     for (int i = 0; i < q->verdicts; i++)
@@ -194,7 +196,7 @@ static int has_no_rank(const formulation *chosen)
     return reach_unranked(chosen->type)[0] != '\0';
 }
 
-/* Answers the question for one series. Returns 0 if the series does not meet the level in all
+/* Answers the question for one series. Returns 0 if the series does not meet the target in all
  * requested quantities. */
 static int reach_one(const reach_question *q, int series_index, reached *out)
 {
@@ -221,7 +223,7 @@ static int reach_one(const reach_question *q, int series_index, reached *out)
     return 1;
 }
 
-/* Ranks a before b if a is better. */
+/* Returns 1 when a ranks before b. */
 static int is_before(const sweep *s, const reached *a, const reached *b)
 {
     if ((a->defect != NULL) != (b->defect != NULL))

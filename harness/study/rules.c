@@ -11,7 +11,7 @@
 
 enum { WORD = RULES_WORD };
 
-/* Copies the next word of a string; returns the rest, or NULL at the end. */
+/* Copies the next word of a string. Returns the rest; NULL: the string has ended. */
 static const char *next_word(const char *text, const char *separators, char word[WORD])
 {
     text += strspn(text, separators);
@@ -39,11 +39,11 @@ static int list_has_formulation(const char *list, const char *key)
 /* One term of a condition, trimmed. */
 typedef struct rules_term {
     unsigned feature; /* 0: the term compares a parameter */
-    int negated;      /* 1: "not" before a feature */
+    int negated;      /* 1: "not" before the feature */
     char parameter[WORD], sign[3], values[WORD];
 } rules_term;
 
-/* Parses a term; returns 0 when the text is not a term. */
+/* Parses a term. Returns 0 when the text is not a term. */
 static int term_parse(const char *text, rules_term *out)
 {
     char copy[WORD];
@@ -66,7 +66,7 @@ static int term_parse(const char *text, rules_term *out)
     return 0;
 }
 
-/* Number, or index of a choice; NAN: neither. */
+/* Returns a number, or the index of a choice; NAN: the word is neither. */
 static double value_of(const parameter_type *p, const char *word)
 {
     double value;
@@ -152,7 +152,7 @@ int rules_is_observed(const rule *r)
     return r->observed > 0 && r->foretold == all;
 }
 
-/* Does some case of the rule have the parameter of the term, with a possible value? */
+/* Returns 1 when a case of the rule has the parameter of the term, with a possible value. */
 static int term_means_something(const rule *r, const rules_term *t, const case_type *const cases[])
 {
     int found = t->feature != 0;
@@ -250,7 +250,7 @@ status columns_broken(const table_columns *r, const char *column)
                      r->path, column, r->name);
 }
 
-/* Number of rows of an open column; -1: not one-dimensional. */
+/* Returns the number of rows of an open column; -1: the column is not one-dimensional. */
 static int length_of(hid_t set)
 {
     hsize_t size = 0;
@@ -285,7 +285,7 @@ status columns_strings(const table_columns *r, const char *column, char **out)
     int good = stored >= 0 && H5Tget_class(stored) == H5T_STRING && !H5Tis_variable_str(stored);
     const size_t size = good ? H5Tget_size(stored) : 1;
     char *all = good && size < 100000 ? calloc((size_t)r->rows + 1, size) : NULL;
-    /* read in the stored type, because HDF5 clears a large buffer for each conversion */
+    /* reads the stored type, because HDF5 clears a large buffer for each conversion */
     good = good && all != NULL && H5Dread(set, stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, all) >= 0;
     for (int i = 0; i < r->rows && good; i++)
         good = (out[i] = strndup(all + (size_t)i * size, size)) != NULL;

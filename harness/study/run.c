@@ -22,7 +22,7 @@ static void report(progress *p, const workload *w, int last)
     progress_show(p, now, w->finished, workload_share(w), what);
 }
 
-/* Handles a worker that has sent results or ended. *running: number of workers. */
+/* Handles a worker that has sent results or ended. *running: number of workers, updated. */
 static status attend(progress *p, workload *w, int self, worker *one, int *running, fault *f)
 {
     const int i = worker_receive(w, one);
@@ -42,8 +42,8 @@ static status attend(progress *p, workload *w, int self, worker *one, int *runni
 static int wait_for_any(const workload *w, int jobs, const worker workers[], int asked,
                         struct pollfd ends[])
 {
-    /* [ms] interval of checks for workers that are late, or have ended while another process holds
-     * their pipe open */
+    /* [ms] interval between checks for workers that exceed the time limit, or that have ended
+     * while another process keeps their pipe open */
     const int interval = workload_can_tell(w) ? 0 : w->time_limit > 0 ? 100 : 1000;
     for (int i = 0; i < jobs; i++)
         ends[i] = (struct pollfd){.fd = workers[i].from, .events = POLLIN};
@@ -69,7 +69,7 @@ static status start_all(const workload *w, cell_crew *c, fault *f)
     return STATUS_OK;
 }
 
-/* Reads from processes that have sent data; checks the time limit of the others. */
+/* Reads from processes that have sent data, and checks the time limit of the others. */
 static status attend_all(progress *p, workload *w, cell_crew *c, const struct pollfd ends[],
                          fault *f)
 {
@@ -158,7 +158,7 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
     return outcome == STATUS_OK ? tell_all(w, f) : outcome;
 }
 
-/* Runs cells in a separate process even for one job, so that a crash is reported as a result and
+/* Cells run in a separate process even for one job, so that a crash is reported as a result and
  * results do not depend on the number of jobs. */
 status run_sweep(const sweep_request *request, sweep *s, fault *f)
 {
@@ -174,7 +174,7 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f)
 }
 
 enum { COLUMNS = 79, LINE = 400 };
-/* [s] between two outputs, and before the first estimate of the remaining time */
+/* [s] time between two outputs, and time before the first estimate of the remaining time */
 static const double interval = 0.2, first_word = 1;
 static const double least_share = 0.01; /* smallest completed fraction for an estimate */
 
@@ -188,7 +188,7 @@ int progress_is_due(const progress *p, double now)
     return p->to != NULL && now - p->last >= interval;
 }
 
-/* Width available for the line. */
+/* Returns the width available for the line. */
 static int columns_of(FILE *to)
 {
     struct winsize size = {0};
@@ -197,7 +197,7 @@ static int columns_of(FILE *to)
     return size.ws_col - 1;
 }
 
-/* "45 s", "3 min", "1 h 10 min". */
+/* Writes a time as "45 s", "3 min" or "1 h 10 min". */
 static void write_time(double seconds, char *text, size_t size)
 {
     const int minutes = (int)(seconds / 60 + 0.5);

@@ -22,8 +22,8 @@ static void passed(const verdict *v, char *text, size_t size)
                  digits);
 }
 
-/* Uncertainty of a limit in percent of the reference value; if the reference value is zero or very
- * small, in the unit of the quantity, and the error is relative to near_zero. */
+/* Writes the uncertainty of a limit in percent of the reference value. If the reference value is
+ * zero or very small, the unit is that of the quantity, and the error is relative to near_zero. */
 static void doubt_of(const verdict *v, char text[2 * ROUNDING_TEXT])
 {
     const double size = fabs(v->truth->value), apart = fabs(v->fit.limit - v->truth->value);
@@ -48,7 +48,7 @@ static void undecided(const verdict *v, char *text, size_t size)
 
 /* Describes a limit within the tolerance. If it is neither the reference value nor the limit
  * derived for the formulation, it is probably not the true limit: values seem to converge while
- * elements are longer than a boundary layer is thick. */
+ * elements are longer than the thickness of a boundary layer. */
 static void biased(const verdict *v, char *text, size_t size)
 {
     char doubt[2 * ROUNDING_TEXT];
@@ -156,7 +156,7 @@ static void count_part(char *text, size_t size, int *parts, int count, const cha
     add_part(text, size, parts, ", ", part);
 }
 
-/* Counts undecided verdicts among the unexpected ones. */
+/* Returns the number of undecided verdicts among the unexpected ones. */
 static int count_undecided(const judgement *j)
 {
     int count = 0;
@@ -186,9 +186,10 @@ static void failures(const judgement *j, char *text, size_t size)
                "reference values refer to unknown names");
 }
 
-/* Numbers of expected verdicts other than pass: due to a derived limit, or to a rule alone. */
+/* Numbers of expected verdicts other than pass: those due to a derived limit, and those due to a
+ * rule alone. */
 typedef struct known_value {
-    int derived[2]; /* within the tolerance; outside it */
+    int derived[2]; /* derived limits within the tolerance; outside it */
     int by_rule;
 } known_value;
 
@@ -207,8 +208,8 @@ static known_value count_known(const judgement *j)
     return out;
 }
 
-/* Describes the verdicts of formulations that do not affect the exit status, and how many would
- * need a known deviation. */
+/* Describes the verdicts on formulations that do not affect the exit status, and how many of
+ * them would need a known deviation. */
 static void new_ones(const judgement *j, char *text, size_t size)
 {
     if (j->proposed == 0)
@@ -276,7 +277,7 @@ void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size
                  more[0] != '\0' ? "; " : "", more);
 }
 
-/* Decimal exponent of the value after rounding to that many digits. */
+/* Returns the decimal exponent of the value after rounding to that many digits. */
 static int exponent_of(double value, int digits)
 {
     char text[ROUNDING_TEXT];
@@ -284,7 +285,7 @@ static int exponent_of(double value, int digits)
     return atoi(strchr(text, 'e') + 1);
 }
 
-/* "1.2e-7", with a plus sign if requested. */
+/* Writes a number as "1.2e-7", with a plus sign if requested. */
 static void with_exponent(double value, int digits, int sign, char text[ROUNDING_TEXT])
 {
     char padded[ROUNDING_TEXT];

@@ -13,7 +13,8 @@ const char truth_kinds[] =
     "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|"
     "unrepeatable";
 
-/* Lumped and consistent masses have the same limit but different discrete values. */
+/* Returns 1 when the row also applies to other values of the parameter: lumped and consistent
+ * masses have the same limit, and only their discrete values differ. */
 static int may_differ(const truth *row, const parameter_type *p)
 {
     return row->formulation[0] == '\0' && case_is_mass(p);
@@ -30,7 +31,7 @@ static int same_point(const truth *row, const case_type *type, const double valu
     return 1;
 }
 
-/* Does the pattern match the key of a formulation, or its name without options? */
+/* Returns 1 when the pattern matches the key of a formulation, or its name without options. */
 static int is_of_formulation(const char *pattern, const char *key)
 {
     char bare[64];
@@ -102,7 +103,7 @@ static int is_of(const truth *row, const case_type *type, const char *quantity)
     return row->type == type && strcmp(row->quantity, quantity) == 0;
 }
 
-/* FNV-1a hash of case and quantity. */
+/* Returns the FNV-1a hash of case and quantity. */
 static uint64_t hash_of(const case_type *type, const char *quantity)
 {
     uint64_t hash = 14695981039346656037ULL ^ (uint64_t)(uintptr_t)type;
@@ -111,7 +112,8 @@ static uint64_t hash_of(const case_type *type, const char *quantity)
     return hash;
 }
 
-/* Position of the first row of the case and quantity in the hash table, or where it would be. */
+/* Returns the position of the first row of the case and quantity in the hash table, or the free
+ * position where it belongs. */
 static int place_of(const truths *t, const case_type *type, const char *quantity)
 {
     int at = (int)(hash_of(type, quantity) % (uint64_t)t->places);
@@ -142,8 +144,8 @@ int truth_index_next(const truths *t, int i)
     return walk(t, row->type, row->quantity, i < t->indexed ? t->indexed : i + 1);
 }
 
-/* Fills the index from the last row to the first, so that each entry links to the next row of the
- * same quantity. */
+/* Fills the index from the last row to the first one, so that each entry links to the next row
+ * of the same quantity. */
 static void chain(truths *t)
 {
     for (int k = 0; k < t->places; k++)
@@ -182,8 +184,8 @@ void truth_index_free(truths *t)
     t->indexed = t->places = 0;
 }
 
-/* Reads the parameters of a row and checks that they still have the meaning that they had when the
- * table was packed. */
+/* Reads the parameters of a row and checks that they have the same meaning as when the table was
+ * packed. */
 static status check_row(const table_columns *r, const case_type *type, int i, const char *text,
                         uint64_t hash, parameters_words *before, double value[], int any[])
 {
@@ -214,7 +216,7 @@ static int is_known_or_empty(const char *word, const char *choices)
     return word[0] == '\0' || is_known(word, choices);
 }
 
-/* Are formulation and number of elements given as the kind requires? */
+/* Returns 1 when formulation and number of elements are given as the kind requires. */
 static int elements_fit(const truth *row)
 {
     const int of_formulation = row->formulation[0] != '\0';
@@ -269,7 +271,7 @@ static status read_columns(const table_columns *r, loose_columns *loose, truth *
     return columns_strings(r, "parameters", loose->parameters);
 }
 
-/* Does row i repeat the parameters of the previous row? */
+/* Returns 1 when row i repeats the parameters of the previous row. */
 static int is_of_same_point(const loose_columns *loose, int i)
 {
     return i > 0 && loose->hash[i] == loose->hash[i - 1] &&

@@ -7,7 +7,8 @@
 
 #include "elements/shared/parameter.h"
 
-/* FAULT: damaged, or not a beamwork file; *file below 0: nothing is open. */
+/* Opens the file. FAULT: the file is damaged, or is not a beamwork file. *file below 0: nothing
+ * is open. */
 static status truths_file_open(const char *path, hid_t *file, fault *f);
 
 status truths_reserve(truths *t, int more, fault *f)
@@ -102,7 +103,7 @@ static status read_tables(const char *path, hid_t file, const truths_wanted *wha
     return outcome;
 }
 
-/* The caller, read_file, closes *file, also after a failure. */
+/* Reads the tables. The caller, read_file, closes *file, also after a failure. */
 static status read_open(const char *path, const truths_wanted *what, hid_t *file, truths *out,
                         fault *f)
 {
@@ -170,7 +171,7 @@ void truths_free(truths *t)
     memset(t, 0, sizeof *t);
 }
 
-/* Returns 1 for a beamwork file of this version. */
+/* Returns FAULT unless the file is a beamwork file of this version. */
 static status check_schema(hid_t file, const char *path, fault *f)
 {
     char name[64] = "";
@@ -297,7 +298,7 @@ static status read_all(table_columns *c, glossary_entry **out)
     return STATUS_OK;
 }
 
-/* The caller, glossary_read, closes *file, also after a failure. */
+/* Reads the glossary. The caller, glossary_read, closes *file, also after a failure. */
 static status glossary_read_open(const char *path, hid_t *file, glossary *out, fault *f)
 {
     table_columns c = {.path = path, .name = "glossary", .f = f};

@@ -18,9 +18,8 @@ static const char *const names[VERDICT_KINDS] = {"pass",
                                                  "skip",
                                                  "no truth",
                                                  "other model"};
-static const double order_slack = 0.3; /* orders observed on finite meshes are no more accurate than
-                                          this */
-/* a limit differs significantly if it is this many uncertainties away */
+static const double order_slack = 0.3; /* accuracy of orders observed on finite meshes */
+/* a limit differs significantly if it is more than this many uncertainties away */
 static const double surely = 3;
 
 const verdict_kind verdict_defects[VERDICT_DEFECTS] = {
@@ -115,16 +114,16 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
                                      .noise = one->noise != NULL ? one->noise[quantity] : NAN,
                                      .nominal_order = fmax(1, ceil(q->least_order)),
                                      .highest_order = scene_tapers(here) && order.highest > 2
-                                                          ? 2 /* for prismatic pieces */
+                                                          ? 2 /* for prismatic members */
                                                           : order.highest,
                                      .near_zero = q->near_zero};
     return limit_of(&sequence);
 }
 
-/* Is the order known and too low? Two low orders may agree by accident: if error terms of opposite
- * sign cancel, or if elements are as long as a boundary layer. Therefore with five meshes or more
- * the previous order must also be below the nominal one, and the three must be monotonic. Changes
- * below the uncertainty of the reference value are ignored. */
+/* Returns 1 when the order is known and too low. Two low orders may agree by accident: if error
+ * terms of opposite sign cancel, or if elements are as long as a boundary layer. Therefore, with
+ * five meshes or more, the previous order must also be below the nominal one, and the three
+ * orders must be monotonic. Changes below the uncertainty of the reference value are ignored. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
     const double least = q->least_order - order_slack, nominal = ceil(q->least_order);
@@ -133,8 +132,8 @@ static int order_is_low(const scene_quantity *q, const verdict *v)
            v->fit.last_change > v->truth->uncertainty;
 }
 
-/* Returns 1 when the limit equals the derived one within both uncertainties. Uses the same measure
- * as for a bias, so that a significantly different limit is not the derived one. */
+/* Returns 1 when the limit equals the derived one within both uncertainties. The criterion is
+ * the same as for a bias, so that a significantly different limit is not the derived one. */
 static int is_predicted(const verdict *v)
 {
     if (v->predicted == NULL)
@@ -143,8 +142,8 @@ static int is_predicted(const verdict *v)
     return apart <= surely * v->fit.limit_uncertainty + v->predicted->uncertainty;
 }
 
-/* Compares with the reference value. A bias is not stated if the uncertainty of the reference value
- * is an estimate. */
+/* Returns the verdict with respect to the reference value. A bias is not stated if the
+ * uncertainty of the reference value is an estimate. */
 static verdict_kind compare(const scene_quantity *q, const verdict *v)
 {
     const double error = fabs(v->fit.limit - v->truth->value), doubt = v->fit.limit_uncertainty;
@@ -160,8 +159,9 @@ static verdict_kind compare(const scene_quantity *q, const verdict *v)
     return order_is_low(q, v) ? VERDICT_LOW_ORDER : VERDICT_PASS;
 }
 
-/* Values of truth.theory that apply to the formulation; NULL: any. A formulation whose modes
- * exclude shear follows a theory of its own; its limits are compared with any reference value. */
+/* Returns the values of truth.theory that apply to the formulation; NULL: any. A formulation
+ * whose modes exclude shear has a theory of its own; its limits are compared with any reference
+ * value. */
 static const char *theories_of(const scene *s, const element_type *type)
 {
     switch (features_theory(s, type)) {
@@ -211,8 +211,8 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
     v->predicted = truth_predicted(t, p->type, p->parameter, name, one->formulation.key);
 }
 
-/* Finds a published value of the same model and theory that ranks below the reference value, if the
- * limit differs from it. */
+/* Returns a published value of the same model and theory that ranks below the reference value,
+ * if the limit differs from it; otherwise NULL. */
 static const truth *contradiction(const sweep *s, const truths *t, const verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -231,7 +231,7 @@ static const truth *contradiction(const sweep *s, const truths *t, const verdict
     return NULL;
 }
 
-/* Reports another model; its values get no verdict. */
+/* Sets the verdict for another model, whose values are not evaluated. */
 static void say_other_model(const series *one, verdict *v)
 {
     char words[OMISSION_TEXT];
@@ -323,7 +323,7 @@ static const char *quantity_of(const sweep *s, const verdict *v)
     return s->point[series_of(s, v)->point].scene.quantity[v->quantity].name;
 }
 
-/* Does one rule explain both verdicts? */
+/* Returns 1 when one rule explains both verdicts. */
 static int same_rule(const sweep *s, const verdict *a, const verdict *b)
 {
     return a->needs_finding && b->needs_finding && a->kind == b->kind &&
@@ -331,7 +331,7 @@ static int same_rule(const sweep *s, const verdict *a, const verdict *b)
            strcmp(series_of(s, a)->formulation.key, series_of(s, b)->formulation.key) == 0;
 }
 
-/* Index of the first verdict with the same rule, and also with the same quantity. */
+/* Returns the index of the first verdict with the same rule and, if given, the same quantity. */
 static int first_of(const sweep *s, const judgement *j, int index, int quantity)
 {
     const verdict *v = &j->verdict[index];

@@ -12,7 +12,7 @@
 
 #include "harness/numerics/numerics.h"
 
-/* A task and, if there is one, another task with the same results. */
+/* A task and, if there is one, an earlier task with the same results. */
 typedef struct asked {
     const workload *w;
     const cell_request *request;
@@ -62,8 +62,8 @@ static int is_known(void *context, const model *m)
     return a->same >= 0;
 }
 
-/* Runs the equivalent scene of a repetition, for its values only; gives no result if that scene is
- * invalid. */
+/* Runs the equivalent scene of a repetition, for its values only. There is no result if that
+ * scene is invalid. */
 static void run_again(const workload *w, const asked *a, cell_request *request, cell_result *out)
 {
     const sweep_point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
@@ -80,7 +80,7 @@ static void run_again(const workload *w, const asked *a, cell_request *request, 
     scene_free(&edited);
 }
 
-/* Returns the task with the same results, or -1 and the results in *out. */
+/* Returns the task with the same results; -1: the results are in *out. */
 static int run_task(const workload *w, int i, int alone, cell_result *out)
 {
     cell_request request = sweep_cell(w->s, w->tasks[i].series, w->tasks[i].mesh);
@@ -192,7 +192,7 @@ static int grow(worker *from)
     return 0;
 }
 
-/* Returns 0, SERIALISE_DAMAGED or SERIALISE_NO_MEMORY. */
+/* Stores a received result. Returns 0, SERIALISE_DAMAGED or SERIALISE_NO_MEMORY. */
 static int take_result(workload *w, const heading *head, char *bytes)
 {
     if (head->same >= 0) {
@@ -209,7 +209,8 @@ static int take_result(workload *w, const heading *head, char *bytes)
     return bad;
 }
 
-/* Is this the header of an unfinished task? A worker with corrupted memory may write anything. */
+/* Returns 1 when this is the header of an unfinished task. A worker with corrupted memory may
+ * write anything. */
 static int is_heading(const workload *w, const heading *head)
 {
     enum { LARGEST = 1 << 30 }; /* [bytes] */
@@ -225,7 +226,7 @@ static int spoilt(worker *from)
     return WORKER_ENDED;
 }
 
-/* Reads all complete results; returns as worker_receive. */
+/* Reads all complete results. Returns the same values as worker_receive. */
 static int take_whole(workload *w, worker *from)
 {
     size_t at = 0;

@@ -7,11 +7,11 @@
 
 #include "harness/numerics/numerics.h"
 
-/* The edit that makes equivalent scene number `repetition`. */
+/* Returns the edit that makes equivalent scene number `repetition`. */
 static scene_edit noise_words(const formulation *, int repetition);
-/* Sets series.noise to twice the larger of the two relative differences (relative to the value or
- * near_zero), or to the error of finite differences if the formulation uses them; NAN if a value or
- * a repetition is missing. Returns -1 when out of memory. */
+/* Sets series.noise to twice the larger of the two differences, relative to the value or
+ * near_zero. If the formulation uses finite differences and their error is larger, noise is that
+ * error. NAN: a value or a repetition is missing. Returns -1 when out of memory. */
 static int noise_take(const sweep_point *, const cell_result again[NOISE_REPETITIONS], series *);
 
 static int is_run(const sweep *s, int i)
@@ -41,8 +41,8 @@ static void list_tasks(workload *w)
     w->board->ended = w->due == 0;
 }
 
-/* Allocates for the largest number of tasks that may be added: each repetition once, and each
- * separate solution once. */
+/* Allocates a board for the largest number of tasks that may be added: each repetition once, and
+ * each separate solution once. */
 static board *alloc_board(int all, size_t *size)
 {
     *size = sizeof(board) + 2 * ((size_t)all + 1) * sizeof(atomic_int);
@@ -102,8 +102,9 @@ void workload_end(workload *w)
     free(w->after);
 }
 
-/* Takes task i, the nth of a counter. The worker first records that it works on the task, so that
- * the task is not lost if the worker ends in between. Returns 0 if another worker took it. */
+/* Takes task i, which is number n of a counter. The worker first records that it works on the
+ * task, so that the task is not lost if the worker ends in between. Returns 0 if another worker
+ * has taken the task. */
 static int take(board *b, int self, atomic_int *counter, int n, int i)
 {
     b->since[self] = clock_wall_seconds();
@@ -166,7 +167,8 @@ static void begin_noise(workload *w, int i)
         say(w, task_of_noise(w, i, k));
 }
 
-/* Marks a series as complete; *last: its last task. */
+/* Handles a series whose tasks are all done: adds the repetitions of its finest mesh if its
+ * scatter is needed, otherwise marks the series as complete. *last: its last task. */
 static void all_done(workload *w, int i, const workload_task *last)
 {
     series *one = &w->s->series[i];
@@ -195,7 +197,7 @@ static void mark(workload *w, int i)
         sem_post(&w->board->news);
 }
 
-/* 0: copied. */
+/* Copies a result. Returns 0 on success. */
 static int copy(const cell_result *from, cell_result *to)
 {
     char *bytes = NULL;
@@ -212,8 +214,8 @@ static int copy(const cell_result *from, cell_result *to)
     return bad;
 }
 
-/* Copies the results of another, completed task. A failed solution is repeated by each task,
- * because messages differ. */
+/* Copies the results of another task, which is complete. A failed solution is repeated by each
+ * task, because the messages differ. */
 static void settle(workload *w, int i, int same)
 {
     if (workload_cell(w, same)->solve.status == STATUS_OK &&
@@ -304,7 +306,7 @@ static double value_of(const cell_result *cell, int quantity)
                : NAN;
 }
 
-/* Twice the larger difference; NAN if one is unknown. */
+/* Returns twice the larger difference; NAN if one of the values is unknown. */
 static double noise_of(const scene_quantity *q, double value, const double again[NOISE_REPETITIONS])
 {
     double largest = 0;
@@ -330,7 +332,8 @@ static int noise_take(const sweep_point *p, const cell_result again[NOISE_REPETI
             value[k] = value_of(&again[k], q);
         const double measured =
             noise_of(&p->scene.quantity[q], value_of(&one->cell[one->meshes - 1], q), value);
-        /* errors of finite differences are equal on all meshes and in equivalent scenes */
+        /* errors of finite differences are the same on all meshes and in equivalent scenes, so
+         * that scatter does not show them */
         one->noise[q] =
             isnan(measured) ? measured : fmax(measured, adapters_error(one->formulation.type));
     }
@@ -345,7 +348,7 @@ int noise_cells(const sweep *s)
     return cells;
 }
 
-/* Claim of one task; key 0: free. */
+/* Claim of one task; key 0: the place is free. */
 typedef struct process_claim {
     _Atomic uint64_t key, check;
     atomic_int task; /* task + 1; 0: not yet written */
@@ -375,7 +378,8 @@ void claims_free(claims *c)
         munmap(c, c->size);
 }
 
-/* Is it the same problem? A claim that is still being written counts as a different problem. */
+/* Returns 1 when the claim is for the same problem. A claim that is still being written counts
+ * as a different problem. */
 static int is_same(process_claim *at, const identity *what)
 {
     return atomic_load(&at->task) != 0 && atomic_load(&at->check) == what->part[1];

@@ -9,10 +9,11 @@
 
 enum { PIECES = 4, MOST_HALVINGS = 200 }; /* intervals of a step; each is searched for one root */
 
-static const double no_sign = 1e-13, /* relative to the size of the quantity; a smaller value has no
-                                        sign */
-    a_jump = 1e-3; /* the sign changes by a jump if the value found is not below this fraction of
-                      the values around it: a rotation vector reverses at half a revolution */
+static const double no_sign = 1e-13, /* relative to the size of the quantity; a value smaller
+                                        than this has no sign */
+    a_jump = 1e-3; /* the sign changes by a jump, and not through zero, if the value found is not
+                      below this fraction of the values around it: a rotation vector reverses at
+                      half a revolution */
 
 static void begin(const watches *s, watched *one, const scene_quantity *q)
 {
@@ -49,13 +50,13 @@ void watches_free(watches *s)
     instant_free(&s->at);
 }
 
-/* Value as extracted, from the polynomial inside the step. */
+/* Returns the value before factor and offset, from the polynomial inside the step. */
 static double value_at(watches *s, const watched *one, double time)
 {
     return between_reading(&s->inside, one->q, time, &s->at);
 }
 
-/* Slope; exact if the quantity is a quartic of the polynomial. */
+/* Returns the slope of this value; exact if the quantity is a quartic of the polynomial. */
 static double slope_at(watches *s, const watched *one, double time)
 {
     const double d = (s->inside.to->time - s->inside.from->time) / 64;
@@ -71,8 +72,8 @@ static double above_level(watches *s, const watched *one, double time)
     return value_at(s, one, time) - one->q->passing.level;
 }
 
-/* Root between a and b, where f has values fa and fb of opposite sign: secant steps, bisection when
- * these are slow. */
+/* Returns the root between a and b, where f has values fa and fb of opposite sign. Uses secant
+ * steps, and bisection when these are slow. */
 static double root(watches *s, const watched *one, along *f, double a, double fa, double b,
                    double fb)
 {
@@ -94,7 +95,7 @@ static double root(watches *s, const watched *one, along *f, double a, double fa
     return fabs(fa) < fabs(fb) ? a : b;
 }
 
-/* Difference between a side step to the given time and the polynomial. */
+/* Computes the difference between a side step to the given time and the polynomial. */
 static status disagreement(watches *s, const watched *one, const instant *from, double time,
                            double *out, fault *f)
 {
@@ -132,7 +133,7 @@ static status crossed(watches *s, watched *one, const instant *from, double time
     return STATUS_OK;
 }
 
-/* Is a crossing to this side counted? */
+/* Returns 1 when a crossing to this side is counted. */
 static int counts(const watched *one, int side)
 {
     const scene_direction way = one->q->passing.direction;
@@ -196,8 +197,9 @@ static status watch_extreme(watches *s, watched *one, const instant *from, doubl
     return STATUS_OK;
 }
 
-/* Six-point Gauss quadrature: exact for squares of fifth-degree polynomials. A root mean square is
- * computed relative to the largest value so far, so that its square does not overflow. */
+/* Adds a part of a mean by six-point Gauss quadrature, which is exact for squares of
+ * fifth-degree polynomials. A root mean square is computed relative to the largest value so far,
+ * so that its square does not overflow. */
 static void add_mean(watches *s, watched *one, double a, double b)
 {
     static const double x[] = {0.23861918608319690863, 0.66120938646626451366,
