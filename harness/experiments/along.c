@@ -1,6 +1,6 @@
-/* Loads along one element in linear theory: as exact as forces and moments at its ends, with the
- * stiffness of the element under these (Przemieniecki, Theory of Matrix Structural Analysis, 1968,
- * sec. 5 and 10: Timoshenko's beam). */
+/* Loads along one element in linear theory: the element must be as exact for them as for forces
+ * and moments at its ends, with the stiffness that it has for the latter (Przemieniecki, Theory
+ * of Matrix Structural Analysis, 1968, sec. 5 and 10: Timoshenko's beam). */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -20,20 +20,20 @@ typedef enum support { CANTILEVER, CLAMPED, PROPPED, HINGED, SUPPORTS } support;
 static const char *const support_name[SUPPORTS] = {
     "held at its first node", "clamped at both nodes",
     "clamped at one node and propped at the other", "hinged at both nodes"};
-/* Fixed components of the two nodes, one bit each. */
+/* Fixed components of the two nodes, one bit for each component. */
 static const unsigned held[SUPPORTS][2] = {{63, 0}, {63, 63}, {63, 15}, {15, 7}};
 
-/* Displacement and rotation in a plane, and the sign of the rotation. */
+/* Displacement and rotation in each plane, and the sign of the rotation. */
 static const struct {
     int shift, turn, sign;
 } planes[2] = {{1, 5, 1}, {2, 4, -1}};
 
-/* Flexibility at the end: 1/EA, 1/GIt, and in each plane 1/EI and the flexibility in shear. */
+/* Flexibility at the end: 1/EA, 1/GIt, and in each plane 1/EI and the shear flexibility. */
 typedef struct softness {
     double axial, twist, bend[2], shear[2];
 } softness;
 
-/* Displacements of both nodes; at fixed components, reactions. */
+/* Displacements of both nodes; for fixed components, reactions. */
 typedef struct ends {
     double of[2][SIX];
 } ends;
@@ -63,7 +63,7 @@ static void ask(scene *s, int analysis, int number, scene_extract what)
     scene_add_quantity(s, name, "1", analysis, what);
 }
 
-/* Values of the quantities of the scene. */
+/* Computes the values of the quantities of the scene. */
 static status solve(const formulation *chosen, const scene *s, double value[], fault *f)
 {
     const model_request what = {s, chosen->type, chosen->option, 1, 0, 0};
@@ -83,7 +83,7 @@ static status solve(const formulation *chosen, const scene *s, double value[], f
     return outcome;
 }
 
-/* Shear flexibility of the displacements between nodes (elements/field). */
+/* Returns the shear flexibility of the displacements between nodes (elements/field). */
 static double shear_of(const formulation *chosen, const section *c, int plane)
 {
     const int rigid = !(chosen->type->offers & FEATURE_SHEAR) ||
@@ -91,8 +91,9 @@ static double shear_of(const formulation *chosen, const section *c, int plane)
     return rigid ? 0 : c->F[4 * plane] / c->shear_modulus;
 }
 
-/* REFUSED: for one element, forces and moments at the end do not give the solution of the exact
- * beam; no rule for loads along the element can correct that. */
+/* Measures the flexibility of one element. REFUSED: for forces and moments at the end, the
+ * element does not give the solution of the exact beam; no rule for loads along the element can
+ * correct that. */
 static status measure(const formulation *chosen, softness *out, fault *f)
 {
     double C[SIX * SIX];
@@ -124,7 +125,7 @@ static status measure(const formulation *chosen, softness *out, fault *f)
     return STATUS_OK;
 }
 
-/* Stretch or twist (component c) under a load along the beam. */
+/* Computes stretch or twist (component c) under a load along the beam. */
 static void exact_along(support of, double soft, double load, int c, ends *out)
 {
     const int both = held[of][END] >> c & 1;
@@ -132,8 +133,8 @@ static void exact_along(support of, double soft, double load, int c, ends *out)
     out->of[0][c] = both ? -load * L / 2 : -load * L;
 }
 
-/* Bending in a plane under a force and a moment along the beam, by the force method: R and M hold
- * the end of a cantilever whose root may rotate in a hinge. */
+/* Computes bending in a plane under a force and a moment along the beam, by the force method: R
+ * and M are the forces on the end of a cantilever whose root may rotate in a hinge. */
 static void exact_across(support of, const softness *soft, int k, double along, double turning,
                          ends *out)
 {
@@ -162,7 +163,7 @@ static void exact_across(support of, const softness *soft, int k, double along, 
     end[z] = sign * (of == CLAMPED ? M : t + vt * R + root);
 }
 
-/* Exact values; q: force and moment per length. */
+/* Computes the exact values. q: force and moment per length. */
 static ends exact_ends(support of, const softness *soft, const double q[SIX])
 {
     ends out;
@@ -190,7 +191,7 @@ static status found_ends(const formulation *chosen, support of, const double q[S
     return outcome;
 }
 
-/* Returns the corresponding value of a cantilever, as a scale. */
+/* Returns the corresponding value of a cantilever as a scale. */
 static double size_of(const softness *soft, int component, int reaction)
 {
     const ends of =
@@ -232,7 +233,7 @@ typedef struct taken {
     const specimen *s;
     const node_state *x;
     double q[3 * ELEMENT_ALONG_POINTS];
-    double *inner; /* inner unknowns of x, from which neighbouring states are found */
+    double *inner; /* inner unknowns of x, from which those of neighbouring states are found */
 } taken;
 
 /* Computes the forces with converged inner unknowns, and K if requested. */
@@ -321,7 +322,7 @@ static void check_taken(const specimen *s, claims *c)
         "along: a state under a small load is outside the range that the element can evaluate%s",
         s->words);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
-        for (int b = 0; b < X; b++) { /* the symmetric part is that of the exponential chart */
+        for (int b = 0; b < X; b++) { /* the symmetric part of K is that of the exponential chart */
             const double ua = chart_unit(a, l), ub = chart_unit(b, l),
                          change = (found[a][b] * ub + found[b][a] * ua) * FINER / 2,
                          scale = sqrt(fabs(K[a * (X + 1)] * K[b * (X + 1)]));

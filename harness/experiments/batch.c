@@ -62,8 +62,8 @@ static int write_label(FILE *to, const batch_label *b, size_t size)
     return bad ? -1 : 0;
 }
 
-/* Label, bytes and the last line of the file; the caller frees them. Returns 0, or -1 if memory
- * runs out. */
+/* Assembles the label, the bytes and the last line of the file. The caller frees *out. Returns
+ * 0; -1: out of memory. */
 static int assemble(const batch_label *b, const void *bytes, size_t size, char **out,
                     size_t *length)
 {
@@ -81,7 +81,8 @@ static int assemble(const batch_label *b, const void *bytes, size_t size, char *
     return fclose(to) != 0 || bad ? -1 : 0;
 }
 
-/* Makes written names survive a power failure; a folder that cannot be synchronised is accepted. */
+/* Ensures that written names survive a power failure. It is not an error if a folder cannot be
+ * synchronised. */
 static void keep_names(const char *folder)
 {
     const int there = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -91,7 +92,7 @@ static void keep_names(const char *folder)
     }
 }
 
-/* Writes under a lock, which shows that the writer is running; the lock ends with the process in
+/* Writes under a lock, which shows that the writer is running. The lock ends with the process in
  * any case. */
 static status write_locked(const char *path, const char *bytes, size_t length, fault *f)
 {
@@ -126,8 +127,9 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
     return outcome;
 }
 
-/* Has the writer of a temporary file ended, so that the file is not locked? An empty file may not
- * be locked yet, unless its writer is known to have ended or the file is old. */
+/* Returns 1 when the writer of a temporary file has ended, so that the file is not locked. The
+ * lock of an empty file may still be missing; such a file counts only if its writer is known to
+ * have ended or the file is old. */
 static int is_orphan(const char *path, int gone_for_sure)
 {
     enum { OLD = 60 }; /* [s] */
@@ -174,7 +176,7 @@ static int get_text(const json_t *from, const char *key, char *out, size_t size)
     return 0;
 }
 
-/* Returns a non-negative whole number; -1: the entry is not one. */
+/* Returns a non-negative whole number; -1: the entry is not such a number. */
 static int get_index(const json_t *from, const char *key)
 {
     const json_int_t value = json_integer_value(json_object_get(from, key));
@@ -203,8 +205,8 @@ static int get_label(const json_t *from, batch_label *b)
     return b->batch >= 0 && b->batch < b->batches && b->shard >= 0 ? 0 : -1;
 }
 
-/* Reads the line with the label; the stream is then after it. *size: number of bytes that
- * follow. */
+/* Reads the line with the label, after which the stream is at the first byte of the results.
+ * *size: number of bytes that follow. */
 static status read_line(FILE *from, const char *path, batch_label *out, long *size, fault *f)
 {
     char *line = NULL;
@@ -238,7 +240,7 @@ status batch_read_label(const char *path, batch_label *out, fault *f)
     return outcome;
 }
 
-/* Checks that nothing but the results lies between the first and the last line. */
+/* Checks that the file contains nothing but the results between the first and the last line. */
 static status check_size(FILE *from, const char *path, long size, fault *f)
 {
     const long begin = ftell(from);

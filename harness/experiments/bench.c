@@ -10,14 +10,15 @@
 #include "harness/numerics/numerics.h"
 #include "harness/terminal/terminal.h"
 
-/* floor: minimum processor time [s] of a round for one cell. If there are several points, only the
- * defaults are measured completely: with the parts of an iteration and, on the middle mesh of each
- * formulation, the run without elimination. At other points rounds are short, and long cells keep
- * the time of their single run. Crashed cells are not run again. dense: the published algorithm is
- * also timed. to: stream of the progress, or NULL. */
+/* Measures the times of a sweep. floor: minimum processor time [s] of a round for one cell. If
+ * there are several points, only the default point is measured completely: with the parts of an
+ * iteration and, on the middle mesh of each formulation, the run without elimination. At other
+ * points rounds are short, and long cells keep the time of their single run. Crashed cells are
+ * not run again. dense 1: the published algorithm is also timed. to: stream for the progress, or
+ * NULL. */
 static status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f);
 
-enum { MOST = 64 };                        /* formulations */
+enum { MOST = 64 };                        /* largest number of formulations */
 static const double floor_seconds = 0.002; /* minimum processor time of a round for one cell */
 
 static int all_formulations(formulation out[MOST])
@@ -30,7 +31,7 @@ static int all_formulations(formulation out[MOST])
     return count;
 }
 
-/* Excludes formulations that solve another model at the point, because the times are used for
+/* Excludes formulations that solve another model at the point, because the times are used for a
  * ranking. */
 static void leave_out_others(sweep *s, int point)
 {
@@ -41,8 +42,8 @@ static void leave_out_others(sweep *s, int point)
     }
 }
 
-/* Plans a case at the given parameters, with the given formulations and meshes (default: all
- * formulations, meshes of the case). */
+/* Plans a case at the given parameters, with the given formulations and meshes. Default: all
+ * formulations, and the meshes of the case. */
 static status plan_case(const bench_request *r, const case_type *type, sweep *s, fault *f)
 {
     double parameter[CASE_MAX_PARAMETERS];
@@ -89,7 +90,7 @@ static status run(const void *asked, void *found, fault *f)
     return run_sweep(&r->cells, &b->sweep, f);
 }
 
-/* Selects the points with verdicts; times are measured there. */
+/* Determines the verdicts, which select the points where times are measured. */
 static status judge(const void *asked, void *found, fault *f)
 {
     const bench_request *r = asked;
@@ -160,11 +161,14 @@ void rounds_run(const cell_request *request, double floor, rounds_reading *out)
         out->round[out->rounds++] = least;
 }
 
-/* [s] of a whole run; a longer time is extrapolated from one iteration */
+/* [s] of a whole run; a longer time is extrapolated from that of one iteration */
 static const double longest_dense = 1;
-enum { MOST_UNKNOWNS = 3000 }; /* 72 MB; a few seconds per iteration */
+enum {
+    MOST_UNKNOWNS = 3000
+}; /* largest number of unknowns: the matrix takes 72 MB, and an
+      iteration takes a few seconds */
 
-/* Number of coordinates, strains and stresses. */
+/* Returns the number of coordinates, strains and stresses. */
 static int unknowns_of(const cell_result *cell)
 {
     return cell->size.free + 2 * cell->size.strains * cell->size.elements;
@@ -201,15 +205,16 @@ void dense_reference_round(const cell_request *own, const cell_result *cell, dou
         rounds_run(&dense, floor, &out->whole);
 }
 
-static const double longest_elsewhere = 0.05; /* [s] of one run */
+static const double longest_elsewhere = 0.05; /* [s] longest run that is repeated at points other
+                                                 than the defaults */
 
 static int at_defaults(const sweep *s, const series *one)
 {
     return strcmp(s->point[one->point].name, "default") == 0;
 }
 
-/* At points other than the defaults, a long cell keeps the time of its single run, and rounds are
- * short. */
+/* Returns 1 when rounds are run for this cell. At points other than the defaults, a long cell
+ * keeps the time of its single run. */
 static int can_run(const sweep *s, const series *one, int mesh)
 {
     const solve_result *r = &one->cell[mesh].solve;
@@ -219,7 +224,7 @@ static int can_run(const sweep *s, const series *one, int mesh)
             r->seconds_setup + r->seconds_solve < longest_elsewhere);
 }
 
-/* Index of the middle one of the meshes that have a solution, or -1. */
+/* Returns the index of the middle one of the meshes that have a solution, or -1. */
 static int mesh_kept_whole(const sweep *s, const series *one)
 {
     if (!at_defaults(s, one))
@@ -230,7 +235,7 @@ static int mesh_kept_whole(const sweep *s, const series *one)
     return one->meshes > 0 && one->cell[mesh].solve.status == STATUS_OK ? mesh : -1;
 }
 
-/* Runs both variants in turn; the difference of their times is the time saved by elimination. */
+/* Runs both variants in turn. The difference of their times is the time saved by elimination. */
 static void round_kept_whole(const cell_request *as_is, double floor, cell_timing *out)
 {
     cell_request whole = *as_is;
@@ -254,11 +259,11 @@ static double sum_of(const double part[PHASES])
     return sum;
 }
 
-/* Makes one run in which the clock is read between the parts of the iterations; keeps the fastest
- * of all rounds. Long cells have only one such run, in the last round. */
+/* Makes one run in which the time of each part of the iterations is measured; the fastest of all
+ * rounds is kept. Long cells have only one such run, in the last round. */
 static void read_phases(const cell_request *as_is, cell_timing *out)
 {
-    const double longest = 0.3; /* [s] */
+    const double longest = 0.3; /* [s] longest run that is repeated in every round */
     cell_request request = *as_is;
     cell_result cell;
     fault f = {""};
@@ -358,8 +363,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The median of n draws lies between the k-th smallest and the k-th largest, except with
- * probability 2 P(Binomial(n, 1/2) < k). */
+/* Returns k such that the median of n draws lies between the k-th smallest and the k-th largest,
+ * except with probability 2 P(Binomial(n, 1/2) < k). */
 static int rank_of_interval(int pairs)
 {
     int k = 0;

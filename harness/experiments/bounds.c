@@ -1,5 +1,5 @@
-/* Guard words around every output: each output is filled completely, and no memory outside it is
- * changed. */
+/* Guard words around every output. They show whether each output is filled completely, and
+ * whether memory outside it is changed. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -215,11 +215,11 @@ void checks_bounds(const formulation *chosen, claims *out)
     specimens_each(chosen, out, check);
 }
 
-/* Elements keep no state: the results of a call depend only on its arguments. */
+/* Elements have no hidden state: the results of a call depend only on its arguments. */
 
 enum { STATELESS_M = SPECIMEN_STRAINS, STATELESS_N = SPECIMEN_COORDINATES };
 
-static const double longer = 1.7 * 0.2385; /* [m] */
+static const double longer = 1.7 * 0.2385; /* [m] length of the other element */
 
 /* All results of an element for one state. */
 typedef struct call_account {
@@ -287,8 +287,8 @@ static void same(const call_account *a, const call_account *b, const char *after
                 other, after, s->words);
 }
 
-/* Prepares an element of another length, in its own memory or in place of the first, which is
- * prepared again. Both elements must give the same results as without previous calls. */
+/* Prepares an element of another length, in memory of its own or in place of the first element,
+ * which is then prepared again. Both elements must give the same results as without these calls. */
 static void other_element(const specimen *s, const call_account *before, const node_state x[],
                           const call_account *first, claim *one)
 {
@@ -306,7 +306,8 @@ static void other_element(const specimen *s, const call_account *before, const n
     specimen_free(&other);
 }
 
-/* Prepares the element again in its own memory. Returns 0 if that fails, which is reported. */
+/* Prepares the element again in its own memory. Returns 0 if this fails; the failure is
+ * reported. */
 static int in_its_place(const specimen *s, const call_account *before, const node_state x[],
                         claim *one)
 {
@@ -336,7 +337,8 @@ static int in_its_place(const specimen *s, const call_account *before, const nod
     return again;
 }
 
-/* Checks that each output requested alone equals the output requested together with the others. */
+/* Checks that each output, when requested alone, equals the output requested together with the
+ * others. */
 static void alone(const specimen *s, const call_account *before, const node_state x[], claim *one)
 {
     call_account a = *before;
@@ -358,8 +360,8 @@ static void alone(const specimen *s, const call_account *before, const node_stat
     same(before, &a, "a call for that output alone", s, one);
 }
 
-/* Finds the same state in two ways, with inner unknowns: directly from rest, and through another
- * state. */
+/* For an element with inner unknowns, finds the same state in two ways: directly from rest, and
+ * through another state. */
 static void two_ways(const specimen *s, const call_account *before, const node_state x[],
                      claim *one)
 {
@@ -389,8 +391,7 @@ static void make_longer(const specimen *s, const node_state x[], call_account *o
     specimen_free(&other);
 }
 
-/* Gives the results of the longer element in the first call of all: in a new process, without
- * previous calls. */
+/* Computes the results of the longer element in a new process, in the first call of all. */
 static void tell_first(const specimen *s, const node_state x[], call_account *out)
 {
     const pid_t parent = getpid();

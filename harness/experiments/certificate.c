@@ -13,14 +13,18 @@
 
 #include "harness/numerics/numerics.h"
 
-enum { MOST_CHILDREN = 64, LOOK = 100 /* [ms] between checks of the clocks */ };
+enum {
+    MOST_CHILDREN = 64,
+    LOOK = 100 /* largest number of processes; [ms] between checks of the
+                  clocks */
+};
 
 /* A process that runs one part; its pipe closes when it ends. */
 typedef struct tester {
     pid_t process;
     int end; /* -1: no process is running */
     int late;
-    double since; /* [s] */
+    double since; /* [s] start of the part */
     certificate *of;
     int part;
 } tester;
@@ -101,7 +105,7 @@ static status start(tester *t, certificate *of, int part, int time_limit, fault 
     return STATUS_OK;
 }
 
-/* Records that a part has ended; if it did not finish, a requirement is violated. */
+/* Records that a part has ended. If the part did not finish, a requirement is violated. */
 static void bury(tester *t, int time_limit)
 {
     char words[100];
@@ -127,7 +131,7 @@ static void stop_late(tester *t, int time_limit)
     kill(t->process, SIGKILL);
 }
 
-/* Skips the remaining parts after a part that exceeded the time limit. */
+/* Skips the parts that follow a part that exceeded the time limit. */
 static void pass_over(certificate *of, int part)
 {
     char why[CLAIM_SENTENCE];
@@ -135,7 +139,7 @@ static void pass_over(certificate *of, int part)
     claims_not_made(&of->part[part].claims, certificate_part_name(part), why);
 }
 
-/* Waits until a process ends, and collects all that have ended. Returns their number. */
+/* Waits until a process ends, and collects all processes that have ended. Returns their number. */
 static int attend(tester all[], int jobs, int time_limit)
 {
     struct pollfd ends[MOST_CHILDREN];
@@ -238,12 +242,13 @@ claim_outcome claims_outcome(const claims *c)
     int held = 0;
     if (claims_counted(c, CLAIM_BROKEN) > 0)
         return CLAIM_BROKEN;
-    for (int i = 0; i < c->count; i++) /* preparing an element does not count as an answer */
+    for (int i = 0; i < c->count; i++) /* an answer is required: preparing an element does not
+                                          count as one */
         held |= c->claim[i].outcome == CLAIM_HOLDS && strcmp(c->claim[i].name, "prepare") != 0;
     return held ? CLAIM_HOLDS : CLAIM_NOT_CLAIMED;
 }
 
-/* Prints a line for each violated requirement, or for all. */
+/* Prints a line for each violated requirement or, if verbose, for all requirements. */
 static void write_claims(FILE *to, screen look, const claims *c, int verbose)
 {
     for (int i = 0; i < c->count; i++) {
@@ -283,7 +288,7 @@ static void write_family(FILE *to, screen look, const certificate *c, int part, 
     write_claims(to, look, own, verbose);
 }
 
-/* "exact", "0.35 %", "3e-05 %". */
+/* Writes an error as "exact", "0.35 %" or "3e-05 %". */
 static void error_text(double error, char text[COLUMN + 8])
 {
     const double percent = 100 * fabs(error);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Certificates as the tables that a paper prints: CSV, Markdown, LaTeX. */
+/* Certificates as tables for a publication: CSV, Markdown, LaTeX. */
 
 enum {
     ROWS = MEASURES_MOST + 2,
@@ -13,7 +13,8 @@ enum {
     CELL = 2 * MEASURE_WORDS
 };
 
-/* Row 0 is the head; a row with `words` has them in place of the cells after its first one. */
+/* Row 0 is the heading. A row with `words` has this text in place of the cells after its first
+ * one. */
 typedef struct paper_table {
     int latex, rows, columns;
     char caption[2 * CELL], label[CELL];
@@ -45,8 +46,8 @@ static void put_text(const paper_table *t, char cell[CELL], const char *text)
     cell[at] = '\0';
 }
 
-/* "0.35", "3e-05" or "$3\cdot10^{-5}$", and a unit. digits: significant ones; 0, -1, ...: -digits
- * after the point of a power of ten. */
+/* Writes a number as "0.35", "3e-05" or "$3\cdot10^{-5}$", and a unit. digits: number of
+ * significant digits; 0, -1, ...: -digits after the decimal point of a power of ten. */
 static void put_number(const paper_table *t, char cell[CELL], int digits, double value,
                        const char *unit)
 {
@@ -67,7 +68,7 @@ static void put_number(const paper_table *t, char cell[CELL], int digits, double
     }
 }
 
-/* As the text of the program says it. */
+/* Writes an error in the same words as the text output. */
 static void put_error(const paper_table *t, char cell[CELL], double error)
 {
     const double percent = 100 * fabs(error);
@@ -86,8 +87,8 @@ static void head(paper_table *t, int column, const char *text)
     t->columns = column + 1;
 }
 
-/* Returns the check whose deviation is the largest part of what is allowed; NULL: none is a number.
- */
+/* Returns the check whose deviation is the largest fraction of the allowed one; NULL: no
+ * deviation is finite. */
 static const claim *worst_of(const claims *c)
 {
     const claim *found = NULL;
@@ -133,7 +134,7 @@ static void fill_requirements(paper_table *t, const certificate *c)
     }
 }
 
-/* "correct" or "wrong" for a linear state, whose limit is checked. */
+/* Returns "correct" or "wrong" for a linear state, whose limit is checked. */
 static const char *state_limit(const claims *c, const char *state, const char *none)
 {
     char name[CLAIM_NAME];
@@ -277,7 +278,7 @@ static const char *what_is_hashed(const certificate *c)
     return strncmp(from, "exec:", 5) == 0 ? "of the files that its command names" : "of its file";
 }
 
-/* What was tested, by which program. */
+/* Writes what was tested, and with which program. */
 static void write_about(FILE *to, int latex, const certificate *c)
 {
     const environment now = environment_now(1);
@@ -361,7 +362,7 @@ static void put_value(FILE *to, double value)
         fprintf(to, "%.17g", value);
 }
 
-/* Writes the columns that all lines have. */
+/* Writes the columns that all lines have in common. */
 static void csv_begin(FILE *to, const certificate *c, int part, const char *name)
 {
     const environment now = environment_now(1);

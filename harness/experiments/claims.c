@@ -217,7 +217,7 @@ status beam_section(const beam_request *r, section *out)
     return section_compute(&spec, out, NULL);
 }
 
-/* The position at the fraction s of the length. */
+/* Computes the position at the fraction s of the length. */
 static void place(const beam_request *r, double s, double at[3])
 {
     const double radius = 2 / PI;

@@ -214,7 +214,7 @@ void axis_text(const sweep_axis *a, double value, char *text, int size)
     assignment_value_text(a->of, value, text, size);
 }
 
-/* Checks whether the parameter may have this value, with the messages of --set. */
+/* Checks whether the parameter may have this value. The messages are those of --set. */
 static status check(const case_type *type, const sweep_axis *a, double value, fault *f)
 {
     const assignment_list list = parameters_list(type);
@@ -302,7 +302,7 @@ static status check_ends(const case_type *type, const sweep_axis *a, fault *f)
                          a->from, a->to);
     TRY(check(type, a, a->from, f));
     TRY(check(type, a, a->to, f));
-    /* at an inner value, for example for a parameter that may only be 0 or 1 */
+    /* checks an inner value, because a parameter may only allow, for example, 0 or 1 */
     return check(type, a, a->count > 2 || a->count == 0 ? axis_at(a, 0.5) : a->to, f);
 }
 

@@ -1,5 +1,5 @@
-/* Compares stress, stiffness and geometric stiffness with differences of the energy, of the stress
- * and of the stiffness. */
+/* Compares stress, stiffness and geometric stiffness with finite differences of the energy, of
+ * the stress and of the stiffness. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -9,9 +9,10 @@
 
 enum { ENERGY_M = SPECIMEN_STRAINS };
 
-static const double moved_by = 0.02; /* [lengths] of the strains that are examined */
+static const double moved_by = 0.02; /* size of the strains that are examined [lengths] */
 
-/* Point at which differences are taken; the unit of a strain is a twentieth of the length. */
+/* Point at which finite differences are computed. The unit of a strain is a twentieth of the
+ * length. */
 typedef struct energy_place {
     const specimen *s;
     const double *e, *inner;
@@ -22,7 +23,7 @@ static double unit_of(const specimen *s)
     return s->request.length / 20;
 }
 
-/* The state with strains i and j moved by si and sj units. */
+/* Computes the state with strains i and j moved by si and sj units. */
 static status at_place(const energy_place *at, int i, double si, int j, double sj,
                        stress_output *out)
 {
@@ -44,7 +45,7 @@ static int stress_at(const void *context, int i, double si, int j, double sj, do
     return (int)at_place(context, i, si, j, sj, &(stress_output){.sigma = values});
 }
 
-/* Size of C[i][j]: that of an entry between two strains with these stiffnesses. */
+/* Returns the size of C[i][j]: that of an entry between two strains with these stiffnesses. */
 static double size_of(const specimen *s, const double C[], int i, int j)
 {
     const int m = s->strains;
@@ -100,8 +101,8 @@ static void check_stiffness(const energy_place *at, const double C[], claims *c)
     }
 }
 
-/* Checks that without strains there is no energy and no stress; straightened curved elements are
- * not examined. */
+/* Checks that without strains there is no energy and no stress. Straightened curved elements are
+ * not checked. */
 static void check_rest(const specimen *s, claims *c)
 {
     const double none[ENERGY_M] = {0};
@@ -199,7 +200,7 @@ void checks_energy(const formulation *chosen, claims *out)
         claims_not_made(out, "G is symmetric", "has no geometric stiffness inside the element");
 }
 
-/* Inertia in a rotating frame: centrifugal force and stiffness derive from the potential, the
+/* Inertia in a rotating frame. Centrifugal force and stiffness derive from the potential, the
  * gyroscopic matrix is skew-symmetric, and the motion of the frame itself has the centrifugal
  * energy. */
 
@@ -292,8 +293,8 @@ static void check_skew(const specimen *s, const double G[], claim *one)
                 i + 1, j + 1, G[i * n + j], G[j * n + i], s->words);
 }
 
-/* Checks that the motion v of the frame itself has the kinetic energy 1/2 v^T M v = -V, and that G
- * v = -2 F. */
+/* Checks that the motion v of the frame itself has the kinetic energy 1/2 v^T M v = -V, where V
+ * is the centrifugal potential, and that G v = -2 F. */
 static void own_motion(const specimen *s, const node_state x[], const inertia_output *out,
                        claims *c)
 {
@@ -344,8 +345,8 @@ static void in_frame(const specimen *s, claims *c)
     own_motion(s, x, &out, c);
 }
 
-/* Centrifugal energy [J] of a uniformly twisted element whose warping amplitudes equal its twist
- * rate. */
+/* Returns the centrifugal energy [J] of a uniformly twisted element whose warping amplitudes
+ * equal its twist rate. */
 static double twisted_energy(const specimen *s, double angle)
 {
     const double ys = s->section.ys, zs = s->section.zs;
@@ -365,8 +366,8 @@ static double twisted_energy(const specimen *s, double angle)
     return V;
 }
 
-/* Fibres that warping moves along the beam rotate at a different distance from the axis: -1/2 int
- * rho (omega a)^2 |Omega x e_x|^2 dV. */
+/* Checks the effect of warping: fibres that warping moves along the beam rotate at a different
+ * distance from the axis. Potential: -1/2 int rho (omega a)^2 |Omega x e_x|^2 dV. */
 static void warping(const specimen *s, claim *one)
 {
     const double angle = 0.005, *w = turning.omega;
@@ -397,7 +398,7 @@ static void rotating_check(const specimen *s, claims *c)
         warping(s, claims_open(c, "centrifugal energy of warping", 2e-4));
 }
 
-/* Makes all checks and repeats those of the rotating frame without some physics, so that the
+/* Makes all checks. Those of the rotating frame are repeated without some physics, so that the
  * remaining terms are tested alone. */
 static void check_all(const specimen *s, claims *c)
 {

@@ -11,8 +11,7 @@ static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f
 
 enum {
     enough_elements = 16
-}; /* from this number on, the neighbours are coarser meshes, below it
-      finer ones */
+}; /* from this index on, the neighbours are coarser meshes; before it, finer ones */
 
 /* Adds a series of neighbouring meshes for the cell of an outcome, once. */
 static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
@@ -35,7 +34,7 @@ static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
     return STATUS_OK;
 }
 
-/* May the number be under-resolved? */
+/* Returns 1 when the number may be under-resolved. */
 static int is_open(const extreme_outcome *o)
 {
     return o->kind == OUTCOME_WRONG && isfinite(o->error);
@@ -88,7 +87,8 @@ static status run(const void *asked, void *found, fault *f)
     return s->outcomes > 0 ? run_cells(asked, &s->first, f) : STATUS_OK;
 }
 
-/* Evaluates an outcome; if it may be under-resolved, it is also computed on other meshes. */
+/* Evaluates all outcomes. If an outcome may be under-resolved, it is also computed on other
+ * meshes. */
 static status judge(const void *asked, void *found, fault *f)
 {
     const extreme_request *request = asked;
@@ -148,7 +148,7 @@ static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f
 static int speaks_of(const extreme_finding *row, const extreme_sweep *s, const extreme_outcome *o)
 {
     const extreme *e = &extremes[o->extreme];
-    const double slack = 1e-9; /* between 1e-4 in a table and pow(10, -4) */
+    const double slack = 1e-9; /* difference between 1e-4 in a table and pow(10, -4) */
     return o->x >= row->from * (1 - slack) && o->x <= row->to * (1 + slack) &&
            fnmatch(row->extreme, e->name, 0) == 0 &&
            fnmatch(row->formulation, s->formulation[o->formulation].key, 0) == 0 &&
@@ -175,7 +175,7 @@ static void count_cell(outcome_kind worst, extreme_count *c)
     c->faults += worst == OUTCOME_FAULT;
 }
 
-/* Counts cells. Outcomes of one cell are consecutive; a cell is as bad as its worst outcome. */
+/* Counts cells. Outcomes of one cell are consecutive; a cell counts as its worst outcome. */
 static void count_cells(extreme_sweep *s)
 {
     outcome_kind worst = OUTCOME_SKIP;
@@ -347,7 +347,7 @@ static const schema_field key_of_count[] = {
 const record_type record_extreme_count = {
     "count", "formulations", "results of a formulation", {key_of_count, fields_of_count}};
 
-/* x, or the name of a quantity, of an extreme. */
+/* Keys: x, or the name of a quantity, of an extreme. */
 static const schema_field key_of_extreme[] = {
     {"extreme", "", FIELD_TEXT, "name of the extreme", .get = get_owner, .key = KEY}, {0}};
 static const schema_field field_of_x[] = {{"x", "1", FIELD_DOUBLE, "extreme value", .get = get_x},

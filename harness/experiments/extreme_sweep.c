@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cell of an outcome; its quantity in the scene; its value on the first mesh (refinement 0) or a
- * neighbouring one (NAN: none). */
+/* Return the cell of an outcome, its quantity in the scene, and its value on the first mesh
+ * (refinement 0) or on a neighbouring one (NAN: none). */
 static const cell_result *extreme_sweep_cell(const extreme_sweep *s, const extreme_outcome *o)
 {
     return &s->first.series[o->series].cell[0];
@@ -87,7 +87,7 @@ static int quantity_index(const extreme_outcome *o, const sweep_point *p)
     return q;
 }
 
-/* The exact value according to the formulation's own shear theory, or NULL. */
+/* Returns the exact value according to the formulation's own shear theory, or NULL. */
 static const truth *exact_value(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
 {
     const sweep_point *p = &s->first.point[o->point];
@@ -95,7 +95,7 @@ static const truth *exact_value(const extreme_sweep *s, const truths *t, const e
     return q < p->scene.quantities ? verdict_truth(t, p, &s->formulation[o->formulation], q) : NULL;
 }
 
-/* Is there an exact value, but only for another shear theory? */
+/* Returns 1 when there is an exact value, but only for another shear theory. */
 static int has_other_theory(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
 {
     const sweep_point *p = &s->first.point[o->point];
@@ -198,7 +198,7 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
     return STATUS_OK;
 }
 
-/* |error| on the meshes that have a value, coarse to fine. */
+/* |error| on the meshes that have a value, from coarse to fine. */
 typedef struct mesh_refinement {
     int count;
     double elements[OUTCOME_NEIGHBOURS + 1], size[OUTCOME_NEIGHBOURS + 1];
@@ -256,8 +256,8 @@ static const struct {
                              [OUTCOME_NO_VALUE] = {'V', "no value"},
                              [OUTCOME_FAULT] = {'F', "fault"}};
 
-/* "0.22", "2e-7" [%], with a sign for the outcome: ~ coarse, ! wrong, ? not expected; a letter for
- * a failure. */
+/* Writes an error as "0.22" or "2e-7" [%], with a sign for the outcome: ~ under-resolved, !
+ * wrong, ? not expected; or a letter for a failure. */
 static void cell_text(const extreme_outcome *o, char *text, size_t size)
 {
     static const char *const mark[OUTCOME_KINDS] = {[OUTCOME_COARSE] = "~", [OUTCOME_WRONG] = "!"};
@@ -313,7 +313,8 @@ static void print_head(FILE *to, const extreme *e)
     fprintf(to, "%*s\n", CONDITION_WIDTH, "cond.");
 }
 
-/* Errors of a formulation and quantity at all values of x, and the worst condition. */
+/* Prints the errors of a formulation and quantity at all values of x, and the worst condition
+ * number. */
 static void print_line(FILE *to, const extreme_sweep *s, const extreme_outcome *o)
 {
     double condition = 0;

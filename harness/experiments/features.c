@@ -9,13 +9,13 @@
 #include "elements/math/rotation.h"
 #include "harness/model/model.h"
 
-/* Each declared feature of the section must change some result of the element, compared with the
- * element without it; warping must change the amplitudes. */
+/* Checks that each declared feature of the section changes some result of the element, compared
+ * with the element without it. Warping must change the amplitudes. */
 static void effects_check(const formulation *chosen, claims *c);
 
 typedef enum feature_outcome { FINITE, REFUSED, BAD, FEATURE_OUTCOMES } feature_outcome;
 
-/* Checks that C of a displaced element is finite. */
+/* Returns 1 when C of a displaced element is finite. */
 static int finite_stiffness(const specimen *s, unsigned seed)
 {
     double inner[SPECIMEN_INNER], e[SPECIMEN_STRAINS], C[SPECIMEN_STRAINS * SPECIMEN_STRAINS];
@@ -31,7 +31,8 @@ static int finite_stiffness(const specimen *s, unsigned seed)
     return 1;
 }
 
-/* Evaluates an element with exactly these features, and returns the reason if it rejects them. */
+/* Evaluates an element with exactly these features. If the type rejects them, `why` gives the
+ * reason. */
 static feature_outcome evaluated(const formulation *chosen, unsigned features, fault *why)
 {
     const specimen_request what = {
@@ -102,8 +103,8 @@ static void features_of_cases(const formulation *chosen, claims *c)
                     "features, limits: the formulation supports none of the built-in cases");
 }
 
-/* Checks that a type rejects at most half of the other subsets, by name, because one feature
- * presupposes another. */
+/* Checks that a type rejects at most half of the other subsets, and names a feature in the
+ * message, because one feature may presuppose another. */
 static void feature_subsets(const formulation *chosen, claims *c)
 {
     enum { OPTIONAL = 7 };
@@ -195,7 +196,7 @@ static int makes(const formulation *chosen, unsigned features, profiles_form for
     return specimen_make(&what, out, &f) == STATUS_OK;
 }
 
-/* 1: a result changes, 0: none changes, -1: one of the two elements is rejected. */
+/* Returns 1: a result changes; 0: none changes; -1: the type rejects one of the two elements. */
 static int changes(const formulation *chosen, unsigned features, unsigned bit, profiles_form form)
 {
     pair p;
@@ -216,7 +217,7 @@ static int changes(const formulation *chosen, unsigned features, unsigned bit, p
     return found;
 }
 
-/* Does the feature change the warping amplitudes of the nodes? */
+/* Returns 1 when the feature changes the warping amplitudes of the nodes. */
 static int warps(const formulation *chosen, unsigned features, profiles_form form)
 {
     specimen s;
@@ -235,8 +236,8 @@ static int warps(const formulation *chosen, unsigned features, profiles_form for
     return found;
 }
 
-/* Returns 1 if the feature changes a result, for a rectangle or, if the type supports it, for an
- * unsymmetric section. */
+/* Returns 1 if the feature changes a result, for a rectangular section or, if the type supports
+ * it, for an unsymmetric one. */
 static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
 {
     const element_type *t = chosen->type;
@@ -253,11 +254,11 @@ static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
 
 static void effects_check(const formulation *chosen, claims *c)
 {
-    /* The list excludes FEATURE_ECCENTRIC, because the shear centre is a constant of the section,
-     * from which elements take it. It excludes FEATURE_TRAPEZE, because that is one of the
-     * second-order terms, and a formulation that omits all of them to show their effect
-     * (beamw_first) gets the same requests as the complete one. Features of the structure, mass or
-     * shape are examined elsewhere. */
+    /* The list excludes FEATURE_ECCENTRIC, because the shear centre is a constant of the
+     * section, from which elements take it. It excludes FEATURE_TRAPEZE, because the trapeze
+     * effect is one of the second-order terms; a formulation that omits all of them to show
+     * their effect (beamw_first) gets the same requests as the complete one. Features of the
+     * structure, the mass or the shape are examined elsewhere. */
     static const unsigned sections[] = {FEATURE_WARPING, FEATURE_SHEAR, FEATURE_WAGNER_MOMENTS,
                                         FEATURE_WAGNER_TORQUE};
     const unsigned all = specimen_features(chosen->type, 0);
@@ -273,7 +274,7 @@ static void effects_check(const formulation *chosen, claims *c)
             claims_asks(one, anywhere(chosen, all, 0) != 0,
                         "declares warping, but no result depends on the warping amplitudes; let "
                         "strains depend on them, or do not declare warping");
-        else /* shear theories are requested together with shear */
+        else /* shear theories are requested only together with shear */
             claims_asks(
                 one,
                 anywhere(chosen, all,
@@ -312,8 +313,8 @@ static void symmetric(const specimen *s, const double A[], claim *one)
                 A[i * n + j], A[j * n + i], s->words);
 }
 
-/* Checks that Cholesky's factors exist of the matrix that is scaled to ones on its diagonal, and
- * slightly increased there. */
+/* Checks that a matrix is positive definite: Cholesky's factors exist after the matrix has been
+ * scaled to ones on its diagonal, and slightly increased there. */
 static void positive(const specimen *s, const double A[], claim *one)
 {
     const int n = s->coordinates;
@@ -331,7 +332,7 @@ static void positive(const specimen *s, const double A[], claim *one)
                 pivot, specimen_coordinate(pivot > 0 ? pivot - 1 : 0, where), s->words);
 }
 
-/* v^T M v of a motion with the velocity field omega x r + shift. */
+/* Returns v^T M v of a motion with the velocity field omega x r + shift. */
 static double energy(const specimen *s, const node_state x[], const double M[],
                      const double omega[3], const double shift[3])
 {
@@ -367,7 +368,7 @@ static void total(const specimen *s, const node_state x[], const double M[], cla
     }
 }
 
-/* Checks that the matrix of an element that is rotated as a whole is the rotated matrix. */
+/* Checks that M of an element that is rotated as a whole is the rotated matrix. */
 static void carried(const specimen *s, const node_state x[], const double M[], claim *one)
 {
     static const double turn[3] = {0.71, -1.93, 1.37};
@@ -397,8 +398,8 @@ static void carried(const specimen *s, const node_state x[], const double M[], c
 }
 
 /* Checks the inertia of a straight element that rotates about its first node. The effect of
- * FEATURE_ROTARY_INERTIA is rho l (Ip, Iy, Iz): about the axis this is the whole inertia, about the
- * other axes it adds to that of the masses on the line. */
+ * FEATURE_ROTARY_INERTIA must be rho l (Ip, Iy, Iz): about the axis this is the whole inertia,
+ * about the other axes it is added to that of the masses on the line. */
 static void moments(const specimen *s, claim *one)
 {
     static const double none[3] = {0, 0, 0};

@@ -1,7 +1,8 @@
-/* Inertia in transient analysis: the forces required by a motion derive from the kinetic energy T =
- * 1/2 x' . M x' by Lagrange's equations,
- *   taken = d(M x')/dt + p x w - dT/dx,  p x w at the rotations of each node,
- * where p = M x' there and w is its angular velocity, x' and derivatives spatial. */
+/* Inertia in transient analysis. The forces required by a motion derive from the kinetic energy T =
+ * 1/2 x' . M x' by Lagrange's equations:
+ *     force = d(M x')/dt + p x w - dT/dx,  with p x w for the rotations of each node,
+ * where p = M x' there and w is the angular velocity of the node. x' and the derivatives are
+ * spatial. */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +13,7 @@
 
 enum { N = SPECIMEN_COORDINATES };
 
-/* Where derivatives of M x' are taken. */
+/* State and rates at which derivatives of M x' are computed. */
 typedef struct moving_place {
     specimen_place at;
     const double *rate; /* [7n] */
@@ -32,7 +33,7 @@ static int momenta_at(const void *context, int i, double si, int j, double sj, d
     return (int)outcome;
 }
 
-/* Forces required by a motion without accelerations, by differences. */
+/* Computes the forces required by a motion without accelerations, by finite differences. */
 static void by_differences(const moving_place *m, const double M[], double h[])
 {
     const specimen *s = m->at.s;
@@ -99,8 +100,8 @@ static void check_rates(const specimen *s, const node_state x[], const double ra
     }
 }
 
-/* Checks that an element that is rotated as a whole, with its rates, requires the rotated
- * forces. */
+/* Checks that an element that is rotated as a whole, together with its rates, requires the
+ * rotated forces. */
 static void check_turned(const specimen *s, const node_state x[], const inertia_output *out,
                          double size, claim *one)
 {
@@ -128,7 +129,7 @@ static void check_turned(const specimen *s, const node_state x[], const inertia_
 static void check_one(const specimen *s, claims *c)
 {
     const int n = s->coordinates;
-    if (n > 2 * NODE_COORDINATES) /* checked with other options */
+    if (n > 2 * NODE_COORDINATES) /* such elements are checked with other options */
         return;
     node_state x[ELEMENT_MAX_NODES];
     double numbers[2 * N], rate[N], acceleration[N], M[N * N], C[N * N], h[N], taken[N], right[N];
@@ -164,7 +165,8 @@ static void check_one(const specimen *s, claims *c)
                  claims_open(c, "inertia forces rotate with the element", 1e-11));
 }
 
-/* Makes the checks, also without rotary inertia, where only the twist has a moment of inertia. */
+/* Makes the checks, and repeats them without rotary inertia, where only the twist has a moment
+ * of inertia. */
 static void check(const specimen *s, claims *c)
 {
     specimen_request what = s->made;

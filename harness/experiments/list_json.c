@@ -19,7 +19,7 @@ static json_t *value_of(const parameter_type *p, double value)
     return json_string(word);
 }
 
-/* "a|b|c". */
+/* Returns a list from "a|b|c". */
 static json_t *choices_of(const parameter_type *p)
 {
     json_t *list = json_array();
@@ -28,14 +28,14 @@ static json_t *choices_of(const parameter_type *p)
     return list;
 }
 
-/* A limit of a parameter; null: none. */
+/* Returns a limit of a parameter; null: none. */
 static json_t *bound_of(const parameter_type *p, double value)
 {
     const int none = p->choices != NULL || value <= -DBL_MAX || value >= DBL_MAX;
     return none ? json_null() : json_real(value);
 }
 
-/* JSON of a table of parameters; value NULL: the defaults. */
+/* Returns a table of parameters. value NULL: the defaults. */
 static json_t *parameters_of(const assignment_list *all, const double value[])
 {
     json_t *list = json_array();
@@ -69,7 +69,7 @@ static json_t *runs_of(const char *what, const runs_on *r)
                      "other_model", r->other);
 }
 
-/* JSON of the declarations of a type with its options. */
+/* Returns the declarations of a type, with its options. */
 static json_t *declaration_of(const formulation *chosen)
 {
     const series one = {.formulation = *chosen};
@@ -183,7 +183,7 @@ status list_json_formulation(FILE *to, const formulation *chosen, const rule *ru
     return json_finish(root, to, f);
 }
 
-/* All valid names, one after the other. */
+/* Returns valid name number i; NULL after the last one. */
 static const char *name_at(const void *context, int i)
 {
     static const char *const words[] = {"cases", "formulations"};

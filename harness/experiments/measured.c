@@ -13,25 +13,26 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
     {"orders", "orders of convergence, and errors with 1 to 32 elements", measured_orders},
 };
 
-/* Errors over thickness/length, from 1 to 1e-6: with locking they grow as the element becomes
- * thin. */
+/* Errors over thickness/length, from 1 to 1e-6. With locking they increase as the element
+ * becomes thinner. */
 
 enum { THICKNESSES = 7, ELEMENTS = 8 };
 
-/* Exact displacement of a straight cantilever under a force, or of a quarter ring under a force
- * towards its centre. */
+/* Returns the exact displacement of a straight cantilever under a force, or of a quarter ring
+ * under a force towards its centre. */
 static double exact_of(const beam_request *r, const section *c)
 {
     const double EI = c->young * c->Iz, EA = c->young * c->A,
                  shear = r->needs & FEATURE_SHEAR ? c->F[0] / c->shear_modulus : 0, radius = 2 / PI;
     if (r->analysis == BEAM_LARGE)
-        return 2 / PI; /* a quarter circle */
+        return 2 / PI; /* for a quarter circle */
     if (r->quarter)
         return PI / 4 * radius * (radius * radius / EI + 1 / EA + shear);
     return 1 / (3 * EI) + shear;
 }
 
-/* Is the error of the thin structure much larger than that of the thick one? */
+/* Draws a conclusion: the element locks if the error of the thin structure is much larger than
+ * that of the thick one. */
 static void conclude(element_measure *one)
 {
     const double thick = fabs(one->error[0]), thin = fabs(one->error[one->points - 1]);
@@ -87,8 +88,8 @@ void measured_locking(const formulation *chosen, claims *c, measures *out)
     over_thickness(&r, "bent by a quarter turn, moment", out);
 }
 
-/* States of a cantilever with a known exact solution: uniform states, which every mesh should
- * reproduce, and linear states, which one element may reproduce. */
+/* States of a cantilever with a known exact solution: uniform states, which every mesh must
+ * reproduce, and linear states, which even one element may reproduce. */
 
 enum { IRREGULAR = 4 };
 static const double fraction[IRREGULAR] = {0.13, 0.37, 0.19, 0.31};
@@ -122,7 +123,7 @@ static const state states[] = {
     {"torsion, warping held", 0, 0, 1, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It, E Iw?"},
 };
 
-/* Exact value of the load's component. */
+/* Returns the exact value of the load's component. */
 static double states_exact_of(const state *s, const section *c, double load)
 {
     const double EIz = c->young * c->Iz, EIy = c->young * c->Iy, GI = c->shear_modulus * c->It;
@@ -140,8 +141,8 @@ static double states_exact_of(const state *s, const section *c, double load)
     return s->direction == 0 ? load / GI : s->direction == 1 ? -load / (2 * EIy) : load / (2 * EIz);
 }
 
-/* Draws a conclusion: an error that does not change with more elements is due to the section, not
- * to the mesh. */
+/* Draws a conclusion: an error that does not change with more elements is due to the section,
+ * not to the mesh. */
 static void states_conclude(const state *s, element_measure *one)
 {
     const double coarse = fabs(one->error[0]), fine = fabs(one->error[1]);
@@ -233,9 +234,13 @@ void measured_states(const formulation *chosen, claims *c, measures *out)
     hold_limits(c, out);
 }
 
-/* Observed and declared order of convergence in the number of elements. */
+/* Observed and declared orders of convergence in the number of elements. */
 
-enum { MESHES = 6, MESHES_Z = 4 /* in z: the order along z should be the same */ };
+enum {
+    MESHES = 6,
+    MESHES_Z = 4 /* number of meshes; for z, where the order should be the same as
+                    for y */
+};
 static const double noise =
     1e-8; /* smaller errors show no order, because the column is not infinitely thin */
 
@@ -258,8 +263,8 @@ static const orders_question questions[] = {
     {"buckling: column along z", BEAM_BUCKLING, ELEMENT_BUCKLING, FEATURE_GEOMETRIC, 2},
 };
 
-/* The elastica with a transverse force at its end, whose end rotates by `angle`: (P L^2/EI,
- * deflection/L). */
+/* Computes the elastica with a transverse force at its end, for an end rotation `angle`: P
+ * L^2/EI and deflection/L. */
 static void elastica(double angle, double *load, double *deflection)
 {
     const double k = sqrt((1 + sin(angle)) / 2), phi = asin(1 / (k * sqrt(2)));
@@ -272,7 +277,7 @@ static void elastica(double angle, double *load, double *deflection)
             root;
 }
 
-/* Applied load, and its exact result. */
+/* Returns the applied load, and its exact result. */
 static double orders_exact_of(const orders_question *q, const section *c, beam_request *r)
 {
     const double EI = c->young * (q->plane == 1 ? c->Iz : c->Iy), lambda = 1.8751040687119611;
@@ -293,8 +298,8 @@ static double orders_exact_of(const orders_question *q, const section *c, beam_r
     }
 }
 
-/* Index of the finer one of the two finest meshes whose errors are above rounding; 0: there are
- * none. */
+/* Returns the index of the finer one of the two finest meshes whose errors are above rounding;
+ * 0: there are none. */
 static int telling(const element_measure *one)
 {
     int last = 0;
@@ -304,7 +309,7 @@ static int telling(const element_measure *one)
     return last;
 }
 
-/* Requires that the observed order is at least the declared minimum. */
+/* Requires that the observed order is not lower than the declared minimum. */
 static void hold_against_declared(const orders_question *q, int last, const element_measure *one,
                                   claims *c)
 {

@@ -54,8 +54,9 @@ static double balance_at(const track *t, int i, scene_balance what)
     return t->record[i].at.balance[what];
 }
 
-/* The first step that ends after all loads have ended. When loads end, accelerations and massless
- * coordinates are computed again, so that the end of the previous step does not count. */
+/* Returns the index of the first step that ends after all loads have ended. When loads end,
+ * accelerations and massless coordinates are computed again; the end of the previous step
+ * therefore does not count. */
 static int first_alone(const track *t, double from)
 {
     int i = 0;
@@ -64,8 +65,8 @@ static int first_alone(const track *t, double from)
     return i;
 }
 
-/* Takes the energies relative to the first step, because the run may have stopped before the last
- * one. */
+/* Computes the energies relative to that of the first step, because the run may have stopped
+ * before the last step. */
 static void take_energy(const track *t, int first, pace_run *r)
 {
     const double before = balance_at(t, first, SCENE_ENERGY);
@@ -78,7 +79,7 @@ static void take_energy(const track *t, int first, pace_run *r)
     }
 }
 
-/* Returns the size of a momentum, or that of its change since `first`. */
+/* Returns the magnitude of a momentum, or of its change since `first`. */
 static double vector_at(const track *t, scene_balance x, int i, int first)
 {
     double square = 0;
@@ -104,7 +105,7 @@ static double momentum_drift(const track *t, int first)
     return largest;
 }
 
-/* Energy that is not explained by work, relative to the largest energy. */
+/* Returns the energy that is not explained by work, relative to the largest energy. */
 static double unexplained(const track *t)
 {
     double most = 0, size = 0;
@@ -145,7 +146,7 @@ void pace_drift(const pace *p, pace_run *r)
 
 const double pace_order_slack = 0.3;
 
-/* Multiples of the uncertainty of the reference and of rounding below which errors are unknown. */
+/* Factors on the uncertainty of the reference and on rounding; smaller errors are unknown. */
 static const double floor_of_reference = 10, floor_of_rounding = 1e-11;
 
 const char *pace_order_name(pace_order_kind kind)
@@ -173,7 +174,7 @@ void pace_order_fill(pace *p)
                               : NAN;
 }
 
-/* Decides from two orders; if they differ much, the order is not yet known. */
+/* Returns the verdict from two orders. If they differ much, the order is not yet known. */
 static pace_order_kind judge(const pace_ladder *l)
 {
     const double least = l->method->order - pace_order_slack;
@@ -222,7 +223,8 @@ int pace_order_is_stopped(const pace_group *g)
 
 const double pace_levels[PACE_LEVELS] = {1e-2, 1e-4, 1e-6};
 
-/* Do both runs belong to one integrator, by steps or by tolerances, and is a the coarser one? */
+/* Returns 1 when both runs belong to one integrator, by steps or by tolerances, and a is the
+ * coarser one. */
 static int is_coarser(const pace_run *a, const pace_run *b)
 {
     return a->group == b->group && strcmp(a->method.name, b->method.name) == 0 &&
@@ -238,7 +240,8 @@ static int is_reached_from(const pace *p, const pace_run *r, double level)
     return 1;
 }
 
-/* Cost at an error level; errors and costs are taken as powers of the step between two runs. */
+/* Returns the cost at an error level. Between two runs, errors and costs are interpolated as
+ * powers of the step size. */
 static double cost_at(const pace *p, const pace_run *r, double level)
 {
     const pace_run *before = r > p->run ? r - 1 : NULL;
@@ -334,7 +337,7 @@ static void print_run(FILE *to, const pace_run *r)
     fputc('\n', to);
 }
 
-/* Prints the reasons why runs ended too early, each once. */
+/* Prints the reasons why runs ended early, each once. */
 static void print_reasons(FILE *to, const pace *p, const pace_group *g)
 {
     const char *last = "";
@@ -362,8 +365,8 @@ static void print_orders(FILE *to, const pace *p, const pace_group *g)
     }
 }
 
-/* Prints the integrators whose error of a quantity does not decrease with the step; returns their
- * number. */
+/* Prints the integrators for which the error of a quantity does not decrease with the step size;
+ * returns their number. */
 static int write_standing(FILE *text, const pace *p, const pace_group *g, int quantity)
 {
     int count = 0;

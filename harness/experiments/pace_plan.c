@@ -6,9 +6,10 @@
 
 #include "elements/shared/choice.h"
 
-/* first, first/ratio, first/ratio^2, ... */
+/* Returns the list first, first/ratio, first/ratio^2, ... */
 static pace_list pace_list_divided(double first, double ratio, int count);
-/* [s] INFINITY: the structure is fixed, driven, or always loaded. */
+/* Returns the time after which no load acts [s]; INFINITY: the structure is fixed, prescribed,
+ * or always loaded. */
 static double pace_alone_from(const scene *s);
 
 enum {
@@ -17,7 +18,9 @@ enum {
     USUAL_TOLERANCES = 3,
     PARTS = 100 /* ratio of consecutive tolerances */
 };
-static const double usual_tolerance = 1e-4, same = 1e-9 /* of a step */;
+static const double usual_tolerance = 1e-4, same = 1e-9 /* usual tolerance of a step; relative
+                                                           difference of equal times */
+    ;
 
 static int motion_of(const scene *s)
 {
@@ -50,7 +53,7 @@ status pace_plan_usual(pace_plan_request *r, fault *f)
 }
 
 /* Sets the stations, where steps of all runs end: the multiples of `spacing` before the end, and
- * the end. */
+ * the end itself. */
 static status stations_of(double spacing, double end, scene_path *out, fault *f)
 {
     const int before = (int)ceil(end / spacing * (1 - same)) - 1;
@@ -65,14 +68,14 @@ static status stations_of(double spacing, double end, scene_path *out, fault *f)
     return STATUS_OK;
 }
 
-/* Changes the point that was added last to that motion. */
+/* Changes the last point of the sweep to that motion. */
 static status set_motion(pace *p, const pace_group *g, const pace_run *r, double spacing, fault *f)
 {
     sweep_point *at = &p->sweep.point[p->sweep.points - 1];
     scene_motion *how = &at->scene.analysis[g->analysis].of.motion;
     how->scheme = r->method.scheme;
-    if (how->mass == SCENE_MASS_USUAL) /* errors are those of time integration: all runs have the
-                                          same mass */
+    if (how->mass == SCENE_MASS_USUAL) /* errors are those of time integration only; therefore
+                                          all runs have the same mass */
         how->mass = SCENE_LUMPED;
     how->alpha = r->method.alpha;
     how->step = r->step;
@@ -80,14 +83,15 @@ static status set_motion(pace *p, const pace_group *g, const pace_run *r, double
     return stations_of(spacing, g->end, &how->path, f);
 }
 
-/* Number of instants at which steps of all runs end, if the spacing divides the time. */
+/* Returns the number of instants at which steps of all runs end, provided that the spacing
+ * divides the duration. */
 static int frames_of(const pace_group *g, double spacing)
 {
     const int parts = (int)ceil(g->end / spacing * (1 - same));
     return 1 + parts * (parts < SHAPES_FEW ? SHAPES_FEW : 1);
 }
 
-/* Adds a series of one mesh at a separate point. */
+/* Adds a series with one mesh at a separate point. */
 static status add_motion(pace *p, const pace_group *g, const pace_plan_request *q, pace_run *r,
                          double spacing, fault *f)
 {
@@ -104,8 +108,8 @@ static status add_motion(pace *p, const pace_group *g, const pace_plan_request *
     return STATUS_OK;
 }
 
-/* Spacing of the instants at which errors are examined between stations. All steps must end there,
- * which requires a whole number of the coarsest steps. */
+/* Returns the spacing of the instants at which errors are examined between stations. All steps
+ * must end there, which requires a whole number of the coarsest steps. */
 static double spacing_of(const pace_group *g, const pace_plan_request *q)
 {
     const double coarsest = q->steps.count > 0 ? q->steps.value[0] : g->step,
@@ -136,8 +140,8 @@ static status add_run(pace *p, const pace_plan_request *q, const pace_run *what,
     return STATUS_OK;
 }
 
-/* If energies are read, a separate step leads to every station, because the reference must not be
- * interpolated between steps. */
+/* If energies are read, requests a separate step to every station, because the reference must
+ * not be interpolated between steps. */
 static void read_exactly(scene *s, int analysis)
 {
     scene_set_curve(scene_add_quantity(s, "energy at all stations", "J", analysis,
@@ -244,7 +248,7 @@ static status refuse(const char *name, fault *f)
     return fault_set(f, STATUS_REFUSED, "--integrator '%.31s': give one of " PACE_METHODS, name);
 }
 
-/* Reads "KEY=NUMBER" of a scheme; *value is the default if the key is not given. */
+/* Reads "KEY=NUMBER" of a scheme. *value is the default if the key is not given. */
 static int read_value(const char *text, const char *key, double most, double *value)
 {
     const size_t length = key != NULL ? strlen(key) : 0;
@@ -364,7 +368,7 @@ static int is_held(const scene_node *n)
     return n->rotation != SCENE_ROTATION_SPATIAL;
 }
 
-/* Is the function zero wherever it is examined after `from`? */
+/* Returns 1 when the function is zero wherever it is examined after `from`. */
 static int is_over(const scene_function *f, double from)
 {
     static const double later[] = {0, 0.37, 1, 7.3, 61};
@@ -416,7 +420,7 @@ static double apart(const double a[3], const double b[3])
     return sqrt(square);
 }
 
-/* Angle between two unit quaternions of any sign; also accurate for small angles. */
+/* Returns the angle between two unit quaternions of any sign; also accurate for small angles. */
 static double angle(const double a[4], const double b[4])
 {
     double less = 0, more = 0;
@@ -427,7 +431,7 @@ static double angle(const double a[4], const double b[4])
     return 4 * atan2(sqrt(fmin(less, more)), sqrt(fmax(less, more)));
 }
 
-/* Largest distance between two nodes in the undeformed structure. */
+/* Returns the largest distance between two nodes in the undeformed structure. */
 static double size_of(const shapes *s)
 {
     double size = 0;

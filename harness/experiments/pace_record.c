@@ -64,7 +64,7 @@ static const schema_field fields_of_run[] = {
 const record_type record_pace_run = {
     "run", "runs", "a motion by one integrator with one step or tolerance", {KEYS, fields_of_run}};
 
-/* Error of a quantity of a run, by its index. */
+/* Returns the error of a quantity of a run, by its index. */
 static void get_quantity_error(const subject *s, field_value *out)
 {
     out->numbers = &((const pace_run *)s->record)->values[s->index];
@@ -143,7 +143,7 @@ static void get_nominal(const subject *s, field_value *out)
     schema_set_number(out, ((const pace_ladder *)s->record)->method->order);
 }
 
-/* Names of quantities whose errors do not decrease with the step. */
+/* Returns the names of quantities whose errors do not decrease with the step size. */
 static void get_standing(const subject *s, field_value *out)
 {
     size_t used = 0;
@@ -329,7 +329,7 @@ static void gather_group(const pace *p, const pace_group *g, const record_type *
         gather_reached(p, g, out);
 }
 
-/* found: motions. */
+/* found: the motions. */
 static void pace_gather(const void *found, const record_type *type, subjects *out)
 {
     const motions *m = found;
@@ -377,7 +377,7 @@ static status plan_axis(const motion_request *r, motions *m, const pace_plan_req
     return STATUS_OK;
 }
 
-/* Plans all values of the varying parameter; without one, the point itself. */
+/* Plans all values of the parameter that varies; if there is none, the point itself. */
 static status plan_points(const motion_request *r, motions *m, pace_plan_request *q, fault *f)
 {
     sweep_axis a;

@@ -6,7 +6,7 @@
 
 #include "elements/shared/choice.h"
 
-/* Tolerance of a decimal logarithm: a factor of two. */
+/* Allowed difference of a decimal logarithm: a factor of two. */
 static const double same_decade = 0.3;
 
 static void say(pace_verdict *v, const char *word)
@@ -20,7 +20,8 @@ static double drift_of(const pace_verdict *v, const pace_run *r)
     return v->kind == PACE_ENERGY_KEPT ? r->energy : r->momentum;
 }
 
-/* Returns the order of a drift at halved steps, from the last two pairs; 0: the two differ. */
+/* Returns the order of a drift at halved steps, from the last two pairs of steps; 0: the two
+ * orders differ. */
 static int drift_order(const pace_verdict *v, const pace_run r[])
 {
     double order[2];
@@ -75,7 +76,7 @@ static void reach_one(const pace *p, pace_verdict *v)
             say(v, r[i].fate != PACE_UNJUDGED ? pace_fate_name(r[i].fate) : "unjudged");
 }
 
-/* Do two lists have the same length and nearly equal numbers? */
+/* Returns 1 when two lists have the same length and nearly equal numbers. */
 static int is_near(const char *a, const char *b)
 {
     while (*a != '\0' && *b != '\0') {
@@ -86,7 +87,7 @@ static int is_near(const char *a, const char *b)
     return *a == *b;
 }
 
-/* Does the verdict agree with the table? */
+/* Returns 1 when the verdict agrees with the table. */
 static int pace_verdict_is_expected(const pace_verdict *v)
 {
     return v->kind == PACE_TOLERANCE ? v->found[0] != '\0' && is_near(v->found, v->expected)
@@ -181,8 +182,8 @@ static status read_row(const own_table_row *row, pace_verdict *v, planned *out, 
     return STATUS_OK;
 }
 
-/* Do the rows differ only in the integrator? Such rows are consecutive and share their
- * reference. */
+/* Returns 1 when the rows differ only in the integrator. Such rows are consecutive and share
+ * their reference. */
 static int is_same(const pace_verdict *a, const pace_verdict *b)
 {
     return (a->kind == PACE_FATE) == (b->kind == PACE_FATE) &&
@@ -223,7 +224,7 @@ static status plan_block(pace *p, pace_verdicts *all, planned row[], int first, 
     return STATUS_OK;
 }
 
-/* Rejects an invalid row, with its position. */
+/* Returns the outcome of an invalid row; the message contains its position. */
 static status refuse(const char *path, const own_table_row *row, status outcome, const fault *why,
                      fault *f)
 {
@@ -272,8 +273,8 @@ static double distance_of_check(const pace *p, const pace_group *g, int check)
                          g->analysis);
 }
 
-/* Order with which the error of the reference decreases with the number of steps, from its
- * checks. */
+/* Returns the order with which the error of the reference decreases with the number of steps,
+ * from its checks. */
 static double order_of_reference(const pace *p, const pace_group *g, double near, double far)
 {
     const double steps = (double)pace_cell_of(p, g->reference + 1)->solve.steps /
@@ -281,9 +282,9 @@ static double order_of_reference(const pace *p, const pace_group *g, double near
     return steps > 1 && near > 0 ? log(far / near) / log(steps) : NAN;
 }
 
-/* Sets the uncertainty and the order of the reference. The errors of the two checks decrease by a
- * ratio from one to the next. The same ratio, with a safety factor of three, gives the uncertainty
- * of the reference; it is at most the distance of the nearer check. */
+/* Sets the uncertainty and the order of the reference. The errors of the two checks decrease by
+ * a ratio. The same ratio, with a safety factor of three, gives the uncertainty of the
+ * reference, which is at most the distance of the nearer check. */
 static void judge_reference(const pace *p, pace_group *g)
 {
     static const double safety = 3;
@@ -320,7 +321,7 @@ static status errors_of(const pace *p, const pace_group *g, pace_run *r, fault *
     return STATUS_OK;
 }
 
-/* [s] end of the last accepted step. */
+/* Returns the end of the last accepted step [s]. */
 static double last_instant(const solve_result *r)
 {
     return r->steps > 0 ? r->step[r->steps - 1].path : 0;

@@ -9,11 +9,11 @@
 /* Writes the columns: the varied parameters, then formulation, elements, quantity, unit, value,
  * reference, reference_kind, error, status, cost, seconds. Missing values are empty. */
 static void ranges_csv_head(FILE *to, const parameter_ranges *r);
-/* Adds points from `first` on. FAULT: out of memory. */
+/* Adds the results of points from `first` on. FAULT: out of memory. */
 static status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *,
                              fault *f);
 
-static const double batch_cost = 0.5; /* [s] */
+static const double batch_cost = 0.5; /* [s] largest estimated cost of a batch */
 enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };
 
 /* Rejects parameters that are given twice, as axes or otherwise. */
@@ -88,7 +88,7 @@ rows_shape ranges_shape(const parameter_ranges *r)
     return (rows_shape){r->formulations, r->meshes, r->quantities};
 }
 
-/* Finds the points of a batch: *first; returns their number. */
+/* Finds the points of a batch, from *first on. Returns their number. */
 static int ranges_batch(const parameter_ranges *r, int batch, long *first)
 {
     *first = batch * r->points_in_batch;
@@ -96,14 +96,14 @@ static int ranges_batch(const parameter_ranges *r, int batch, long *first)
     return (int)(left < r->points_in_batch ? left : r->points_in_batch);
 }
 
-/* A batch under construction. */
+/* A batch that is being computed. */
 typedef struct making {
     const parameter_ranges *of;
     const sweep *s;
     rows *out;
 } making;
 
-/* Index of a quantity in the scene, or -1. */
+/* Returns the index of a quantity in the scene, or -1. */
 static int quantity_of(const scene *s, const char *name)
 {
     for (int i = 0; i < s->quantities; i++)
@@ -161,7 +161,7 @@ static double value_of(const series *one, int mesh, int quantity)
     return is_there ? r->quantity[quantity].value : NAN;
 }
 
-/* Fills the cells of one formulation at one point. */
+/* Computes the cells of one formulation at one point. */
 static void fill_cells(const making *m, int at, int which)
 {
     const series *one = &m->s->series[at * m->of->formulations + which];
@@ -186,7 +186,8 @@ static void fill_cells(const making *m, int at, int which)
     }
 }
 
-/* Fills the errors of one formulation against its reference, and the coarsest sufficient mesh. */
+/* Computes the errors of one formulation with respect to its reference, and the coarsest
+ * sufficient mesh. */
 static void fill_errors(const making *m, int at, int which, int q, int quantity,
                         const point_reference *against)
 {
@@ -208,7 +209,8 @@ static int is_known(const point_reference *r)
     return r->kind != ROWS_NONE && r->kind != ROWS_DISPUTED;
 }
 
-/* Fills one quantity at one point; its reference is that of the first formulation that has one. */
+/* Computes one quantity at one point. Its reference is that of the first formulation that has
+ * one. */
 static void fill_quantity(const making *m, int at, int q, const known_truths *k)
 {
     const sweep_point *p = &m->s->point[at];
@@ -260,8 +262,9 @@ static status solve(const parameter_ranges *r, int batch, sweep *s, rows *out, f
     return STATUS_OK;
 }
 
-/* Stores all points of a batch in rows, which the caller frees, also after a failure. The failure
- * of a point, a cell or a reference value counts as a result. FAULT: memory or processes. */
+/* Computes all points of a batch and stores them in rows, which the caller frees, also after a
+ * failure. The failure of a point, a cell or a reference value counts as a result. FAULT: an
+ * error of the memory or of processes. */
 static status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f)
 {
     sweep s = {.values_only = 1};
@@ -277,7 +280,7 @@ static void add_numbers(digest *to, const double value[], size_t count)
         digest_add_number(to, value[i]);
 }
 
-/* Adds everything except the times. */
+/* Adds everything except the times to the digest. */
 static void add_content(digest *to, const rows *w)
 {
     const size_t points = (size_t)w->points, known = points * (size_t)w->shape.quantities,

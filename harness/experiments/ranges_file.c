@@ -15,8 +15,8 @@ typedef struct file_column {
     const char *name, *unit;
     hid_t type;
     int ranks, size[MOST_RANKS - 1];
-    const void *first; /* first value in these rows; for columns of points: NULL */
-    int missing;       /* whole numbers: the value where nothing was computed */
+    const void *first; /* address of the first value in these rows; NULL for columns of points */
+    int missing;       /* for whole numbers: the value where nothing was computed */
 } file_column;
 
 static int columns_of(const parameter_ranges *r, const rows *w,
@@ -49,7 +49,7 @@ static hsize_t line_of(const file_column *c)
     return line;
 }
 
-/* Number of points in a compressed chunk: whole batches, as long as they are small. */
+/* Returns the number of points in a compressed chunk: whole batches, as long as they are small. */
 static hsize_t piece_of(const parameter_ranges *r, const file_column *c)
 {
     const double most = fmax(1, piece_bytes / (double)(line_of(c) * H5Tget_size(c->type)));
@@ -181,7 +181,7 @@ static void write_piece(record_file *r, hid_t set, const file_column *c, long fi
     H5Sclose(file);
 }
 
-/* Number of the word in the list. */
+/* Returns the number of the word in the list. */
 static double place_of(const sweep_axis *a, double value)
 {
     int i = 0;
@@ -235,7 +235,8 @@ static void write_text(FILE *to, const void *text)
     fputs(text, to);
 }
 
-/* The scene of a point as a string, which the caller frees; "" if scene files cannot express it. */
+/* Writes the scene of a point as a string, which the caller frees; "" if a scene file cannot
+ * express it. */
 static status text_of(const parameter_ranges *r, long index, char **text, fault *f)
 {
     double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];
@@ -254,7 +255,7 @@ static status text_of(const parameter_ranges *r, long index, char **text, fault 
     return *text != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a scene");
 }
 
-/* Name of the scene of the point if the point occurs earlier in the list; else NULL. */
+/* Returns the name of the scene of the point if the point occurs earlier in the list; else NULL. */
 static const char *name_known(const tally *t, int which, int k, long index)
 {
     for (int i = 0; i <= which; i++)

@@ -95,7 +95,8 @@ void ranges_file_request(record_file *r, hid_t at, const parameter_ranges *of, c
     if (q->select != NULL)
         record_text(r, at, "selection", q->select);
     snprintf(noise, sizeof noise, "%.15g", price_noise);
-    record_text(r, at, "cost_noise", noise); /* cost ratios below it count as ties */
+    record_text(r, at, "cost_noise", noise); /* costs whose ratio is below this value count as a
+                                                tie */
     record_count(r, at, "axes", of->design.axes);
     record_number(r, at, "tolerance", q->tolerance);
     H5Dclose(record_array(r, at, "meshes", H5T_NATIVE_INT, 1, &meshes, of->mesh));
@@ -156,7 +157,7 @@ void ranges_points_text(const parameter_ranges *r, const double at[], char *text
 
 enum { LAST_KNOWN = 2 /* kind of reference */ };
 
-/* Names formulations to which this reference does not apply, and the number of such points. */
+/* Names the formulations to which the reference does not apply, and the number of such points. */
 static void say_unmeasured(const tally *t, int q, char *text, size_t size)
 {
     enum { NAMED = 3 };
@@ -208,7 +209,7 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
     say_unmeasured(t, q, text + used, RANGES_TABLE_LINE - used);
 }
 
-/* Groups quantities with the same kind of reference. */
+/* Writes quantities in groups with the same kind of reference. */
 static void write_reference(FILE *to, const tally *t, int q, char told[])
 {
     char text[RANGES_TABLE_LINE], other[RANGES_TABLE_LINE];
@@ -227,7 +228,7 @@ static void write_reference(FILE *to, const tally *t, int q, char told[])
     paragraph_end(&words, begun, 6);
 }
 
-/* Prints the reason why the first point without a scene has none. */
+/* Prints why the first point without a scene has none. */
 static void write_without_scene(FILE *to, const tally *t)
 {
     const parameter_ranges *r = t->of;
@@ -256,8 +257,8 @@ void ranges_table_known(FILE *to, const tally *t)
         write_without_scene(to, t);
 }
 
-/* Does the row mix errors against reference values with errors against limits? Only the former show
- * what a theory omits. */
+/* Returns 1 when the row mixes errors with respect to reference values and errors with respect
+ * to limits. Only the former show the effect of physics that a theory omits. */
 static int is_mixed(const tally *t, int which, int q)
 {
     const tally_series *s = tally_of(t, which, q);
@@ -281,7 +282,7 @@ static void write_place(FILE *to, const tally_place *p, int mixed)
     fprintf(to, "%*s", RANGES_TABLE_COLUMN, text);
 }
 
-/* Value of an axis, in few digits. */
+/* Writes a value of an axis with few digits. */
 static void edge_text(const tally *t, int index, int place, char *text, int size)
 {
     const sweep_axis *a = &t->of->axis[index];
@@ -291,7 +292,7 @@ static void edge_text(const tally *t, int index, int place, char *text, int size
         snprintf(text, (size_t)size, "%.3g", tally_edge(t, index, place));
 }
 
-/* Prints the values of the first axis, sorted by the contents of their lines. */
+/* Prints the values of the first axis as headings of the columns of the map. */
 static void write_columns(FILE *to, const tally *t)
 {
     char edge[ASSIGNMENT_VALUE];
@@ -311,7 +312,7 @@ static void write_fields(FILE *to, const tally *t, const char *label, int which,
     fputc('\n', to);
 }
 
-/* Prints a map for each formulation over two axes, or a line over one. */
+/* Prints, for each formulation, a map over two axes or a line over one axis. */
 static void write_maps_of(FILE *to, const tally *t, int q)
 {
     const parameter_ranges *r = t->of;
@@ -352,7 +353,8 @@ static int has_other(const tally *t)
     return others > 0;
 }
 
-/* Does a field lack a reference? parts: does it contain points both with and without one? */
+/* Returns 1 when a field has no reference; with `parts`, when a field contains points both with
+ * and without one. */
 static int has_unknown(const tally *t, int parts)
 {
     const parameter_ranges *r = t->of;
@@ -364,7 +366,7 @@ static int has_unknown(const tally *t, int parts)
     return unknown;
 }
 
-/* Are there fields with several values? */
+/* Returns 1 when some fields contain several values. */
 static int is_coarse(const tally *t)
 {
     const int shown[] = {t->columns, t->lines};

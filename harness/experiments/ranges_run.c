@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* "sweep.worst" for "sweep.h5", and so on. REFUSED: the name is too long. */
+/* Replaces the ending: "sweep.worst" for "sweep.h5", and so on. REFUSED: the name is too long. */
 static status beside(const char *path, const char *ending, char out[PATH_MAX], fault *f)
 {
     const char *leaf = strrchr(path, '/'), *dot = strrchr(path, '.');
@@ -29,7 +29,7 @@ static int is_ours(const char *name)
            (sscanf(name, "point_%ld.yaml%n", &index, &end) == 1 && end > 0 && name[end] == '\0');
 }
 
-/* Does the folder contain only files of an earlier sweep? Returns 0 if there are others. */
+/* Returns 1 when the folder contains only files of an earlier sweep. */
 static int is_former(const char *folder)
 {
     DIR *at = opendir(folder);
@@ -90,7 +90,8 @@ static status place_output(const range_sweep_request *r, range_sweep *s, fault *
     return check_folder(s->worst, f);
 }
 
-/* Locks the folder until this process ends: of two runs with the same output, one is rejected. */
+/* Locks the folder until this process ends, so that the second of two runs with the same output
+ * is rejected. */
 static status hold_batches(const char *folder, fault *f)
 {
     struct stat there = {.st_nlink = 0};
@@ -115,8 +116,8 @@ static status hold_batches(const char *folder, fault *f)
     return STATUS_OK;
 }
 
-/* Chooses the folder for batches until all are complete: next to the output, or a temporary
- * folder. */
+/* Chooses the folder for batches until all are complete: a folder next to the output, or a
+ * temporary folder. */
 static status place_batches(const char *path, char folder[PATH_MAX], fault *f)
 {
     if (path != NULL) {
@@ -154,8 +155,8 @@ static status run(const void *asked, void *found, fault *f)
     return shard_run(&s->all, &request, &done, f);
 }
 
-/* Begins: all batches read from now on are added to the summary and the file, one at a time in
- * memory. */
+/* Starts the summary and the file. All batches read from now on are added to both, with one at a
+ * time in memory. */
 static status begin(range_sweep *s, fault *f)
 {
     TRY(tally_alloc(&s->ranges, &s->tally, f));
@@ -168,8 +169,8 @@ static status begin(range_sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Finishes after the last batch: scenes of the worst points, and the file. If `taken` is not OK,
- * the file is removed. */
+/* Finishes after the last batch: writes the scenes of the worst points and closes the file. If
+ * `taken` is not OK, the file is removed. */
 static status end(range_sweep *s, status taken, fault *f)
 {
     char content[DIGEST_TEXT];
@@ -184,7 +185,7 @@ static status end(range_sweep *s, status taken, fault *f)
     return taken;
 }
 
-/* Reads the batches of the stock; NULL: the batches that the caller has. */
+/* Reads the batches of the stock. NULL: reads those that the caller supplies. */
 static status take_all(range_sweep *s, const stock *there, fault *f)
 {
     const range_sweep_request *r = s->asked;
@@ -208,8 +209,8 @@ static status remove_batches(const stock *there, const char *folder, fault *f)
     return STATUS_OK;
 }
 
-/* Reads the batches that were computed here, unless some are missing; batches next to an output are
- * then kept. */
+/* Reads the batches that were computed by this process, unless some are missing. Batches next to
+ * an output are then kept. */
 static status collect(range_sweep *s, fault *f)
 {
     const char *const folder[] = {s->batches};
@@ -234,7 +235,7 @@ static status judge(const void *asked, void *found, fault *f)
     return outcome == STATUS_NO_VALUE ? STATUS_OK : outcome;
 }
 
-/* Writes the table; values and the file were written while batches were read. */
+/* Writes the table. Values and the file were written while the batches were read. */
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const range_sweep *s = found;

@@ -92,13 +92,14 @@ static void write_line(FILE *to, const tally *t, int which, int q)
         const int cell = which * r->meshes + mesh;
         const double cost = t->cost[cell] / (double)(t->ran[cell] > 0 ? t->ran[cell] : 1);
         fprintf(to, "   n = %-6d", s->everywhere);
-        if (isfinite(cost)) /* work by differences or in another process has no cost */
+        if (isfinite(cost)) /* with finite differences or another process, the counted work has
+                               no cost */
             fprintf(to, " %.2g ms", 1e3 * cost);
     }
     fprintf(to, s->asked < t->points ? ", %ld points\n" : "\n", s->asked);
 }
 
-/* Prints one quantity, a line for each formulation. */
+/* Prints one quantity, with a line for each formulation. */
 static void write_shares(FILE *to, const tally *t, int q)
 {
     const parameter_ranges *r = t->of;
@@ -114,7 +115,7 @@ static void write_shares(FILE *to, const tally *t, int q)
         write_line(to, t, i, q);
 }
 
-/* Prints the number of elements with which a formulation is within the error at all points. */
+/* Prints the number of elements with which a formulation is within the tolerance at all points. */
 static void write_least(FILE *to, const tally *t, int which, int q, int width)
 {
     const tally_series *s = tally_of(t, which, q);
@@ -150,7 +151,7 @@ static void write_leasts(FILE *to, const tally *t)
     }
 }
 
-/* Explains how points count if some of their quantities have no reference. */
+/* Explains how points are counted if some of their quantities have no reference. */
 static void write_open(FILE *to, const tally *t)
 {
     int open = 0;
@@ -176,7 +177,7 @@ static void write_all_shares(FILE *to, const tally *t, int every)
     }
 }
 
-/* Prints the physics that formulations omit if that makes another model. */
+/* Prints the physics that formulations omit, if they then solve another model. */
 static void write_others(FILE *to, const tally *t)
 {
     for (int i = 0; i < t->of->formulations; i++) {
@@ -204,7 +205,7 @@ static void write_failures(FILE *to, const tally *t)
     }
 }
 
-/* Values on the axes of the point, in a few digits. */
+/* Writes the values on the axes of the point with few digits. */
 static void short_point(const parameter_ranges *r, const double at[], char *text, int size)
 {
     int used = 0;

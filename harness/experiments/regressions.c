@@ -6,11 +6,11 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Allowed increase of an error: on different processors, the kernels of LAPACK change errors near
- * rounding in some series by up to 1.2 %. */
+/* Allowed increase of an error. On different processors, the kernels of LAPACK change errors
+ * near rounding in some series by up to 1.2 %. */
 static const double LARGER = 0.02;
 
-/* Allowed relative change of a limit if no reference value checks it as closely: 1e-5, so that a
+/* Allowed relative change of a limit that no reference value checks as closely. With 1e-5, a
  * fault of 1e-3 is detected wherever a limit changes by a hundredth of the fault. */
 static const double MOVED = 1e-5;
 
@@ -35,7 +35,7 @@ static status read_back(const sweep *s, const judgement *j, stored_results *out,
     return outcome;
 }
 
-/* Adds a line of the comparison, "worse    NAME n=4: WHY". */
+/* Adds a line to the comparison: "worse    NAME n=4: WHY". */
 static status add_line(const char *line, judgement *j, fault *f)
 {
     static const comparison_kind counted[] = {CHANGE_WORSE, CHANGE_GONE};
@@ -87,7 +87,7 @@ static status compare(const stored_results *former, const char *name, const stor
     return outcome;
 }
 
-/* Finds the limit of a quantity of a series at its default point in the former run, or NULL. */
+/* Returns the limit of a quantity of a series at its default point in the former run, or NULL. */
 static const result_limit *limit_of_former(const stored_results *former, const sweep *s,
                                            const verdict *v)
 {
@@ -104,8 +104,9 @@ static const result_limit *limit_of_former(const stored_results *former, const s
     return NULL;
 }
 
-/* Does a reference value check the limit as closely? It does not if it is an estimate, if the limit
- * has a larger uncertainty, or if a known deviation allows the limit to differ. */
+/* Returns 1 when a reference value checks the limit as closely. It does not if it is an
+ * estimate, if the limit has a larger uncertainty, or if a known deviation allows the limit to
+ * differ. */
 static int is_judged_closely(const verdict *v, double slack)
 {
     return (v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED_AS_PREDICTED ||

@@ -7,10 +7,11 @@
 #include "cases/format/format.h"
 #include "cases/scene/scene.h"
 
-/* The scene as the text of a scene file, which the caller frees. REFUSED: a file cannot express
- * it. */
+/* Writes the scene as the text of a scene file, which the caller frees. REFUSED: a scene file
+ * cannot express it. */
 static status restart_text(const scene *, char **out, fault *);
-/* REFUSED: the scene differs from the stored text; the message gives the first different line. */
+/* REFUSED: the scene differs from the stored text; the message gives the first line that
+ * differs. */
 static status restart_text_check(const char *former, const scene *, fault *);
 
 status restart_possible(const scene *s, fault *f)
@@ -197,8 +198,9 @@ typedef struct source {
     const char *path;
 } source;
 
-/* Contents of a data set of rank 1, followed by a zero; NULL: the data set does not exist or has
- * another form. count: number of values; negative on entry: any number. */
+/* Returns the contents of a data set of rank 1, followed by a zero; NULL: the data set does not
+ * exist or has another form. *count: number of values; a negative number on entry accepts any
+ * number. */
 static void *take(const source *from, const char *name, hid_t type, size_t size, long *count)
 {
     const hid_t set =
@@ -339,14 +341,14 @@ static status restart_text(const scene *s, char **out, fault *f)
                      "express this scene: remove --save-state and --restart");
 }
 
-/* Length of the line without leading spaces, which are skipped. */
+/* Returns the length of the line without leading spaces, which are skipped. */
 static int line_of(const char **text)
 {
     *text += strspn(*text, " ");
     return (int)strcspn(*text, "\n");
 }
 
-/* Length of the common text before a difference, and of the reported text of each line. */
+/* Length of the common text before a difference, and of the text that is reported of each line. */
 enum { BEFORE = 30, TOLD = 70 };
 static int told(int length)
 {

@@ -64,7 +64,7 @@ static status hire(crew *c, int self, fault *f)
     return STATUS_OK;
 }
 
-/* Waits for the end of a process, or ends it. Returns the status of waitpid. */
+/* Waits for the end of a process, or ends it. Returns its status from waitpid. */
 static int dismiss(crew *c, int self)
 {
     close(c->hand[self].from);
@@ -83,7 +83,7 @@ static void tell_lost(const crew *c, int batch, int how)
                 WIFSIGNALED(how) ? words : "ended before it was done");
 }
 
-/* Deletes the partly written files of a batch; -1: none. */
+/* Deletes the partly written files of a batch. batch -1: there are none. */
 static void clean(const crew *c, int batch, int gone)
 {
     char stem[BATCH_STEM], name[BATCH_NAME];

@@ -81,7 +81,7 @@ status solution_plan(const solution_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Enters the changes of values that were found while choosing the mesh. */
+/* Stores the changes of values that were found while the mesh was chosen. */
 static status tell_change(const solution_request *r, const solution_choice *why, solve_result *out,
                           fault *f)
 {
@@ -128,7 +128,8 @@ static point_reference of_truth(const scene_quantity *q, const truth *t, rows_re
     return (point_reference){kind, t->value, t->uncertainty / scale_of(q, t->value)};
 }
 
-/* Does another formulation solve the same problem? Shear theories for stability differ. */
+/* Returns 1 when series b solves the same problem as series a. Different shear theories in
+ * stability are different problems. */
 static int same_physics(const sweep *s, int a, int b)
 {
     const series *one = &s->series[a], *other = &s->series[b];
@@ -198,8 +199,8 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
     return found.doubt <= tolerance / 2 ? found : of_limits(s, series_index, quantity, tolerance);
 }
 
-/* Finds the rows of the request that apply at the point: a few of many, since every quantity
- * searches them. */
+/* Finds the rows of the request that apply at the point. These are few of many, and the search
+ * for every quantity is then short. */
 static status borrow(const truths *all, const sweep_point *p, known_truths *out, fault *f)
 {
     out->borrowed = 1;
@@ -223,7 +224,7 @@ static status find_stored(const parameter_ranges *r, const sweep_point *p, known
         return STATUS_OK;
     if (scene_truths_add(q->file, p->parameter, &out->stored, &why) == STATUS_OK)
         return STATUS_OK;
-    truths_free(&out->stored); /* reference values whose expressions have no value here */
+    truths_free(&out->stored); /* removes reference values whose expressions have no value here */
     out->stored = (truths){0};
     return STATUS_OK;
 }
@@ -288,7 +289,7 @@ static status derive(const parameter_ranges *r, const sweep_point *p, known_trut
     fault why;
     parameters_source_text(p->type, p->parameter, text, sizeof text);
     if (case_omits_nothing(p->type, p->parameter))
-        return STATUS_OK; /* the derived values belong to the model of the source */
+        return STATUS_OK; /* the derived values belong to the model of the original source */
     const status outcome =
         r->request.file != NULL
             ? ask_scene(r->request.derive, p, &value, &count, &why)
@@ -305,7 +306,7 @@ static status derive(const parameter_ranges *r, const sweep_point *p, known_trut
     return added;
 }
 
-/* Does every requested quantity have a reference value of the same model? */
+/* Returns 1 when every requested quantity has a reference value of the same model. */
 static int all_stored(const parameter_ranges *r, const sweep_point *p, const truths *t)
 {
     for (int i = 0; i < r->quantities; i++)

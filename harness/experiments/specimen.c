@@ -58,7 +58,7 @@ unsigned specimen_features(const element_type *t, unsigned without)
     return t->offers & ~(unsigned)(FEATURE_CURVATURE | FEATURE_COUPLED) & ~without;
 }
 
-/* splitmix64 (Steele, Lea, Flood, OOPSLA 2014). */
+/* Pseudo-random numbers by splitmix64 (Steele, Lea, Flood, OOPSLA 2014). */
 static double number(unsigned long long *state)
 {
     unsigned long long z = (*state += 0x9e3779b97f4a7c15ULL);
@@ -74,7 +74,7 @@ void specimen_numbers(int count, unsigned seed, double out[])
         out[i] = number(&state);
 }
 
-/* Undeformed state: nodes along the arc of the initial curvature. */
+/* Computes the undeformed state: nodes along the arc of the initial curvature. */
 static void at_rest(const specimen *s, node_state x[])
 {
     static const double ahead[3] = {1, 0, 0};
@@ -162,7 +162,7 @@ const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS])
     return words;
 }
 
-/* Describes the special properties of the specimen. */
+/* Describes the special properties of the test element. */
 static void describe(const specimen_request *what, const formulation *chosen, specimen *s)
 {
     static const char *const section_words[] = {"", ", unsymmetric section",
@@ -174,17 +174,17 @@ static void describe(const specimen_request *what, const formulation *chosen, sp
              curved ? ", initially curved" : "");
 }
 
-/* One variant of the specimen. */
+/* One variant of the test element. */
 typedef struct way {
     const formulation *chosen;
     specimen_request made;
-    int usual; /* 1: the element must be possible */
+    int usual; /* 1: the type must accept the element */
 } way;
 
 static const char failure[] = "its functions return results";
 
-/* Does the element give results at all? If the code of the formulation fails, only this failure is
- * reported, because it causes all other deviations. */
+/* Returns 1 when the element gives results at all. If the code of the formulation fails, only
+ * this failure is reported, because it causes all other deviations. */
 static int gives_answers(const specimen *s, claims *c)
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -314,7 +314,7 @@ static int force_at(const void *context, int i, double si, int j, double sj, dou
     return (int)call(at->s, x, &(force_output){.F = values});
 }
 
-/* Forces times the units of their coordinates [J]; returns the size: the largest. */
+/* Computes forces times the units of their coordinates [J]. Returns the largest magnitude. */
 static double works(const specimen *s, const double F[], double out[])
 {
     double largest = 0;
@@ -342,7 +342,7 @@ static void check_force(const specimen_place *at, const double F[], claim *one)
     }
 }
 
-/* Checks the symmetric part of K only, which is that of the exponential chart. */
+/* Checks only the symmetric part of K, which is that of the exponential chart. */
 static void check_stiffness(const specimen_place *at, const double K[], claim *one)
 {
     const specimen *s = at->s;

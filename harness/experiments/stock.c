@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Are processor and BLAS the same? Hosts may differ. */
+/* Returns 1 when processor and BLAS are the same. Hosts may differ. */
 static int node_same_kind(const machine *, const machine *);
 
 static status path_of(const char *folder, const char *name, char out[PATH_MAX], fault *f)
@@ -39,7 +39,7 @@ static status add_kind(stock *s, const machine *of, fault *f)
     return STATUS_OK;
 }
 
-/* Compares the label of a second file of a batch with that of the first file, which is read
+/* Compares the label of another file of a batch with that of the first file, which is read
  * again. */
 static status hold_against(stock *s, const batch_label *label, const char *path, fault *f)
 {
@@ -94,7 +94,7 @@ static status look_inside(stock *s, const shard_work *w, const char *path, int b
     return outcome;
 }
 
-/* Reports the work to which a batch belongs, which is not this one. */
+/* Returns REFUSED; the message names the other work to which a batch belongs. */
 static status refuse_other(const shard_work *w, const char *path, fault *f)
 {
     batch_label label;
@@ -291,8 +291,8 @@ void deal_order(int batches, const double cost[], int order[])
     qsort_r(order, (size_t)batches, sizeof *order, dearest, (void *)cost);
 }
 
-/* Work of a shard so far. In a heap of these the one with the lowest cost is on top; of equal ones,
- * the first. */
+/* Work of a shard so far. In a heap of these, the one with the lowest cost is at the top; if
+ * costs are equal, the one with the lowest number. */
 typedef struct hand {
     double sum;
     int shard;
@@ -365,7 +365,7 @@ status merge_take(const shard_work *w, const stock *s, fault *f)
     return STATUS_OK;
 }
 
-/* Calls a function without arguments that returns a string, if the library has it. */
+/* Calls a function without arguments that returns a string, if the library has such a function. */
 static const char *answer_of(const char *name)
 {
     char *(*function)(void);
@@ -376,8 +376,8 @@ static const char *answer_of(const char *name)
     return function();
 }
 
-/* Gives the name of the BLAS library: OpenBLAS names itself; for other libraries, the name of the
- * file. */
+/* Finds the name of the BLAS library. OpenBLAS has a function for this; for other libraries the
+ * name of the file is used. */
 static void name_blas(char *out, size_t size)
 {
     const char *config = answer_of("openblas_get_config"),

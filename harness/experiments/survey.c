@@ -13,10 +13,11 @@ enum { LOOKED_AT = 9 };
 typedef struct survey_wanted {
     const char *select;
     select_words words;
-    char formulation[RANGES_FORMULATIONS]; /* 1: the selection holds for one of its quantities */
+    char formulation[RANGES_FORMULATIONS]; /* 1: the selection includes at least one of its
+                                              quantities */
     char runs[RANGES_FORMULATIONS];
-    const char *missing[RANGES_FORMULATIONS]; /* reason why the formulation does not run at the
-                                                 first point where it fails */
+    const char *missing[RANGES_FORMULATIONS]; /* reason why the formulation does not run, at the
+                                                 first point where it does not */
 } survey_wanted;
 
 static status add_point(const parameter_ranges *r, long index, sweep *s, fault *f)
@@ -43,7 +44,7 @@ static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *
     return STATUS_OK;
 }
 
-/* Enters the selected quantities of one series, and whether the series runs. */
+/* Records the selected quantities of one series, and whether the series runs. */
 static status look_at(parameter_ranges *r, const sweep *s, int index, survey_wanted *w, fault *f)
 {
     const series *one = &s->series[index];
@@ -86,8 +87,7 @@ static status check_words(const survey_wanted *w, const sweep_point *p, fault *f
                      word, near);
 }
 
-/* Rejects named formulations that cannot run. If none is named, those that cannot run are
- * omitted. */
+/* REFUSED: a named formulation cannot run. If none is named, those that cannot run are omitted. */
 static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f)
 {
     int kept = 0, told = 0;
@@ -148,7 +148,7 @@ static status judge(parameter_ranges *r, const sweep *s, fault *f)
     return keep_running(r, &w, f);
 }
 
-/* Takes all formulations, before it is known which of them run. */
+/* Includes all formulations, before it is known which of them run. */
 static void take_formulations(parameter_ranges *r)
 {
     const ranges_request *q = &r->request;
@@ -164,7 +164,7 @@ static void take_formulations(parameter_ranges *r)
  * case; for a scene */
 static const double scene_cost = 5e-5, derive_cost = 0.5, derive_scene_cost = 4;
 
-/* [s] estimated cost of all cells. */
+/* Returns the estimated cost of all cells [s]. */
 static double cost_of(const sweep *s)
 {
     double all = scene_cost * s->points;
@@ -197,7 +197,7 @@ status survey(parameter_ranges *r, fault *f)
     return outcome;
 }
 
-/* Rounds to decimal fractions as in tables of reference values. */
+/* Rounds to 15 decimal digits, as in tables of reference values. */
 static double to_15_digits(double value)
 {
     char text[32];
@@ -232,8 +232,8 @@ static scene_edit edit_of(const extreme *e, double x)
     return (scene_edit){SCENE_EDIT_NONE, 0};
 }
 
-/* Does the selection include the formulation? Records the words of the selection that match in any
- * case. */
+/* Returns 1 when the selection includes the formulation. In any case it records the words of the
+ * selection that match. */
 static int is_selected(const extreme_request *request, const extreme *e, const formulation *chosen,
                        select_words *words)
 {
@@ -271,7 +271,7 @@ static int quantity_index(const scene *s, const char *name)
     return -1;
 }
 
-/* Adds one outcome for every quantity of the series just planned. */
+/* Adds one outcome for every quantity of the last planned series. */
 static status add_outcomes(extreme_sweep *out, int extreme_index, int value, int formulation_index,
                            fault *f)
 {

@@ -9,7 +9,7 @@ static int least_of(long a, long b)
     return (int)(a < b ? a : b);
 }
 
-/* Number of places of an axis in the map, at most `most`. */
+/* Returns the number of places of an axis in the map, at most `most`. */
 static int places_of(const parameter_ranges *r, int index, int most)
 {
     if (index >= r->design.axes)
@@ -17,7 +17,7 @@ static int places_of(const parameter_ranges *r, int index, int most)
     const sweep_axis *a = &r->axis[index];
     if (a->count > 0)
         return least_of(a->count, most);
-    /* a few points in each field */
+    /* so that each field contains a few points */
     const double fields =
         r->design.axes > 1 ? sqrt((double)r->design.points / 4) : (double)r->design.points / 2;
     return least_of((long)fmax(1, fields), most);
@@ -100,13 +100,13 @@ static int place_of(const tally *t, int axis_index, double value)
     return low;
 }
 
-/* One formulation and quantity at one point. */
+/* Result of one formulation and quantity at one point. */
 typedef struct seen {
-    int asked;  /* 0: no reference */
+    int asked;  /* 1: the point has a reference */
     int proven; /* 1: the reference is a stored or computed reference value */
     int open;   /* 1: there is a value without a reference */
     int other;  /* 1: the value belongs to another model */
-    int least;  /* 0: never */
+    int least;  /* number of elements of the coarsest sufficient mesh; 0: none */
     char within[SERIES_MAX_MESHES];
 } seen;
 
@@ -171,7 +171,7 @@ static void join(const tally *t, seen *all, const seen *one)
         all->least = one->least;
 }
 
-/* Completes the counts: undecided points may be within the tolerance or outside. */
+/* Completes the counts: points that are undecided may be within the tolerance or not. */
 static void close_counts(seen *all)
 {
     if (!all->open)
@@ -181,7 +181,7 @@ static void close_counts(seen *all)
     memset(all->within, 0, sizeof all->within);
 }
 
-/* Is a worse than b? A missing value is worse than any error. */
+/* Returns 1 when a is worse than b. A missing value is worse than any error. */
 static int is_worse(const tally_worst *a, const tally_worst *b)
 {
     if (isnan(a->error) || isnan(b->error))
@@ -203,8 +203,8 @@ static void keep_worst(tally *t, int which, const tally_worst *one)
     list[at] = *one;
 }
 
-/* Finds the worst result at the point on the finest mesh: no solution, or the largest error of all
- * quantities. */
+/* Finds the worst result at the point on the finest mesh: no solution, or the largest error of
+ * all quantities. */
 static void look_for_worst(tally *t, const rows *w, int here, long index, int which)
 {
     const int finest = t->of->meshes - 1;
@@ -296,7 +296,7 @@ status tally_add(tally *t, long first, const rows *w, fault *f)
     return outcome;
 }
 
-/* Divides the block into columns, the widest numbers first; returns its size [bytes]. */
+/* Divides the block into columns, the widest numbers first. Returns its size [bytes]. */
 static size_t lay_out(rows *r)
 {
     const size_t points = (size_t)r->points, f = (size_t)r->shape.formulations,

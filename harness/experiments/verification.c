@@ -8,11 +8,11 @@
 #include "harness/numerics/numerics.h"
 #include "harness/terminal/terminal.h"
 
-/* Evaluation of series as they arrive. */
+/* State of an evaluation of series as they arrive. */
 typedef struct judging {
     truths *truths;
     judgement *judgement;
-    const verification_reader *reader; /* NULL: none */
+    const verification_reader *reader; /* observer; NULL: none */
     int judged;                        /* number of evaluated series */
 } judging;
 
@@ -39,7 +39,7 @@ static void hand_over(judging *v, const sweep *s, int series_index)
     v->reader->judged(v->reader->context, type);
 }
 
-/* Evaluates the series up to `end`; all their points are complete. */
+/* Evaluates the series before index `end`, whose points are all complete. */
 static status judge_to(judging *v, const sweep *s, int end, fault *f)
 {
     int of = -1;
@@ -53,14 +53,14 @@ static status judge_to(judging *v, const sweep *s, int end, fault *f)
     return STATUS_OK;
 }
 
-/* Evaluates the series of a point together, since the agreement of formulations depends on all of
- * them. */
+/* Evaluates the series of a point together, since the agreement of formulations depends on all
+ * of them. */
 static status whole(void *context, const sweep *s, int series_index, fault *f)
 {
     judging *v = context;
     const int here = s->series[series_index].point;
     if (v->judged < series_index && s->series[v->judged].point != here)
-        TRY(judge_to(v, s, series_index, f)); /* the rest of the previous point was not run */
+        TRY(judge_to(v, s, series_index, f)); /* the rest of the previous point is not run */
     if (series_index + 1 < s->seriess && s->series[series_index + 1].point == here)
         return STATUS_OK;
     TRY(judge_to(v, s, series_index + 1, f));
@@ -97,8 +97,8 @@ static status add_breach(const certificate *c, judgement *out, fault *f)
     return memory_append(&out->breach, &out->breaches, &one, sizeof one, "broken contracts", f);
 }
 
-/* Checks these formulations against the interface before anything is run, because the results of a
- * formulation that violates it are meaningless. */
+/* Checks these formulations against the interface requirements before anything is run. The
+ * results of a formulation that violates them are meaningless. */
 static status hold_contracts(const sweep *s, int jobs, int time_limit, judgement *out, fault *f)
 {
     formulation own[MOST_OWN];
@@ -125,7 +125,8 @@ static status begin(judging *v, const sweep *s, int jobs, int time_limit, fault 
     return hold_contracts(s, jobs, time_limit, v->judgement, f);
 }
 
-/* Evaluates the remaining series: series of a point that an interrupted run did not finish. */
+/* Evaluates the remaining series, which belong to a point that an interrupted run did not
+ * finish. */
 static status end(judging *v, const sweep *s, int everything, fault *f)
 {
     TRY(judge_to(v, s, s->seriess, f));
@@ -185,7 +186,7 @@ static void files_case(void *files, const case_type *type)
         json_part_add(&to->part, to->sweep, to->judged);
 }
 
-/* Gives the path of an output file; for an interrupted run its name says so. */
+/* Computes the path of an output file; for an interrupted run the name says so. */
 static status name_place(const verification_files *files, const char *path, char out[PATH_MAX],
                          fault *f)
 {
@@ -246,7 +247,7 @@ static status write_texts(verification_files *to, const overview *o, const envir
     return to->propose != NULL ? write_proposal(to, f) : STATUS_OK;
 }
 
-/* Writes and closes the store; it is closed in any case. */
+/* Writes the store, and closes it also after a failure. */
 static status write_store(verification_files *to, const environment *e, fault *f)
 {
     char where[PATH_MAX];
@@ -301,7 +302,7 @@ static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Is there a verdict of another program that affects the exit status? */
+/* Returns 1 when there is a verdict on another program that affects the exit status. */
 static int imported_was_judged(const sweep *s, const judgement *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
@@ -320,7 +321,7 @@ static status plan(const void *asked, void *found, fault *f)
     return plan_sweep(&v->asked->cells, &v->truths, &v->sweep, f);
 }
 
-/* Evaluates the series as they arrive. */
+/* Runs the cells and evaluates the series as they arrive. */
 static status run(const void *asked, void *found, fault *f)
 {
     const verification_request *r = asked;
@@ -350,7 +351,8 @@ static status judge(const void *asked, void *found, fault *f)
     return overview_make(&v->sweep, &v->judgement, &v->overview, f);
 }
 
-/* Are all limits shown? Yes with --verbose, or if cases or formulations were selected. */
+/* Returns 1 when all limits are shown: with --verbose, or if cases or formulations were
+ * selected. */
 static int shows_limits(const verification *v)
 {
     return v->asked->verbose || v->asked->cells.select != NULL || v->overview.rows == 1;
@@ -381,7 +383,7 @@ static void print(FILE *to, const verification *v)
     table_run_end(to, look, sentence);
 }
 
-/* Completes the files; the parts for evaluated cases were prepared during the run. */
+/* Completes the files. The parts for evaluated cases were prepared during the run. */
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const verification *v = found;
