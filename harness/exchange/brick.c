@@ -7,15 +7,15 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-/* Position of corner k of n elements on 0 to 1, graded towards both ends. */
+/* Returns the position of corner k of n elements on 0 to 1, graded towards both ends. */
 static double face_graded(int k, int n);
-/* Computes the face of a section; constants: computed from the spec. REFUSED: tubes, given
- * constants, walls oblique to y and z. */
+/* Computes the face of a section. constants: those computed from the spec. REFUSED: the section
+ * is a tube, is given by constants, or has walls oblique to y and z. */
 static status face_of(const section_spec *spec, const section *constants, face *out, fault *f);
 
 enum { BRICK_NODES = 20, DECK_LINE = 10 };
 
-/* Corners, then mid-edge nodes of the lower face, of the upper face and between them, in half
+/* Corners; then mid-edge nodes of the lower face, of the upper face, and between them; in half
  * steps. */
 static const int places[BRICK_NODES][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2},
                                            {2, 0, 2}, {2, 2, 2}, {0, 2, 2}, {1, 0, 0}, {2, 1, 0},
@@ -72,19 +72,19 @@ int brick_next_element(const brick *b)
     return b->first_element + b->elements[BRICK_ALONG] * filled;
 }
 
-/* Fraction of the member at lattice position `at`, from 0 to 1. */
+/* Returns the fraction of the member at lattice position `at`, from 0 to 1. */
 static double share(int at, int n)
 {
     return (face_graded(at / 2, n) + face_graded((at + 1) / 2, n)) / 2;
 }
 
-/* Coordinate of lattice position `at` along an axis of the face [m]. */
+/* Returns the coordinate of lattice position `at` along an axis of the face [m]. */
 static double across(const double corner[], int at)
 {
     return (corner[at / 2] + corner[(at + 1) / 2]) / 2;
 }
 
-/* Is there a brick at this position of the face? */
+/* Returns 1 when there is a brick at this position of the face. */
 static int is_filled(const face *s, int y, int z)
 {
     for (int i = (y - 1) / 2; i <= y / 2; i++)
@@ -94,7 +94,8 @@ static int is_filled(const face *s, int y, int z)
     return 0;
 }
 
-/* A position between corners in two directions has no node. */
+/* Returns 1 when a lattice position has a node. A position between corners in two directions has
+ * none. */
 static int has_node(const brick *b, const int at[3])
 {
     return at[0] % 2 + at[1] % 2 + at[2] % 2 < 2 && is_filled(&b->face, at[BRICK_Y], at[BRICK_Z]);
@@ -168,7 +169,7 @@ void brick_write_elements(const brick *b, FILE *to)
 
 enum { SHEET_RATIO = 4, SHEET_ACROSS = 8, ACROSS = 2, MOST_LINES = 2 * SECTION_MAX_WALLS };
 
-/* Coordinates of a section closer than this, relative to its size, are equal. */
+/* Coordinates of a section are equal if their difference, relative to its size, is below this. */
 static const double same = 1e-9;
 
 /* A wall as a rectangle: its smallest and largest y and z in wall coordinates. */
@@ -201,7 +202,7 @@ static void fill_rectangle(const section_spec *spec, face *out)
         memset(out->filled[i], 1, (size_t)out->elements[1]);
 }
 
-/* Axis along which the wall runs; -1: it is oblique. */
+/* Returns the axis along which the wall runs; -1: the wall is oblique. */
 static int axis_of(const section_spec *spec, int wall)
 {
     const double *p = spec->point[spec->wall[wall].from], *q = spec->point[spec->wall[wall].to];
@@ -211,7 +212,8 @@ static int axis_of(const section_spec *spec, int wall)
     return y > z ? 0 : 1;
 }
 
-/* Extension of the wall beyond its point: half the thickness of the walls at right angles there. */
+/* Returns the extension of the wall beyond its point: half the thickness of the walls at right
+ * angles there. */
 static double extension(const section_spec *spec, int wall, int point)
 {
     double most = 0;
@@ -245,7 +247,8 @@ static int ascending(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Sides of all strips along an axis, without duplicates, ascending; returns their number. */
+/* Lists the sides of all strips along an axis, without duplicates, in ascending order. Returns
+ * their number. */
 static int lines_of(const strip strips[], int count, int axis, double line[MOST_LINES])
 {
     int lines = 0;
@@ -318,7 +321,7 @@ static status fill_walls(const section_spec *spec, const double centroid[2], fac
     return STATUS_OK;
 }
 
-/* Do given constants replace those computed from the dimensions? */
+/* Returns 1 when given constants replace those computed from the dimensions. */
 static int is_overridden(const section_spec *spec)
 {
     double given[sizeof spec->given / sizeof(double)];

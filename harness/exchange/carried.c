@@ -90,8 +90,9 @@ static int held_rotations(const scene_node *n)
     return held;
 }
 
-/* In CalculiX, a rotation node has a rotation vector. Increments about fixed axes are the same only
- * if no rotation, all rotations, or all but one are fixed. */
+/* REFUSED: the rotations of the node cannot be expressed. In CalculiX, a rotation node has a
+ * rotation vector. Increments about fixed axes are the same only if no rotation, all rotations,
+ * or all but one are fixed. */
 static status check_node(const scene *s, int node, fault *f)
 {
     const scene_node *n = &s->node[node];
@@ -226,8 +227,8 @@ static status check_component(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* Requires that a linear step is about the end of the path: CalculiX loses the state after such a
- * step, which must therefore come last. */
+/* Requires that a linear step is about the end of the path. CalculiX loses the state after such
+ * a step, which must therefore be the last one. */
 static status check_last(const scene *s, const scene_quantity *q, fault *f)
 {
     const int about = s->analysis[q->analysis].follows;
@@ -251,8 +252,8 @@ static status check_last(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* About a loaded state the stiffness of a rotation vector corresponds to no convention for
- * moments. */
+/* REFUSED: the entry belongs to a rotation about a loaded state, where the stiffness of a
+ * rotation vector corresponds to no convention for moments. */
 static status check_entry(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_entry *e = scene_entry_of(q);

@@ -76,7 +76,7 @@ static void multiply(unit_measure *a, const unit_measure *b, int power)
         a->power[i] += power * b->power[i];
 }
 
-/* Interprets one character of a unit; returns 0 for a character of a symbol. */
+/* Interprets one character of a unit. Returns 0 for a character of a symbol. */
 static int read_sign(char c, int *side, int *depth)
 {
     if (c == ' ' || c == '*')
@@ -91,7 +91,7 @@ static int read_sign(char c, int *side, int *depth)
     return 1;
 }
 
-/* Reads a unit; returns 0 when the text is not a unit. */
+/* Reads a unit. Returns 0 when the text is not a unit. */
 static int read_unit(const char *text, unit_measure *out)
 {
     int side = 1, depth = 0, symbols = 0;
@@ -140,7 +140,7 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
 
 const axes axes_same = {{0, 1, 2}, {1, 1, 1}};
 
-/* Reads "x=-z" into the entry of x; returns the rest of the text, or NULL. */
+/* Reads "x=-z" into the entry of x. Returns the rest of the text, or NULL after an error. */
 static const char *read_one(const char *at, axes *out, int *seen)
 {
     at += strspn(at, " ");
@@ -174,8 +174,8 @@ static int determinant(const axes *a)
     return (even ? 1 : -1) * a->sign[0] * a->sign[1] * a->sign[2];
 }
 
-/* A component of the other program in beamwork's axes; rotations and moments also change sign in a
- * reflection. */
+/* Returns a component of the other program in beamwork's axes. In a reflection, rotations and
+ * moments also change sign. */
 static int component_of(const axes *a, int theirs, int *sign)
 {
     const int turns = theirs >= SCENE_RX, axis = turns ? theirs - SCENE_RX : theirs - SCENE_UX;
@@ -188,7 +188,7 @@ static int *word_in(const entry_field *k, scene_quantity *q)
     return (int *)((char *)q + k->at);
 }
 
-/* Transforms the extracted component to beamwork's axes; components in axes of a section, or
+/* Transforms the extracted component to beamwork's axes. Components in axes of a section, or
  * without axes, do not change. Returns 1 when the component has axes. */
 static int turn_extract(const axes *a, scene_quantity *q, int *sign)
 {
@@ -206,8 +206,8 @@ static int turn_extract(const axes *a, scene_quantity *q, int *sign)
     return turns;
 }
 
-/* A change of sign turns a maximum into a minimum and a rising crossing into a falling one; a time
- * has no sign. */
+/* Transforms the reduction. A change of sign turns a maximum into a minimum and a rising
+ * crossing into a falling one; a time has no sign. */
 static void turn_reduction(scene_quantity *q, int *sign)
 {
     static const scene_reduction other[SCENE_REDUCTIONS] = {[SCENE_MAX] = SCENE_MIN,

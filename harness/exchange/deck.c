@@ -4,11 +4,11 @@
 
 #include "cases/scene/scene.h"
 
-/* Writes the lines below *NODE for these nodes. */
+/* Writes the lines that follow the keyword *NODE for these nodes. */
 static void body_write_nodes(const body_numbers *, const scene *s, FILE *to);
 /* Writes sets of faces, the bodies, and the set BODIES of all their nodes. bricks: [members]. */
 static void body_write(const body_numbers *, const scene *s, const brick bricks[], FILE *to);
-/* Writes the prescribed coordinates at `path`, below *BOUNDARY. */
+/* Writes the prescribed coordinates at `path`, following the keyword *BOUNDARY. */
 static void body_write_state(const body_numbers *, const scene *s, int acting, double path,
                              FILE *to);
 /* As body_write_state, for a small motion in which the prescribed coordinates do not move.
@@ -19,7 +19,8 @@ static void body_write_held(const body_numbers *, const scene *s, int node, unsi
  * path, with one unit load about its last state. FAULT: out of memory. */
 static status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f);
 static status path_points_of(const scene *s, int analysis, path_points *out, fault *f);
-/* Is the value of the quantity, in the path or an analysis about it, needed at the point? */
+/* Returns 1 when a quantity of the path, or of an analysis about the path, needs its value at
+ * the point. */
 static int path_points_asked(const scene *s, int analysis, const scene_quantity *q, double point);
 
 status deck_check(const deck_request *r, fault *f)
@@ -106,7 +107,7 @@ static status write_areas(const scene *s, const brick bricks[], FILE *to, fault 
     return STATUS_OK;
 }
 
-/* Writes the deck; bricks: [members], work space. */
+/* Writes the deck. bricks[members]: work space. */
 static status write_with(const deck_request *r, brick bricks[], FILE *to, fault *f)
 {
     const scene *s = r->scene;
@@ -164,7 +165,7 @@ static void write_structure_loads(const answers_writer *w, int acting, double pa
         }
 }
 
-/* Writes a state; increments: size of the first increment of the step; 0: linear. */
+/* Writes a state. increments: size of the first increment of the step; 0: linear step. */
 static void write_state(answers_writer *w, int acting, double path, int increments)
 {
     if (increments > 0)
@@ -191,7 +192,7 @@ static void write_unit_load(answers_writer *w, const scene_analysis *a, int comp
     w->steps++;
 }
 
-/* Position of the printed value of a quantity, in the last step. */
+/* Position of the printed value of a quantity in the last step. */
 typedef struct printed {
     const char *what;
     int node, component, reciprocal;
@@ -340,8 +341,8 @@ static int mover(const scene_node *n, int component)
     return turn == axis ? n->angle[0] : SCENE_HELD;
 }
 
-/* Writes the boundary conditions; path NULL: a small motion, in which prescribed coordinates do not
- * move. */
+/* Writes the boundary conditions. path NULL: a small motion, in which prescribed coordinates do
+ * not move. */
 static void write_boundary(const body_numbers *b, const scene *s, int acting, const double *path,
                            int node, unsigned released, FILE *to)
 {
@@ -372,8 +373,8 @@ static void body_write_held(const body_numbers *b, const scene *s, int node, uns
     write_boundary(b, s, 0, NULL, node, released, to);
 }
 
-/* Inserts a value in order, without duplicates; ignores values outside path 0 to the last station.
- */
+/* Inserts a value in order, without duplicates. Ignores values outside the path, which ends at
+ * the last station. */
 static void insert(path_points *p, double value, double last)
 {
     int at = p->count;

@@ -7,7 +7,7 @@
 #include "elements/shared/choice.h"
 #include "harness/formulations/formulations.h"
 
-/* Sorts the values by elements, quantity, abscissa. */
+/* Sorts the values by elements, then quantity, then abscissa. */
 static void import_cells_order(imported *found);
 
 static const scene *scene_of(const import_block *b)
@@ -15,7 +15,7 @@ static const scene *scene_of(const import_block *b)
     return b->point >= 0 ? &b->set->sweep.point[b->point].scene : NULL;
 }
 
-/* Line for error messages about a value. */
+/* Returns the line that error messages about a value name. */
 static int line_of(const import_block *b, const imported_row *row)
 {
     return b->at > 0 ? b->at : row->line;
@@ -65,7 +65,8 @@ static int ends_in(const char *name, const char *ending)
     return length > size && strcmp(name + length - size, ending) == 0;
 }
 
-/* Finds the point of the sweep with these parameters, or creates it; -1 after an error. */
+/* Finds the point of the sweep with these parameters, or creates it. Returns its index, or -1
+ * after an error. */
 static int point_of(import_block *b, const case_type *type, const double value[], int line)
 {
     sweep *s = &b->set->sweep;
@@ -84,7 +85,7 @@ static int point_of(import_block *b, const case_type *type, const double value[]
     return -1;
 }
 
-/* "case; NAME=VALUE; NAME=VALUE" */
+/* Finds the point given by "case; NAME=VALUE; NAME=VALUE". */
 static int find_point(import_block *b, const char *of, int line)
 {
     char name[IMPORT_TEXT], parameters[IMPORT_TEXT];
@@ -112,7 +113,7 @@ static int find_point(import_block *b, const char *of, int line)
     return -1;
 }
 
-/* Convention for moments of the compliances of a scene; -1: none. */
+/* Returns the convention for moments of the compliances of a scene; -1: it has none. */
 static int moments_of(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -198,7 +199,7 @@ static const scene_quantity *find_quantity(const import_block *b, const imported
     return NULL;
 }
 
-/* Does the value depend on the convention for moments on rotating nodes? */
+/* Returns 1 when the value depends on the convention for moments on rotating nodes. */
 static int has_moments(const scene_quantity *q)
 {
     return (q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY) &&
@@ -220,7 +221,7 @@ static void check_row(const import_block *b, const imported_row *row, const scen
                      q->name);
 }
 
-/* Converts to beamwork's axes and units; returns 0 after an error. */
+/* Converts a value to beamwork's axes and units. Returns 0 after an error. */
 static int convert(const import_block *b, const scene_quantity *q, imported_row *row)
 {
     int sign = 1;
@@ -380,7 +381,8 @@ static int take_row(const scene *s, series *one, const imported_row *row)
     if (s->quantity[index].reduction == SCENE_CURVE)
         return add_to_curve(&q->curve, row);
     q->value = row->value;
-    one->noise[index] = NAN; /* the uncertainty on the finest mesh counts; rows ascend */
+    one->noise[index] = NAN; /* only the uncertainty on the finest mesh counts; rows are in
+                                ascending order */
     if (isfinite(row->uncertainty)) {
         const double size = fmax(fabs(row->value), s->quantity[index].near_zero);
         one->noise[index] = size > 0 ? row->uncertainty / size : NAN;
@@ -423,7 +425,7 @@ static status fill(const scene *s, series *one, fault *f)
     return STATUS_OK;
 }
 
-/* Position after the last series of the point. */
+/* Returns the position after the last series of the point. */
 static int place_of(const sweep *s, int point_index)
 {
     int place = s->seriess;

@@ -91,7 +91,7 @@ static void take_header(file_reader *r, const char *key, const char *value)
                      value);
 }
 
-/* Reads "# key: value # remark"; other lines that begin with # are comments. */
+/* Reads "# key: value # remark". Other lines that begin with # are comments. */
 static void read_header(file_reader *r, char *line)
 {
     char *key = line_trim(line + 1), *colon = strchr(key, ':');
@@ -151,7 +151,7 @@ static void read_columns(file_reader *r, char *const field[], int count)
     }
 }
 
-/* Reads a number; returns NAN for an empty field, if that is allowed. */
+/* Reads a number. Returns NAN for an empty field, if that is allowed. */
 static double number_of(const file_reader *r, const char *text, column c)
 {
     double value;
@@ -253,7 +253,7 @@ static status read_line(file_reader *r, char *line, fault *f)
     return STATUS_OK;
 }
 
-/* The caller, import_file_read, frees *line, also after a failure. */
+/* Reads all lines. The caller, import_file_read, frees *line, also after a failure. */
 static status read_lines(file_reader *r, FILE *from, char **line, fault *f)
 {
     size_t room = 0;

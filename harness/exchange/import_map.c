@@ -41,7 +41,8 @@ typedef struct wanted {
     imported_row row;
 } wanted;
 
-/* Index of a column, given by number or by its name in `columns`; -1 after an error. */
+/* Returns the index of a column, which is given by number or by its name in `columns`; -1 after
+ * an error. */
 static int column_named(const map_reader *r, const document_node *at, const char *name)
 {
     const document_node *columns = document_find(r->root, "columns");
@@ -133,7 +134,7 @@ static void take_row(map_reader *r, wanted *w, const double number[], int count,
         import_block_add(&r->block, &w->row);
 }
 
-/* Reads the numbers of a line; returns 0 for any other line. */
+/* Reads the numbers of a line. Returns 0 for a line that does not consist of numbers. */
 static int numbers_of(char *line, double number[WORDS])
 {
     char *word[WORDS];
@@ -215,7 +216,7 @@ static import_header header_of(const map_reader *r)
     return h;
 }
 
-/* Names the data files as the source, instead of the map. */
+/* Records the data files as the source, instead of the map. */
 static void name_files(imported *to, const char *const file[], int files)
 {
     size_t used = 0;
@@ -317,7 +318,7 @@ static void map_keys_check(const document_node *map, const char *const known[], 
     }
 }
 
-/* String of an entry; `otherwise` if the entry is missing. */
+/* Returns the string of an entry, or `otherwise` if the entry is missing. */
 const char *map_keys_text(mistakes *m, const document_node *map, const char *key,
                           const char *otherwise)
 {

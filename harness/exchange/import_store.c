@@ -28,7 +28,7 @@ static const table_column value_columns[] = {
     TEXT(value_row, file_unit), INT(value_row, elements),     INT(value_row, line),
     INT(value_row, unknowns),   DOUBLE(value_row, factor),    DOUBLE(value_row, seconds),
     DOUBLE(value_row, x),       DOUBLE(value_row, value),     DOUBLE(value_row, uncertainty),
-    TEXT(value_row, version) /* last, because older files have none */};
+    TEXT(value_row, version) /* the last field, because older files do not have it */};
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
 /* Tables of one case. */
@@ -55,7 +55,7 @@ static const char *parameters_of(const tables *t, const char *name)
     return NULL;
 }
 
-/* Point of the run that has series; -1: none. */
+/* Returns the point of the run that has series; -1: none. */
 static int point_of(const sweep *s, const char *of, const char *parameters)
 {
     for (int i = 0; i < s->seriess; i++) {
@@ -111,7 +111,7 @@ static status damaged(const store_reader *r, const char *where)
                      where);
 }
 
-/* Reads one series: consecutive rows of a program at a point. */
+/* Reads one series, which consists of consecutive rows of a program at a point. */
 static status take_series(store_reader *r, const char *of, const tables *t, const value_row *first,
                           int count)
 {

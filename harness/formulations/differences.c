@@ -34,7 +34,8 @@ int stencil_first(stencil_function *f, const void *context, int count, int i, do
 
 int stencil_second(stencil_function *f, const void *context, int count, int i, int j, double out[])
 {
-    /* weights for differences with steps h, 2 h and 3 h, whose errors have even powers of h */
+    /* weights for finite differences with steps h, 2 h and 3 h, whose errors have even powers of
+     * h */
     static const double weight[] = {3. / 2, -3. / 5, 1. / 10};
     int outcome = 0;
     memset(out, 0, (size_t)count * sizeof *out);
@@ -74,7 +75,7 @@ double chart_unit(int c, double length)
     return c < 6 ? 1 : 1 / length;
 }
 
-/* 1 + a psi~ + b psi~^2. */
+/* Computes 1 + a psi~ + b psi~^2. */
 static void quadratic(const double psi[3], double a, double b, double T[9])
 {
     const double p[9] = {0, -psi[2], psi[1], psi[2], 0, -psi[0], -psi[1], psi[0], 0};
@@ -105,7 +106,7 @@ void chart_dexp_inverse(const double psi[3], double T[9])
         quadratic(psi, -1. / 2, (1 - t / 2 / tan(t / 2)) / (t * t), T);
 }
 
-enum { ENOUGH = 1 << 24 }; /* above this number of bytes of answers, no element is added */
+enum { ENOUGH = 1 << 24 }; /* with more bytes of answers than this, no further element is added */
 
 static int make_room(gather *g)
 {
@@ -146,7 +147,7 @@ static int is_full(const gather *g)
     return g->failed || (size_t)g->count * g->size * sizeof *g->answer > ENOUGH;
 }
 
-/* Returns the answers to the elements; start[i]: first state of element i. An element that fails
+/* Passes the answers to the elements. start[i]: first state of element i. An element that fails
  * may use fewer states. */
 static void hand_out(gather *g, const int start[], int first, int end, gather_element *element,
                      gather_evaluate *evaluate, void *context)
@@ -182,15 +183,16 @@ void gather_run(int count, int nodes, size_t size, gather_element *element,
     free(g.answer);
 }
 
-/* Derivatives of strains by central differences of sixth order in the rotation chart. */
+/* Derivatives of strains by central finite differences of sixth order in the rotation chart. */
 
-/* Point at which differences are taken. */
+/* Point at which finite differences are computed. */
 typedef struct difference_place {
     const element_data *data;
     const node_state *x;
     const double *s;                /* stresses, for second derivatives */
     differences_jacobian *jacobian; /* Jacobian of the strains, or NULL */
-    gather *together; /* gathers all perturbed states; NULL: evaluates each state at once */
+    gather *together; /* gathers all perturbed states; NULL: each state is evaluated when it is
+                         needed */
 } difference_place;
 
 static void moved(const difference_place *at, int i, double si, int j, double sj, node_state out[])
@@ -223,7 +225,7 @@ static int strains_at(const void *context, int i, double si, int j, double sj, d
     return 0;
 }
 
-/* s.e, whose second derivative is H. */
+/* Computes s.e, whose second derivative is H. */
 static int work_at(const void *context, int i, double si, int j, double sj, double values[])
 {
     const difference_place *at = context;
@@ -235,7 +237,7 @@ static int work_at(const void *context, int i, double si, int j, double sj, doub
     return 0;
 }
 
-/* J^T s. */
+/* Computes J^T s. */
 static int forces_at(const void *context, int i, double si, int j, double sj, double values[])
 {
     const difference_place *at = context;
@@ -256,7 +258,7 @@ static int forces_at(const void *context, int i, double si, int j, double sj, do
     return 0;
 }
 
-/* Factor from differences per unit to derivatives. */
+/* Returns the factor from differences per unit to derivatives. */
 static double per_unit(const element_data *d, int c)
 {
     return 1 / chart_unit(c, d->length);
@@ -294,7 +296,8 @@ static void curvature(const difference_place *at, double H[])
     memset(H, 0, (size_t)(n * n) * sizeof *H);
     for (int j = 0; j < n; j++) {
         stencil_first(forces_at, at, n, j, column);
-        for (int i = 0; i < n; i++) { /* symmetric part: the derivative in the exponential chart */
+        for (int i = 0; i < n; i++) { /* symmetric part, which is the derivative in the
+                                         exponential chart */
             const double half = column[i] * per_unit(d, j) / 2;
             H[i * n + j] += half;
             H[j * n + i] += half;
@@ -323,7 +326,7 @@ static int leaves_h(const element_data *d)
     return (d->given->leaves & (LEAVES_J | LEAVES_H)) != 0;
 }
 
-/* Returns the derivatives that the type itself gives. */
+/* Returns the derivatives that the type itself computes. */
 static strain_output given_part(const element_data *d, const strain_output *out)
 {
     strain_output asked = *out;
@@ -333,7 +336,7 @@ static strain_output given_part(const element_data *d, const strain_output *out)
     return asked;
 }
 
-/* Computes the remaining derivatives by differences. */
+/* Computes the remaining derivatives by finite differences. */
 static void made_part(const element_data *d, const node_state x[], gather *together,
                       const strain_output *out)
 {

@@ -57,7 +57,7 @@ void formulations_accept(const char *name)
         accepted[count] = t;
 }
 
-/* Is the word reserved, so that it cannot be the name of a formulation? */
+/* Returns 1 when the word is reserved and cannot be the name of a formulation. */
 static int is_reserved(const char *name)
 {
     static const char *const words[] = {"all", "cases", "formulations"};
@@ -173,7 +173,7 @@ unsigned formulation_bears_on(const formulation *chosen)
     return features;
 }
 
-/* REFUSED: unknown name; the message lists the names of loaded formulations. */
+/* Returns REFUSED for an unknown name; the message lists the names of loaded formulations. */
 static status unknown(const char *name, fault *f)
 {
     char loaded[200] = "";
@@ -255,8 +255,8 @@ static int next_is(scanner *s, const char *word)
 
 static int expression_holds(scanner *s);
 
-/* Does the word match? It may occur anywhere in the text; "=NAME" must be one of the parts between
- * slashes. */
+/* Returns 1 when the word matches. It may occur anywhere in the text; "=NAME" must be one of the
+ * parts between slashes. */
 static int is_called(const char *text, const char *word)
 {
     if (word[0] != '=')
@@ -383,7 +383,7 @@ void select_meet(const char *expression, const char *text, select_words *words)
             words->met[i] = is_called(text, word);
 }
 
-/* Name number i: first cases, then formulations. */
+/* Returns name number i: first cases, then formulations. */
 static const char *registered(const void *context, int i)
 {
     int cases = 0;
@@ -409,8 +409,8 @@ status select_begin(const char *expression, select_words *words, fault *f)
     return STATUS_OK;
 }
 
-/* Nearest name for the first unknown part of case/parameters/formulation; NULL: all parts are
- * known. */
+/* Returns the name nearest to the first unknown part of case/parameters/formulation; NULL: all
+ * parts are known. */
 static const char *nearest(const char *word)
 {
     for (const char *at = word + (word[0] == '='); *at != '\0'; at += *at == '/') {

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reads the options to *out: a table that the caller frees, also after REFUSED; NULL when list is
- * NULL or empty. REFUSED: see handshake_read. */
+/* Reads the options to *out, a table that the caller frees, also after REFUSED; NULL when the
+ * list is NULL or empty. REFUSED: see handshake_read. */
 static status handshake_options(const char *who, const json_t *list, const parameter_type **out,
                                 fault *f);
-static void handshake_options_free(const parameter_type *table); /* or NULL */
+static void handshake_options_free(const parameter_type *table); /* accepts NULL */
 
 typedef struct word_bit {
     const char *word;
@@ -100,7 +100,7 @@ static status no_such_word(const handshake_reading *r, const char *key, const wo
                      r->who, key, word != NULL ? word : "that is not text", words);
 }
 
-/* Combined bits of a list of words; known NULL: the words in feature.h. */
+/* Combines the bits of a list of words. known NULL: the words in feature.h. */
 static status words_of(const handshake_reading *r, const char *key, const word_bit known[],
                        unsigned *out)
 {
@@ -118,7 +118,7 @@ static status words_of(const handshake_reading *r, const char *key, const word_b
     return STATUS_OK;
 }
 
-/* Reads a whole number; `absent` if the member is missing. */
+/* Reads a whole number; the result is `absent` if the member is missing. */
 static status number_of(const handshake_reading *r, const char *key, int least, int most,
                         int absent, int *out)
 {
@@ -297,7 +297,8 @@ static const char *copy_or(const json_t *text, const char *absent)
     return strdup(json_is_string(text) ? json_string_value(text) : absent);
 }
 
-/* Joins the words of a choice to "a|b"; NULL: not a list of words, or out of memory. */
+/* Joins the words of a choice to "a|b"; NULL: the member is not a list of words, or out of
+ * memory. */
 static const char *join(const json_t *list)
 {
     size_t length = 1;

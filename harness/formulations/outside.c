@@ -8,8 +8,8 @@
 #include "harness/formulations/process_impl.h"
 
 /* Loads the type that the command describes. The type and its process exist until this process
- * ends. Every worker process starts its own copy. REFUSED: the command does not exist, or its first
- * line does not follow the protocol (protocol.md). */
+ * ends. Every worker process starts its own copy of the command's process. REFUSED: the command
+ * does not exist, or its first line does not follow the protocol (protocol.md). */
 static status process_load(const char *command, const element_type **out, fault *f);
 
 static status refuse(const char *path, const char *why, fault *f)
@@ -23,7 +23,7 @@ static int is_name(const char *text)
            text[strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789_")] == '\0';
 }
 
-/* Checks required members and names the first one that is missing. */
+/* Checks the required members; the message names the first one that is missing. */
 static status check(const char *path, const element_type *t, fault *f)
 {
     const char *why = NULL;
@@ -36,7 +36,7 @@ static status check(const char *path, const element_type *t, fault *f)
     return why != NULL ? refuse(path, why, f) : STATUS_OK;
 }
 
-/* Copies the type; members that were added to the interface after it was compiled are zero. */
+/* Copies the type. Members of the interface that are newer than the compiled type are zero. */
 static status copy(const char *path, const element_type *loaded, const element_type **out, fault *f)
 {
     if (loaded->abi != ELEMENT_ABI)
@@ -129,7 +129,7 @@ static size_t data_size(const element_request *request)
     return sizeof(element_data) + m * m * sizeof(double);
 }
 
-/* Starts the process again; it must describe itself as it did the first time. */
+/* Starts the process again. Its description must be the same as the first time. */
 static status start_again(process *p, fault *f)
 {
     char *line = malloc(HANDSHAKE_MOST + 1);
@@ -225,7 +225,8 @@ static status prepare(const element_request *request, element_data *out, fault *
     const status outcome = prepare_locked(p, request, out, f);
     p->to.told |= outcome != STATUS_OK;
     pthread_mutex_unlock(&p->to.lock);
-    return outcome == STATUS_FAULT ? STATUS_NOT_CONVERGED : outcome; /* as for an evaluation */
+    return outcome == STATUS_FAULT ? STATUS_NOT_CONVERGED : outcome; /* as for the failure of an
+                                                                        evaluation */
 }
 
 static const char *trouble(const element_data *d)
@@ -237,7 +238,7 @@ static const char *trouble(const element_data *d)
     return c->trouble;
 }
 
-/* Rejects machines with another byte order, because numbers are not converted. */
+/* REFUSED: the byte order of the machine is not supported, because numbers are not converted. */
 static status check_machine(const char *command, fault *f)
 {
     const int64_t one = 1;

@@ -6,8 +6,8 @@
 
 #include "elements/shared/choice.h"
 
-/* Copies one word without its quotes; returns the rest of the text, or NULL when a quote does not
- * end. */
+/* Copies one word without its quotes. Returns the rest of the text, or NULL when a quote does
+ * not end. */
 static const char *take(const char *from, char **to)
 {
     char quote = '\0';
@@ -221,7 +221,8 @@ void assignment_text(const assignment_list *l, const double value[], char *text,
     }
 }
 
-/* Is the parameter added by the program, so that the source of the case does not have it? */
+/* Returns 1 when the program has added the parameter, so that the original source of the case
+ * does not have it. */
 static int is_shared(const parameter_type *p)
 {
     return case_is_omit(p) || case_is_mass(p);
@@ -302,7 +303,7 @@ static void write_word(const parameter_type *p, int i, double value, int any,
 {
     const size_t size = sizeof words->text[i];
     if (i < words->known && words->any[i] == any && words->value[i] == value &&
-        !signbit(words->value[i]) == !signbit(value)) /* "-0" is a different word */
+        !signbit(words->value[i]) == !signbit(value)) /* "-0" is different from "0" */
         return;
     words->value[i] = value;
     words->any[i] = any;

@@ -18,19 +18,19 @@ int places_strains_three(const double options[])
     return PLACES_MOST;
 }
 
-/* Undeformed distance of node k from the first one [m]. */
+/* Returns the undeformed distance of node k from the first one [m]. */
 static double distance(const element_data *d, int k)
 {
     return d->length * k / (d->nodes - 1);
 }
 
-/* Row of the first warping strain. */
+/* Returns the row of the first warping strain. */
 static int first_warping(const element_data *d)
 {
     return 6 * (d->nodes - 1);
 }
 
-/* Chord to node k and its change, in the axes of the first node [m]. */
+/* Computes the chord to node k and its change, in the axes of the first node [m]. */
 static void chord(const node_state x[], int k, double to[3], double moved[3])
 {
     double d[3], u[3];
@@ -67,7 +67,7 @@ static void strains_of(const element_data *d, const node_state x[], double e[])
         e[first_warping(d) + k] = l * l * x[k].a;
 }
 
-/* Rows of Q: derivatives of the strains of a node with respect to the chord to it. */
+/* Computes the rows Q: derivatives of the strains of a node with respect to the chord to it. */
 static void direction_rows(double l, const double to[3], double Q[9])
 {
     const double size = vec3_norm(to);
@@ -80,7 +80,8 @@ static void direction_rows(double l, const double to[3], double Q[9])
     }
 }
 
-/* Rows of another node: derivatives of its position and rotation relative to the first one. */
+/* Computes the rows of another node: derivatives of its position and rotation relative to the
+ * first one. */
 static void node_rows(const element_data *d, const node_state x[], int k, double J[])
 {
     const int n = NODE_COORDINATES * d->nodes;
@@ -130,7 +131,7 @@ void places_strain(const element_data *d, const node_state x[], strain_output *o
         differences_curvature(d, x, jacobian, out->s, out->H);
 }
 
-/* 1 + n_x of the direction n with p = (e[1], e[2])/l. */
+/* Returns 1 + n_x of the direction n for which p = (e[1], e[2])/l. */
 static double forward(double l, const double e[])
 {
     return 8 / (4 + (e[1] * e[1] + e[2] * e[2]) / (l * l));
@@ -160,7 +161,8 @@ void places_nodes(const element_data *d, const double e[], node_state x[])
     }
 }
 
-/* Derivatives of the relative position with respect to its three strains, in rows of stride m. */
+/* Computes the derivatives of the relative position with respect to its three strains, in rows
+ * of stride m. */
 static void direction_columns(double l, double undeformed, const double e[], int m, double rows[])
 {
     const double c = forward(l, e), size = undeformed + e[0];
@@ -196,7 +198,7 @@ void places_motion(const element_data *d, const double e[], double B[])
     }
 }
 
-/* An answer. */
+/* Numbers in a gathered answer, in this order. */
 enum { OUTCOME, ENERGY, FORCES };
 
 status forces_of(const element_data *d, gather *together, const node_state x[], force_output *out)

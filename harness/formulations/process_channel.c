@@ -13,9 +13,9 @@
 
 #include "harness/numerics/numerics.h"
 
-/* Ends a child of this process: immediately (now 1), or after a short time in which it may exit by
- * itself. Returns its status from waitpid, or -1 if it was killed here. For a child of another
- * process it only closes the channels. */
+/* Ends a child of this process: immediately if now is 1, otherwise after a short time in which
+ * it may exit by itself. Returns its status from waitpid, or -1 if it was killed here. For a
+ * child of another process, only the channels are closed. */
 static int child_end(child *, int now);
 
 enum { TO_READ, TO_WRITE };
@@ -26,7 +26,7 @@ static void close_both(const int ends[2])
     close(ends[TO_WRITE]);
 }
 
-/* In the child: executes the command, or writes the reason of the failure. */
+/* In the child: executes the command, or writes the reason for the failure. */
 static void become(char *const words[], int in, int out, int why, pid_t parent)
 {
     sigset_t none;
@@ -43,7 +43,8 @@ static void become(char *const words[], int in, int out, int why, pid_t parent)
     _exit(127);
 }
 
-/* Opens a pipe whose descriptors are not 0, 1 or 2, so that dup2 closes no descriptor in use. */
+/* Opens a pipe whose descriptors are not 0, 1 or 2, so that dup2 does not close a descriptor in
+ * use. */
 static int pipe_above(int ends[2])
 {
     int low[2];
@@ -65,8 +66,8 @@ static status no_process(const char *command, fault *f)
     return fault_set(f, STATUS_FAULT, "cannot start '%.100s': %s", command, strerror(errno));
 }
 
-/* REFUSED: the command does not exist, and is named; FAULT: the pipe or process could not be
- * created. */
+/* REFUSED: the command does not exist; the message names it. FAULT: the pipe or the process
+ * could not be created. */
 static status child_start(char *const words[], child *out, fault *f)
 {
     int in[2], from[2], why[2], number = 0;
@@ -103,7 +104,7 @@ static status child_start(char *const words[], child *out, fault *f)
                      strerror(number));
 }
 
-/* Is the child still running? */
+/* Returns 1 when the child is still running. */
 static int child_runs(const child *c)
 {
     siginfo_t how = {.si_pid = 0};
@@ -134,7 +135,7 @@ static int child_end(child *c, int now)
     return -1;
 }
 
-/* Waits for either channel; returns 0 after the time limit. */
+/* Waits for either channel. Returns 0 after the time limit. */
 static int await(const child *c, short to, double end)
 {
     struct pollfd at[2] = {{.fd = to ? c->to : -1, .events = to},
@@ -174,7 +175,7 @@ static ssize_t write_quietly(int to, const void *bytes, size_t count)
     return written;
 }
 
-/* Writes all bytes; limit: time limit [s]; 0: none. */
+/* Writes all bytes. limit: time limit [s]; 0: none. */
 static child_event child_write(const child *c, const void *bytes, size_t count, int limit)
 {
     const char *from = bytes;
@@ -197,8 +198,8 @@ static child_event child_write(const child *c, const void *bytes, size_t count, 
     return CHILD_DONE;
 }
 
-/* Reads at least `least` and at most `most` bytes; *count: number of bytes read, also when the
- * child ended. */
+/* Reads at least `least` and at most `most` bytes. *count: number of bytes read, also when the
+ * child has ended. */
 static child_event child_read(const child *c, void *bytes, size_t least, size_t most, size_t *count,
                               int limit)
 {
@@ -287,7 +288,7 @@ status channel_break(channel *c, const char *why, fault *f)
     return fault_set(f, STATUS_FAULT, "%s", c->trouble);
 }
 
-/* Reports any event of the process other than an answer. */
+/* Reports an event of the process other than an answer. */
 static status breach(channel *c, child_event what, const char *when, fault *f)
 {
     char why[200], how[100];
@@ -305,7 +306,7 @@ static status breach(channel *c, child_event what, const char *when, fault *f)
     return channel_break(c, why, f);
 }
 
-/* Reads a line. If it is JSON, no output may follow. */
+/* Reads the first line. If it is JSON, no other output may follow. */
 static status first_line(channel *c, char line[], fault *f)
 {
     size_t count = 0;
@@ -341,7 +342,7 @@ int channel_runs(const channel *c)
     return child_runs(&c->process);
 }
 
-/* Makes room for at least `count` bytes in total; returns 0 when out of memory. */
+/* Enlarges the buffer to at least `count` bytes in total. Returns 0 when out of memory. */
 static int make_room(channel_bytes *b, size_t count)
 {
     if (count <= b->room)

@@ -1,6 +1,6 @@
-/* Stresses of an element that is defined by its force or energy: derivatives of the energy with
- * respect to the relative positions of its nodes (formulations_impl.h), for the element with its
- * first node at rest. */
+/* Stresses of an element that is defined by its force or energy. They are the derivatives of the
+ * energy with respect to the relative positions of its nodes (formulations_impl.h), for the
+ * element with its first node at rest. */
 #include "harness/formulations/formulations_impl.h"
 
 #include <math.h>
@@ -9,13 +9,13 @@
 #include "elements/math/dense.h"
 #include "harness/formulations/adapted.h"
 
-/* Point at which differences of energies and forces are taken. */
+/* Point at which finite differences of energies and forces are computed. */
 typedef struct relative_place {
     const element_data *data;
     const double *e;
-    const double *F; /* forces of the nodes, fixed while the strains change */
-    gather
-        *together; /* gathers forces of all perturbed states; NULL: evaluates each state at once */
+    const double *F;  /* forces of the nodes, which are fixed while the strains change */
+    gather *together; /* gathers forces of all perturbed states; NULL: each state is evaluated when
+                         it is needed */
 } relative_place;
 
 static void moved(const relative_place *at, int i, double si, int j, double sj, double e[])
@@ -46,7 +46,7 @@ static int stresses_at(const void *context, int i, double si, int j, double sj, 
     return (int)stresses_of(&there, NULL, values);
 }
 
-/* B^T F with F fixed. */
+/* Computes B^T F for fixed F. */
 static int carried_at(const void *context, int i, double si, int j, double sj, double values[])
 {
     const relative_place *at = context;
@@ -97,7 +97,7 @@ static void make_symmetric(int m, double C[])
             C[i * m + j] = C[j * m + i] = (C[i * m + j] + C[j * m + i]) / 2;
 }
 
-/* C += d f/d e, f [strains]. */
+/* C += df/de for a function f [strains]. */
 static int add_columns(const element_data *d, stencil_function *f, const relative_place *at,
                        double C[])
 {
@@ -112,7 +112,7 @@ static int add_columns(const element_data *d, stencil_function *f, const relativ
     return outcome;
 }
 
-/* B^T K B, plus the change of B^T F due to B. */
+/* Computes B^T K B plus the change of B^T F due to B. */
 static status given_tangent(const relative_place *here, double C[])
 {
     const element_data *d = here->data;
@@ -204,7 +204,7 @@ status relative_stress(const element_data *d, const double e[], const double inn
     return outcome;
 }
 
-/* e = C^-1 sigma; zero in directions without stiffness. */
+/* Computes e = C^-1 sigma; e is zero in directions without stiffness. */
 static status flexible(int m, double C[], const double sigma[], double e[])
 {
     int pivot[PLACES_MOST];
@@ -214,7 +214,7 @@ static status flexible(int m, double C[], const double sigma[], double e[])
     memcpy(e, sigma, (size_t)m * sizeof *e);
     for (int i = 0; i < m; i++)
         if (fabs(C[i * m + i]) <=
-            1e-14 * most) { /* inactive: warping that the element does not have */
+            1e-14 * most) { /* inactive: the warping strain of an element without warping */
             C[i * m + i] = most;
             e[i] = 0;
         }
@@ -224,7 +224,7 @@ static status flexible(int m, double C[], const double sigma[], double e[])
     return STATUS_OK;
 }
 
-/* C at si units of the direction e from the undeformed state. */
+/* Computes C at si units in the direction e from the undeformed state. */
 static int tangent_at(const void *context, int i, double si, int j, double sj, double values[])
 {
     double e[PLACES_MOST];
@@ -239,7 +239,7 @@ static int tangent_at(const void *context, int i, double si, int j, double sj, d
 
 /* The tangent at e, or its derivative along e. */
 typedef struct tangents {
-    relative_many all; /* one */
+    relative_many all; /* data of one element */
     double *C;
     status outcome;
 } tangents;

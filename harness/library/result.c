@@ -55,7 +55,7 @@ const char *bw_result_unit(const bw_result *r, int quantity)
     return q != NULL ? q->unit : NULL;
 }
 
-/* Returns the index, or -1 if there is no such quantity. */
+/* Returns the index of a quantity, or -1 if there is none of that name. */
 static int index_of(const bw_result *r, const char *name)
 {
     for (int i = 0; name != NULL && i < bw_result_quantities(r); i++)
@@ -141,8 +141,8 @@ static double *read_column(const bw_result *r, const record_type *type, const sc
     return out;
 }
 
-/* Returns a column of `rows` records of a type; kept[RESULT_COLUMNS]: previously requested
- * columns. */
+/* Returns a column of `rows` records of a type. kept[RESULT_COLUMNS]: columns that were
+ * requested before. */
 static size_t column_of(const bw_result *r, const record_type *type, double *kept[], int rows,
                         const char *name, const double **values)
 {

@@ -42,7 +42,7 @@ bw_status bw_scene_case(const char *name, bw_scene **out, char **why)
     return call_end(&c, find(name, out, &c.fault));
 }
 
-/* All errors as JSON. */
+/* Writes all errors as JSON. */
 static void tell(const mistakes *m, call *c)
 {
     document_text t;
@@ -51,7 +51,7 @@ static void tell(const mistakes *m, call *c)
         text_end(&t, mistakes_json(m, t.to, &f), &c->text, &f);
 }
 
-/* Reads a text of that size, or, if it is NULL, the file of that name. */
+/* Reads a text of the given size or, if it is NULL, the file of that name. */
 static status read_file(const char *bytes, size_t size, const char *name, scene_file **out,
                         mistakes *m, fault *f)
 {
@@ -182,7 +182,7 @@ static status list_of(const char *name, char **json, fault *f)
     *json = NULL;
     TRY(list_subject_find(name, &what, f));
     TRY(text_begin(&t, f));
-    known_read(NULL, &ledger, NULL); /* the file may be missing */
+    known_read(NULL, &ledger, NULL); /* the file of reference values may be missing */
     const status outcome = text_end(&t, list_write_list(t.to, &what, &ledger, f), json, f);
     truths_free(&ledger);
     return outcome;
@@ -219,8 +219,8 @@ status text_end(document_text *t, status written, char **out, fault *f)
     return STATUS_OK;
 }
 
-/* Reads names separated by blanks; NULL: none, count 0. *named (may be NULL): 1 if none of them is
- * "all". */
+/* Reads names separated by blanks. Text NULL: no names, *count 0. *named (may be NULL): 1 if
+ * none of the names is "all". */
 static status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
                                 int *named, fault *f)
 {
@@ -243,7 +243,7 @@ static status contestants_parse(const char *names, formulation list[CONTESTANTS_
     return STATUS_OK;
 }
 
-/* default number of processes */
+/* returns the default number of processes */
 static int contestants_jobs(void)
 {
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
@@ -333,7 +333,12 @@ bw_status bw_converge(const bw_scene *from, const char *formulations, const char
     return call_end(&c, converge(from, formulations, meshes, options, json, &c.fault));
 }
 
-enum { TIME_LIMIT = 120 /* [s] of a cell */, LONGEST = 1000000, DOUBLINGS = 10, PICTURES = 5 };
+enum {
+    TIME_LIMIT = 120 /* [s] default limit for a cell */,
+    LONGEST = 1000000,
+    DOUBLINGS = 10,
+    PICTURES = 5
+};
 
 /* Request and results; verify frees it. */
 typedef struct verify_trial {
@@ -343,8 +348,8 @@ typedef struct verify_trial {
     const case_type *type[2];
     formulation formulation[CONTESTANTS_MOST];
     json_t *kept;
-    const char
-        *former_path; /* previous results, than which this run must not be worse; NULL: none */
+    const char *former_path; /* path of previous results; the results of this run must not be worse;
+                                NULL: none */
     stored_results former;
     truths truths;
     sweep sweep;
@@ -375,7 +380,7 @@ static status verify_prepare(verify_trial *v, const char *names, const char *opt
         {"jobs", OPTION_WHOLE, &r->jobs, 1, WORKERS_MOST},
         {"time_limit", OPTION_WHOLE, &r->time_limit, 0, LONGEST},
         {"refine", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS},
-        {"doublings", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS}, /* version 0.2 */
+        {"doublings", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS}, /* name in version 0.2 */
         {"shapes", OPTION_WHOLE, &r->shapes, 0, PICTURES},
         {"stop", OPTION_FILE, &r->stop, 1, INT_MAX},
         {"tolerance", OPTION_SHARE, &r->tolerance, 0, 0},

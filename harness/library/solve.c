@@ -13,9 +13,9 @@
 #include "harness/experiments/experiments.h"
 #include "harness/numerics/numerics.h"
 
-static source *source_hold(source *); /* adds a reference */
-/* Sets *out to the reference values of a case; for a scene file only to the known deviations. They
- * are read at the first call. NULL after FAULT. May be called by several threads. */
+static source *source_hold(source *); /* adds a reference to the source */
+/* Sets *out to the reference values of a case; for a scene file only to the known deviations.
+ * They are read at the first call. *out is NULL after FAULT. May be called by several threads. */
 static status source_known(source *, const truths **out, fault *f);
 
 enum { STEPS_MOST = 1000000 };
@@ -24,7 +24,7 @@ static status read_options(const char *json, solution_request *out, fault *f)
 {
     const call_option table[] = {
         {"all_dofs", OPTION_SWITCH, &out->keep_all, 0, 1},
-        {"keep_all", OPTION_SWITCH, &out->keep_all, 0, 1}, /* version 0.2 */
+        {"keep_all", OPTION_SWITCH, &out->keep_all, 0, 1}, /* name in version 0.2 */
         {"steps", OPTION_WHOLE, &out->steps, 1, STEPS_MOST},
         {"shapes", OPTION_WHOLE, &out->shapes, 0, SHAPES_ALL},
         {"threads", OPTION_WHOLE, &out->threads, 1, TEAM_MOST},
@@ -36,7 +36,7 @@ static status read_options(const char *json, solution_request *out, fault *f)
     return outcome;
 }
 
-/* Reads the reference values of the result; a case may have none. */
+/* Reads the reference values of the result. A case may have none. */
 static status know(bw_result *r, const double parameter[], fault *f)
 {
     const scene_file *file = source_file(r->from);
@@ -162,8 +162,8 @@ void bw_result_free(bw_result *r)
 _Static_assert((int)BW_FAULT == (int)STATUS_FAULT && (int)BW_NO_VALUE == (int)STATUS_NO_VALUE,
                "a bw_status is a status");
 
-/* GSL has one error handler for all threads: the first call disables it, and the last one restores
- * it. nested: number of nested calls of this thread. */
+/* GSL has one error handler for all threads: the first call disables it, and the last one
+ * restores it. nested: number of nested calls of this thread. */
 static _Thread_local int nested;
 static struct {
     pthread_mutex_t lock;
@@ -172,8 +172,8 @@ static struct {
     locale_t plain;
 } state = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
-/* A forked process has none of the other threads: it must not wait for them or count their calls in
- * progress. */
+/* A forked process has none of the other threads. It must not wait for them or count the calls
+ * that they have in progress. */
 static void before_fork(void)
 {
     known_hold();
@@ -245,7 +245,7 @@ static int character(const unsigned char *at)
     return 1 + more;
 }
 
-/* Returns one line of valid UTF-8 for any names; invalid characters are replaced by '?'. */
+/* Returns one line of valid UTF-8 for any names. Invalid characters are replaced by '?'. */
 static char *line_of(const fault *f)
 {
     char *out = strdup(f->text);
@@ -289,7 +289,7 @@ void known_let_go(void)
     pthread_mutex_unlock(&hdf5);
 }
 
-/* Disables the error messages of HDF5 until speak. */
+/* Disables the error messages of HDF5 until `speak` is called. */
 static void hush(void)
 {
     H5Eget_auto2(H5E_DEFAULT, &host.print, &host.context);
@@ -321,7 +321,7 @@ static void place_now(char path[PATH_MAX])
         data_place_truths(path);
 }
 
-/* Like known_read, for a thread that holds the lock. */
+/* As known_read, for a thread that holds the lock. */
 static status known_read_held(const case_type *type, truths *out, fault *f)
 {
     char path[PATH_MAX];
@@ -372,7 +372,7 @@ struct source {
     const case_type *type;
     scene_file *file;
     char *name;
-    int is_known; /* 1: has been read */
+    int is_known; /* 1: the values have been read */
     truths known;
 };
 

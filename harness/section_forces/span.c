@@ -7,10 +7,10 @@
 #include "elements/math/rotation.h"
 #include "elements/shared/beam_constants.h"
 
-/* R' = R kappa~, r' = R (e_x + gamma) over [0, 1] with the length as unit; kappa[points x 3] and
- * gamma[points x 3] in section axes. Uses a Magnus series of order six between the points. The
- * curve ends at both frames: the gap at the end, which is a discretisation error, is distributed in
- * proportion to x. */
+/* Solves R' = R kappa~, r' = R (e_x + gamma) over [0, 1], with the length as unit. kappa[points
+ * x 3] and gamma[points x 3] are in section axes. Uses a Magnus series of order six between the
+ * points. The curve ends at both frames: the gap at the end, which is a discretisation error, is
+ * distributed in proportion to x. */
 static void span_curve_between(const span_grid *g, const span_frame *p, const span_frame *q,
                                const double kappa[], const double gamma[], span_curve *out);
 /* Solves the torsion equations over [0, 1], with the length as unit. Returns 0, or 1 when the
@@ -30,7 +30,7 @@ typedef struct span_work {
     span_curve curve;
     span_twist twist;
     double N[SPAN_GRID_POINTS][3], M[SPAN_GRID_POINTS][3];
-    double flexibility[36]; /* of a section given by matrices */
+    double flexibility[36]; /* flexibility of a section given by matrices */
 } span_work;
 
 static void begin(span_work *w)
@@ -51,7 +51,7 @@ static void begin(span_work *w)
     }
 }
 
-/* Integrals of the loads at the points: [points][force, moment about p]. */
+/* Computes integrals of the loads at the points: [points][force, moment about p]. */
 static void loads_of(span_work *w, double out[N][6])
 {
     memset(out, 0, N * sizeof *out);
@@ -74,7 +74,7 @@ static void loads_of(span_work *w, double out[N][6])
     }
 }
 
-/* Force and moment at end e, transferred to the origin p. */
+/* Computes force and moment at an end, transferred to the origin p. */
 static void about_origin(const span_end *end, double out[6])
 {
     memcpy(out, end->force, 3 * sizeof *out);
@@ -83,7 +83,7 @@ static void about_origin(const span_end *end, double out[6])
         out[3 + i] += end->moment[i];
 }
 
-/* N, M at the points, from equilibrium of the parts on both sides. */
+/* Computes N and M at the points, from equilibrium of the parts on both sides. */
 static void resultants(span_work *w)
 {
     double load[N][6], gathered[N][6], from[2][6];
@@ -105,7 +105,8 @@ static void resultants(span_work *w)
     }
 }
 
-/* Torque per twist rate due to the stresses along the fibres, which the twist inclines. */
+/* Returns the torque per twist rate due to the stresses along the fibres, which the twist
+ * inclines. */
 static double wagner(const span_work *w, int j, double rate)
 {
     const beam_constants *c = &w->c;
@@ -131,7 +132,7 @@ static int twisted(span_work *w, const double strains[])
     return span_twist_solve(w->g, &t, &w->twist);
 }
 
-/* Strains of a section given by matrices, which has no torque due to warping. */
+/* Computes the strains of a section given by matrices, which has no torque due to warping. */
 static void strained_matrices(span_work *w, double out[])
 {
     for (int j = 0; j < N; j++) {
@@ -217,7 +218,7 @@ status span_recover(const span_grid *g, const span_problem *problem, span_fields
             "no line between the ends of an element of %g m was found; use more elements",
             problem->request->length);
     } else {
-        again(&w, strains, made); /* for the best strains found */
+        again(&w, strains, made); /* evaluates the fields for the best strains found */
     }
     take(&w, made, out);
     return STATUS_OK;
@@ -245,8 +246,8 @@ static void close_gap(const span_grid *g, const double end[3], double at[N][3])
             at[j][i] += g->x[j] * missing[i];
 }
 
-/* Displacements and rotations to first order: theta' = R kappa, u' = theta x R e_x + R gamma, in
- * units of the length. */
+/* Computes displacements and rotations to first order: theta' = R kappa, u' = theta x R e_x + R
+ * gamma, in units of the length. */
 static void moved_linearly(const span_grid *g, double length, const span_fields *of,
                            const span_move end[2], double u[N][3], double turn[N][3])
 {
@@ -273,8 +274,8 @@ static void moved_linearly(const span_grid *g, double length, const span_fields 
     close_gap(g, end[1].displacement, u);
 }
 
-/* Displacements: the curve minus the undeformed one; rotations of the sections relative to that at
- * p. */
+/* Computes displacements as differences between the curve and the undeformed one, and rotations
+ * of the sections relative to that at p. */
 static void moved_far(const span_grid *g, double length, const span_fields *of,
                       const span_frame begin[2], const double curvature[3], const span_move end[2],
                       double u[N][3], double turn[N][3])
@@ -332,8 +333,8 @@ void span_moved(const span_grid *g, const span_problem *problem, const span_fiel
 
 enum { CURVE_N = SPAN_GRID_POINTS };
 
-/* Rotation over an interval of length h, in the axes at its start (Blanes, Casas, Ros, BIT 40,
- * 2000): R^T' = -kappa~ R^T at three Gauss points. */
+/* Computes the rotation over an interval of length h, in the axes at its start (Blanes, Casas,
+ * Ros, BIT 40, 2000): R^T' = -kappa~ R^T at three Gauss points. */
 static void turn_of(const span_grid *g, int gap, const double kappa[], double h, double out[3])
 {
     double at[SPAN_GRID_GAUSS][3] = {{0}}, a[3], b[3], c[3], first[3], second[3], third[3],
@@ -405,8 +406,8 @@ static void span_curve_between(const span_grid *g, const span_frame *p, const sp
 
 enum { TWIST_N = SPAN_GRID_POINTS };
 
-/* Amplitudes [N] of the solution with given bimoment at one end (0, 1) and given amplitude at the
- * other. */
+/* Computes the amplitudes [N] of the solution with given bimoment at one end (0, 1) and given
+ * amplitude at the other end. */
 static int amplitudes(const span_grid *g, const span_torsion *t, int end, double a[])
 {
     double matrix[TWIST_N * TWIST_N];

@@ -1,5 +1,5 @@
-/* Points along an element, at which its fields are found, and a fixed point of a map by Anderson
- * mixing. */
+/* The grid of points along an element at which its fields are computed, and the fixed point of a
+ * map by Anderson mixing. */
 #include "harness/section_forces/section_forces_impl.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 enum {
     GRID_N = SPAN_GRID_POINTS,
     EXACT = GRID_N / 2
-}; /* enough Gauss points for the polynomials */
+}; /* number of Gauss points; exact for the polynomials of the grid */
 
 void span_grid_at(const span_grid *g, double x, double share[])
 {
@@ -88,7 +88,7 @@ void span_grid_integrate(const span_grid *g, int count, const double values[], d
 
 enum { MEMORY = 12, MOST = 100 };
 
-/* Differences of the last steps and of the values of the map, with the steps orthonormalised
+/* Differences of the last steps and of the values of the map. The steps are orthonormalised
  * (Gram-Schmidt). */
 typedef struct history {
     int count;
