@@ -1,8 +1,8 @@
-/* A cantilever in steady rotation: flap and lag frequencies, stretch of the end, and force on the
- * root [EI/L^2]. L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that frequencies are in sqrt(EI/(rho A
- * L^4)). The root is at a distance from the axis, which is normal to the beam or inclined towards
- * it. Flap is motion in the plane of beam and axis; lag is motion across it. No shear deformation,
- * no rotary inertia. */
+/* A cantilever in steady rotation: flap and lag frequencies, axial displacement of the end, and
+ * force on the root [EI/L^2]. L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that frequencies are in
+ * sqrt(EI/(rho A L^4)). The root is at a distance from the axis, which is normal to the beam or
+ * inclined towards it. Flap is motion in the plane of beam and axis; lag is motion normal to this
+ * plane. Shear deformation and rotary inertia are neglected. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -46,8 +46,8 @@ static void make_curve(scene_quantity *q, double omega)
     scene_set_curve(q, "angular velocity", "1", omega, 0);
 }
 
-/* If the axis is along the beam, modes whirl: they are neither flap nor lag modes, and are counted
- * together. */
+/* If the axis is along the beam, all modes are whirling modes, neither flap nor lag, and are
+ * counted together. */
 static void add_frequencies(scene *s, int rotation, double omega, int curves, int whirl)
 {
     static const struct {
@@ -81,7 +81,7 @@ static void add_beam(scene *s, double area, double stiffness_ratio, int *root, i
     *tip = scene_add_node(s, 1, 0, 0);
     scene_add_member(s, *root, *tip, profile, y_axis);
     scene_hold_all(s, *root);
-    /* a beam without fibres; a Bernoulli beam has no rotary inertia either */
+    /* the theory has no trapeze effect and, for an Euler-Bernoulli beam, no rotary inertia */
     scene_omit(s, FEATURE_TRAPEZE | FEATURE_ROTARY_INERTIA);
 }
 
@@ -105,7 +105,7 @@ static status build(const double value[], scene *s, fault *f)
     double path[MOST_STATIONS + 1];
     for (int i = 0; i <= intervals; i++)
         path[i] = intervals > 0 ? (double)i / intervals : 1;
-    /* An inclined axis bends the beam, which then has more than one equilibrium. */
+    /* Rotation about an inclined axis bends the beam, which then has more than one equilibrium. */
     const int steps = value[AXIS] > 0 ? 8 : 1;
     const int rotation = scene_add_rotation(
         s, intervals + 1, path, steps, 2 * MODES,

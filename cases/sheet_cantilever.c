@@ -23,8 +23,8 @@ static const parameter_type parameters[] = {
     {0},
 };
 
-/* Deformation in the plane of bending is uncoupled from deformation out of it: the other 18 entries
- * are zero by symmetry. */
+/* Deformation in the plane of bending is uncoupled from deformation out of the plane, so that the
+ * other 18 entries are zero by symmetry. */
 static const int entries[][2] = {
     {0, 0}, {0, 1}, {0, 5}, {1, 0}, {1, 1}, {1, 5}, {5, 0}, {5, 1}, {5, 5},
     {2, 2}, {2, 3}, {2, 4}, {3, 2}, {3, 3}, {3, 4}, {4, 2}, {4, 3}, {4, 4},
@@ -37,12 +37,12 @@ static void add_curve(scene *s, const char *name, int analysis, int component, d
     scene_set_curve(q, "tip_deflection", "m", deflection, 0);
 }
 
-/* Adds N's closed-form solution next to the elements, if it applies to them. */
+/* Adds the closed-form solution of N as a prediction, if it applies. */
 static void add_predictions(const double value[], scene *s)
 {
     section c;
     if (scene_constants(s, 0, &c, NULL) != STATUS_OK)
-        return; /* model_alloc says why */
+        return; /* model_alloc reports the error */
     const sheet_prediction p = sheet_prediction_of(
         &c, value[SHEET_LENGTH], value[SHEET_DEFLECTION], value[SHEET_TIP_WARPING] != 0,
         value[SHEET_SHEAR] != 0, (scene_moments)value[SHEET_MOMENTS]);
@@ -104,8 +104,8 @@ static status build(const double value[], scene *s, fault *f)
     if (s->sections > 0)
         add_predictions(value, s);
     if (value[MODES] > 0) {
-        /* About the last state of the path. The rotation about z is fixed, in the sense of the
-         * rotation vector from that state. */
+        /* Frequencies about the last state of the path. The rotation about z, as a component of the
+         * rotation vector from this state, is fixed. */
         add_frequencies(s, scene_add_modal(s, path_analysis), (int)value[MODES]);
         if (value[ROTARY] == 0)
             scene_omit(s, FEATURE_ROTARY_INERTIA);

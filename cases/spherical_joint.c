@@ -18,7 +18,8 @@ static const parameter_type parameters[] = {
     {0},
 };
 
-/* Station k = 1 .. steps: axis at azimuth 2 pi (k - 1)/steps; path 0 is the undeformed joint. */
+/* At station k = 1 .. steps, the axis is at the azimuth 2 pi (k - 1)/steps. At path parameter 0,
+ * the joint is undeformed. */
 static void prescribe_rotation(const double value[], scene *s, int effector, double station[])
 {
     static const char *const name[3] = {"rotation_x", "rotation_y", "rotation_z"};
@@ -69,7 +70,7 @@ static status build(const double value[], scene *s, fault *f)
     add_stiffness(s, "support_stiffness_undeformed", rest, SCENE_LAST);
     scene_quantity *curve = add_stiffness(s, "support_stiffness_curve", tilted, SCENE_CURVE);
     const double step = 2 * PI / value[STEPS];
-    scene_set_curve(curve, "azimuth", "rad", step, -step); /* station 1 is azimuth 0 */
+    scene_set_curve(curve, "azimuth", "rad", step, -step); /* the azimuth is 0 at station 1 */
     scene_meshes_doubled(s, 1, 16);
     return STATUS_OK;
 }

@@ -1,7 +1,7 @@
 /* Spherical flexure joint whose end effector is driven through its tilt about the x axis in a given
  * time, and stops there. A body of a tenth of the effector's mass is free between the two sets of
- * sheets. After N section 4.2, where the motion is slow; the masses are chosen here. There is no
- * reference value; the limit of the meshes is evaluated by its uncertainty. */
+ * sheets. Based on N section 4.2, where the motion is quasi-static; the masses are synthetic. There
+ * is no reference value; the limit of the meshes is evaluated by means of its uncertainty. */
 #include "cases/shared/shared.h"
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* The extremes: the base case and the settings of each, and the value with which its results are
+/* The extremes: for each, the base case, its settings, and the value with which its results are
  * compared. SI units.
  *
  * Order of the fields: name, group | summary | base case, its parameters | settings | quantities |
@@ -78,7 +78,7 @@ const extreme extremes[] = {
      {{"K", 0, 1, 1}},
      {{"load_factor", 0}}, "L^2 GJ/EIw", "1", EXTREME_PARAMETERS,
      16, 4, {1, 1e-2, 1e-4, 1e-6}, EXTREME_EXACT, 0, 1e-4},
-    /* Many elements, and a very short one. */
+    /* Many elements, and a very short element. */
     {"many_sheet", "elements", "round-off growth with the number of elements: sheet flexure",
      "sheet_cantilever", "shear=0",
      {{NULL, 0, 0, 0}},
@@ -104,8 +104,8 @@ const extreme extremes[] = {
      {{NULL, 0, 0, 0}},
      {{"buckling_load", 0}}, "short/whole", "1", EXTREME_SPLIT,
      8, 6, {0.5, 1e-1, 1e-2, 1e-4, 1e-6, 1e-8}, EXTREME_EXACT, 0, 1e-4},
-    /* Equivalent scenes in another form. */
-    /* With another unit of length, x of them per metre; the second scene is smaller by the same
+    /* Equivalent descriptions of the same scene. */
+    /* Another unit of length, with x units per metre; the second scene is smaller by the same
      * factor. Moduli and density are multiplied by x^-2. */
     {"units_sheet", "units", "sheet flexure in m, mm and um",
      "sheet_cantilever", "",
@@ -197,7 +197,8 @@ const extreme extremes[] = {
      {{"axial", 0, 12, 2}},
      {{"tip", 0}}, "length/thickness", "1", EXTREME_PARAMETERS,
      8, 3, {10, 1e2, 1e3}, EXTREME_EXACT, 0, 5e-3},
-    /* pi/8000 s: the mass is lumped at nodes that are an eighth of the length apart. */
+    /* The period is pi/8000 s, because the mass is lumped at nodes that are an eighth of the length
+     * apart. */
     {"long_steps_alpha", "long steps", "step size of alpha relative to the period of the fastest mode, an axial mode",
      "release", "integrator=alpha;tolerance=0",
      {{"step", 0, 0.000392699081698724, 1}},
@@ -228,8 +229,9 @@ const extreme extremes[] = {
      {{"step", 0, 0.5, 1}},
      {{"w_z", 0}, {"R_xx", 0}, {"energy", 0}}, "turn in a step", "rad", EXTREME_WHOLE,
      1, 4, {0.1, 0.9, 2, 3}, EXTREME_EXACT, 0, 1e-9},
-    /* The rotation of conserving steps, 2 atan(x/2), has an error of order 2 and is not requested. */
-    /* 3627.6 s: the first period, with four steps in each period. */
+    /* The rotation after a conserving step, 2 atan(x/2), has an error of order 2 and is not
+     * included. */
+    /* The first period is 3627.6 s; there are four steps in each period. */
     {"long_motion", "long motion", "energy of a cantilever with a heavy body over many periods, integrated by conserving",
      "release", "body=1e6;integrator=conserving;step=907;tolerance=0",
      {{"time", 0, 3628, 1}},

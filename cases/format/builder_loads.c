@@ -3,13 +3,13 @@
 
 #include <string.h>
 
-/* Adds one load to the scene, as described; returns its index. */
+/* Adds the described load to the scene. Returns its index. */
 static int add(const fields *f, const scene_load *what)
 {
     scene *s = f->b->scene;
     double *path, *factor;
     const int load = scene_add_load(s, what->kind, what->where, 0, 0, 0);
-    *scene_load_at(s, load) = *what; /* name and factors are still missing */
+    *scene_load_at(s, load) = *what; /* name and factors follow */
     if (fields_have(f, "path") || fields_have(f, "factor")) {
         const int stations = builder_stations(f, "factor", &path, &factor);
         if (stations > 0 && load >= 0)
@@ -24,7 +24,7 @@ static void mistake_at(const fields *f, const char *key, const char *words)
     document_mistake(f->b->mistakes, document_find(f->map, key), 0, "%s", words);
 }
 
-/* Is its `on` the word "all", and not the name of an entry? */
+/* Returns 1 if the value of `on` is the word "all" and not the name of an entry. */
 static int is_on_all(const fields *f)
 {
     const document_node *on = document_find(f->map, "on");
@@ -44,7 +44,7 @@ static int is_heavy(const scene *s, const scene_member *m)
     return 0;
 }
 
-/* Returns the same gravity for a body. */
+/* Returns the gravity load with the same acceleration for a body. */
 static scene_load at_centre(const scene_load *what)
 {
     scene_load out = *what;
@@ -53,8 +53,8 @@ static scene_load at_centre(const scene_load *what)
     return out;
 }
 
-/* Adds gravity for each member with a density and each body with a mass. An error is reported only
- * once. */
+/* Adds gravity for each member with a density and each body with a mass. The same error is reported
+ * only once. */
 static void weigh_all(const fields *f, scene_load *what)
 {
     const scene *s = f->b->scene;
@@ -85,7 +85,7 @@ static void check_weight(const fields *f, const scene_load *what)
                    "gravity on a node that has no mass; give it mass: [kg], or name a member");
 }
 
-/* Returns the entry whose gravity acts on all; -1: none. */
+/* Returns the index of the entry whose gravity acts on all members and bodies, or -1. */
 static int whole_of(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_LOADS].count; i++) {
@@ -109,7 +109,8 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
                          f->b->list[SCENE_LOADS].entry[whole].name);
 }
 
-/* The keys of the table up to gravity are kinds of loads; temperature follows. */
+/* The first keys of the table, up to gravity, are in the order of the kinds of loads; temperature
+ * follows. */
 enum { OF_TEMPERATURE = SCENE_GRAVITY + 1 };
 
 static int spreads(int given)
@@ -118,8 +119,8 @@ static int spreads(int given)
            given == OF_TEMPERATURE;
 }
 
-/* Returns the kind of a load. A force or a moment at a position inside a member has another kind
- * than one at a node. */
+/* Returns the kind of a load. Forces and moments at a position inside a member have other kinds
+ * than those at a node. */
 static scene_load_kind kind_of(const fields *f, int given)
 {
     const int within = fields_have(f, "where");
@@ -210,8 +211,8 @@ static int place_of(const fields *f, const scene_load *what)
     return fields_entry(f, "on", scene_load_along(what) ? SCENE_MEMBERS : SCENE_NODES);
 }
 
-/* Rotates the vector to the axes of the scene, unless it is given in the axes of a member, which
- * rotate with an instance. */
+/* Rotates the vector to the axes of the scene. A vector in the axes of a member does not change,
+ * because these axes already rotate with the instance. */
 static void turn_load(const fields *f, scene_load *what)
 {
     if (what->axes == SCENE_AXES_MEMBER)
@@ -278,11 +279,11 @@ static void turn_stiffness(const placement *placed, double K[36])
                 turned[6 * i + j] = K[6 * j + i];
         memcpy(K, turned, sizeof turned);
     }
-    for (int i = 0; i < 36 && symmetric; i++) /* without rounding */
+    for (int i = 0; i < 36 && symmetric; i++) /* exactly symmetric */
         K[i] = (turned[i] + turned[i / 6 + 6 * (i % 6)]) / 2;
 }
 
-/* Reads six numbers or a matrix of a spring; returns 0 if the key is missing. */
+/* Reads a matrix of a spring, or its six diagonal entries. Returns 0 if the key is missing. */
 static int spring_matrix(builder *b, const fields *f, const char *key, double out[36])
 {
     double *given;
@@ -345,7 +346,7 @@ static void read_nodes(const fields *f, const char *key, int least, int index)
 
 enum { FORMS = 3, OF_FORM = 4 };
 
-/* Returns 0 for equal, 1 for a ratio, 2 for a diaphragm, -1 for none of them. */
+/* Returns 0 for equal components, 1 for a ratio, 2 for a diaphragm, and -1 for none of these. */
 static int form_of(const fields *f)
 {
     static const char *const form[FORMS][OF_FORM] = {{"equal", "components", NULL, NULL},
@@ -434,7 +435,7 @@ void builder_imperfections(builder *b)
 
 /* Load cases and combinations. */
 
-/* Adds a load case named by a load or a motion, unless it has been added. */
+/* Adds the load case that a load or a motion names, unless the list already contains it. */
 static void add_case(builder *b, const unrolled *entry)
 {
     const fields f = fields_of(b, entry);
@@ -461,7 +462,8 @@ void builder_cases(builder *b)
         scene_add_case(b->scene, b->list[SCENE_CASES].entry[i].name);
 }
 
-/* Does an entry of the map have this case, regardless of its conditions? */
+/* Returns 1 if an entry of the map has this load case, regardless of the conditions of the
+ * entry. */
 static int names_case(const document_node *entries, const char *name)
 {
     for (int i = 0; entries != NULL && entries->kind == DOCUMENT_MAP && i < entries->count; i++) {
@@ -502,7 +504,7 @@ void builder_combinations(builder *b)
     }
 }
 
-/* Is the load case used by a combination, an analysis or a quantity? */
+/* Returns 1 if a combination, an analysis or a quantity uses the load case. */
 static int is_read(const scene *s, int load_case)
 {
     for (int i = 0; i < s->combinations; i++)

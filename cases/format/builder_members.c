@@ -7,7 +7,7 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* Is there one? */
+/* Returns 1 if the entry has a function of time. */
 static int builder_has_function(const fields *f);
 
 static int share(const fields *f, const document_node *name)
@@ -17,7 +17,7 @@ static int share(const fields *f, const document_node *name)
         document_mistake(b->mistakes, name, 0, "shared: a name is expected");
         return SCENE_WARP_FREE;
     }
-    /* for an instance: its full name */
+    /* full name of an entry of an instance */
     char full[200];
     const int length = snprintf(full, sizeof full, "%.90s.%.90s",
                                 f->placed != NULL ? f->placed->name : "", name->text);
@@ -75,7 +75,7 @@ static void check_taper(const fields *f, const document_node *n, const int profi
         document_mistake(f->b->mistakes, n, 0, "%s", why.text);
 }
 
-/* Reads one name, or [at from, at to]. */
+/* Reads the name of a section, or two names: [at from, at to]. */
 static void read_sections(const fields *f, scene_member *m)
 {
     const document_node *n = document_find(f->map, "section");
@@ -93,7 +93,7 @@ static void read_sections(const fields *f, scene_member *m)
     check_taper(f, n, (const int[]){m->section, m->section_q});
 }
 
-/* Reads one word or a list, in order. */
+/* Reads a word or a list of words, in order. */
 static void read_released(const fields *f, const char *key, int member, int end)
 {
     const document_node *n = document_find(f->map, key);
@@ -199,7 +199,7 @@ void builder_motions(builder *b)
 
 /* Analyses of a scene. */
 
-/* Sets members of an analysis that its key table does not describe. */
+/* Sets the members of an analysis that its key table does not describe. */
 static void complete(const fields *f, int index, scene_analysis *a)
 {
     const fields control = fields_below(f, "continuation"), motion = fields_below(f, "motion"),
@@ -263,7 +263,8 @@ typedef struct written_out {
     size_t used;
 } written_out;
 
-/* Returns 0 if there is no room. */
+/* Appends text whose characters have the position `place` in the file. Returns 0 if there is no
+ * room. */
 static int put(written_out *to, const char *text, size_t length, int place)
 {
     if (to->used + length >= MOST_TEXT)
@@ -276,7 +277,7 @@ static int put(written_out *to, const char *text, size_t length, int place)
     return 1;
 }
 
-/* Copies a word of functions of time, and replaces any other name by its value; *at moves past it.
+/* Copies a word of functions of time, or the value of any other name, and moves *at past the name.
  * Returns 0 after an error. */
 static int put_name(const fields *f, const document_node *n, int *at, written_out *to)
 {
@@ -306,7 +307,7 @@ static int put_name(const fields *f, const document_node *n, int *at, written_ou
     return put(to, number, strlen(number), from);
 }
 
-/* Returns 0 after an error. */
+/* Writes the expression with the values of its names inserted. Returns 0 after an error. */
 static int write_out(const fields *f, const document_node *n, written_out *to)
 {
     int at = 0;

@@ -11,8 +11,8 @@
 /* Deviations of a unit vector below this value are round-off. */
 static const double round_off = 1e-12;
 
-/* Returns the component of the scene parallel to component c of the instance, or SCENE_NONE if the
- * axes are not parallel. *same: 1 if the signs are equal. */
+/* Returns the component in the axes of the scene that is parallel to component c of the instance,
+ * or SCENE_NONE if the axes are not parallel. *same: 1 if the two have the same direction. */
 static int component_of(const fields *f, int c, int *same)
 {
     double axis[3] = {0};
@@ -30,8 +30,8 @@ static int component_of(const fields *f, int c, int *same)
 
 static const char held_choices[] = "all|ux|uy|uz|rx|ry|rz";
 
-/* Does the node have its own axes, either given or those of a rotated instance? In the latter case,
- * sets them. */
+/* Returns 1 if the node has its own axes: given in the file, or those of a rotated instance, which
+ * are then set. */
 static int has_axes(const fields *f, scene_node *n)
 {
     const unsigned held = fields_words(f, "hold", held_choices);
@@ -112,15 +112,15 @@ static void read_member_axes(const fields *axes, int node, scene_node *n)
     }
     scene_chord(s, member, chord);
     if (rotation_triad(chord, m->y_axis, R) != 0)
-        return; /* the member is refused */
+        return; /* the member has an error, which is reported elsewhere */
     for (int i = 0; i < 3; i++) {
         n->axes[0][i] = R[3 * i];
         n->axes[1][i] = R[3 * i + 1];
     }
 }
 
-/* Reads rotations. A single rotation that moves is a sequence of one angle; several rotations about
- * the node's own axes have no order. */
+/* Reads rotations. A single prescribed rotation is a sequence of one angle; the order of several
+ * rotations about the axes of the node would be undefined. */
 static void turn_about_axes(const fields *f, scene_node *n)
 {
     double R[9];
@@ -184,7 +184,7 @@ static void read_drive(const fields *f, int node, int own)
     }
 }
 
-/* Reads an angle: free, held or a motion. */
+/* Reads an angle: free, fixed or prescribed by a motion. */
 static int angle_of(const fields *f, const document_node *n)
 {
     if (n->kind == DOCUMENT_TEXT && strcmp(n->text, "free") == 0)
@@ -258,7 +258,7 @@ static void check_masters(const fields *f, const scene_node *n)
                          "'rotation' sets all rotations; remove rx, ry, rz and forks");
 }
 
-/* Rotates the inertia of an undeformed body with its instance: I <- A I A^T, row by row. */
+/* Rotates the inertia tensor of a body with its instance: I <- A I A^T. */
 static void turn_inertia(const placement *placed, double I[6])
 {
     double row[3][3] = {{I[0], I[3], I[5]}, {I[3], I[1], I[4]}, {I[5], I[4], I[2]}};
@@ -296,7 +296,7 @@ void builder_nodes(builder *b)
 
 /* Sections of a scene. */
 
-/* Returns the index of the point that a wall names; -1 after an error. */
+/* Returns the index of the point that a wall names, or -1 after an error. */
 static int point_of(const fields *wall, const char *key, const document_node *points)
 {
     const document_node *name = document_find(wall->map, key);
@@ -393,8 +393,8 @@ static void read_matrices(const fields *f, section_spec *spec)
     read_matrix(f, "mass", spec->constants.mass);
 }
 
-/* Checks the material: material and overrides are allowed for all sections except those given by
- * matrices; separate masses only for the latter. */
+/* Checks the material. Sections given by matrices have no material and no overrides; only they have
+ * a mass matrix. */
 static void check_material(const fields *f)
 {
     static const struct {
@@ -469,8 +469,8 @@ void builder_sections(builder *b)
 
 /* Motions in time. */
 
-/* Defaults if neither a step nor a tolerance is given: 0.1 % of the motion. The step is relative to
- * the last station. */
+/* Defaults if neither a step nor a tolerance is given. The tolerances are relative to the size of
+ * the motion, and the step is relative to the last station. */
 static const double usual_tolerance = 1e-3, usual_of_radau = 1e-5, usual_step = 1e-3;
 
 /* Reads a parameter of alpha, which must lie between two limits. */
@@ -500,8 +500,8 @@ static scene_alpha alpha_of(const fields *f)
 
 static const char *const of_alpha[] = {"rho", "hht", "trapezoidal", "parameters"};
 
-/* Is alpha chosen without naming an integrator, by a parameter that only alpha has, or by constant
- * steps? */
+/* Returns 1 if the file selects alpha without naming an integrator: by a parameter that only alpha
+ * has, or by constant steps. */
 static int asks_for_alpha(const fields *f)
 {
     int asks = fields_have(f, "step") && !fields_have(f, "tolerance");
@@ -510,7 +510,8 @@ static int asks_for_alpha(const fields *f)
     return asks;
 }
 
-/* Rejects parameters of alpha for another integrator, unless they are parameters of the scene. */
+/* Rejects parameters of alpha for another integrator, unless their values are parameters of the
+ * scene. */
 static void check_parameters(const fields *f, scene_scheme scheme)
 {
     const int chosen = choice_index(SCENE_SCHEME_CHOICES, fields_text(f, "integrator", "")) < 0;
@@ -520,8 +521,8 @@ static void check_parameters(const fields *f, scene_scheme scheme)
                              "%s applies only to the integrator alpha; remove it", of_alpha[i]);
 }
 
-/* Returns the scheme. Parameter sets of alpha have their own names in comparisons of integrators
- * (motion -u). */
+/* Returns the integrator. In comparisons of integrators (motion -u), sets of parameters of alpha
+ * have separate names. */
 static scene_scheme scheme_of(const fields *f)
 {
     static const char *const set[][2] = {{"hht", "hht: 0.1"}, {"trapezoidal", "trapezoidal: yes"}};

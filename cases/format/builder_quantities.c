@@ -16,7 +16,7 @@ static const char *usual_unit(const scene *s, const scene_quantity *q)
     return quantity_type_of(q)->unit(s, q);
 }
 
-/* "m^2/Hz", "(m/s)^2/Hz" */
+/* Changes a unit to that of a power density, such as "m^2/Hz" or "(m/s)^2/Hz". */
 static void make_density(char unit[SCENE_UNIT])
 {
     char of[SCENE_UNIT];
@@ -28,8 +28,8 @@ static void make_density(char unit[SCENE_UNIT])
         snprintf(unit, SCENE_UNIT, "%s%.8s%s^2/Hz", plain ? "" : "(", of, plain ? "" : ")");
 }
 
-/* Is the unit the same in the units of the scene, because it contains neither lengths nor
- * forces? */
+/* Returns 1 if the unit is the same in the units of the scene because it contains neither lengths
+ * nor forces. */
 static int is_kept(const unit_system *u, const char *unit)
 {
     char own[SCENE_UNIT];
@@ -44,7 +44,8 @@ static void read_unit(const fields *f, scene_quantity *q)
     units_translate(&f->b->units, usual_unit(f->b->scene, q), sizeof own, own);
     if (q->transform == SCENE_PSD)
         make_density(own);
-    /* a factor may have any unit; an envelope has the unit of its quantities: take_envelopes */
+    /* with a factor, any unit is valid; an envelope has the unit of its quantities
+     * (take_envelopes) */
     if (unit != NULL && !fields_have(f, "factor") && q->what.kind != SCENE_ENVELOPE_OF) {
         if (!f->b->units.given)
             units_check(unit, f->b->mistakes);
@@ -78,7 +79,7 @@ static void read_abscissa_of(const fields *x, scene_quantity *q)
     scene_set_curve_over(q, over >= 0 ? x->b->list[SCENE_QUANTITIES].entry[over].name : "", "");
 }
 
-/* Sets units of abscissae; call it when all quantities are known. */
+/* Sets the units of abscissae. All quantities must have been read. */
 static void take_abscissa_units(scene *s)
 {
     for (int i = 0; i < s->quantities; i++) {
@@ -88,7 +89,7 @@ static void take_abscissa_units(scene *s)
     }
 }
 
-/* Reads the quantities of an envelope; all names are known by then, but not all units. */
+/* Reads the quantities of an envelope. At this time, all names are known, but not all units. */
 static void read_members(const fields *what, scene_quantity *q)
 {
     const document_node *n = document_find(what->map, "quantities");
@@ -157,7 +158,7 @@ static void read_abscissa(const fields *f, scene_quantity *q)
                     fields_number(&x, "factor", 1), fields_number(&x, "offset", 0));
 }
 
-/* Reads the stations: `at` a value, or last, max, min, curve. */
+/* Reads the stations to which the quantity refers: `at` a value, or last, max, min or curve. */
 static void read_stations(const fields *entry, const fields *what, scene_quantity *q)
 {
     const int taken = fields_word(what, "take", SCENE_TAKE_CHOICES, 0),
@@ -174,7 +175,7 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
                          "an abscissa requires a curve; add take: curve, or remove it");
 }
 
-/* Refuses a window or a level that the quantity does not use. */
+/* Rejects a window or a level that the quantity does not use. */
 static void check_when(const fields *f, const scene_quantity *q)
 {
     static const char *const crossing[] = {"direction", "level", "which"};
@@ -189,7 +190,9 @@ static void check_when(const fields *f, const scene_quantity *q)
                          "motion between its stations, and this quantity is none of these; remove "
                          "it, or change 'take'");
     else
-        for (int i = q->passing.direction == SCENE_RISING; i < 3; i++) /* which is written always */
+        for (int i = q->passing.direction == SCENE_RISING; i < 3; i++) /* the direction 'rising' is
+                                                                        * ignored, because it is
+                                                                        * always written */
             if (fields_have(&when, crossing[i]) && q->reduction != SCENE_CROSSING &&
                 q->reduction != SCENE_PERIOD && q->reduction != SCENE_PER_SECOND)
                 document_mistake(f->b->mistakes, document_find(when.map, crossing[i]), 0,
@@ -198,7 +201,7 @@ static void check_when(const fields *f, const scene_quantity *q)
                                  crossing[i]);
 }
 
-/* Reads the prediction; the text of its source survives a second build of the scene. */
+/* Reads the prediction. The text of its source remains valid after a second build of the scene. */
 static void read_prediction(const fields *f, const unrolled *entry, scene_quantity *q)
 {
     const fields prediction = fields_below(f, "prediction");
@@ -225,8 +228,8 @@ static int asked_of(const scene *s, int analysis)
     return most;
 }
 
-/* Sets the number of eigenvalues, which the quantities determine; `wanted` must not contradict
- * them. */
+/* Sets the number of eigenvalues, which follows from the quantities. Reports a contradicting
+ * `wanted`. */
 static void check_wanted(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
@@ -259,7 +262,7 @@ static void read_overs(const fields *what, scene_quantity *q)
     }
 }
 
-/* Sets members of a quantity that the key table of its kind does not describe. */
+/* Sets the members of a quantity that the key table of its kind does not describe. */
 static void settle(const fields *what, const quantity_type *type, scene_quantity *q)
 {
     const scene *s = what->b->scene;
@@ -299,8 +302,7 @@ void builder_quantities(builder *b)
     check_wanted(b);
 }
 
-/* Default analysis and quantities for a scene file that requests none: one analysis and its visible
- * results. */
+/* Default analysis and quantities for a scene file that requests none. */
 
 /* Adds a path to the last station of the motions, or a linear solution if there are no motions. */
 static int add_analysis(builder *b)
@@ -314,7 +316,7 @@ static int add_analysis(builder *b)
     return end > 0 ? scene_add_static(b->scene, 1, &end, 1) : scene_add_linear(b->scene);
 }
 
-/* Does the node carry a load or follow a motion? */
+/* Returns 1 if the node has a load or a prescribed motion. */
 static int is_asked(const scene *s, int node)
 {
     for (int i = 0; i < s->loads; i++)
@@ -326,7 +328,8 @@ static int is_asked(const scene *s, int node)
     return 0;
 }
 
-/* Returns the largest extent of the positions [m]; far smaller values count as zero. */
+/* Returns the largest extent of the positions [m]. Displacements that are far smaller count as
+ * zero. */
 static double size_of(const scene *s)
 {
     double least[3] = {INFINITY, INFINITY, INFINITY}, most[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -430,7 +433,7 @@ void builder_defaults(builder *b)
         add_quantities(b);
 }
 
-/* Returns the text after an SI unit and its power; NULL if it is not one. */
+/* Returns the text after an SI unit and its power, or NULL if there is no SI unit. */
 static const char *word_end(const char *at)
 {
     static const char *const si[] = {"1", "m", "rad", "s", "kg", "N", "Pa", "J", "W", "Hz", "K"};
@@ -451,8 +454,8 @@ static const char *product_end(const char *at)
     return at;
 }
 
-/* Checks a unit such as "N m", "kg/m^3" or "rad/(N m)": after the slash comes one word, or several
- * in parentheses. */
+/* Returns 1 for a unit such as "N m", "kg/m^3" or "rad/(N m)". The slash is followed by one word or
+ * by several words in parentheses. */
 static int is_si(const char *unit)
 {
     const char *at = product_end(unit);
@@ -547,7 +550,8 @@ static const named_unit *find_unit(const named_unit list[], const char *text, si
     return NULL;
 }
 
-/* Reads one of the three words of a unit system; returns 0 after an error, which is reported. */
+/* Reads one of the three words of a unit system. Reports an error and returns 0 if it is
+ * invalid. */
 static int units_read_unit(const document_node *n, const char *word, size_t length,
                            unit_system *out, double *stress, mistakes *m)
 {

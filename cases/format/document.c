@@ -23,7 +23,8 @@ static void *refuse(document_reader *r, yaml_mark_t at, const char *what)
     return NULL;
 }
 
-/* Reports a syntax error: in beamwork's words if it is known, otherwise in those of the parser. */
+/* Reports a syntax error, with beamwork's message for known errors, otherwise with that of the
+ * parser. */
 static void tell_syntax(document_reader *r)
 {
     const yaml_parser_t *p = &r->parser;
@@ -129,7 +130,7 @@ static int add_entry(document_reader *r, document_node *n, document_node *key, d
     return 1;
 }
 
-/* Reads a key of a map; errors after which reading can continue are only reported. */
+/* Checks a key of a map. Reports an error and returns 0 if the key is invalid. */
 static int check_key(document_reader *r, const document_node *map, const document_node *key)
 {
     if (key->kind != DOCUMENT_TEXT) {
@@ -228,7 +229,7 @@ static document_node *read_node(document_reader *r, const yaml_event_t *event, i
     }
 }
 
-/* Reads the first events of the stream, the tree, and the end. */
+/* Reads the start of the stream, the tree, and the end of the stream. */
 static document_node *read_stream(document_reader *r)
 {
     yaml_event_t event;
@@ -370,7 +371,7 @@ void arena_free(arena *a)
     memset(a, 0, sizeof *a);
 }
 
-/* Does the position precede that of the error? */
+/* Returns 1 if the position precedes that of the error. */
 static int is_before(int line, int column, const mistake *other)
 {
     return line < other->line || (line == other->line && column < other->column);

@@ -29,7 +29,7 @@ static int tell_unknown(const name_context *c, const char *text, int from, int l
     return 0;
 }
 
-/* Reads SECTION.CONSTANT; length: of the section's name including the point. */
+/* Reads SECTION.CONSTANT. length: length of the name of the section, including the point. */
 static int constant(const name_context *c, const char *text, int *at, int length, double *out,
                     expression_mistake *why)
 {
@@ -111,7 +111,7 @@ int expression_vector(const document_node *n, int count, const scope *names, mis
 
 enum { MOST = 10000 };
 
-/* Returns the last position of a string outside parentheses, after `from`; -1: none. */
+/* Returns the last position of a string outside parentheses after `from`, or -1. */
 static int find_outside(const char *text, int from, const char *what)
 {
     int depth = 0, found = -1;

@@ -134,7 +134,7 @@ void builder_call(builder *b, scene_list list, int index, int i)
     scene_set_name(b->scene, list, index, b->list[list].entry[i].name);
 }
 
-/* One list of a builder, used to find the nearest name. */
+/* A list of a builder, used to find the nearest name. */
 typedef struct named_list {
     const builder *b;
     scene_list list;
@@ -146,7 +146,8 @@ static const char *entry_at(const void *context, int i)
     return i < those->b->list[those->list].count ? those->b->list[those->list].entry[i].name : NULL;
 }
 
-/* Finds the entry of that name; inside an instance, the entries of the instance take precedence. */
+/* Returns the entry with the name in `text`. Inside an instance, the entries of the instance take
+ * precedence. */
 static int find_entry(const fields *f, const char *text, scene_list list, int own)
 {
     const size_t prefix = own && f->placed != NULL ? strlen(f->placed->name) : 0;
@@ -162,8 +163,8 @@ static int find_entry(const fields *f, const char *text, scene_list list, int ow
     return found;
 }
 
-/* Returns the name in a node of the tree, which may be plain or refer to a loop or a port. Sets
- * *port if it is a port. */
+/* Returns the name in a node of the tree: a plain name, or one that contains a loop name or denotes
+ * a port. Sets *port to 1 for a port. */
 static const char *name_of(const fields *f, const document_node *n, scene_list list, int *port)
 {
     const scope *known = scope_find(f->names, n->text, strlen(n->text));

@@ -121,8 +121,8 @@ void key_list_write(FILE *to, key_list_say *say)
 
 static json_t *map_of(const entry_field *table, const entry_field *loop);
 
-/* Returns the schema of a scalar. An expression is a text or a number; a word may also be the name
- * of a parameter. */
+/* Returns the schema of a scalar: text (an expression, a word or the name of a parameter) or a
+ * number. */
 static json_t *scalar(void)
 {
     return json_pack("{s:[s, s]}", "type", "number", "string");
@@ -142,7 +142,7 @@ static json_t *words_of(const char *words)
 
 static json_t *word(const entry_field *k)
 {
-    if (k->words == NULL) /* names of the file */
+    if (k->words == NULL) /* user-defined names */
         return json_pack("{s:s}", "type", "string");
     return json_pack("{s:s, s:o}", "type", "string", "examples", words_of(k->words));
 }

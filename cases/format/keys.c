@@ -173,7 +173,7 @@ const entry_field keys_root[] = {
      .left_out = "none"},
     {.name = NULL}};
 
-/* Names of both tables in one list. */
+/* The names of both tables as one list. */
 typedef struct known_keys {
     const entry_field *table, *loop; /* loop NULL: entries cannot have loops */
 } known_keys;
@@ -302,7 +302,8 @@ static void check_value(const document_node *n, const entry_field *k, const docu
     }
 }
 
-/* Returns the key that corresponds to a key of another program that resembles no key here. */
+/* Returns the key that corresponds to a word which other programs use and which resembles no key
+ * here. */
 static const char *elsewhere(const entry_field *table, const char *name)
 {
     static const char *const poisson[] = {"poisson", "poissons_ratio", "poisson_ratio", "nu"};
@@ -328,7 +329,7 @@ static const char *remedy_of(const known_keys *known, const char *name, char tex
                            text);
 }
 
-/* Is a missing key probably meant by a misspelt one, or replaced by a rejected one? */
+/* Returns 1 if a misspelt or rejected key of the map probably stands for the missing key. */
 static int is_meant(const document_node *map, const known_keys *known, const char *name)
 {
     for (int i = 0; i < map->count; i++) {
@@ -390,7 +391,7 @@ static void check_missing(const document_node *map, const known_keys *known,
     }
 }
 
-/* Reports "a map: {mass: ..., stiffness: ..., ratio: ...}". */
+/* Reports that a map is expected: "a map: {mass: ..., stiffness: ..., ratio: ...}". */
 static void tell_map(const document_node *n, const known_keys *known, const document_node *name,
                      mistakes *m)
 {

@@ -6,7 +6,8 @@
 
 #include "cases/scene/scene.h"
 
-/* Writes the states and their analysis: ", at the end of the static path". */
+/* Writes the states to which the quantity belongs and their analysis, such as ", at the end of the
+ * static path". */
 static void meaning_state(FILE *to, const scene *s, const scene_quantity *q);
 
 static int is_blank(char c)
@@ -47,8 +48,8 @@ char *line_trim(char *line)
     return line;
 }
 
-/* Returns the number of continuation bytes after the first byte of a character; 0: not a multi-byte
- * character. */
+/* Returns the number of continuation bytes after the first byte of a character, or 0 if it does not
+ * start a multi-byte character. */
 static int following(unsigned char first)
 {
     if (first < 0xc2 || first >= 0xf5)
@@ -58,7 +59,8 @@ static int following(unsigned char first)
     return first < 0xf0 ? 2 : 3;
 }
 
-/* Returns the number of bytes of the character that starts here; 0: not allowed. */
+/* Returns the number of bytes of the character that starts here, or 0 if the character is not
+ * allowed. */
 static int character_length(const unsigned char *at)
 {
     if (at[0] < 0x80)
@@ -84,7 +86,7 @@ int line_is_text(const char *line)
     return 1;
 }
 
-/* Ends the field that starts at `at`; returns the position of the next one, or NULL. */
+/* Terminates the field that starts at `at`. Returns the position of the next field, or NULL. */
 static char *end_field(char *at)
 {
     char *end = at;
@@ -172,7 +174,7 @@ static void put_sentence(const scene *s, const scene_quantity *q, char *text, si
     text[size - 1] = '\0';
 }
 
-/* Would another analysis of the same kind have the same description? */
+/* Returns 1 if another analysis of the same kind would have the same description. */
 static int has_twin(const scene *s, const scene_quantity *q, const char *text)
 {
     char other[MEANING_ROOM];
@@ -216,7 +218,7 @@ static const char *path_name(const scene_analysis *a)
     return a->kind == SCENE_CONTINUATION ? "path of the load factor" : "static path";
 }
 
-/* Returns the analysis along whose path stations are counted; NULL: none. */
+/* Returns the analysis whose path contains the stations, or NULL. */
 static const scene_analysis *path_of(const scene *s, const scene_analysis *a)
 {
     const scene_analysis *walked =
@@ -224,7 +226,7 @@ static const scene_analysis *path_of(const scene *s, const scene_analysis *a)
     return scene_path_of(walked) != NULL ? walked : NULL;
 }
 
-/* Writes the position on the path: the last station, or the value of the parameter. */
+/* Writes the position on the path, which is the last station or the value of the parameter. */
 static void at_station(FILE *to, const scene *s, const scene_quantity *q, const scene_analysis *a)
 {
     const scene_path *path = scene_path_of(a);
@@ -308,7 +310,7 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
     }
 }
 
-/* Writes which loads act, if the scene has load cases. */
+/* Writes the active load case or combination, if the scene has load cases. */
 static void acting(FILE *to, const scene *s, const scene_quantity *q)
 {
     static const char *const of[] = {"", "largest of", "least of", "largest magnitude of"};

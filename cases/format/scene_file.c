@@ -35,7 +35,7 @@ static const char *name_of_file(scene_file *file)
     if (*at == '\0' || *at == '.' || (*at >= '0' && *at <= '9'))
         count = (size_t)snprintf(name, sizeof name, "scene_");
     for (; *at != '\0' && *at != '.' && count < SCENE_NAME - 1; at++)
-        if (((unsigned char)*at & 0xc0) != 0x80) /* otherwise it continues a character */
+        if (((unsigned char)*at & 0xc0) != 0x80) /* other bytes continue a character */
             name[count++] = strspn(at, letters) > 0 ? *at : '_';
     return arena_copy(&file->arena, name, count);
 }
@@ -61,7 +61,7 @@ static const char *line_of(const scene_file *file, const char *key)
     return n != NULL ? n->text : "";
 }
 
-/* Builds the scene in separate memory; errors are reported in m. */
+/* Builds the scene with a temporary arena and adds errors to m. */
 static void build_at(const scene_file *file, const double value[], scene *s, mistakes *m)
 {
     arena a = {0};
@@ -77,8 +77,9 @@ static status build_from(const void *context, const double value[], scene *s, fa
     return mistakes_status(&m, f);
 }
 
-/* Reads the tree, the tables of other files, the form and the parameters, each only if the previous
- * part has no errors. folder: path of a file in the folder of the tables; NULL: none. */
+/* Reads the tree and the tables in other files, checks the keys, and reads the parameters; each
+ * step only if the previous one found no errors. folder: path of a file in the folder of the
+ * tables; NULL: none. */
 static void read_form(scene_file *file, const char *bytes, size_t size, const char *folder,
                       mistakes *m)
 {
@@ -95,7 +96,7 @@ static void read_form(scene_file *file, const char *bytes, size_t size, const ch
     parameter_table_read(file, m);
 }
 
-/* Checks the scene and the reference values at parameter values. */
+/* Checks the scene and the reference values at these parameter values. */
 static void check_at(const scene_file *file, const double value[], mistakes *m)
 {
     scene s;
@@ -150,7 +151,8 @@ status scene_file_read_bytes(const char *bytes, size_t size, const char *path, s
     return read_from(bytes, size, path, NULL, 1, out, m, f);
 }
 
-/* Reads a file, at most one byte more than allowed, so that a longer file is rejected. */
+/* Reads the bytes of a file, at most one more than is allowed, so that a longer file is
+ * rejected. */
 static status read_bytes(const char *path, char *bytes, size_t room, size_t *size, fault *f)
 {
     FILE *from = fopen(path, "rb");
@@ -227,7 +229,7 @@ const char *scene_file_path(const case_type *type)
 
 /* A reference value at a point. */
 typedef struct file_truth {
-    int holds; /* 1: at this point */
+    int holds; /* 1: the reference value applies at this point */
     scene_truth says;
 } file_truth;
 
@@ -239,8 +241,8 @@ static const scene_quantity *quantity_of(const scene *s, const char *name)
     return NULL;
 }
 
-/* Returns the index of a parameter that a reference value names, and its value there; -1 after an
- * error. */
+/* Returns the index of a parameter that a reference value names and sets *value to its value there.
+ * Returns -1 after an error. */
 static int named_value(const scene_file *file, const fields *f, const document_node *those, int i,
                        double *value)
 {
@@ -261,7 +263,8 @@ static int named_value(const scene_file *file, const fields *f, const document_n
     return index;
 }
 
-/* Moves `point` to the values that the reference value names; returns 1 if it was that point. */
+/* Sets the parameters in `point` to the values that the reference value names. Returns 1 if they
+ * had these values. */
 static int visit_point(const scene_file *file, const fields *f, double point[])
 {
     const document_node *those = document_find(f->map, "parameters");
@@ -355,7 +358,7 @@ static void scene_file_truths_check(const scene_file *file, const scene *s, cons
     arena_free(&a);
 }
 
-/* Passes reference values at a point. The caller, scene_file_truths, frees the workspace, also
+/* Passes the reference values at a point. The caller, scene_file_truths, frees the workspace, also
  * after a failure. */
 static status give_at(const scene_file *file, const double point[], scene *s, arena *a,
                       scene_truth_taker *take, void *to, fault *f)
@@ -389,7 +392,7 @@ status scene_file_truths(const scene_file *file, const double value[], scene_tru
     return outcome;
 }
 
-/* Passes reference values at the defaults and at every other point that has one. */
+/* Passes the reference values at the defaults and at every other point for which one is given. */
 static status give_everywhere(const scene_file *file, arena *a, scene_truth_taker *take, void *to,
                               fault *f)
 {

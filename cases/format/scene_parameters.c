@@ -22,7 +22,7 @@ static double number_of(const document_node *entry, const char *key, double othe
     return n != NULL && expression_number(n, NULL, m, &value) ? value : otherwise;
 }
 
-/* [0, 1] */
+/* Returns 1 if the choices are [0, 1]. */
 static int is_switch(const document_node *choices)
 {
     return choices->kind == DOCUMENT_LIST && choices->count == 2 &&
@@ -68,8 +68,8 @@ static void read_choice(parameter_type *p, const document_node *value, mistakes 
                          p->choices);
 }
 
-/* Reads a number. any_unit: the scene has its own units, so that its parameters may have them,
- * too. */
+/* Reads a parameter that is a number. any_unit 1: the scene has its own units, which its parameters
+ * may also use. */
 static void read_number(parameter_type *p, const document_node *entry, int any_unit, mistakes *m)
 {
     const document_node *unit = document_find(entry, "unit"), *at = document_find(entry, "value");
@@ -85,7 +85,7 @@ static void read_number(parameter_type *p, const document_node *entry, int any_u
     else if (read && !(p->value >= p->min && p->value <= p->max))
         document_mistake(m, at, 0, "%s = %g %s is outside its range %g .. %g", p->name, p->value,
                          p->unit, p->min, p->max);
-    /* a range of exactly 0 .. 1 without unit would look like a switch in --set */
+    /* a range from 0 to 1 without a unit would look like a switch in --set */
     if (p->min == 0 && p->max == 1)
         p->max = nextafter(1, 2);
 }
@@ -141,7 +141,7 @@ static const char *const list_name[SCENE_LISTS] = {
     "sections", "nodes",      "members", "springs",      "motions",     "loads",
     "analyses", "quantities", "",        "combinations", "constraints", "imperfections"};
 
-/* Checks a name of an entry that others can refer to. */
+/* Checks the name of an entry to which other entries can refer. */
 static void check_name(const builder *b, scene_list list, int i)
 {
     const unrolled *entry = &b->list[list].entry[i];
@@ -200,8 +200,8 @@ static void list_entries(builder *b)
             check_name(b, (scene_list)i, k);
 }
 
-/* Reads a key of earlier versions, now replaced by `omit`. Physics that it does not list is
- * omitted, except warping, which every section that warps had. */
+/* Reads `needs` of earlier versions, which `omit` replaces. Physics that it does not list is
+ * omitted, except warping, which was always active for sections that warp. */
 static void read_needs(const fields *f)
 {
     static const char choices[] =
@@ -220,7 +220,8 @@ static void read_needs(const fields *f)
                                                   : SCENE_SHEAR_OWN;
 }
 
-/* Reads a word of 'omit': yes, or the values of names for which it is omitted. */
+/* Returns 1 if a word of 'omit' applies: its value is yes, or contains the present values of
+ * names. */
 static int is_omitted(const fields *f, const document_node *n)
 {
     if (n->kind == DOCUMENT_MAP)
@@ -232,7 +233,7 @@ static int is_omitted(const fields *f, const document_node *n)
     return 0;
 }
 
-/* Reads a list of words, or a map of them. */
+/* Reads the words of `omit`, which are in a list or a map. */
 static unsigned read_omit(const fields *f, const char *choices)
 {
     const document_node *n = document_find(f->map, "omit");
@@ -280,7 +281,7 @@ static void read_plane(builder *b)
 
 static void read_meshes(builder *b)
 {
-    int usual[] = {1, 2, 4, 8}, least = 1; /* meshes that reveal every imperfection */
+    int usual[] = {1, 2, 4, 8}, least = 1; /* meshes that are fine enough for every initial shape */
     for (int i = 0; i < b->scene->members; i++) {
         const scene_member *m = &b->scene->member[i];
         if ((m->bow[0] != 0 || m->bow[1] != 0) && 2 * m->half_waves > least)
@@ -309,7 +310,7 @@ static void read_meshes(builder *b)
     scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
 }
 
-/* Finds the entry that a rejection names ("node tip: ..."), and its text. */
+/* Reports a rejection at the position of the entry that it names ("node tip: ..."). */
 static void tell_refusal(const builder *b, const char *text)
 {
     static const char *const word[SCENE_LISTS] = {
@@ -332,7 +333,7 @@ static void tell_refusal(const builder *b, const char *text)
     document_mistake(b->mistakes, b->root, 0, "%s", text);
 }
 
-/* Returns 1 if the parameter values are rejected. */
+/* Reports and returns 1 if `refuse` rejects the parameter values. */
 static int refuses(const builder *b)
 {
     const document_node *all = document_find(b->root, "refuse");
@@ -347,8 +348,8 @@ static int refuses(const builder *b)
     return b->mistakes->count > before;
 }
 
-/* Converts from the units of the file, in which quantities are reported. own: number of quantities
- * in the file. */
+/* Converts the scene from the units of the file to SI. Quantities are reported in the units of the
+ * file. own: number of quantities in the file. */
 static void to_si(const builder *b, int own)
 {
     fault f = {""};
@@ -417,7 +418,7 @@ void build_scene(const document_node *root, const scope *names, arena *a, mistak
         tell_refusal(&b, f.text);
 }
 
-/* Returns the tree, owned by the arena; NULL if out of memory. */
+/* Returns the tree, which the arena owns, or NULL if out of memory. */
 static const document_node *unpack(const scene_packed *p, arena *a)
 {
     const size_t nodes = (size_t)p->nodes;

@@ -1,5 +1,5 @@
-/* Sections by their dimensions, and rolled ones by their name, as thin walls. All dimensions refer
- * to the centre lines of the walls. */
+/* Sections given by dimensions and rolled sections given by name, as thin walls. All dimensions
+ * refer to the centre lines of the walls. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -92,7 +92,7 @@ static void tee(const fields *f, section_spec *spec)
 static void add_box(section_spec *spec, flanged s)
 {
     add_line(spec, &s, s.flange / 2, s.flange / 2);
-    for (int k = 0; k < spec->points; k++) /* the web is one of two */
+    for (int k = 0; k < spec->points; k++) /* the web is one of the two webs */
         spec->point[k][0] += k == 1 || k == 2 ? -s.flange / 2 : 0;
     add_wall(spec, 3, 0, s.web_thickness);
     spec->cells = 1;
@@ -118,9 +118,10 @@ static void angle(const fields *f, section_spec *spec)
               fields_number(f, "thickness", 1));
 }
 
-/* Rolled sections. Dimensions [mm]: depth, flange, web and flange thickness, root radius. UPN also
- * have constants [cm^2, cm^4, cm^4, cm^4, 10^3 cm^6] and the shear centre from the centroid [cm],
- * since their flanges are tapered. EN 10365:2017 (IPE, HEA, HEB, HEM, UPN). */
+/* Rolled sections. Dimensions [mm]: depth, flange, web and flange thickness, root radius. For UPN,
+ * constants [cm^2, cm^4, cm^4, cm^4, 10^3 cm^6] and the distance of the shear centre from the
+ * centroid [cm] are also listed, because the flanges are tapered. EN 10365:2017 (IPE, HEA, HEB,
+ * HEM, UPN). */
 enum { UPN = 12 };
 
 typedef struct rolled {
@@ -259,7 +260,7 @@ static const double angle_root[][3] = {
 static const double spandrel_area = 1 - PI / 4, spandrel_at = (10 - 3 * PI) / (12 - 3 * PI),
                     spandrel_moment = 1. / 3 - PI / 16 - 1 / (36 - 9 * PI);
 
-/* Sets the constant unless the scene gives it. */
+/* Sets the constant, unless the scene specifies it. */
 static void give(double *to, double value)
 {
     if (isnan(*to))
@@ -287,7 +288,7 @@ static void add_rolled_i(section_spec *spec, const rolled *p, double mm)
     give(&spec->given.Iw, tf * b * b * b * middle * middle / 24);
 }
 
-/* An area, the position of its centroid, and its second moments about the centroid. */
+/* An area with the position of its centroid and its second moments about the centroid. */
 typedef struct patch {
     double area, y, z, Iy, Iz, Iyz;
 } patch;
@@ -298,8 +299,8 @@ static patch rectangle_patch(double y0, double y1, double z0, double z1)
     return (patch){w * h, (y0 + y1) / 2, (z0 + z1) / 2, w * h * h * h / 12, h * w * w * w / 12, 0};
 }
 
-/* Returns the area between a corner and its inscribed quarter circle, towards +y and +z if ky = kz
- * = 1, otherwise towards the opposite direction. sign: -1 if the area is cut off. */
+/* Returns the area between a corner and its inscribed quarter circle, on the side of +y and +z if
+ * ky = kz = 1; -1 selects the opposite side. sign: -1 if the area is cut off. */
 static patch spandrel_patch(double y, double z, double r, int ky, int kz, int sign)
 {
     const double area = spandrel_area * r * r, at = spandrel_at * r,
@@ -328,7 +329,8 @@ static patch sum_of(int count, const patch p[])
     return all;
 }
 
-/* Adds legs of outer lengths b along y and h along z with fillets, exact except It (Roark's
+/* Adds an angle with legs of outer lengths b along y and h along z, and its constants with fillets,
+ * which are exact except It (Roark's
  * Formulas for Stress and Strain, 7th ed., table 10.7, case 26, legs of equal thickness). The
  * origin is the intersection of the centre lines, which is the shear centre. */
 static void add_rolled_angle(section_spec *spec, double h, double b, double t, double root)
@@ -381,8 +383,8 @@ static void add_hollow(section_spec *spec, double h, double b, double t)
     give(&spec->given.It, t * t * t * line / 3 + 4 * enclosed * enclosed * t / line);
 }
 
-/* Reads the dimensions after the letters of a name: "200x100x5". Returns their number; -1:
- * something else follows. */
+/* Reads the dimensions after the letters of a name, such as "200x100x5". Returns their number, or
+ * -1 if other text follows. */
 static int sizes_of(const char *text, double size[3])
 {
     int count = 0;
@@ -399,8 +401,8 @@ static int sizes_of(const char *text, double size[3])
     return -1;
 }
 
-/* Adds the rolled section of a name without blanks, in capitals. mm: a millimetre in the scene's
- * unit of length. Returns 0 if there is none of that name. */
+/* Adds the rolled section of a name without blanks, in capitals. mm: a millimetre in the length
+ * unit of the scene. Returns 0 if there is no section of this name. */
 static int add_profile(section_spec *spec, const char *name, double mm)
 {
     static const struct {
@@ -466,7 +468,8 @@ static int add_profile(section_spec *spec, const char *name, double mm)
     return 0;
 }
 
-/* Lists the dimensions of a family, or describes the form of names. */
+/* Writes the available dimensions of the family of this name, or the form of names if the family is
+ * unknown. */
 static void known_profiles(const char *name, char *text, size_t size)
 {
     static const struct {
@@ -491,7 +494,7 @@ static void known_profiles(const char *name, char *text, size_t size)
              "sizes, thickness) in mm, or give dimensions");
 }
 
-/* Reads the name of a profile; blanks are ignored, and so is the case of letters. */
+/* Reads the name of a profile. Blanks and the case of letters are ignored. */
 static void profile(const fields *f, section_spec *spec)
 {
     char name[40] = "", known[FAULT_TEXT / 2];

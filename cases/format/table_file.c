@@ -9,15 +9,16 @@
 
 enum { LINE_BYTES = 8192, COLUMNS = 256, NAME_BYTES = 64, COLUMNS_TOLD = 160 };
 
-/* A file that is read for a table. */
+/* State of a file that is read for a table. */
 typedef struct table_file {
     const document_node *place; /* file name in the scene file */
     arena *arena;
     mistakes *mistakes;
     const char *name;              /* path as written in the scene file */
     const document_node *of[2];    /* how the scene file describes the columns */
-    int column[2], columns, begun; /* from 0; in the first row; 1: the columns are known */
-    double last;                   /* last value in the first of them */
+    int column[2], columns, begun; /* columns to be read, from 0; number of columns in the first
+                                    * row; 1: the columns are known */
+    double last;                   /* last value in the first of these columns */
     document_node *list[2];
     int line;
     char text[LINE_BYTES], *field[COLUMNS];
@@ -30,7 +31,7 @@ static int wrong(const table_file *t, const char *what, const char *which, const
     return 0;
 }
 
-/* Splits fields separated by commas or semicolons, or otherwise by blanks. */
+/* Splits the line at commas or semicolons or, if there are none, at blanks. */
 static int split(table_file *t, char *line)
 {
     if (strchr(line, ',') == NULL)
@@ -40,8 +41,8 @@ static int split(table_file *t, char *line)
                                      : line_words(line, t->field, COLUMNS);
 }
 
-/* Returns the column given by its name in the header (if there is one) or by its number; -1: none,
- * which is reported. */
+/* Returns the column with a name in the header, if there is one, or with a number. Reports a
+ * missing column and returns -1. */
 static int column_of(const table_file *t, const document_node *of, int header)
 {
     char known[COLUMNS_TOLD] = "";
@@ -266,7 +267,7 @@ static FILE *open_beside(const char *beside, const char *name, arena *a)
     return line_open(path);
 }
 
-/* Opens the file that a map names; NULL: none, or after an error. */
+/* Opens the file that a map names. Returns NULL if there is none or after an error. */
 static FILE *open_file(table_file *t, const char *beside)
 {
     const document_node *file = t->place;
@@ -337,7 +338,7 @@ static void read_table(document_node *map, const char *beside, arena *a, mistake
     }
     read = read && read_rows(&t, from);
     fclose(from);
-    for (int i = 0, to = 0; read && i < map->count; i++) { /* without the file */
+    for (int i = 0, to = 0; read && i < map->count; i++) { /* keys other than those of the file */
         if (map->item[i] == file)
             continue;
         map->key[to] = map->key[i];

@@ -43,7 +43,7 @@ static void add(unroller *u, const scope *names)
 
 static void unroll_loops(unroller *u, const document_node *loops, int depth, const scope *names);
 
-/* Is it a word in the list of a loop, and not an expression with known names? */
+/* Returns 1 if an item in the list of a loop is a word and not an expression with known names. */
 static int is_word(const document_node *n, const scope *names)
 {
     const size_t length = n->kind == DOCUMENT_TEXT ? expression_name_length(n->text) : 0;
@@ -150,7 +150,7 @@ static const scope *find(const document_node *key, const scope *names, mistakes 
     return known;
 }
 
-/* Is this the value? Returns -1 after an error. */
+/* Returns 1 if the node is the value of the name, otherwise 0, or -1 after an error. */
 static int has_value(const scope *known, const document_node *n, const scope *names, mistakes *m)
 {
     double value;
@@ -186,7 +186,8 @@ int choose_holds(const document_node *conditions, const scope *names, mistakes *
     return holds;
 }
 
-/* Returns the value after the matching key or after else; NULL: none, or after an error. */
+/* Returns the entry of the matching key or of else. Returns NULL if there is none or after an
+ * error. */
 static const document_node *entry_of(const scope *known, const document_node *map,
                                      const scope *names, mistakes *m)
 {
@@ -281,7 +282,7 @@ static void read_turn(const document_node *turn, const scope *names, mistakes *m
     p->turned = 1;
 }
 
-/* Checks that all ports of the part are connected, and that there are no other ports. */
+/* Checks that all ports of the part are connected, and that `connect` contains no other names. */
 static void check_ports(const document_node *part, const unrolled *instance, const placement *p,
                         mistakes *m)
 {
@@ -327,7 +328,7 @@ static const placement *read_placement(const document_node *part, const unrolled
     return p;
 }
 
-/* Returns "INSTANCE.ENTRY"; NULL if out of memory. */
+/* Returns "INSTANCE.ENTRY", or NULL if out of memory. */
 static const char *full_name(const placement *p, const char *name, arena *a)
 {
     char text[200];

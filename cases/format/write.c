@@ -143,7 +143,7 @@ static void write_rotation(writer *w, const void *entry)
     fputs("]}", w->to);
 }
 
-/* Writes a list of the scene: KEY, and one entry per line. */
+/* Writes a list of the scene: the key, then one entry per line. */
 static void write_list(writer *w, const char *key, scene_list list, const entry_field *table,
                        const write_own own[])
 {
@@ -249,7 +249,7 @@ static void write_scaled(writer *w, const char *text, double scale)
     fprintf(w->to, "\"(%s)*%.17g\"", text, scale);
 }
 
-/* A function of time. */
+/* Writes the pieces of a function of time. */
 static void write_pieces(writer *w, const scene_function *f)
 {
     if (f->pieces == 0)

@@ -7,7 +7,7 @@
 
 #include "elements/shared/choice.h"
 
-/* Writes the word with that index in "a|b|c". */
+/* Writes the word with this index in "a|b|c". */
 static void write_values_word(writer *w, const char *words, int index);
 
 static void write_value(writer *w, const entry_field *k, const void *entry)
@@ -64,7 +64,8 @@ static const write_own *find_own(const write_own own[], const char *of, const ch
     return NULL;
 }
 
-/* Must the key be written, either always or because no other key expresses it? */
+/* Returns 1 if the key must be written: it is required, or its value is not the default, or it is
+ * always written. */
 static int is_due(const entry_field *k, const void *entry)
 {
     const int must = k->always || (k->needed && k->group == 0);
@@ -178,8 +179,8 @@ void write_values_quoted(writer *w, const char *text)
     fputc('"', w->to);
 }
 
-/* Would `gravity` be ambiguous because a node with mass and a member have the same name? It refers
- * to members first. */
+/* Returns 1 if `gravity` on the name of a node would refer to a member of the same name, because
+ * members take precedence. */
 static int is_mistaken(const scene *s, int node, const char *name)
 {
     int weighs = 0, other = 0;
@@ -190,7 +191,7 @@ static int is_mistaken(const scene *s, int node, const char *name)
     return other;
 }
 
-/* Is the name unique in its list, and allowed as a key? */
+/* Returns 1 if the name is unique in its list and allowed as a key. */
 static int is_good_name(const scene *s, scene_list list, int index, const char *name)
 {
     static const char *const taken[] = {"free", "held", "all"};
@@ -236,7 +237,7 @@ void write_values_matrix(writer *w, const double A[36])
 
 /* Sections of a scene file: by their constants, walls or dimensions. */
 
-/* Writes the given one of D and F: see section_compute. */
+/* Writes D or F, whichever is given (see section_compute). */
 static void write_shear(writer *w, const void *entry)
 {
     const section_spec *spec = entry;
@@ -373,7 +374,7 @@ static void write_where(writer *w, const void *entry)
     write_values_number(w, scene_stress_of(q)->place);
 }
 
-/* Writes the side, only if the position is given. */
+/* Writes the side, if the position is given. */
 static void write_side(writer *w, const void *entry)
 {
     const scene_quantity *q = entry;

@@ -1,4 +1,4 @@
-/* Energy of a whole motion. */
+/* Energy of the whole structure during a motion. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {

@@ -1,4 +1,4 @@
-/* Momentum of a whole motion, or its angular momentum about the origin. */
+/* Momentum of the whole structure during a motion, or its angular momentum about the origin. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {

@@ -1,4 +1,5 @@
-/* Velocity of a node, or its angular velocity in its own axes; acceleration, jerk. */
+/* Velocity, acceleration or jerk of a node, or its angular velocity or acceleration in its own
+ * axes. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
@@ -29,7 +30,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             meaning_axis(q->what.of.component.component));
 }
 
-/* Reads the rate; for a jerk, reads the acceleration, whose slope the jerk is (harness/time). */
+/* Reads the rate. For a jerk, reads the acceleration, which harness/time differentiates. */
 static double read(const scene_quantity *q, const quantity_state *state)
 {
     const scene_component *what = &q->what.of.component;
@@ -38,7 +39,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
                : state->acceleration(state, what->node, what->component);
 }
 
-/* Checks that the integrator provides it. */
+/* Checks that the integrator computes the rate. */
 static status check(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_scheme scheme = scene_motion_of(&s->analysis[q->analysis])->scheme;

@@ -17,7 +17,7 @@ static const char *unit(const scene *s, const scene_quantity *q)
     return q->what.of.component.component <= SCENE_UZ ? "N" : "N m";
 }
 
-/* Is this component of the node prescribed, or any rotation of its sequence? */
+/* Returns 1 if this component of the node, or any rotation of its sequence, is prescribed. */
 static int is_driven(const scene_node *n, int component)
 {
     if (component < SCENE_RX)
@@ -40,7 +40,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
                  what->node);
 }
 
-/* Settles the component; turn_1 is the moment about the first axis of a sequence, which does not
+/* Sets the component. turn_1 is the moment about the first axis of a sequence, which does not
  * rotate. */
 static const char *settle(const scene *s, scene_quantity *q, const char **key)
 {

@@ -1,4 +1,4 @@
-/* Displacement or rotation of a node relative to another, in the axes of that node. */
+/* Displacement or rotation of a node relative to another node, in the axes of the latter. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {

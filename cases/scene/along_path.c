@@ -36,10 +36,10 @@ double along_path_value(const scene_driver *d, double path)
     return interpolate(d->stations, d->path, d->value, path);
 }
 
-/* Range of the path in which something changes; begin > end: none. */
+/* Range of the path in which loads or drivers change; begin > end: none. */
 typedef struct changes {
     double begin, end;
-    scene_words last; /* what changes last */
+    scene_words last; /* name of the entry that changes last */
 } changes;
 
 static void add_changes(int stations, const double path[], const double value[], scene_words who,
@@ -197,8 +197,8 @@ static int is_fed_back(const scene_load *l)
     return l->feedback.node != SCENE_NONE && acts && scene_load_acts(l);
 }
 
-/* Does a load have feedback? Damped modes have no column of their own, but about an instant: they
- * use it. */
+/* Returns 1 if a load has feedback that the analysis cannot include. Damped modes are in the column
+ * of modal analyses but include feedback, except about an instant. */
 static int has_feedback(const scene *s, int analysis, char *who, int size)
 {
     const scene_analysis *a = &s->analysis[analysis];
@@ -269,7 +269,8 @@ static int has_unsymmetric_dashpot(const scene *s, int analysis, char *who, int 
     return 0;
 }
 
-/* Is the stiffness of a spring unsymmetric? Damped modes have no row of their own: they use it. */
+/* Returns 1 if the stiffness of a spring is unsymmetric. It does not count for damped modes, which
+ * use it. */
 static int has_unsymmetric_spring(const scene *s, int analysis, char *who, int size)
 {
     for (int i = 0; i < s->springs && !s->analysis[analysis].damped; i++)
@@ -322,7 +323,7 @@ static int has_diaphragm(const scene *s, int analysis, char *who, int size)
     return 0;
 }
 
-/* Is a warping coordinate shared by the ends of two members? */
+/* Returns 1 if ends of two members share a warping coordinate. */
 static int has_shared_warping(const scene *s, int analysis, char *who, int size)
 {
     (void)analysis;
@@ -381,7 +382,8 @@ static int has_drive_of_case(const scene *s, int analysis, char *who, int size)
     return 0;
 }
 
-/* Does the analysis or its base analysis have a rotating frame? *who names the one that has it. */
+/* Returns 1 if the analysis, or the analysis that it follows, has a rotating frame. *who: name of
+ * the analysis with the frame. */
 static int has_spin(const scene *s, int analysis, char *who, int size)
 {
     const int follows = s->analysis[analysis].follows;
@@ -413,10 +415,10 @@ static const char *const
     *const no_spin = "rotates, but this analysis omits the Coriolis forces on moving masses; use a "
                      "'rotation' analysis with that omega for frequencies";
 
-/* Columns: linear; static; continuation; buckling of the undeformed structure and about a path;
- * modal, also about a linear analysis, about a path and about an instant; compliance, also about a
- * path; rotation; motion; harmonic, also about a linear analysis, about a path and about an
- * instant. */
+/* The columns are: linear; static; continuation; buckling about the undeformed state and about a
+ * path; modal about the undeformed state, a linear analysis, a path and an instant; compliance
+ * about the undeformed state and a path; rotation; motion; harmonic about the undeformed state, a
+ * linear analysis, a path and an instant. */
 const scene_input scene_inputs[] = {
     {"force", "uuuuu-uuu-uuu-uuu", NULL, has_force},
     {"follower force", "uusxu-xuu-usu-xuu", no_potential, has_following_force},

@@ -1,4 +1,4 @@
-/* Constraints: which coordinate of a node is a multiple of which other coordinate. */
+/* Constraints: relations in which a coordinate of a node is a multiple of another coordinate. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>
@@ -22,7 +22,8 @@ int scene_add_constraint(scene *s, unsigned components, double ratio)
     return i;
 }
 
-/* Gives a node that rotates by spatial components a sequence that begins with the normal. */
+/* Changes the rotations of a node from spatial components to a sequence that begins with the
+ * normal. */
 static void turn_across(scene_node *n, int normal)
 {
     if (n->rotation != SCENE_ROTATION_SPATIAL)
@@ -83,7 +84,8 @@ static status refuse(const scene *s, int constraint, int node, int component, co
                      scene_called(s, SCENE_NODES, node).text, why);
 }
 
-/* Are the node's rotations free and coupled by a single constraint that makes all of them equal? */
+/* Returns 1 if all rotations of the node are free and this constraint couples all three of them
+ * with ratio 1. */
 static int turns_together(const scene_node *n, const scene_constraint *c)
 {
     return n->rotation == SCENE_ROTATION_SPATIAL && n->angle[0] == SCENE_FREE &&
@@ -126,7 +128,7 @@ static int leaves_plane(const scene *s, int node, int component)
     return component < SCENE_RX ? along : !along;
 }
 
-/* Does a motion's value follow from the component? */
+/* Returns 1 if the component is the condition that determines the value of a motion. */
 static int is_condition(const scene *s, int node, int component, int motion)
 {
     if (motion >= 0 && s->driver[motion].value == NULL && s->driver[motion].function.pieces == 0)
@@ -138,7 +140,8 @@ static int is_condition(const scene *s, int node, int component, int motion)
     return 0;
 }
 
-/* Finds the coordinate that is the component of a node, and the motion that prescribes it. */
+/* Finds the coordinate that represents the component of a node, and the motion that prescribes
+ * it. */
 static status coordinate_of(const scene *s, int constraint, int node, int component,
                             int *coordinate, int *motion, fault *f)
 {
@@ -175,7 +178,7 @@ static status coordinate_of(const scene *s, int constraint, int node, int compon
     return STATUS_OK;
 }
 
-/* Returns the coordinate at the end of the chain of ties, and the accumulated ratio. */
+/* Returns the coordinate at the end of the chain of relations, with the product of their ratios. */
 static scene_tie follow(const scene_tie tie[], int node, int coordinate)
 {
     scene_tie at = {node, coordinate, 1};
@@ -188,7 +191,7 @@ static scene_tie follow(const scene_tie tie[], int node, int coordinate)
     }
 }
 
-/* What moves a coordinate. */
+/* Returns the motion of a coordinate: SCENE_FREE, SCENE_HELD or a driver. */
 static int motion_at(const scene *s, scene_tie at)
 {
     const scene_node *n = &s->node[at.node];
@@ -196,7 +199,7 @@ static int motion_at(const scene *s, scene_tie at)
                                     : n->angle[at.coordinate - SCENE_RX];
 }
 
-/* Does a diaphragm prescribe the component? */
+/* Returns 1 if a diaphragm determines the component. */
 static int is_across(const scene *s, int node, int component)
 {
     for (int i = 0; i < s->constraints; i++)
@@ -207,8 +210,8 @@ static int is_across(const scene *s, int node, int component)
     return 0;
 }
 
-/* Component of node k = ratio times that of the first node: joins the coordinates at the ends of
- * their chains. */
+/* Makes the component of node k equal to ratio times that of the first node: relates the
+ * coordinates at the ends of their chains. */
 static status join(const scene *s, int constraint, int k, int component, scene_tie tie[], fault *f)
 {
     const scene_constraint *c = &s->constraint[constraint];
@@ -269,7 +272,7 @@ static status check_across(const scene *s, int i, int node, fault *f)
     return STATUS_OK;
 }
 
-/* Joins the translations of all nodes across the normal, and their first angles, to those of the
+/* Relates the translations of all nodes across the normal, and their first angles, to those of the
  * master. */
 static status join_across(const scene *s, int i, scene_tie tie[], fault *f)
 {

@@ -7,9 +7,9 @@
 
 extern const quantity_type quantity_hinge;
 
-/* Mirrors a section: seen from the other end and rotated by pi about z, y' = -y, z' = z, and
- * sectorial coordinates change sign with x. Face and axis rotate together, so that Qy and Mw keep
- * their signs and Qz does not. */
+/* Mirrors a section for a reversed member. Seen from the other end and rotated by pi about z, y' =
+ * -y and z' = z, and sectorial coordinates change sign with x. The section face also changes sides,
+ * so that Qy and Mw keep their signs and Qz changes sign. */
 static void mirror_section(section_spec *spec)
 {
     section *c = &spec->constants;
@@ -27,7 +27,7 @@ static void mirror_section(section_spec *spec)
         }
 }
 
-/* Moves a quantity to another position; its file stays. */
+/* Replaces the extracted value of a quantity but keeps its type. */
 static void replace(scene_quantity *q, scene_extract what)
 {
     what.type = q->what.type;
@@ -96,7 +96,7 @@ static status reverse(scene *s, fault *f)
         m->section_q = section_p;
         m->warp_p = m->warp_q;
         m->warp_q = warp_p;
-        const scene_release released = m->release[0]; /* about the same lines */
+        const scene_release released = m->release[0]; /* the released axes do not move */
         m->release[0] = m->release[1];
         m->release[1] = released;
         double beside[3];
@@ -125,8 +125,8 @@ static status reverse(scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Transforms a position on the first member, which now ends at `fraction`: to that member or to the
- * second. */
+/* Transforms a position on the first member, which now ends at `fraction`, to a position on this
+ * member or on the second. */
 static double split_place(double place, int before, double fraction, int second, int *member)
 {
     const int first = before ? place <= fraction : place < fraction;
@@ -174,7 +174,8 @@ static int unused_name(const scene *s)
     return name;
 }
 
-/* Returns the index of the section there; a new one if the member is tapered. */
+/* Returns the index of the section at `fraction` of the member; adds a section if the member is
+ * tapered. */
 static int section_between(scene *s, const scene_member *m, double fraction)
 {
     section_spec spec;
@@ -184,7 +185,7 @@ static int section_between(scene *s, const scene_member *m, double fraction)
     return scene_add_section(s, &spec);
 }
 
-/* Cuts a load to the part between two positions of its member, which become 0 and 1. */
+/* Restricts a load to the part of its member between two positions, which become 0 and 1. */
 static void cut_load(scene_load *load, double from, double to)
 {
     const scene_load whole = *load;

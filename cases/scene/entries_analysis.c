@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* Which loads act. */
+/* Keys for the active loads. */
 #define ACTING(otherwise)                                                                          \
     {"case",                                                                                       \
      ENTRY_NAME,                                                                                   \
@@ -51,7 +51,7 @@ static const entry_field spin[] = {OMEGA(of.walk.frame), {.name = NULL}},
      ENTRY_IN(scene_analysis, follows),                                                            \
      .of = SCENE_ANALYSES}
 
-/* Of small motions about an instant. */
+/* Keys for small motions about an instant. */
 #define INSTANT                                                                                    \
     {"time",                                                                                       \
      ENTRY_NUMBER,                                                                                 \

@@ -6,7 +6,7 @@
 
 #include "elements/shared/choice.h"
 
-/* Is this map the given one of its group? Returns 1 for entries that are not maps in a group. */
+/* Returns 1 if this map of a group is the one that is given, and for every other kind of entry. */
 static int entry_stands(const entry_field *, const void *entry);
 
 /* Returns the member of the entry that the key sets. */
@@ -22,7 +22,7 @@ static int whole_of(const entry_field *k, const void *entry)
     return value;
 }
 
-/* Returns the number of values, and the position of the first; 0: the value is not numeric. */
+/* Returns the number of values and sets *out to the first; 0: the value is not numeric. */
 static int numbers_of(const entry_field *k, const void *entry, const double **out)
 {
     const scene_path *path = place_of(k, entry);
@@ -156,7 +156,7 @@ static status check_number(const entry_field *k, double value, fault *f)
                                                         k->name, value, entry_range(k, range));
 }
 
-/* Does the named entry exist, or is there no name and none is needed? */
+/* Checks that the named entry exists or, without a name, that the key is optional. */
 static status check_name(const scene *s, const entry_field *k, int index, fault *f)
 {
     const char *what = scene_list_word(k->of);
@@ -168,7 +168,7 @@ static status check_name(const scene *s, const entry_field *k, int index, fault 
                      index, what);
 }
 
-/* Checks a word; an optional word may have another value if it is missing. */
+/* Checks a word. A missing optional word may have a value that belongs to no word. */
 static status check_word(const entry_field *k, int value, fault *f)
 {
     char word[SCENE_NAME] = "";
@@ -227,7 +227,7 @@ static int base_power(const char *word, size_t size, entry_base base)
 int entry_power(const char *unit, entry_base base)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
-    int power = 0, side = 1; /* side -1: after a slash */
+    int power = 0, side = 1; /* side is -1 after a slash */
     while (*unit != '\0') {
         const size_t size = strspn(unit, letters);
         const int times = unit[size] == '^' ? unit[size + 1] - '0' : 1;

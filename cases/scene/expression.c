@@ -1,6 +1,6 @@
-/* Expressions are read once, both for numbers and for functions of time, as operations on a stack
- * of values with their derivatives. Parts without t are combined into one number at once, so that a
- * number is an expression with a single operation. */
+/* Expressions for numbers and for functions of time are converted to operations on a stack of
+ * values with their derivatives. Parts without t are evaluated at once, so that an expression
+ * without t becomes a single number. */
 #include "cases/scene/scene.h"
 
 #include <ctype.h>
@@ -22,12 +22,12 @@ typedef enum jet_operation {
     JET_NUMBER, /* a constant */
     JET_TIME,
     JET_NEGATE,
-    JET_ADD, /* of two, to JET_POWER */
+    JET_ADD, /* operations on two values, up to JET_POWER */
     JET_SUBTRACT,
     JET_MULTIPLY,
     JET_DIVIDE,
     JET_POWER,
-    JET_SIN, /* of one */
+    JET_SIN, /* functions of one value */
     JET_COS,
     JET_TAN,
     JET_ASIN,
@@ -41,7 +41,7 @@ typedef enum jet_operation {
     JET_SQRT
 } jet_operation;
 
-/* Returns g(x), with g' and g'' at its value. */
+/* Returns the jet of g(x) from g and its derivatives d = g' and dd = g'' at the value of x. */
 static jet chain(jet x, double g, double d, double dd)
 {
     return (jet){g, d * x.d, dd * x.d * x.d + d * x.dd};
@@ -111,8 +111,8 @@ static jet of_function(jet_operation what, jet x)
     }
 }
 
-/* Applies the operation to a, and to b if it has two operands. The result is not finite where the
- * value or a derivative does not exist. Not for JET_NUMBER and JET_TIME. */
+/* Applies the operation to a, and to b if it has two operands. The result is not finite if the
+ * value or a derivative does not exist. The operation must not be JET_NUMBER or JET_TIME. */
 static jet jet_of(jet_operation what, jet a, jet b)
 {
     switch (what) {
@@ -135,11 +135,11 @@ static jet jet_of(jet_operation what, jet a, jet b)
 
 typedef struct expression_function {
     const char *name;
-    int arguments; /* 0: a constant; -1: two or more */
-    double value;  /* of a constant */
+    int arguments; /* number of arguments; 0: a constant; -1: two or more */
+    double value;  /* value of a constant */
     double (*of_one)(double);
     double (*of_two)(double, double); /* for two or more arguments: applied repeatedly */
-    int kinked;                       /* 1: it has slope discontinuities or jumps */
+    int kinked;                       /* 1: the function has slope discontinuities or jumps */
     jet_operation in_time;            /* JET_NUMBER: not allowed for arguments that contain t */
 } expression_function;
 
@@ -260,7 +260,7 @@ static int takes(reader *r, char sign)
     return 1;
 }
 
-/* grows: change of the number of values on the stack. */
+/* Appends an operation. grows: change of the number of values on the stack. */
 static status emit(reader *r, jet_operation what, double number, int grows)
 {
     if (r->to->count == MOST)
@@ -272,8 +272,8 @@ static status emit(reader *r, jet_operation what, double number, int grows)
                : WRONG(r, r->at, "too deeply nested; compute parts with 'let'");
 }
 
-/* Returns the position of the last value if it is a single number; NULL if it contains t. first:
- * its first operation. */
+/* Returns the address of the last value if it is a single number, or NULL if it contains t. first:
+ * first operation of this value. */
 static double *number_from(const reader *r, int first)
 {
     instruction *step = &r->to->step[first];
@@ -296,9 +296,9 @@ static double of_numbers(jet_operation what, double a, double b)
     }
 }
 
-/* Applies an operation at that position of the text to the last two values, which begin at these
- * operations. Without t, the result is one number, with zero derivatives even if those of a
- * function are not finite. */
+/* Applies an operation to the last two values, which begin at the operations left and right. place:
+ * its position in the text. Without t, the result is one number with zero derivatives, even if the
+ * derivatives of a function are not finite. */
 static status operate(reader *r, jet_operation what, int place, int left, int right)
 {
     const double *b = number_from(r, right);
@@ -322,7 +322,7 @@ static int is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* Returns the length of a number: digits, a point that is not the first of "..", digits, an
+/* Returns the length of a number: digits, a point (but not the first of ".."), digits, and an
  * exponent. */
 static int number_length(const char *text, int most)
 {
@@ -369,7 +369,7 @@ static status read_literal(reader *r)
 
 static status read_sum(reader *r);
 
-/* Reads arguments after "("; those that are numbers are combined at once. */
+/* Reads arguments after "(". Arguments that are numbers are evaluated at once. */
 static status read_arguments(reader *r, const expression_function *f, int word, int *count)
 {
     do {
@@ -496,7 +496,7 @@ static status read_signed(reader *r)
     return STATUS_OK;
 }
 
-/* Reads terms joined by one of two operators. */
+/* Reads terms that are joined by either of two operators. */
 static status read_terms(reader *r, const char sign[2], const jet_operation what[2],
                          status (*term)(reader *))
 {

@@ -67,7 +67,7 @@ void function_at(const scene_function *f, double t, double out[3])
         out[k] *= f->scale;
 }
 
-/* Number of instants at which a piece is checked: both ends, and instants between them. */
+/* Number of intervals between the instants at which a piece is checked, which include both ends. */
 enum { LOOKS = 64 };
 
 static int is_finite(const double at[3], int derivatives)

@@ -1,4 +1,4 @@
-/* Loads, and lengths and strains of members without stress. */
+/* Loads, and stress-free lengths and strains of members. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>
@@ -41,7 +41,7 @@ scene_load *scene_load_at(scene *s, int i)
     return i >= 0 && i < s->loads ? &s->load[i] : &s->scrap.load;
 }
 
-/* Does the member have a stress-free elongation or curvature? */
+/* Returns 1 if the member has a stress-free elongation or curvature. */
 static int scene_member_is_free(const scene_member *m)
 {
     return m->pretension != 0 || m->unstressed_length != 0 || m->free_curvature[0] != 0 ||
@@ -65,7 +65,8 @@ int scene_is_free(const scene *s, scene_words *who)
     return 0;
 }
 
-/* Returns EA [N]; 0 if an axial force causes more than an elongation, or a varying one. */
+/* Returns EA [N], or 0 if an axial force causes other strains or an elongation that varies along
+ * the member. */
 static double axial_stiffness(const scene *s, const scene_member *m)
 {
     section c;
@@ -80,7 +81,8 @@ static double axial_stiffness(const scene *s, const scene_member *m)
 /* Strains are relative to the length as drawn: N = EA (L - Lo)/L instead of EA (L - Lo)/Lo. */
 static const double most_misfit = 0.01;
 
-/* Do shifts move the nodes in every analysis? No member then has its length as drawn. */
+/* Returns 1 if shifts move nodes in every analysis. Members then differ from their drawn
+ * lengths. */
 static int is_moved(const scene *s)
 {
     int moved = 0;

@@ -1,4 +1,4 @@
-/* Load cases, their combinations, and which of them act. */
+/* Load cases, their combinations, and the selection of the active loads. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>
@@ -31,8 +31,8 @@ void scene_add_term(scene *s, int combination, int load_case, double factor)
         c->term[i] = (scene_term){load_case, factor};
 }
 
-/* Returns the active loads as a number: 0 for all loads in scenes without load cases; from 1 the
- * combinations, then the load cases. */
+/* Returns the active loads as a number: 0 for all loads in scenes without load cases; numbers from
+ * 1 count the combinations, then the load cases. */
 static int scene_acting_number(const scene *s, scene_acting what)
 {
     if (what.combination != SCENE_NONE)
@@ -83,7 +83,8 @@ scene_words scene_acting_called(const scene *s, int number)
                                     : scene_called(s, SCENE_COMBINATIONS, number - 1);
 }
 
-/* Checks that every load has a case; otherwise it would act in all cases or in none. */
+/* Checks that every load has a load case, because a load without one could act in all cases or in
+ * none. */
 static status check_loads(const scene *s, fault *f)
 {
     for (int i = 0; i < s->loads; i++)
@@ -181,7 +182,7 @@ status scene_validate_acting(const scene *s, int i, fault *f)
 
 status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
 {
-    if (q->what.kind == SCENE_ENVELOPE_OF) /* of quantities that specify it */
+    if (q->what.kind == SCENE_ENVELOPE_OF) /* its quantities specify the load case */
         return STATUS_OK;
     const int all = scene_solves_all(s, q->analysis),
               says = q->envelope != SCENE_ENVELOPE_NONE || scene_acting_number(s, q->acting) > 0;

@@ -39,7 +39,7 @@ const char *scene_list_word(scene_list list)
     return word_of[list];
 }
 
-/* Returns the memory of a name; NULL if there is no such entry. */
+/* Returns the memory of the name of an entry, or NULL if the entry does not exist. */
 static char *room_of(const scene *s, scene_list list, int i)
 {
     if (i < 0 || i >= scene_count(s, list))
@@ -100,7 +100,7 @@ scene_words scene_numbered(const scene *s, scene_list list, int i)
     scene_words out;
     int end = snprintf(out.text, sizeof out.text, "%s_%d",
                        list == SCENE_DRIVERS ? "motion" : word_of[list],
-                       i); /* word used in scene files */
+                       i); /* the word used in scene files */
     for (int k = 0; k < 8 && is_taken(s, list, out.text); k++)
         end += snprintf(out.text + end, sizeof out.text - (size_t)end, "_");
     return out;
@@ -136,7 +136,7 @@ char meaning_axis(int component)
 
 void meaning_node(FILE *to, const scene *s, const char *preposition, int node)
 {
-    const double *at = s->node[node].position; /* + 0 avoids a minus sign before zero */
+    const double *at = s->node[node].position; /* + 0 below avoids a minus sign before zero */
     fprintf(to, " %s %s (%.4g, %.4g, %.4g)", preposition, scene_name(s, SCENE_NODES, node).text,
             at[0] + 0, at[1] + 0, at[2] + 0);
 }

@@ -9,7 +9,7 @@
 #define DECLARED(name) extern const quantity_type quantity_##name;
 QUANTITY_TYPES(DECLARED)
 
-/* An extract of the kind defined in the file of that name. */
+/* An extracted value of the kind defined in the file of this name. */
 #define EXTRACT(name, ...) ((scene_extract){quantity_##name.kind, &quantity_##name, {__VA_ARGS__}})
 
 scene_extract scene_coordinate(int node, int component)
@@ -271,7 +271,7 @@ void scene_keep_quantities(scene *s, const scene *of)
             s->quantity[kept++] = s->quantity[i];
         } else {
             free(s->quantity[i].over);
-            s->quantity[i].overs = 0; /* later ones look at all */
+            s->quantity[i].overs = 0; /* later envelopes then include all combinations */
         }
     s->quantities = kept;
 }

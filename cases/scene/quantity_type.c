@@ -46,7 +46,7 @@ static const entry_field prediction[] = {
      .type = &quantity_##key,                                                                      \
      ENTRY_IN(scene_quantity, what.kind)},
 const entry_field entry_quantity[] = {
-    QUANTITY_TYPES(KIND) /* one of them */
+    QUANTITY_TYPES(KIND) /* QUANTITY_TYPES contains each kind once */
     {"unit", ENTRY_TEXT, .summary = "SI unit, or that of the scene's 'units'",
      .left_out = "as usual for the quantity"},
     {"factor", ENTRY_NUMBER, .summary = "reported value = factor value + offset", .usual = "1",

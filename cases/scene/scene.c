@@ -70,7 +70,8 @@ int scene_add_section(scene *s, const section_spec *spec)
     return i;
 }
 
-/* Compares bits: NaNs equal themselves; a difference in padding only causes a repeated computation.
+/* Compares bits, so that NaNs are equal. A difference in padding only causes a repeated
+ * computation.
  */
 static int same_bits(const void *a, const void *b, size_t size)
 {
@@ -307,7 +308,8 @@ int scene_has_body(const scene_node *n)
     return has;
 }
 
-/* Errors are reported where the section is computed. */
+/* Returns 1 if the section has a mass. Errors are reported when the section is computed
+ * elsewhere. */
 static int is_massive(const scene *s, int index)
 {
     section c;

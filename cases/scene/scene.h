@@ -1013,8 +1013,8 @@ int scene_add_member(scene *s, int p, int q, int profile,
 /* Computes the stress-free elongation of a member of this length [m] from its pretension or its
  * unstressed length. REFUSED: the section does not determine an elongation for the pretension. */
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f);
-/* Returns 1 if the scene has a temperature load or a member whose unstressed state is not the drawn
- * one. *who: name of the load or member; may be NULL. */
+/* Returns 1 if the scene has a temperature load or a member with a stress-free elongation or
+ * curvature. *who: name of the load or member; may be NULL. */
 int scene_is_free(const scene *s, scene_words *who);
 /* Return 1 if the member is tapered, or if any member of the scene is tapered. */
 int scene_member_tapers(const scene_member *m);
@@ -1518,7 +1518,8 @@ typedef struct quantity_type {
     quantity_passing passing;
     /* Returns the default unit of the value. Its powers of length and force determine scaling. */
     const char *(*unit)(const scene *, const scene_quantity *);
-    /* Writes a description of the quantity. */
+    /* Writes a description of the quantity. names_analysis 1: the description includes the
+     * analysis. */
     void (*meaning)(FILE *, const scene *, const scene_quantity *);
     int names_analysis;
     /* Reads the extracted value, without factor and offset, from a state or from an eigenvalue;

@@ -6,8 +6,8 @@
 
 #include "elements/math/dense.h"
 
-/* Sets A to `given`, or to its symmetric part if the two differ only by rounding. Returns the
- * difference relative to the diagonal. */
+/* Sets A to `given`, or to its symmetric part if the asymmetry is only rounding. Returns the
+ * asymmetry relative to the diagonal in this case, otherwise 0. */
 static double take_matrix(const double given[36], double A[36])
 {
     memcpy(A, given, 36 * sizeof *A);
@@ -71,7 +71,7 @@ void scene_set_table(scene *s, int spring, int component, int points, const doub
     t->value = (scene_path){points, scene_copy(s, points, value)};
 }
 
-/* Returns the line at x, between points i and i + 1. */
+/* Returns the index i of the segment at x, between points i and i + 1. */
 static int line_of(const scene_table *t, double x)
 {
     int i = 0;
@@ -88,7 +88,7 @@ double scene_table_at(const scene_table *t, double x, double *slope)
     const int i = line_of(t, x);
     const double *at = t->at.value + i, *value = t->value.value + i;
     *slope = (value[1] - value[0]) / (at[1] - at[0]);
-    /* measured from the nearer point, so that it is exact at both */
+    /* measured from the nearer point, so that the value is exact at both points */
     return fabs(x - at[0]) <= fabs(x - at[1]) ? value[0] + *slope * (x - at[0])
                                               : value[1] + *slope * (x - at[1]);
 }

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Multiplies each number by x raised to its power of length. */
+/* A number and its power of length; it is multiplied by x raised to this power. */
 typedef struct scaled {
     double *number;
     int power;
@@ -51,8 +51,8 @@ static void scale_section(section_spec *spec, double x)
     scale_constants(&spec->constants, x);
 }
 
-/* Returns 1 if the driver prescribes translations or is determined by one, 0 for angles only, -1
- * for both. */
+/* Returns 1 if the driver prescribes translations or a translation determines it, 0 for angles
+ * only, -1 for both. */
 static int is_length(const scene *s, int driver)
 {
     int lengths = 0, angles = 0;
@@ -94,7 +94,7 @@ static void scale_spring(scene_spring *p, double x)
     }
 }
 
-/* Scales gains and references of lengths. */
+/* Scales gains and references that involve lengths. */
 static void scale_feedback(scene_load *load, double times)
 {
     scene_feedback *b = &load->feedback;
@@ -150,7 +150,8 @@ static void scale_entries(scene *s, entry_base base, double times)
     }
 }
 
-/* Scales steps along the control coordinate, which are lengths; steps of arc length are not. */
+/* Scales steps along the control coordinate, which are lengths. Steps of arc length are
+ * dimensionless. */
 static void scale_steps(scene_analysis *a, double x)
 {
     if (a->kind != SCENE_CONTINUATION || a->of.continuation.control.by_arc)
@@ -159,7 +160,8 @@ static void scale_steps(scene_analysis *a, double x)
     a->of.continuation.control.step_max *= x;
 }
 
-/* Are its stations coordinates [m], as for a continuation or an analysis about one? */
+/* Returns 1 if the stations of the quantity are coordinates [m], as for a continuation or an
+ * analysis that follows one. */
 static int stations_are_lengths(const scene *s, const scene_quantity *q)
 {
     if (q->analysis < 0 || q->analysis >= s->analyses)
@@ -218,7 +220,7 @@ void scene_change_force(scene *s, double y)
         }
 }
 
-/* Returns the largest dimension of a section given by dimensions; 0: there is none. */
+/* Returns the largest dimension of a section, or 0 if the section is not given by dimensions. */
 static double size_of(const section_spec *spec)
 {
     double low[2] = {0}, high[2] = {0};
@@ -246,8 +248,9 @@ static double longest(const scene *s)
     return most;
 }
 
-/* Bounds that a structure in SI units satisfies: in solids stiffer and heavier than foam, waves
- * travel faster than 30 m/s, and in no solid faster than 30 km/s. */
+/* Uses bounds that a structure in SI units satisfies. For example, in solids stiffer and heavier
+ * than foam, waves travel faster than 30 m/s, and in no solid do they travel faster than 30
+ * km/s. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT])
 {
     static const double soft[2] = {1e3, 1e6}, stiff = 1e8, wide = 15, slow = 30, fast = 3e4;

@@ -14,7 +14,7 @@ static status check_taper(const scene *s, int i, fault *f)
     fault why = {""};
     for (int k = 0; k < 2; k++)
         if (scene_constants(s, at[k], &c[k], NULL) != STATUS_OK)
-            return STATUS_OK; /* model_alloc reports it */
+            return STATUS_OK; /* model_alloc reports the error */
     const section *const ends[2] = {&c[0], &c[1]};
     if (section_taper_check(&s->section[at[0]], &s->section[at[1]], ends, &why) != STATUS_OK)
         return fault_set(f, STATUS_REFUSED, "%s: %s", scene_called(s, SCENE_MEMBERS, i).text,
@@ -51,7 +51,8 @@ static status check_member(const scene *s, int i, fault *f)
     return scene_validate_release(s, i, f);
 }
 
-/* Is the matrix symmetric and positive semidefinite? Elimination then has no negative pivot. */
+/* Returns 1 if the matrix is symmetric and positive semidefinite, so that elimination has no
+ * negative pivot. */
 static int is_stiffness(const double K[36])
 {
     double A[36], largest[6];
@@ -80,7 +81,7 @@ static int is_stiffness(const double K[36])
     return 1;
 }
 
-/* Checks that a spring's table is ascending; returns an error message or NULL. */
+/* Checks that the table of a spring is ascending. Returns an error message or NULL. */
 static const char *table_mistake(const scene_table *t)
 {
     const int n = t->at.stations;
@@ -150,7 +151,7 @@ static int is_used(const scene *s, int driver)
     return 0;
 }
 
-/* Does the known driver alone determine the component of a condition of the node? */
+/* Returns 1 if the known driver of the condition prescribes the coordinate of the condition. */
 static int is_conditioned(const scene *s, const scene_driver *d)
 {
     const scene_node *n = &s->node[d->condition_node];

@@ -47,7 +47,8 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
     return STATUS_OK;
 }
 
-/* Checks an analysis that continues a motion: it uses the time and the rates of that motion. */
+/* Checks an analysis that continues a motion and therefore uses the time and the rates of that
+ * motion. */
 static status check_resumed(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_path *before = scene_path_of(&s->analysis[a->follows]);
@@ -153,7 +154,7 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Checks that a temperature does not jump: strains would jump with it. */
+/* Checks that a temperature does not jump, because strains would jump with it. */
 static status check_temperature(const scene *s, int l, int i, fault *f)
 {
     const scene_load *load = &s->load[l];
@@ -221,7 +222,8 @@ static status check_load(const scene *s, int l, int i, fault *f)
     return load->kind == SCENE_TEMPERATURE ? check_temperature(s, l, i, f) : STATUS_OK;
 }
 
-/* REFUSED: names the cause. The nodes, members, drivers and loads must be valid. */
+/* Checks a transient analysis. REFUSED: f contains the cause. The nodes, members, drivers and loads
+ * must be valid. */
 static status scene_validate_motion(const scene *s, int i, fault *f)
 {
     const scene_motion *m = scene_motion_of(&s->analysis[i]);
@@ -256,7 +258,7 @@ static int moves(const scene *s)
     return 0;
 }
 
-/* Checks one function of time; idle: no analysis is in time. */
+/* Checks one function of time. idle 1: there is no transient analysis. */
 static status check_function(const scene_function *of, int idle, fault *f)
 {
     if (of->pieces == 0)
@@ -268,7 +270,7 @@ static status check_function(const scene_function *of, int idle, fault *f)
                 : STATUS_OK;
 }
 
-/* Has it an analysis of small vibrations, in which feedback acts? */
+/* Returns 1 if the scene has an analysis of small vibrations in which feedback acts. */
 static int vibrates(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -372,7 +374,7 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
                          : "");
 }
 
-/* Does a quantity read the analysis? */
+/* Returns 1 if a quantity is of this analysis. */
 static int is_asked(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++)
@@ -381,7 +383,8 @@ static int is_asked(const scene *s, int analysis)
     return 0;
 }
 
-/* Small motions about an instant have rates, and thus forces that no undamped mode has. */
+/* Checks small motions about an instant of a motion. The rates at the instant cause forces that
+ * undamped modes do not include. */
 static status check_about_motion(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_words who = scene_called(s, SCENE_ANALYSES, i);
@@ -413,7 +416,7 @@ static status check_about_motion(const scene *s, const scene_analysis *a, int i,
     return STATUS_OK;
 }
 
-/* The instant lies within the motion. */
+/* Checks that the instant lies within the motion. */
 static status check_instant(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const double time = scene_instant_of(s, i);
@@ -599,8 +602,8 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the path whose stations are the points of the curve, and whether it has further points
- * between them. */
+/* Returns the path whose stations are the points of the curve. Sets *points to 1 if the curve has
+ * further points between the stations. */
 static int path_of_curve(const scene *s, const scene_quantity *q, int *points)
 {
     const scene_analysis *a = &s->analysis[q->analysis];

@@ -6,8 +6,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Is a straight member of the node along the direction, or does a curved one end there? Also
- * returns 1 if no member ends there. */
+/* Returns 1 if a straight member at the node is along the direction, if a curved member ends at the
+ * node, or if no member ends there. */
 static int has_member_along(const scene *s, int node, const double direction[3])
 {
     int ends = 0, along = 0;
@@ -25,7 +25,7 @@ static int has_member_along(const scene *s, int node, const double direction[3])
     return along || ends == 0;
 }
 
-/* Checks a fork: it defines all rotations, and its axis is that of a member. */
+/* Checks a fork. It must define all rotations, and its axis must be that of a member. */
 static status check_fork(const scene *s, int i, fault *f)
 {
     const scene_node *n = &s->node[i];
@@ -50,8 +50,8 @@ static status check_fork(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Checks the inertia of a body: no principal moment is negative or exceeds the sum of the other
- * two. */
+/* Returns 1 if the inertia tensor is valid: no principal moment is negative or exceeds the sum of
+ * the other two. */
 static int is_inertia(const double I[6])
 {
     const double half = (I[0] + I[1] + I[2]) / 2;
@@ -65,13 +65,13 @@ static int is_inertia(const double I[6])
            A[2] * A[0] - zx * zx >= -small * half && determinant >= -small * half * half;
 }
 
-/* Is the end of a member or a spring part of the body of this node? */
+/* Returns 1 if a node, at which a member or a spring ends, is part of this body. */
 static int is_at(const scene *s, int end, int body)
 {
     return end >= 0 && end < s->nodes && (end == body || s->node[end].attached == body);
 }
 
-/* Is the body of the node connected to a member or a spring? */
+/* Returns 1 if the body of the node is connected to a member or a spring. */
 static int is_reached(const scene *s, int node)
 {
     const int body = s->node[node].attached == SCENE_NONE ? node : s->node[node].attached;
@@ -150,7 +150,8 @@ status scene_validate_node(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Directions and positions count as in the plane within this fraction of their size. */
+/* Directions and positions are considered to be in the plane if they deviate by less than this
+ * fraction of their size. */
 static const double within = 1e-9;
 
 static int is_across(const scene *s, const double v[3])
@@ -158,7 +159,7 @@ static int is_across(const scene *s, const double v[3])
     return fabs(v[scene_normal(s)]) > within * vec3_norm(v);
 }
 
-/* Is the vector nonzero and not along the normal? */
+/* Returns 1 if the vector is not zero and not along the normal. */
 static int is_beside(const scene *s, const double v[3])
 {
     double in[3] = {v[0], v[1], v[2]};
@@ -183,7 +184,7 @@ static double size_of(const scene *s)
     return size;
 }
 
-/* Is the position outside the plane of the nodes? */
+/* Returns 1 if the position is outside the plane of the nodes. */
 static int is_out(const scene *s, const double place[3])
 {
     const int n = scene_normal(s);
@@ -327,8 +328,8 @@ static status check_load(const scene *s, int i, fault *f)
     return is_across(s, at) ? refuse(s, who, "it acts outside the plane", f) : STATUS_OK;
 }
 
-/* Checks the axis of rotation: an axis in the plane or normal to it causes forces in the plane; an
- * oblique one does not. */
+/* Checks the axis of rotation. An axis in the plane or normal to it causes forces in the plane; an
+ * oblique axis also causes forces out of it. */
 static status check_frame(const scene *s, int i, fault *f)
 {
     const scene_rotating_frame *r = scene_rotating_frame_of(&s->analysis[i]);

@@ -47,7 +47,8 @@ status scene_validate_release(const scene *s, int member, fault *f)
     return STATUS_OK;
 }
 
-/* P += 1 - the projection on the span of `count` axes: the rotations that are resisted. */
+/* Adds to P the identity minus the projection on the span of `count` axes, which represents the
+ * resisted rotations. */
 static void add_kept(int count, double (*axis)[3], double P[9])
 {
     double basis[3][3];
@@ -73,7 +74,7 @@ static void add_kept(int count, double (*axis)[3], double P[9])
         }
 }
 
-/* Adds to P the rotations that the supports of the node leave free. */
+/* Adds to P the rotations that the supports of the node resist. */
 static void add_supports(const scene_node *n, double P[9])
 {
     double axis[3][3] = {{0}};
@@ -95,8 +96,8 @@ static void add_supports(const scene_node *n, double P[9])
     add_kept(count, axis, P);
 }
 
-/* Adds the rotations that the end of a straight member releases; none for a curved one, whose axes
- * are known later. */
+/* Adds to P the rotations that the end of a straight member does not release. For a curved member,
+ * whose axes are not known yet, all rotations are resisted. */
 static void add_end(const scene_member *m, const scene *s, int end, double P[9])
 {
     const scene_release *r = &m->release[end];
@@ -122,7 +123,7 @@ static void add_springs(const scene *s, int node, double P[9])
                         s->spring[k].table[3 + i].at.stations > 0;
 }
 
-/* Finds an axis about which P resists nothing; 0: there is none. */
+/* Finds an axis about which P resists no rotation. Returns 0 if there is none. */
 static int loose_axis(const double P[9], double axis[3])
 {
     double A[9], largest = 0;
@@ -143,7 +144,8 @@ static int loose_axis(const double P[9], double axis[3])
     return 1;
 }
 
-/* Does the body extend beyond the node, so that positions also resist its rotation? */
+/* Returns 1 if the body extends beyond the node, so that forces on its other nodes also resist its
+ * rotation. */
 static int is_wide(const scene *s, int node)
 {
     int wide = s->node[node].attached != SCENE_NONE;
@@ -190,7 +192,7 @@ static loose loose_at(const scene *s, int node, double axis[3])
     return vec3_norm(axis) > 0 ? LOOSE_AXIS : largest > 1e-9 ? LOOSE_PLANE : LOOSE_ALL;
 }
 
-/* Does a load act on the rotations of a node, or does anything depend on them? */
+/* Returns 1 if a load acts on the rotations of a node, or if anything depends on them. */
 static int turn_matters(const scene *s, int node)
 {
     const scene_body *b = &s->node[node].body;
@@ -236,7 +238,7 @@ int scene_idle_turn(const scene *s, int node, double axis[3])
         return what == LOOSE_AXIS && n->angle[0] == SCENE_FREE ? SCENE_IDLE_AXIS : 0;
     if (what == LOOSE_ALL)
         return free_angles(n) == 7 ? SCENE_IDLE_ALL : 0;
-    for (int k = 0; k < 3; k++) /* a node of a plane frame: the other angles are fixed */
+    for (int k = 0; k < 3; k++) /* for a node of a plane frame, the other angles are fixed */
         if (free_angles(n) == 1 << k)
             return SCENE_IDLE_AXIS;
     return free_angles(n) == 7 ? SCENE_IDLE_AXIS : 0;
@@ -261,7 +263,7 @@ status scene_validate_turns(const scene *s, int node, fault *f)
                            scene_called(s, SCENE_NODES, node).text);
 }
 
-/* Directions that differ by less count as equal: round-off of positions. */
+/* Directions that differ by less are equal, because positions contain round-off. */
 static const double round_off = 1e-9;
 
 static int is_held(const scene_node *n)
@@ -285,8 +287,8 @@ static int releases_turn(const scene_release *r)
     return 0;
 }
 
-/* Computes unit vectors of a straight member: along the member, and along its y axis. Returns 0 for
- * a curved one. */
+/* Computes the unit vectors of a straight member along its axis and its y axis. Returns 0 for a
+ * curved member. */
 static int frame_of(const scene *s, const scene_member *m, double x[3], double y[3])
 {
     if (m->p < 0 || m->p >= s->nodes || m->q < 0 || m->q >= s->nodes)
@@ -310,7 +312,7 @@ static int frame_of(const scene *s, const scene_member *m, double x[3], double y
     return 1;
 }
 
-/* Returns 1 for the same direction, -1 for the opposite, 0 for another. */
+/* Returns 1 if the directions are equal, -1 if they are opposite, otherwise 0. */
 static int sense_of(const double a[3], const double b[3])
 {
     double same = 0, opposite = 0;
@@ -321,7 +323,7 @@ static int sense_of(const double a[3], const double b[3])
     return same <= round_off ? 1 : opposite <= round_off ? -1 : 0;
 }
 
-/* Is there a wall at the mirror image of wall i? */
+/* Returns 1 if there is an equal wall at the mirror image of wall i. */
 static int has_image(const section_spec *spec, const double centroid[2], const int sign[2], int i,
                      double size)
 {
@@ -341,7 +343,7 @@ static int has_image(const section_spec *spec, const double centroid[2], const i
     return 0;
 }
 
-/* Is the section unchanged by these signs of its y and z axes? */
+/* Returns 1 if the section does not change when its y and z axes are multiplied by these signs. */
 static int is_symmetric(const scene *s, int profile, const int sign[2])
 {
     section c;
@@ -371,8 +373,8 @@ static int *warp_of(scene *s, member_end e)
     return e.end == 0 ? &s->member[e.member].warp_p : &s->member[e.member].warp_q;
 }
 
-/* Is the second member the straight continuation of the first one across their node, with the same
- * section? */
+/* Returns 1 if the second member is the straight continuation of the first across their node, with
+ * the same section. */
 static int runs_on(const scene *s, member_end first, member_end second)
 {
     const member_end both[2] = {first, second};

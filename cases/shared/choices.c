@@ -48,8 +48,8 @@ static void place_mass(scene *s, scene_mass mass)
             s->analysis[i].of.motion.mass = mass;
 }
 
-/* Sets the mass only if the case leaves the choice to its user; otherwise a scene file specifies
- * it. */
+/* Sets the mass of members if the case has a parameter for it; otherwise the scene specifies the
+ * mass. */
 static void choose_mass(const case_type *c, const double value[], scene *s)
 {
     const parameter_type *p;
@@ -106,7 +106,7 @@ static int add_crank(const double value[], scene *s, double azimuth, int angle)
     scene_hold(s, crank, SCENE_UX, SCENE_UZ);
     scene_node *n = scene_node_at(s, crank);
     n->rotation =
-        SCENE_ROTATION_SEQUENCE; /* about the horizontal tangent: a positive angle lifts the tip */
+        SCENE_ROTATION_SEQUENCE; /* about the horizontal tangent; a positive angle lifts the tip */
     n->axis[0][0] = -sin(azimuth);
     n->axis[0][1] = cos(azimuth);
     n->angle[0] = angle;
@@ -209,8 +209,8 @@ static void to_global(const double centre[3], const double axes[9], const double
                     axes[3 * i + 2] * local[2];
 }
 
-/* Adds a sheet. The direction of its elements matters for formulations that do not treat both ends
- * alike. */
+/* Adds a sheet. The direction of its elements matters for formulations that are not symmetric in
+ * their two nodes. */
 static void add_sheet(const double value[], scene *s, int profile, int body, const double end[3],
                       int fold, const double normal[3], int side)
 {
@@ -224,8 +224,9 @@ static void add_sheet(const double value[], scene *s, int profile, int body, con
     *(from_fold ? &sheet->warp_p : &sheet->warp_q) = at_fold[(int)value[JOINT_FOLD_WARPING]];
 }
 
-/* Adds a fold at one azimuth; up = +1: first set (fold line above the centre), -1: its mirror image
- * in the xy plane. The sheet on the +azimuth side is attached to body[0], the other to body[1]. */
+/* Adds a fold at one azimuth; up = +1: first set, with the fold line above the centre; -1: mirror
+ * image in the xy plane. The sheet on the side of larger azimuth is attached to body[0], the other
+ * to body[1]. */
 static void add_fold(const double value[], scene *s, int profile, const double centre[3],
                      const double axes[9], double azimuth, int up, const int body[2])
 {
@@ -237,9 +238,9 @@ static void add_fold(const double value[], scene *s, int profile, const double c
     double centre_line[3], outward[3];
     for (int i = 0; i < 3; i++) {
         const double z = i == 2 ? up : 0;
-        centre_line[i] = sin(polar) * radial[i] + cos(polar) * z; /* of the fold */
-        outward[i] =
-            cos(polar) * radial[i] - sin(polar) * z; /* bisects the sheets, across the fold line */
+        centre_line[i] = sin(polar) * radial[i] + cos(polar) * z; /* direction of the fold line */
+        outward[i] = cos(polar) * radial[i] - sin(polar) * z; /* bisector of the sheets, normal to
+                                                               * the fold line */
     }
     double point[3], global[3];
     for (int i = 0; i < 3; i++)

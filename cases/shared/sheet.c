@@ -35,7 +35,7 @@ void sheet_section(double width, double thickness, double young, double poisson,
     *out = section_spec_rectangle(young, young / (2 * (1 + poisson)), width, thickness);
     const double k = shear_factor > 0 ? shear_factor : 10 * (1 + poisson) / (12 + 11 * poisson);
     out->shear_factor[0] = out->shear_factor[1] = k;
-    /* of a thin sheet: N Eq. 46, and (w t)^3/144 */
+    /* thin-sheet values: N Eq. 46, and (w t)^3/144 */
     out->given.wagner_torque = pow(width, 5) * thickness / 1440;
     out->given.Iw = width * width * width * thickness * thickness * thickness / 144;
 }
@@ -64,7 +64,7 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
     scene_omit(s, (value[SHEET_SHEAR] == 0 ? FEATURE_SHEAR : 0) |
                       (value[SHEET_TRAPEZE] == 0 ? FEATURE_TRAPEZE : 0) |
                       (value[SHEET_WAGNER] == 0 ? FEATURE_WAGNER_TORQUE : 0));
-    /* a strongly bent, very wide sheet converges late */
+    /* a strongly bent, very wide sheet converges only on fine meshes */
     const int meshes[] = {1, 2, 3, 4, 8, 16, 32, 64, 128, 256},
               is_narrow = length >= 10 * value[SHEET_WIDTH];
     scene_meshes(s, is_narrow ? 10 : 8, meshes);
@@ -85,11 +85,13 @@ void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int c
     }
 }
 
-/* With the end angles zp, zq of the chord's frame, a = (zp + zq)/2 and c = (zq - zp)/2, eliminating
- * the stresses of N Eq. 49 from the potential gives in the plane of bending V = 6 EIz a^2/L + 2 EIz
- * c^2/L + g^2/2k,  g = u + L (a^2/10 + c^2/6),  k = L/EA + (L^3/EIz) (a^2/700 + c^2/180), whose
- * axial force is F = g/k.  Out of it, M_x = M~x - u_y (M~yp + M~yq)/L + u_y' M_y (N Eq. 49, its
- * sign corrected) and M_y = M~yp (x - 1) + M~yq x, x = s/L; the terms of N Eq. 50 leave sum M~y y +
+/* Let zp and zq be the end angles in the frame of the chord, a = (zp + zq)/2 and c = (zq - zp)/2.
+ * After elimination of the stresses of N Eq. 49, the potential in the plane of bending is V = 6 EIz
+ * a^2/L + 2 EIz
+ * c^2/L + g^2/2k,  g = u + L (a^2/10 + c^2/6),  k = L/EA + (L^3/EIz) (a^2/700 + c^2/180), with the
+ * axial force F = g/k. Out of this plane, M_x = M~x - u_y (M~yp + M~yq)/L + u_y' M_y (N Eq. 49 with
+ * the sign corrected) and M_y = M~yp (x - 1) + M~yq x, x = s/L; the terms of N Eq. 50 reduce to sum
+ * M~y y +
  * int [M_x phi_x' + M_y phi_x M_z/EIz - M_x kappa_x/2 - M_y^2/2EIy - F_z^2/2kGA] ds with the twist
  * rate kappa_x of N Eq. 51. */
 
@@ -136,8 +138,8 @@ static void energy(plane *p, double u, double zp, double zq)
     }
 }
 
-/* Computes forces and stiffness for the tip's X = L + w, Y and rotation; u = sqrt(X^2 + Y^2) - L,
- * zp = -alpha, zq = rotation - alpha. */
+/* Computes the forces and the stiffness for X = L + w, Y and the rotation of the tip. With alpha
+ * the angle of the chord, u = sqrt(X^2 + Y^2) - L, zp = -alpha and zq = rotation - alpha. */
 static void tip(plane *p, double w, double Y, double force[3], double K[9])
 {
     const double X = p->L + w, l = hypot(X, Y), alpha = atan2(Y, X), n[2] = {X / l, Y / l},
@@ -161,7 +163,7 @@ static void tip(plane *p, double w, double Y, double force[3], double K[9])
     }
 }
 
-/* Returns sinh(lambda x)/sinh(lambda); lambda is infinite without warping. */
+/* Returns sinh(lambda x)/sinh(lambda). Without warping, lambda is infinite. */
 static double hyperbolic(double lambda, double x)
 {
     return isinf(lambda) ? 0 : exp(lambda * (x - 1)) * expm1(-2 * lambda * x) / expm1(-2 * lambda);
@@ -197,9 +199,10 @@ static status local_stiffness(const section *s, const plane *p, double zp, doubl
         const double x = at[point], ds = weight[point] * L;
         const double My[STRESSES] = {0, x - 1, x},
                      phi[2] = {x * x * (3 - 2 * x), -L * x * x * (1 - x)};
-        const double rate[2] = {
-            6 * x * (1 - x) / L,
-            -x * (2 - 3 * x) - hyperbolic(lambda, x)}; /* of Wq: minus its own share of kappa_x */
+        const double rate[2] = {6 * x * (1 - x) / L,
+                                -x * (2 - 3 * x) -
+                                    hyperbolic(lambda, x)}; /* for Wq, minus its contribution to
+                                                             * kappa_x */
         const double curvature =
             (M * (2 * x - 1) + L * zp * x * (1 - x) * (1 - 2 * x) * p->F) / p->EIz;
         for (int i = 0; i < STRESSES; i++) {
@@ -226,8 +229,8 @@ static status local_stiffness(const section *s, const plane *p, double zp, doubl
     return STATUS_OK;
 }
 
-/* Returns C_zz, from the deformation out of the plane, with respect to the tip's (u_z, theta_x,
- * theta_y). */
+/* Returns C_zz from the out-of-plane stiffness with respect to (u_z, theta_x, theta_y) of the
+ * tip. */
 static double compliance_zz(const section *s, const plane *p, double X, double Y,
                             const double force[3], int tip_warps, double shear,
                             scene_moments moments)
@@ -242,8 +245,8 @@ static double compliance_zz(const section *s, const plane *p, double X, double Y
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
                 K[LOCAL * i + j] -= K[LOCAL * i + 3] * K[LOCAL * 3 + j] / WW;
-    /* phi_x = theta'_x/cos, yp = u_z/l, yq = yp + theta'_y + phi_x sin, with theta' in the chord's
-     * axes */
+    /* phi_x = theta'_x/cos, yp = u_z/l, yq = yp + theta'_y + phi_x sin, with theta' in the axes of
+     * the chord */
     const double T[3][3] = {
         {0, 1, sine / cosine}, {1 / l, 0, 0}, {1 / l, 0, cosine + sine * sine / cosine}};
     for (int i = 0; i < 3; i++)
@@ -251,7 +254,7 @@ static double compliance_zz(const section *s, const plane *p, double X, double Y
             for (int m = 0; m < 3; m++)
                 for (int n = 0; n < 3; n++)
                     H[3 * i + j] += T[m][i] * K[LOCAL * m + n] * T[n][j];
-    /* second derivatives of u and zq; then the tip's moment */
+    /* second derivatives of u and zq, and the moment at the tip */
     const double turned = moments == SCENE_MOMENTS_SPATIAL ? force[2] / 2 : 0;
     H[0] += p->gradient[0] / l;
     H[8] += p->gradient[2] * sine / cosine;
@@ -270,7 +273,7 @@ sheet_prediction sheet_prediction_of(const section *c, double length, double def
     double w = 0, force[3], K[9], C[3] = {1, 0, 0};
     int pivot[3];
     sheet_prediction out = {NAN, NAN, NAN, NAN, NAN};
-    for (int i = 0; i < 50; i++) { /* no force along x */
+    for (int i = 0; i < 50; i++) { /* iteration until the force along x is zero */
         tip(&p, w, deflection, force, K);
         const double step = force[0] / K[0];
         w -= step;

@@ -1,5 +1,5 @@
-/* Edits of a scene, field by field: fields that change their sign, side or position, and fields
- * that do not change. */
+/* Checks edits of a scene for each field: some change their sign, side or position, others do not
+ * change. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -65,8 +65,8 @@ static void reversed(void)
     scene_free(&s);
 }
 
-/* A full stiffness and mass of a section: entries between a resultant along or about z and one
- * along or about x or y change sign; others do not. */
+/* In the full stiffness and mass matrices of a section, entries that couple a resultant along or
+ * about z with one along or about x or y change sign; other entries do not. */
 static void reversed_section(void)
 {
     scene s;
@@ -94,9 +94,10 @@ static void reversed_section(void)
 /* Loads on parts of a member of length 2 along x that is reversed or split in two. */
 static const struct {
     scene_load_kind kind;
-    double from, to, last;      /* 1 at the start; last 0: it does not vary */
-    double turned[3];           /* from, to, and the value at the start */
-    double first[4], second[4]; /* split at 0.25: likewise, and at the end */
+    double from, to, last;      /* range, and value at its end relative to the start; last 0: the
+                                 * load does not vary */
+    double turned[3];           /* expected range and value at its start */
+    double first[4], second[4]; /* split at 0.25: expected range and values at its start and end */
 } on_part[] = {
     {SCENE_DISTRIBUTED, 0, 1, 0, {0, 1, 1}, {0, 1, 1, 1}, {0, 1, 1, 1}},
     {SCENE_DISTRIBUTED, 0, 1, 5, {0, 1, 5}, {0, 1, 1, 2}, {0, 1, 2, 5}},
@@ -108,7 +109,8 @@ static const struct {
     {SCENE_MEMBER_MOMENT, 0.625, 0.625, 0, {0.375, 0.375, 1}, {-1}, {0.5, 0.5, 1, 1}},
 };
 
-/* Checks the load on a member; there is none if the expected range starts with -1. */
+/* Checks the load on a member. If the expected range starts with -1, the member must have no
+ * load. */
 static void is_on(const scene *s, int member, const double expected[4], const char *what)
 {
     int found = 0;
@@ -247,12 +249,12 @@ static void stay_scenes(void)
     }
 }
 
-/* A motion in millimetres: newtons and seconds do not change. */
+/* A motion in millimetres has the same forces in newtons and times in seconds. */
 static void in_millimetres(void)
 {
     static const struct {
         scene_balance what;
-        double factor; /* from the unit of the scene to SI */
+        double factor; /* conversion from the unit of the scene to SI */
     } balance[] = {{SCENE_KINETIC, 1e-3}, {SCENE_WORK, 1e-3}, {SCENE_DRIFT, 1e-3}, {SCENE_PX, 1},
                    {SCENE_PZ, 1},         {SCENE_LX, 1e-3},   {SCENE_LZ, 1e-3}};
     const double instant = 1;
@@ -286,8 +288,8 @@ static void in_millimetres(void)
     scene_free(&s);
 }
 
-/* A position keeps its side of a discontinuity; seen from the other end it is the other side. If
- * the member is split there, the side determines the half. */
+/* A position keeps its side of a discontinuity, which becomes the other side if the member is
+ * reversed. If the member is split at the position, the side determines the half. */
 static void sides(void)
 {
     static const struct {
@@ -331,7 +333,7 @@ static void edit_tests(void)
     stay_scenes();
 }
 
-/* Results of the entry tables: other units, ranges, comparison, exchanged ends. */
+/* Checks functions of the entry tables: other units, ranges, comparison, and exchanged ends. */
 
 static void has_powers(void)
 {
@@ -425,8 +427,7 @@ static void entry_tests(void)
     is_mirrored();
 }
 
-/* Functions of time in pieces: where one ends, the next begins; which pieces are smooth, and which
- * are finite. */
+/* Functions of time in pieces: values at the boundaries of pieces, smoothness, and finiteness. */
 
 static scene_function pieces(int count, const double until[], const char *const text[])
 {
@@ -476,7 +477,8 @@ static void check_order(void)
     function_free(&f);
 }
 
-/* Checks two pieces that meet at 1 s; derivative -1: smooth. */
+/* Checks the smoothness of two pieces that meet at 1 s. derivative: the first discontinuous one, or
+ * -1 if smooth. */
 static void check_joint(const char *before, const char *behind, double end, int derivative)
 {
     const double until[] = {1, 0};
@@ -498,11 +500,11 @@ static void check_joints(void)
     check_joint("t^2", "2*t - 1", 2, -1);
     check_joint("t^2", "2*t - 1.1", 2, 0);
     check_joint("t^2", "t", 2, 1);
-    check_joint("t^2", "t", 1, -1); /* nothing follows the joint */
+    check_joint("t^2", "t", 1, -1); /* no piece follows the boundary within `end` */
     check_joint("t^2", "7", 0.5, -1);
 }
 
-/* where: NAN: finite */
+/* Checks that the function is finite up to the time `where`; NAN: everywhere. */
 static void check_finite(const char *before, const char *behind, int derivatives, double end,
                          double where)
 {

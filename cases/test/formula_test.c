@@ -1,5 +1,5 @@
-/* Formulas of time: values and derivatives compared with differences, points without derivatives,
- * and rejected texts with the position of the character. */
+/* Formulas of time: values, derivatives compared with finite differences, points without
+ * derivatives, and rejected text with the position of the error. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <signal.h>
@@ -22,7 +22,7 @@ static int at(const char *text, double t, double out[3])
     return 1;
 }
 
-/* Computes derivatives by sixth-order differences. */
+/* Compares the derivatives with sixth-order finite differences. */
 static void check_differences(const char *text, double t)
 {
     static const double first[] = {-1. / 60, 3. / 20, -3. / 4, 0, 3. / 4, -3. / 20, 1. / 60};
@@ -80,7 +80,7 @@ static void check_value(const char *text, double t, double expected)
         gsl_test_rel(out[0], expected, 1e-15, "%s at %g", text, t);
 }
 
-/* Precedence is that of the other expressions in scene files. */
+/* Operators have the same precedence as in other expressions of scene files. */
 static void check_binding(void)
 {
     check_value("-2^2", 0, -4);
@@ -99,7 +99,7 @@ static void check_binding(void)
     check_value("sinh(atan2(0, 1)) + t", 3, 3);
 }
 
-/* Expected 1: finite, 0: not, for value, velocity and acceleration. */
+/* Checks whether the value, velocity and acceleration are finite (1) or not (0). */
 static void check_edge(const char *text, double t, int value, int velocity, int acceleration)
 {
     const int expected[3] = {value, velocity, acceleration};
@@ -125,12 +125,12 @@ static void check_edges(void)
     check_edge("exp(1000*t)", 1, 0, 0, 0);
     check_edge("asin(t)", 1, 1, 0, 0);
     check_edge("sqrt(t - 2)", 1, 0, 0, 0);
-    /* the derivatives of constants are zero, even where those of the function are not finite */
+    /* The derivatives of constants are zero, even if those of the function are not finite. */
     check_edge("t*sqrt(0)", 1, 1, 1, 1);
     check_edge("t + asin(1)", 1, 1, 1, 1);
 }
 
-/* Checks the position, counted from 1, and words of the line. */
+/* Checks the position, counted from 1, and the words of the error. */
 static void check_refused(const char *text, int character, const char *words)
 {
     formula *f = NULL;
@@ -154,7 +154,8 @@ static void check_refusals(void)
     check_refused("t)", 2, "')' after the expression; is an operator missing?");
     check_refused("t t", 3, "is an operator missing?");
     check_refused("2 + x*t", 5, "unknown name; known names are t, pi");
-    check_refused("abs(t)", 1, "abs accepts only numbers, but its argument contains t; it has kinks");
+    check_refused("abs(t)", 1,
+                  "abs accepts only numbers, but its argument contains t; it has kinks");
     check_refused("max(t, 1)", 1, "give pieces");
     check_refused("2*max(1, t)", 3, "give pieces");
     check_refused("atan2(t, 1)", 1,
@@ -194,9 +195,9 @@ static void formula_tests(void)
     check_refusals();
 }
 
-/* Computed constants of a section follow changes of its description. */
+/* Computed constants of a section change with its description. */
 
-/* The constants are updated, however often they were requested. */
+/* The constants are updated even if they have been requested before. */
 static void constants_follow(void)
 {
     scene s;
@@ -305,7 +306,7 @@ static void kinds_tests(void)
     static const struct {
         const char *name;
         kinds_reader *read;
-        unsigned analyses, quantities; /* kinds that have it; 0: not applicable */
+        unsigned analyses, quantities; /* kinds with these data; 0: not applicable */
     } row[] = {
         {"walk", read_walk, 1 << SCENE_STATIC | 1 << SCENE_ROTATION, 0},
         {"compliance", read_compliance, 1 << SCENE_COMPLIANCE, 0},

@@ -1,4 +1,4 @@
-/* Rejected motions in time, and their functions. */
+/* Rejected motions in time and functions of time. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -21,7 +21,7 @@ static scene_motion *moves(scene *s)
     return moves_from(s, 0);
 }
 
-/* Drives in time, from 1 s on by another function; NULL: by a single function. */
+/* Moves the driver by a function of time and, from 1 s on, by another function (NULL: none). */
 static void drives(scene *s, const char *first, const char *then)
 {
     moves(s);
@@ -286,8 +286,8 @@ static void validate_motion_tests(void)
     accepts(weighs_at_a_node, "a mass at a node only");
 }
 
-/* Rejected nodes: every rejection names its cause and the remedy in one line. Each invalid scene
- * has a single fault: the scene from which it was made is accepted. */
+/* Rejected nodes. Every rejection states the cause and the remedy in one line. Each invalid scene
+ * has a single error; the scene from which it was made is accepted. */
 
 static const double x_axis[3] = {1, 0, 0}, zero[3] = {0, 0, 0};
 
@@ -406,10 +406,10 @@ static void validate_node_tests(void)
     refuse_all(sizeof node_refusals / sizeof node_refusals[0], node_refusals);
 }
 
-/* Rejected analyses and quantities: every rejection names its cause and the remedy in one line.
- * Each invalid scene has a single fault: the scene from which it was made is accepted. */
+/* Rejected analyses and quantities. Every rejection states the cause and the remedy in one line.
+ * Each invalid scene has a single error; the scene from which it was made is accepted. */
 
-/* Makes the path of an unknown load factor, which changes only loads. */
+/* Replaces the analyses by a continuation: a path with an unknown load factor. */
 static void driven(scene *s)
 {
     const double station[] = {0, 1};

@@ -1,5 +1,5 @@
-/* Rejected springs, members, motions and loads: every rejection names its cause and the remedy in
- * one line. Each invalid scene has a single fault: the scene from which it was made is accepted. */
+/* Rejected springs, members, motions and loads. Every rejection states the cause and the remedy in
+ * one line. Each invalid scene has a single error; the scene from which it was made is accepted. */
 #include <math.h>
 
 #include "cases/scene/scene.h"

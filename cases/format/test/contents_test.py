@@ -1,4 +1,4 @@
-"""Tests the contents of scene files: contents as read, the examples, and scenes with closed-form solutions."""
+"""Tests the contents of scene files: data as read, the examples, and scenes with closed-form solutions."""
 import json
 import pathlib
 import re
@@ -9,9 +9,9 @@ from harness.tools.kit.program import ProgramTest, ROOT
 from harness.tools.kit.scenes import LEAF
 
 
-# Possible contents of a scene file: loads, sections, resultants, bodies; written with the same bits.
+# Contents of scene files: loads, sections, resultants and bodies. Reading and writing preserves them bit for bit.
 
-# Every way to define a section; the constants of three sections position a node.
+# All ways to define a section. The constants of three sections define the position of a node.
 SHAPES = """\
 beamwork: 1
 parameters: {h: {value: 0.2, unit: m}}
@@ -71,7 +71,7 @@ omit: [wagner_torque]
         return self.scene(text, name)
 
     def test_loads(self):
-        """Loads of every kind and key keep their bits when written and read; a rotated structure moves as before."""
+        """Loads of every kind and with every key are written and read bit for bit, and a rotated structure has the same displacements."""
         first = self.loads("first.yaml", TIP="[1, 0, 0]", Y="[0, 1, 0]", FORCE="[1, 2, 3]", AT="[0.1, 0.2, 0.3]", TURN="[0, 4, 1]",
                            GRAVITY="[0, 0, -9.81]", X="ux", Z="uz")
         turned = self.loads("turned.yaml", TIP="[0, 1, 0]", Y="[0, 0, 1]", FORCE="[3, 1, 2]", AT="[0.3, 0.1, 0.2]", TURN="[1, 0, 4]",
@@ -85,7 +85,7 @@ omit: [wagner_torque]
                 self.assertGreater(abs(value), 1e-4)
 
     def test_shapes(self):
-        """Shapes given by dimensions, tubes and cells are written with the same bits; their constants are names."""
+        """Shapes given by dimensions, tubes and cells are written bit for bit, and expressions can use their constants."""
         path = self.scene(SHAPES, "shapes.yaml")
         text = self.answered("scene", "--scene", path).stdout
         again = self.scene(text, "again.yaml")
@@ -93,7 +93,7 @@ omit: [wagner_torque]
         where = ("-f", "collocation", "-n", 1)
         once, twice = (values(self.record("solve", "--scene", p, *where)) for p in (path, again))
         self.assertEqual(once, twice)
-        # e = 3 b^2 t_f/(h t_w + 6 b t_f) for a channel by its mid-lines; a ring; a polygon from Bredt's formula
+        # Expected values: e = 3 b^2 t_f/(h t_w + 6 b t_f) for the mid-lines of a channel, a ring, and Bredt's formula for a polygon.
         height, width, flange, web = 0.2, 0.06, 6e-3, 4e-3
         centre = 3*width**2*flange/(height*web + 6*width*flange)
         ring = (0.05**4 - 0.044**4)*3.141592653589793/32
@@ -126,8 +126,8 @@ quantities:
 """
 
     def test_internal(self):
-        """Resultants at both ends follow from statics, for every formulation that supports a channel; written scenes
-        give the same bits."""
+        """Resultants at both ends follow from statics for every formulation that supports a channel, and the written scene gives the same
+        values bit for bit."""
         path = self.scene(self.INTERNAL, "internal.yaml")
         exact = {"N": (5, 5), "Qy": (0.7, 0.7), "Qz": (0.7, 0.3), "Mx": (1, 1), "My": (-1, 0), "Mz": (1.4, 0)}
         for formulation in ("collocation", "geometrically_exact", "beamw", "beamw_consistent"):
@@ -171,8 +171,8 @@ quantities:
 """
 
     def test_stress(self):
-        """A box, free to warp, under tension and torsion: Bredt's flow and the part that varies through its thinnest
-        wall; a written scene gives the same bits."""
+        """The stress in a box that is free to warp, under tension and torsion, contains Bredt's flow and the part that varies through its
+        thinnest wall; the written scene gives the same values bit for bit."""
         area, swept, perimeter = 2*(0.1*3e-3 + 0.06*2e-3), 2*0.1*0.06, 2*(0.1/3e-3 + 0.06/2e-3)
         It = swept**2/perimeter + 2*(0.1*3e-3**3 + 0.06*2e-3**3)/3
         tau = max(300/It*(swept/perimeter/t + t) for t in (2e-3, 3e-3))
@@ -202,7 +202,7 @@ quantities:
             written = [re.sub("p[0-9]+", "p", self.answered("scene", "--scene", path).stdout)
                        for path in (EXAMPLES / f"{name}.yaml", self.scene(short))]
             self.assertEqual(*written)
-        # an I-section under a tip force along its web, rigid in shear: P L^3/3 E I
+        # an I-section that is rigid in shear, under a tip force along its web: P L^3/3 E I
         text = LEAF.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}",
                              "i: {depth: 0.2, flange: 0.1, flange_thickness: 8e-3, "
                              "web_thickness: 5e-3}")
@@ -220,8 +220,8 @@ quantities:
         self.assertEqual(*written)
 
     def test_weight_of_a_body(self):
-        """A weight at the centre of mass, which rotates with the body, gives P L^3/3 E I + P a L^2/2 E I, and the bits
-        of the same force."""
+        """A weight at a centre of mass that rotates with its body gives P L^3/3 E I + P a L^2/2 E I, bit for bit as the equal force
+        does."""
         heavy = LEAF.replace("  push: {force: [0, 1, 0], on: tip}", "  weight: {gravity: [0, -9.81, 0], on: tip}")
         body = heavy.replace("tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}")
         self.assertNotIn("push", body)
@@ -237,8 +237,7 @@ quantities:
             self.refused(2, words, "scene", "--scene", self.scene(body.replace(*change)))
 
     def test_weight_of_all(self):
-        """Gravity on all acts on members with a density and bodies with a mass, each once; a massless member stays
-        weightless."""
+        """Gravity on all acts once on each member with a density and each body with a mass, but not on a massless member."""
         one = LEAF.replace("push: {force: [0, 1, 0], on: tip}", "weight: {gravity: [0, -9.81, 0], on: all}").replace(
             "tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}\n  end:  {at: [0.2, 0, 0]}").replace(
             "loads:", "  more: {from: tip, to: end, section: light, y: [0, 1, 0]}\nloads:").replace(
@@ -258,7 +257,7 @@ quantities:
             self.refused(2, words, "scene", "--scene", self.scene(text))
 
     def test_the_analysis_that_was_made_up(self):
-        """The default analysis is reported if the scene has none."""
+        """If the scene has no analysis, the default analysis is reported."""
         where = ("-f", "collocation", "-n", 1)
         done = self.answered("solve", "--scene", self.scene(LEAF), *where)
         self.assertIn("has no analysis; a linear one is run", done.stderr)
@@ -270,7 +269,7 @@ quantities:
         self.assertEqual(done.stderr, "")
 
 
-# The examples: they pass together, with their known values.
+# The examples pass together and have their known values.
 class ExamplesTest(SceneCase):
 
     def test_examples_are_understood(self):
@@ -278,7 +277,7 @@ class ExamplesTest(SceneCase):
             self.answered("list", "--scene", path)
 
     def test_folder(self):
-        """All examples at once, with a case, give the expected verdict for every formulation; names are unique."""
+        """All examples, run together with a case, give the expected verdict for every formulation, and their names are unique."""
         verdicts = self.folder / "verdicts.json"
         done = self.answered("verify", "--scene", EXAMPLES, "-v", "--json", verdicts)
         judged = {v["case"] for v in json.loads(verdicts.read_text(encoding="utf-8"))["verdicts"]}
@@ -307,8 +306,7 @@ class ExamplesTest(SceneCase):
         self.refused(2, "would overwrite", "verify", "--scene", self.folder, "-o", taken)
 
     def test_leaf_spring_guide(self):
-        """Stiffnesses at rest are those computed by hand; those of the displaced stage come from the deriving
-        program."""
+        """Stiffnesses in the undeformed state equal closed forms; those of the displaced stage equal the reference program's."""
         path = EXAMPLES / "leaf_spring_guide.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 4))
         self.assertAlmostEqual(got["k_drive"] / 2624.536778, 1, delta=1e-9)
@@ -318,7 +316,7 @@ class ExamplesTest(SceneCase):
         self.assertIn("5 pass", done.stdout)
 
     def test_double_cross(self):
-        """Stiffness out of the plane does not change the sixteen frequencies in it."""
+        """The out-of-plane stiffness does not change the sixteen in-plane frequencies."""
         path, count = EXAMPLES / "double_cross.yaml", 0
         for formulation in ("collocation", "beamw_vlasov"):
             where = ("solve", "--scene", path, "-f", formulation, "-n", 8)
@@ -330,7 +328,7 @@ class ExamplesTest(SceneCase):
         self.assertEqual(count, 32)
 
     def test_cross_flexure_hinge(self):
-        """Checks moment, displacement and stiffness at 20 degrees."""
+        """Moment, displacement and stiffness at 20 degrees have their reference values."""
         got = values(
             self.record("solve", "--scene", EXAMPLES / "cross_flexure_hinge.yaml", "-f",
                         "collocation", "-n", 2))
@@ -338,7 +336,7 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(got[name] / value, 1, delta=1e-6)
 
     def test_folded_leaf_stage(self):
-        """Three instances at 120 degrees: the stiffness in their plane is equal in all directions."""
+        """Three instances at 120 degrees have equal stiffness in all directions in their plane."""
         path = EXAMPLES / "folded_leaf_stage.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 2))
         self.assertAlmostEqual(got["k_x"] / got["k_y"], 1, delta=1e-12)
@@ -349,29 +347,28 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(again[name] / value, 1, delta=1e-11)
 
     def test_box_girder(self):
-        """Benscoter's beam: torsion of a closed section with warping restrained."""
+        """A closed section in torsion with warping restrained agrees with Benscoter's beam."""
         path = EXAMPLES / "box_girder.yaml"
         done = self.answered("verify", "--scene", path)
         self.assertRegex(done.stdout, r"12 verdicts against reference values: 12 pass")
         self.assertRegex(done.stdout, r"sheet_second, [\w,\s]+: another model: warping not modelled")
 
 
-# Scenes as a new user writes them, without specifying physics, compared with closed forms.
+# Scenes as a new user would write them, without specified physics, are compared with closed forms.
 #
-# Each file of cases/textbook describes itself and the correct values in its first lines, and contains them as
-# reference values. The formulation that solve chooses, and formulations with all physics, must give them; a wrong
-# value must never have status ok.
+# The first lines of each file in cases/textbook describe the scene and its correct values, which the file contains as reference values. The
+# formulation that solve selects, and formulations with all physics, must give these values. A wrong value must never have status ok.
 SCENES = sorted((ROOT / "cases" / "textbook").glob("*.yaml"))
-# Of a value, relative, on the mesh that solve chooses.
+# Relative tolerance of a value on the mesh that solve selects.
 CLOSE = 2e-3
 
-# Scenes in which the elements of this formulation are too long for their axial force, whatever their number: it fails
-# by name, and no value is shown.
+# Scenes in which the elements of this formulation are too long for their axial force, for any number of elements: the formulation is
+# reported as failed, and no value is shown.
 REFUSED = {"rotating_string": "geometrically_exact"}
 
 
 def wrong(solution):
-    """Returns the quantities that differ from their reference values, or have no value although one is known."""
+    """Returns the quantities that differ from their reference values or have no value."""
     found = []
     for row in solution["quantities"]:
         for truth in row["truths"][:1]:
@@ -384,7 +381,7 @@ def wrong(solution):
 
 
 class ClosedFormsTest(ProgramTest):
-    """One test for each scene."""
+    """There is one test for each scene."""
 
     def holds(self, path, *options):
         """Checks that the scene has its correct values with these options."""
@@ -393,7 +390,7 @@ class ClosedFormsTest(ProgramTest):
         self.assertEqual(wrong(solution), [], path.name)
 
     def test_that_there_are_enough(self):
-        """There are thirty scenes; each has a reference value, or is known to have no value."""
+        """There are at least thirty scenes, and each has a reference value or is known to have no value."""
         self.assertGreaterEqual(len(SCENES), 30)
 
 

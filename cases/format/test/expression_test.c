@@ -8,7 +8,7 @@
 #include "cases/format/format_impl.h"
 #include "elements/math/scalar.h"
 
-/* Returns the text as a value that starts in line 3, column 10. */
+/* Returns a node with the text as a value that starts in line 3, column 10. */
 static document_node text_node(const char *text)
 {
     return (document_node){.kind = DOCUMENT_TEXT, .line = 3, .column = 10, .text = text};
@@ -97,7 +97,7 @@ static void check_mistakes(const scope *names)
     }
 }
 
-/* Depth is bounded: neither parentheses nor signs exhaust the stack. */
+/* The nesting depth is bounded, so that neither parentheses nor signs exhaust the stack. */
 static void check_depth(void)
 {
     static const char *const repeated[] = {"(", "-", "2^", "abs("};
@@ -284,7 +284,7 @@ static void check_bad_loops(void)
     }
 }
 
-/* Twenty errors are kept, sorted by position; the others are counted. */
+/* Twenty errors are stored, sorted by position; further errors are only counted. */
 static void check_many(void)
 {
     static mistakes m = {.file = "f"};
@@ -311,7 +311,7 @@ static void document_tests(void)
 /* Units of scene files: SI units are accepted; for others, the remedy gives the correct factor and
  * an accepted unit. */
 
-/* Returns the message of the check; empty if there is none. */
+/* Returns the error message for a unit, or "" if there is none. */
 static const char *said(const char *unit, mistakes *m)
 {
     const document_node text = {

@@ -1,4 +1,5 @@
-/* Every quantity of every case and example has its own description, made from the scene's data. */
+/* Every quantity of every case and example has a description of its own, which is derived from the
+ * data of the scene. */
 #include <dirent.h>
 #include <gsl/gsl_test.h>
 #include <stdio.h>
@@ -14,7 +15,8 @@
 enum { MOST = 128, KEY = 400, KINDS = SCENE_READING + 1 };
 static int seen[KINDS], asked;
 
-/* Writes the entry of quantity i in a file: the extract, then the factor and the offset. */
+/* Writes a key for the quantity: its extracted value in the written scene, its factor and its
+ * offset. */
 static void key_of(const char *text, const scene_quantity *q, char key[KEY])
 {
     char start[SCENE_NAME + 8];
@@ -202,8 +204,8 @@ static void meaning_tests(void)
     printf("%d quantities\n", asked);
 }
 
-/* The cases that the build made from scene files equal the files: parameters, and the scene bit for
- * bit, with the names of its entries. */
+/* Cases that the build makes from scene files equal the files in their parameters and, bit for bit,
+ * in the scene and the names of its entries. */
 
 static void compare_parameters(const char *name, const parameter_type *packed,
                                const parameter_type *read)

@@ -136,7 +136,7 @@ CONSTANTS = ("A", "Iy", "Iz", "It", "Iw", "ys")
 
 
 def half_unit(printed):
-    """Returns half of the last printed digit; integers of five digits or more are printed to four."""
+    """Returns half a unit of the last printed digit. Integers with five or more digits are printed with four significant digits."""
     digits = len(printed.replace(".", "").lstrip("0"))
     if "." in printed:
         return 0.5 * 10**-len(printed.split(".")[1])
@@ -144,7 +144,8 @@ def half_unit(printed):
 
 
 def scene(sections, material="young: 210e9, shear_modulus: 81e9, density: 7850", loads=None):
-    """loads: of name and components; default: a force from the constants of each section."""
+    """Returns a scene file with these sections. loads: text with the loads; by default, forces that contain the constants of each
+    section."""
     loads = loads or {
         f"{name}_{k}": f"[{name}.{k}*1e12, 0, 0]" for name in sections for k in CONSTANTS
     }
@@ -157,7 +158,7 @@ def scene(sections, material="young: 210e9, shear_modulus: 81e9, density: 7850",
 class ProfilesTest(SceneCase):
 
     def constants(self, sections):
-        """Returns the constants of each section by their names."""
+        """Returns the constants of each section by name."""
         written = self.answered("scene", "--scene", self.scene(scene(sections))).stdout
         found = re.findall(r"^  (\w+)_([A-Z]\w?|ys): \{force: \[([^,]*),", written, re.M)
         out = {}
@@ -166,7 +167,7 @@ class ProfilesTest(SceneCase):
         return out
 
     def test_printed(self):
-        """Every printed digit of every size is reproduced."""
+        """The constants of every size agree with all printed digits."""
         names = {f"s{i}": name for i, name in enumerate(PRINTED)}
         sections = {key: f"profile: {name}" for key, name in names.items()}
         for first in range(0, len(names), 20):
@@ -180,7 +181,7 @@ class ProfilesTest(SceneCase):
                             half_unit(printed) * 1.001, f"{constant} of {name}: {got[constant]}")
 
     def test_channels(self):
-        """Printed constants are close to those of the walls, so that none is misprinted."""
+        """The printed constants of channels are close to those of their walls, so that no misprint was copied."""
         sections = {name: f"profile: {name}" for name in UPN}
         got = self.constants(sections)
         written = self.answered("scene", "--scene", self.scene(scene(sections))).stdout
@@ -196,7 +197,7 @@ class ProfilesTest(SceneCase):
                                        msg=f"{constant} of {name}")
 
     def test_sizes_without_fillets(self):
-        """T-sections and non-standard angles are walls; areas with sharp corners are exact."""
+        """T-sections and non-standard angles consist of walls without fillets, with the exact area of sharp corners."""
         got = self.constants({
             "t": "t: {depth: 0.1, flange: 0.1, flange_thickness: 0.01, web_thickness: 0.01}",
             "l": "profile: L100x77x8",
@@ -210,7 +211,7 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["given"]["A"], 28.48e-4, delta=5e-7)
 
     def test_angles(self):
-        """Printed digits are reproduced; exchanging the legs rotates the section; the shear centre of equal legs is
+        """The constants of angles agree with all printed digits, exchanged legs rotate the section, and the shear centre of equal legs is
         the intersection of their centre lines."""
         sections = {f"s{i}": f"profile: {name}" for i, name in enumerate(ANGLES)}
         got = self.constants(sections)
@@ -229,12 +230,13 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(l[0] + m[0], 0, delta=1e-3)
         self.assertAlmostEqual(l[2], m[2], delta=1e-12)
         self.assertAlmostEqual(e[0], -math.pi / 4 * 1e9, delta=1e-3)
-        self.assertAlmostEqual(e[1], -23.22e-3, delta=1e-5)  # 5 mm from 28.22 mm
+        self.assertAlmostEqual(e[1], -23.22e-3, delta=1e-5)  # 28.22 mm minus 5 mm
         self.assertAlmostEqual(e[2], -23.22e-3, delta=1e-5)
 
     def test_angle_bends_askew(self):
-        """Deflection under a load along one leg, from the products of area about axes along the legs: d = F L^3/3E
-        [Iz, -Iyz; -Iyz, Iy]/(Iy Iz - Iyz^2), for L100x75x8 with its fillets."""
+        """A load along one leg of L100x75x8 causes the deflection that follows from the second moments about axes along the legs: d = F
+        L^3/3E
+        [Iz, -Iyz; -Iyz, Iy]/(Iy Iz - Iyz^2), including fillets."""
         text = scene({"l": "profile: L100x75x8"}, loads={"p": "[0, 0, 10]", "t": "[0, 0, 0]"})
         text = text.replace("  t: {force: [0, 0, 0], on: b}", "  t: {moment: [10*l.ey, 0, 0], on: b}")
         text = text.replace("  uz:", "  uy: {displacement: {analysis: run, node: b, component: uy}}\n  uz:")
@@ -246,8 +248,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["uy"] / (-flexibility * Iyz), 1, delta=4e-3)
 
     def test_stresses_of_an_angle(self):
-        """Stresses at the heel and the sharp toes of outlines with fillets, whose constants are integrated here: -M
-        (Iy y - Iyz z)/(Iy Iz - Iyz^2) about axes along the legs."""
+        """Stresses at the heel and the sharp toes are -M (Iy y - Iyz z)/(Iy Iz - Iyz^2) about axes along the legs, with the constants of
+        the outline with fillets integrated here."""
         def spandrel(sign, y, z, sy, sz, r, n=4000):
             strips = [(r / n * h, (i + 0.5) * r / n, h) for i in range(n)
                       for h in [r - math.sqrt(r * r - (r - (i + 0.5) * r / n)**2)]]
@@ -275,8 +277,8 @@ class ProfilesTest(SceneCase):
             self.assertEqual(max(stress), stress[0])
 
     def test_beam(self):
-        """Deflection and stress of a cantilever from the printed constants: P L^3/(3 E Iy), P L/Wel, with Wel = 194.3
-        cm^3, for all formulations that support it."""
+        """The deflection and stress of a cantilever follow from the printed constants, P L^3/(3 E Iy) and P L/Wel with Wel = 194.3 cm^3,
+        for all formulations that support the section."""
         text = scene({"beam": "profile: ipe 200"}, loads={"p": "[0, 0, 1000]"})
         text += "omit: {shear: yes}\n"
         for formulation in ("beamw_consistent", "geometrically_exact", "collocation"):
@@ -286,7 +288,7 @@ class ProfilesTest(SceneCase):
             self.assertAlmostEqual(got["s"] / (1000 / 194.3e-6), 1, delta=1e-3)
 
     def test_other_units(self):
-        """Dimensions of a named section are those of the standard in any unit of the file."""
+        """A named section has the dimensions of the standard in any unit of the file."""
         text = scene({"beam": "profile: IPE200"}, loads={"p": "[0, 0, 1]"})
         ours = values(self.record("solve", "--scene", self.scene(text), "-n", 2))["uz"]
         text = text.replace("beamwork: 1", "beamwork: 1\nunits: mm, N, MPa").replace(

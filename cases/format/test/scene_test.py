@@ -12,16 +12,16 @@ from harness.tools.kit.program import ProgramTest, ROOT, run
 from harness.tools.kit.scenes import LEAF, bad_scenes
 
 
-# Scene files through the program: errors with their positions, bits of the cases, parameters, keys.
+# Scene files read by the program: positions of errors, equality with the cases bit for bit, parameters, and keys.
 GOOD = ROOT / "cases/format/test/good"
-# A part of the motion with twelve joints: the whole motion takes as long as many other cases together.
+# Only a part of the motion with twelve joints, because the whole motion takes as long as many other cases together.
 PART = {"hexapod_motion": ("--set", "time=0.05")}
 
 
 class SceneTest(SceneCase):
 
     def test_bad_files(self):
-        """Each injected error is reported at its position with its remedy, and nothing else is reported."""
+        """Each injected error is reported at its position with its remedy, and no other error is reported."""
         self.assertGreaterEqual(len(bad_scenes()), 160)
         for name, text in bad_scenes():
             path = self.folder / f"{name}.yaml"
@@ -33,7 +33,7 @@ class SceneTest(SceneCase):
             self.assertEqual((done.returncode, told, done.stdout), (2, expected, ""), path.name)
 
     def test_mistakes_for_editors(self):
-        """--format json gives the same errors as numbers and text."""
+        """--format json reports the same errors, with numeric positions and text."""
         path = self.folder / "several_mistakes.yaml"
         path.write_text(dict(bad_scenes())[path.stem], encoding="utf-8")
         done = self.answered("scene", "--scene", path, "--format", "json", code=2)
@@ -43,14 +43,14 @@ class SceneTest(SceneCase):
         self.assertEqual((told["file"], told["more"]), (str(path), 0))
 
     def test_unknown_parameter(self):
-        """The rejection gives the command that lists the parameters, and this command lists them."""
+        """The message contains the command that lists the parameters, and this command lists them."""
         path = self.scene(LEAF)
         self.refused(2, f"'beamwork list --scene {path}' shows them", "solve", "--scene", path,
                      "--set", "force=3")
         self.answered("list", "--scene", path)
 
     def test_first_scene(self):
-        """A scene takes ten lines: P L^3/3EI + P L/(k G A) at the tip."""
+        """A scene of ten lines gives P L^3/3EI + P L/(k G A) at the tip."""
         path = self.scene(LEAF)
         record = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)
         area, inertia = 50e-3 * 0.5e-3, 50e-3 * 0.5e-3 ** 3 / 12
@@ -58,7 +58,7 @@ class SceneTest(SceneCase):
         self.assertAlmostEqual(values(record)["tip_uy"] / exact, 1, delta=1e-9)
 
     def test_bytes(self):
-        """Line endings and byte order marks of other editors, and letters of other languages, change nothing."""
+        """Line endings and byte order marks of other editors and letters of other languages do not change the results."""
         own = self.answered("scene", "--scene", self.scene(LEAF)).stdout
         for name, text in (("ends", LEAF.replace(
                 "\n", "\r\n")), ("mark", "\ufeff" + LEAF), ("letters", LEAF + "# Größe – 大きさ\n")):
@@ -88,13 +88,13 @@ class SceneTest(SceneCase):
         self.assertGreater(compared, 40)
 
     def test_written_again(self):
-        """A file that is written, read and written again gives the same text."""
+        """A written file that is read and written again gives the same text."""
         for path in sorted(EXAMPLES.glob("*.yaml")):
             once = self.answered("scene", "--scene", path).stdout
             self.assertEqual(self.answered("scene", "--scene", self.scene(once)).stdout, once)
 
     def test_everything(self):
-        """Everything that a scene can express is understood as intended and written so that it remains the same."""
+        """All data that a scene can contain are read as intended and are preserved by writing."""
         for path in sorted(GOOD.glob("*.yaml")):
             written = path.with_suffix(".written").read_text(encoding="utf-8")
             self.assertEqual(self.answered("scene", "--scene", path).stdout, written)
@@ -102,7 +102,7 @@ class SceneTest(SceneCase):
             self.assertEqual(again, written)
 
     def test_needs_of_earlier_versions(self):
-        """Physics that it does not list is omitted, except warping; one line gives the replacement."""
+        """Physics that `needs` does not list is omitted, except warping, and one line states the replacement of this key."""
         rest = ["shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia"]
         buckles = LEAF + ("analyses:\n  run: {buckling: {}}\nquantities:\n"
                           "  P: {critical_factor: {analysis: run}, unit: \"1\"}\n")
@@ -121,7 +121,7 @@ class SceneTest(SceneCase):
             self.assertEqual(self.answered("scene", "--scene", again).stdout, done.stdout)
 
     def test_parameters(self):
-        """--set changes a scene's parameters within their ranges; reference values follow."""
+        """--set changes the parameters of a scene within their ranges, and reference values follow."""
         where = ("solve", "--scene", EXAMPLES / "leaf_spring_guide.yaml", "-f", "collocation", "-n",
                  1)
         got = values(self.record(*where, "--set", "width=0.1"))
@@ -130,7 +130,7 @@ class SceneTest(SceneCase):
         self.refused(2, "did you mean 'width'", *where, "--set", "wdth=0.1")
 
     def test_truths_of_a_point(self):
-        """A reference value that names parameters applies only at that point, and `verify` runs this point."""
+        """A reference value that names parameters applies only at this parameter point, and `verify` runs this point."""
         path = self.scene(
             LEAF.replace("width: 50e-3", "width: width").replace(
                 "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +
@@ -156,7 +156,7 @@ class SceneTest(SceneCase):
         self.assertEqual(path.read_text(encoding="utf-8"), LEAF)
 
     def test_schema(self):
-        """The schema contains every list of a scene, and the required keys of its entries."""
+        """The schema contains every list of a scene and the required keys of the entries."""
         schema = json.loads(self.answered("scene", "--schema").stdout)
         self.assertEqual(schema["required"], ["beamwork", "sections"])
         member = schema["properties"]["members"]["additionalProperties"]
@@ -176,7 +176,7 @@ class SceneTest(SceneCase):
             self.assertLessEqual(used, set(schema["properties"]))
 
     def test_summaries_say_more_than_keys(self):
-        """A message such as "'node' is missing (node)" would not tell what to give."""
+        """A summary does not only repeat the key: "'node' is missing (node)" would not state what is required."""
         self.assertEqual(re.findall(r"^ *(\w+) +(?:NAME|TEXT|EXPR|\.\.\.) +\1(?: \[| \*|$)",
                                     self.answered("scene", "--keys").stdout, re.M), [])
 
@@ -237,7 +237,7 @@ class NamesTest(SceneCase):
         self.assertIsNone(NUMBERED.search(text), (what, NUMBERED.search(text)))
 
     def line(self, code, words, *arguments):
-        """Returns the one line of a rejection, which contains the words."""
+        """Returns the only line of a rejection, after checking that it contains the words."""
         done = run(*arguments)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertIn(words, done.stderr)
@@ -273,7 +273,7 @@ class NamesTest(SceneCase):
         self.same_again(path, "-f", "collocation", "-n", 2)
 
     def test_written_weight(self):
-        """Writes a node with the name of a member, and a load that was applied to several entries."""
+        """A node with the name of a member, and a load on several entries, are written correctly."""
         both = GUIDE.replace("peak", "brace_1").replace("0.2, 0]}", "0.2, 0], mass: 0.1}") + "omit: all\n"
         weight = both.replace("push: {force: [0, 1e-3, 0], on: stage}", "load_1: {gravity: [0, 1e-3, 0], on: all}").replace(
             "shear_modulus: 77e9}", "shear_modulus: 77e9, density: 7800}")
@@ -347,7 +347,7 @@ meshes: {shear: {0: [1, 2], 1: [1, 2, 4]}}
 class ChoicesTest(SceneCase):
 
     def written(self, *assignments):
-        """Returns lines of the scene at these values: loads, omit, meshes."""
+        """Returns the lines of the written scene at these parameter values that contain loads, omit and meshes."""
         given = [word for one in assignments for word in ("--set", one)]
         text = self.answered("scene", "--scene", self.scene(CHOSEN), *given).stdout
         loads = text[text.index("loads:"):text.index("analyses:")].split()[1:]
@@ -355,7 +355,7 @@ class ChoicesTest(SceneCase):
         return " ".join(loads), ends["omit"], ends["meshes"]
 
     def test_values_choose(self):
-        """Entries, values, physics and meshes follow the values of the parameters."""
+        """Entries, values, physics and meshes depend on the values of the parameters."""
         self.assertEqual(self.written(),
                          ("push_1: {force: [0, 1.5, 0], on: tip} push_2: {force: [0, 1.5, 0], on: tip}",
                           "omit: [shear, trapeze]", "meshes: [1, 2]"))
@@ -366,17 +366,16 @@ class ChoicesTest(SceneCase):
         self.assertIn("force: [0, 2.5, 0]", self.written("size=20", "shear=1")[0])
 
     def test_refused(self):
-        """Parameter values that do not give a scene are rejected at the responsible position; a switch has two
-        values."""
+        """Parameter values without a valid scene are rejected at the position of the cause; a switch has two values."""
         path = self.scene(CHOSEN)
         self.refused(2, f"{path}:11:49: size = 12.5 N on the root's side; give less than 10 N", "solve",
                      "--scene", path, "--set", "load=root_side", "--set", "size=12.5")
         self.refused(2, "shear", "solve", "--scene", path, "--set", "shear=0.5")
 
 
-# Parts and their instances: an instance equals its members, springs and supports written explicitly.
+# An instance of a part equals its members, springs and supports written explicitly.
 
-# LEAF along z, as an instance of a part.
+# The scene LEAF along z, as an instance of a part.
 PLACED = """\
 beamwork: 1
 sections:
@@ -406,7 +405,7 @@ class PartsTest(SceneCase):
         self.assertAlmostEqual(abs(got["tip_ux"]) / own["tip_uy"], 1, delta=1e-12)
 
     def test_springs_of_a_part(self):
-        """The spring of a rotated part has the rotated matrix T K T^T, at a port as well as between its own nodes."""
+        """The spring of a rotated part has the rotated matrix T K T^T, both at a port and between nodes of the part."""
         turn, a = 0.4, [3e3, 1e3, 2e3, 4.0, 5.0, 6.0]
         c, s = math.cos(turn), math.sin(turn)
         R = np.kron(np.eye(2), [[c, -s, 0], [s, c, 0], [0, 0, 1]])
@@ -433,11 +432,11 @@ loads:""") + "  pull: {force: [0.5, 1, 2], on: own}\n"
         self.assertGreater(min(map(abs, own.values())), 1e-9)
 
     def test_components_of_a_turned_part(self):
-        """Supports and motions are along the part's axes, even if a motion is opposite to the scene's axis."""
+        """Supports and motions are along the axes of the part, even if a motion is opposite to an axis of the scene."""
         part = PLACED.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
         where = ("-f", "collocation", "-n", 1)
-        got = self.same_again(self.scene(part, "part.yaml"), *where)  # its x is z of the scene
+        got = self.same_again(self.scene(part, "part.yaml"), *where)  # x of the part is z of the scene
         plain = LEAF.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
         self.assertNotEqual(plain, LEAF)

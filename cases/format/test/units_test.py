@@ -12,7 +12,7 @@ from harness.tools.kit.program import ROOT, run
 # Defaults of the keys of a scene file.
 GOOD = ROOT / "cases/format/test/good"
 
-# Entries that no other scene contains: every kind, with as few keys as possible.
+# Entries of every kind that no other scene contains, with as few keys as possible.
 BARE = [
     """sections:
   b: {rectangle: {width: 0.02, thickness: 0.01}, young: 7e10, shear_modulus: 2.6e10, density: 2700}
@@ -89,7 +89,7 @@ quantities:
 
 
 def tables(schema):
-    """Returns every map of the schema with its keys: name -> (place, properties)."""
+    """Returns the maps of the schema by name, each with its place and its properties."""
 
     def below(node, place):
         if "properties" in node:
@@ -104,7 +104,7 @@ def tables(schema):
 
 
 def maps(scene, schema, place=()):
-    """Returns every map of a scene that a key table describes."""
+    """Returns every map of a scene that the schema describes, with its place."""
     if isinstance(scene, dict) and "properties" in schema:
         yield place, scene, schema["properties"]
         for key, value in scene.items():
@@ -126,7 +126,7 @@ class KeysTest(SceneCase):
         cls.schema = json.loads(run("scene", "--schema").stdout)
 
     def test_words_of_keys(self):
-        """The words that an editor offers are those of the list."""
+        """The words that an editor offers are those in the list of keys."""
         said = "".join(self.answered("scene", "--keys").stdout.split())
         offered = []
 
@@ -143,7 +143,7 @@ class KeysTest(SceneCase):
             self.assertTrue(f"({','.join(words)})" in said, words)
 
     def test_every_key(self):
-        """A key is required, or the list and the schema state its default."""
+        """Each key is required, or the list and the schema state its default."""
         lines = []
         for line in self.answered("scene", "--keys").stdout.partition("is replaced:\n")[2].splitlines():
             if re.match(r" {0,11}\S", line):
@@ -199,15 +199,15 @@ class KeysTest(SceneCase):
         self.assertEqual({one for one in wanted - tried if one[0][:1] != ("parts",)}, set())
 
 
-# Scenes in their own units equal those in SI; numbers that suggest other units cause a warning.
+# Scenes in other units equal scenes in SI, and numbers that suggest other units cause a warning.
 
-# Units, metres and newtons of one unit, and the names of the units of values.
+# Units, one length unit in metres and one force unit in newtons, and the names of the units of values.
 SYSTEMS = (("mm, N, MPa", 1e-3, 1), ("[mm, N]", 1e-3, 1), ("m, kN, kPa", 1, 1e3), ("in, lbf, psi", 0.0254, 4.4482216152605),
            ("cm, kN", 1e-2, 1e3), ("m, N, Pa", 1, 1))
 
 
 def scene(units, metre, newton):
-    """Returns one structure with something of everything; numbers in those units."""
+    """Returns a scene with entries of all kinds, whose numbers are in these units."""
     def u(value, length=0, force=0):
         return repr(value/metre**length/newton**force)
 
@@ -337,7 +337,7 @@ class UnitsTest(SceneCase):
         return self.record("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 2, *where)
 
     def test_systems(self):
-        """Every number is converted by its unit: values are reported in the units of the scene."""
+        """Every number is converted according to its unit, and values are reported in the units of the scene."""
         exact = values(self.solved(scene("", 1, 1)))
         for units, metre, newton in SYSTEMS:
             record = self.solved(scene(units, metre, newton))
@@ -363,7 +363,7 @@ class UnitsTest(SceneCase):
             self.assertAlmostEqual(found[name]/1e3/exact[name], 1, delta=1e-6, msg=name)
 
     def test_continued(self):
-        """Stations of a continuation are lengths, also for a compliance about it."""
+        """Stations of a continuation are lengths, also for a compliance about the continuation."""
         si, mm = [self.solved(filled(CONTINUED, UNITS=units, NEAR=near, FAR=4*near, **numbers))
                   for units, near, numbers in (("", 1e-3, METRES), ("units: mm, N, MPa", 1, MILLIMETRES))]
         exact, found = values(si), values(mm)
@@ -395,7 +395,7 @@ class UnitsTest(SceneCase):
         return "warning" in done.stderr
 
     def test_warnings(self):
-        """There is a one-line warning, and the status does not change."""
+        """Suspicious numbers cause a one-line warning and do not change the exit status."""
         self.assertTrue(self.warned(filled(LEAF, **MILLIMETRES)))
         self.assertTrue(self.warned(filled(LEAF, **{**MILLIMETRES, "YOUNG": 210e9, "SHEAR": 81e9})))
         self.assertTrue(self.warned(filled(MOTION, UNITS="", **{**METRES, "YOUNG": 210e3, "SHEAR": 81e3})))
@@ -406,7 +406,7 @@ class UnitsTest(SceneCase):
             self.assertFalse(self.warned(filled(LEAF, **right)), right)
 
     def test_of_another_kind(self):
-        """A frequency is in Hz, whatever its label, unless a factor converts it."""
+        """A frequency is in Hz; another unit requires a factor."""
         scene = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.01}, young: 200e9, shear_modulus: 80e9, density: 7800}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -465,7 +465,7 @@ class Doubtful(SceneCase):
                       "densities are in t/mm^3", self.told("7850", "1").stderr)
 
     def test_larger_than_the_structure(self):
-        """EA/l = 84000 N/mm: 2000 mm at 168 MN."""
+        """A displacement larger than the structure causes a warning: EA/l = 84000 N/mm gives 2000 mm at 168 MN."""
         self.assertEqual(self.told("7.85e-9", "167e6").stderr, "")
         self.assertIn("ux: a linear analysis gives a displacement of 1.01 times the size of the structure",
                       self.told("7.85e-9", "169e6").stderr)
@@ -474,7 +474,7 @@ class Doubtful(SceneCase):
         self.assertRegex(self.told("7.85e-9", "1").stdout, r"\nN +0 N mm")
 
     def test_kelvin(self):
-        """The unit of a load is that of its factor: K in any unit system; another unit needs a factor."""
+        """The unit of a load factor may be that of its load, which is K in any unit system; another unit requires a factor."""
         self.assertRegex(self.answered("solve", "--scene", self.scene(WARM), "-f", "beamw", "-n", 8).stdout,
                          r"\ndT +\S+ K")
         self.refused(2, "or 'unit: MPa, factor: 1' if the load has the value 1 in this unit", "solve", "--scene",

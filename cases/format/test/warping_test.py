@@ -1,4 +1,4 @@
-"""Tests warping at the joints of scene files, and curves."""
+"""Tests warping at member ends in scene files, and curves."""
 import csv
 import io
 import json
@@ -41,7 +41,7 @@ TIP = f"  tip: {{at: [{LENGTH}, 0, 0]"
 class WarpingTest(SceneCase):
 
     def words(self, scene):
-        """Returns the words of the members, in their order, at both ends; shared ones by their number."""
+        """Returns the warping words at both ends of the members, in order; shared coordinates are numbers."""
         text = self.answered("scene", "--scene", self.scene(HEAD + scene)).stdout
         return [
             re.sub(r"\{shared: (w\d+)\}", r"\1", word)
@@ -60,12 +60,12 @@ class WarpingTest(SceneCase):
             self.twist(scene, "-f", "collocation") / expected, 1, delta=1e-6, msg="collocation")
 
     def test_numbers(self):
-        """The closed-form values differ sufficiently."""
+        """The closed-form values differ sufficiently to distinguish the conditions."""
         self.assertGreater(SAINT_VENANT, 1.5 * ONE_HELD)
         self.assertGreater(ONE_HELD, 1.5 * BOTH_HELD)
 
     def test_held(self):
-        """All six components are fixed, whatever combination of words fixes or drives them."""
+        """Warping is restrained if all six components are fixed or prescribed, in any combination."""
         drives = "motions: {still: {path: [0, 1], value: [0, 0]}}\n"
         for base in ("hold: all", "hold: [all]", "hold: [ux, uy, uz, rx, ry, rz]",
                      "hold: [rz, ry, rx, uz, uy, ux]",
@@ -82,7 +82,7 @@ class WarpingTest(SceneCase):
                     self.is_twisted(scene + TWIST, ONE_HELD)
 
     def test_free(self):
-        """A free component leaves the warping free; so does a mass, a fork, or a word."""
+        """Warping is free if a component is free, if the node has only a mass or a fork support, or if a word specifies it."""
         drives = "motions: {still: {path: [0, 1], value: [0, 0]}}\n"
         held = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         for tip in ("", ", mass: 3", ", mass: 3, inertia: [1, 1, 1, 0, 0, 0], centre: [0.1, 0, 0]",
@@ -115,13 +115,13 @@ class WarpingTest(SceneCase):
                     [f"fixed, {told}"])
 
     def test_tied(self):
-        """Ends that move with a body restrain warping: at its parts, and at the body's own node if others are joined
-        to the body elsewhere."""
+        """Warping is restrained at the attached nodes of a body, and at the node of the body itself if other entries are joined to the body
+        elsewhere."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         part = base + "  body: {at: [4, 0, 0]}\n" + TIP + ", part_of: body}\n" + CANTILEVER
         self.assertEqual(self.words(part), ["fixed, fixed"])
         self.is_twisted(part + TWIST.replace("on: tip", "on: body"), BOTH_HELD)
-        # an observed or loaded position changes nothing
+        # an observed or loaded position does not change the warping
         looked = base + TIP + "}\n  eye: {at: [3, 0.1, 0], part_of: tip}\n" + CANTILEVER
         self.assertEqual(self.words(looked), ["fixed, free"])
         self.is_twisted(looked + TWIST, ONE_HELD)
@@ -133,8 +133,8 @@ class WarpingTest(SceneCase):
         self.assertEqual(self.words(both), ["fixed, fixed", "fixed, fixed"])
 
     def test_guide(self):
-        """A guide of two leaves between clamped bases, one of them driven, and a stage: stiffness across it at the end
-        of its stroke."""
+        """A guide of two leaves between clamped bases, one of them driven, and a stage has the expected transverse stiffness at the end of
+        its stroke."""
         guide = """nodes:
   base_a: {at: [0, 0, 0], hold: all}
   base_b: {at: [0.06, 0, 0], hold: [ux, uy, uz, ry, rz], drive: {rx: tilt}}
@@ -192,7 +192,7 @@ instances:
         beam = two.replace("SECTION", "beam")
         self.assertEqual(self.words(beam), ["fixed, w0", "w0, free"])
         self.is_twisted(beam + TWIST, ONE_HELD)
-        # over a fork, and between forks
+        # over a fork support, and between fork supports
         fork = "hold: [ux, uy, uz], fork: {axis: [1, 0, 0], web: [0, 0, 1]}"
         span = f"nodes:\n  left: {{at: [0, 0, 0], {fork}}}\n  tip: {{at: [{LENGTH / 2}, 0, 0]}}\n" + \
             f"  right: {{at: [{LENGTH}, 0, 0], {fork.replace('ux, ', '')}}}\nmembers:\n" + \
@@ -222,7 +222,7 @@ instances:
                 self.assertEqual(self.words(scene), told)
 
     def test_towards(self):
-        """Members that point towards each other continue if the section looks the same from both ends."""
+        """Members that point towards each other share their warping if the section is the same seen from both ends."""
         two = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  mid: {at: [1, 0, 0]}\n" + TIP + "}\n" + \
             "members:\n  one: {from: base, to: mid, section: SECTION, y: [0, 1, 0]}\n" + \
             "  two: {from: tip, to: mid, section: SECTION, y: Y}\n"
@@ -245,7 +245,7 @@ instances:
                         delta=1e-9)
 
     def test_told(self):
-        """Text and JSON list the ends; stderr is empty."""
+        """Text and JSON list the ends, and stderr is empty."""
         torsion = HEAD + "nodes:\n  base: {at: [0, 0, 0], hold: all}\n" + TIP + "}\n" + CANTILEVER
         ends = "held at base; free at tip"
         scene = self.scene(torsion + TWIST)
@@ -254,7 +254,7 @@ instances:
         self.assertEqual(done.stderr, "")
         record = json.loads(run("solve", "--scene", scene, "--format", "json").stdout)
         self.assertEqual(record["cell"]["warping"], ends)
-        # if the word is given, if it changes nothing, if nothing warps
+        # no list if the word is given, if it does not change the result, or if the section does not warp
         for text, words in ((torsion.replace("]}", "], warping: [fixed, free]}", 3) + TWIST, ends),
                             (torsion + TWIST.replace(f"[{TORQUE}, 0, 0]", "[0, 0, 0]"), ends),
                             (torsion + TWIST.replace("moment", "force"), ends),
@@ -283,13 +283,13 @@ instances:
                          r"warping: held at base, end_0, .*, end_6 and 13 more; free at tip quantity")
 
     def test_written(self):
-        """The written scene contains the word, and gives the same bits."""
+        """The written scene contains the word and gives the same values bit for bit."""
         for base in ("hold: all", "hold: [ux, uy, uz, rx]"):
             scene = f"nodes:\n  base: {{at: [0, 0, 0], {base}}}\n{TIP}, hold: [uy, uz]}}\n{CANTILEVER}"
             self.same_again(self.scene(HEAD + scene + TWIST), "-n", 3)
 
 
-# Curves: tables in text, rows in CSV, over a chosen abscissa, and their errors over the meshes.
+# Curves: tables in text, rows in CSV, the choice of the abscissa, and errors of the meshes.
 
 # A leaf guide whose transverse stiffness decreases over the stroke.
 GUIDE = """beamwork: 1
@@ -332,8 +332,7 @@ class CurvesTest(SceneCase):
         return list(csv.DictReader(io.StringIO(text)))
 
     def test_abscissa(self):
-        """The abscissa is the values of another quantity on the same path, also for quantities of analyses that follow
-        it."""
+        """The abscissa contains the values of another quantity on the same path, also for quantities of analyses that follow the path."""
         found = curves(self.record("solve", "--scene", self.scene(FEW), *WHERE))
         places = found["place"]["curve_value"]
         self.assertEqual(len(places), 21)
@@ -359,7 +358,7 @@ class CurvesTest(SceneCase):
         self.assertEqual(len([r for r in rows if r["quantity"] == "force"]), 3*21)
 
     def test_text(self):
-        """Curves with the same abscissa are next to each other; of many points, some are shown, with the command for
+        """Curves with the same abscissa are in one table. If there are many points, only some are shown, with the command that shows
         all."""
         text = self.answered("solve", "--scene", self.scene(FEW), *WHERE).stdout
         lines = [line.split() for line in text.splitlines()]
