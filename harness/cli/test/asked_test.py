@@ -1,5 +1,5 @@
-"""Computation and output on request: selections, partial results, default choices, and formulations that are
-not ranked."""
+"""Results that are requested or not: selections, partial results, default choices, and formulations that are not
+ranked."""
 import json
 import re
 import subprocess
@@ -58,7 +58,7 @@ class Asked(ProgramTest):
                                            if x.split(":")[0].strip() in names])
 
     def test_analyses_that_nobody_reads(self):
-        """Work and bits are those of a scene with only the analyses that are read."""
+        """The work and the bits are those of a scene with only those analyses that a quantity reads."""
         for asked, line in QUANTITIES.items():
             wanted = f"quantities:\n  {line}\n"
             needed = {asked, "path"} if asked in "cv" else {asked}
@@ -69,7 +69,7 @@ class Asked(ProgramTest):
                              least["quantities"][0]["value"], asked)
 
     def test_a_selection(self):
-        """-k is the same as writing those quantities only."""
+        """-k has the same effect as a scene with only those quantities."""
         lines = {k: v.replace("tip:", f"tip_{k}:") for k, v in QUANTITIES.items()}
         text = HEAD + ANALYSES + "quantities:\n" + "".join(f"  {x}\n" for x in lines.values())
         whole = self.solved(text)
@@ -126,7 +126,7 @@ class Asked(ProgramTest):
                      "frequency")
 
     def test_verify(self):
-        """A selection computes what it names; a whole run computes everything."""
+        """A selection computes only what it names; a whole run computes everything."""
         out = self.folder / "v.h5"
         self.answered("verify", "-k", "c_column/default/ and buckling_load", "-f", "beamw", "-o",
                       out)
@@ -139,7 +139,7 @@ class Asked(ProgramTest):
             self.assertEqual(list(finest["factorisations"]), [3])
 
 
-# Available results are printed; missing ones are reported with the reason and by the exit status.
+# Available results are printed. Missing ones are reported with the reason and by the exit status.
 BAR = """beamwork: 1
 parameters: {depth: {value: 0.1, unit: m, min: 0.05, max: 0.5, about: "of the section at b"},
              damping: {value: 0, unit: s, min: 0, max: 1, about: "of the member"}}
@@ -170,7 +170,7 @@ quantities:
 
 
 class Selected(ProgramTest):
-    """A verdict is the same whatever else is selected."""
+    """A verdict does not depend on which other quantities are selected."""
     ONES = "c_column and length=4 and (sheet_second or beamw)", "unsymmetric_column/default", \
         "angle_column/default", "deep_beam/default", "shear_column/default", "sheet_wagner/default"
 
@@ -195,8 +195,8 @@ class Selected(ProgramTest):
             self.assertGreater(others, 0 if "column" in some else -1, some)
 
     def test_alike_in_converge(self):
-        """The load of a mode that is independent of shear and Wagner moments, in a scene whose frequencies depend on
-        them."""
+        """The load of a mode does not depend on shear and Wagner moments, but the frequencies of the scene do: the
+        formulation is a different model, with and without a selection."""
         where = ("converge", "c_column", "--set", "length=4", "--set", "height=0.9", "--set", "width=0.3", "-f",
                  "sheet_second", "-n", "2,4,8,16")
         for more in ((), ("-k", "=buckling_load")):
@@ -262,7 +262,7 @@ LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 class Solve(ProgramTest):
     def test_both(self):
-        """The choice is reported in the output and accurate."""
+        """The choice is reported in the output, and its result is accurate."""
         for case, quantity in (("elastica", "w_over_L"), ("lateral_buckling", "load_factor")):
             text = self.answered("solve", case).stdout
             told = re.match(r"-f (\S+): .*no known deviation here.*\n-n (\d+): ", text)
@@ -295,8 +295,8 @@ class Solve(ProgramTest):
         self.assertGreater(int(told.group(1)), 1)
 
     def test_steps(self):
-        """The first lines state the number of chosen steps and of failed longer ones, in agreement with the listed
-        steps."""
+        """The first lines state the number of chosen steps and of longer steps that failed, in agreement with the
+        listed steps."""
         for case, rejects in (("elastica", True), ("bend_45", False)):
             more = ("--set", "load=10") if rejects else ()
             what = ("solve", case, "-f", "beamw", "-n", "8", *more)
@@ -337,7 +337,8 @@ class Solve(ProgramTest):
         self.assertNotIn("defect", done.stdout)
 
 
-# Formulations whose times are not ranked, in bench and converge: they are shown and marked, and never the cheapest.
+# Formulations whose times are not ranked, in bench and converge: they are shown and marked, but
+# never called the cheapest.
 MARK = "timoshenko: by differences, its times are not ranked"
 
 
@@ -367,7 +368,7 @@ class Unranked(ProgramTest):
         self.assertRegex(out, r"stretch within 10, 1 %: none that ranks; also within it: timoshenko")
 
     def test_against(self):
-        """At equal error and at equal numbers of elements, as text and as JSON."""
+        """Times are compared at equal error and at equal numbers of elements, as text and as JSON."""
         out = " ".join(self.bench("--against", "collocation", "-k", "stretch", "--error",
                                   "1%").split())
         self.assertIn("no rank: compared with", out)

@@ -102,7 +102,7 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
                 self.assertLess(abs(turned[key] - value), close * max(1, abs(value)), f"{name}: {key}")
 
     def test_formulations(self):
-        """A roller on a slope against a closed form, with all formulations."""
+        """A roller on a slope agrees with a closed form, with all formulations."""
         names = [f["formulation"] for f in self.record("list", "formulations")["formulations"]]
         self.assertGreaterEqual(len(names), 10)
         for name in names:
@@ -111,7 +111,7 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
                 self.assertLess(abs(q["error"]), 1e-6, f"{name}: {q['quantity']}")
 
     def test_slide(self):
-        """A pendulum that hangs perpendicular to the slope it slides down keeps this direction, and everything
+        """A pendulum that hangs perpendicular to the slope that it slides down keeps this direction, and everything
         accelerates by g sin(slope)."""
         fall = 9.81 * math.sin(0.5) * 0.2**2 / 2
         for kind in ("alpha", "conserving", "radau"):
@@ -121,7 +121,7 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
             self.assertAlmostEqual(found["t"], 0, delta=1e-6)
 
     def test_symmetry(self):
-        """Half of a beam with symmetry conditions agrees with the whole beam: a path, buckling, a mode."""
+        """Half of a beam with symmetry conditions agrees with the whole beam, in a path, in buckling and in a mode."""
         half = MIRRORED.replace("GUIDED", GUIDED).replace("MIDDLE", AXES + ", hold: [ux, ry, rz]")
         whole = MIRRORED.replace("GUIDED", GUIDED).replace("MIDDLE", AXES + ", hold: [ux]")
         for name, more in (("END", f"  b: {{at: [1.2, 1.6, 0], {GUIDED}}}"),
@@ -134,14 +134,14 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
             self.assertLess(abs(b[name] / value - 1), 1e-7, name)
 
     def test_harmonic_reaction(self):
-        """Reactions are along the axes of the node: the component that the motion drives, and no other."""
+        """Reactions are along the axes of the node: only the component that the motion drives has a reaction."""
         text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0]}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], axes: {x: [1, 1, 0], z: [0, 0, 1]}, hold: [uy], drive: {ux: go}}}
 members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
 analyses: {h: {harmonic: {frequencies: [0]}}}
 quantities: {r: {response: {analysis: h, node: b, component: ux, of: reaction, drive: go}, unit: N/m}}
 """
-        stiff = 2e9 * 0.02 * 0.03 + 3 * 2e9 * 0.03**3 * 0.02 / 12  # along and across, at 45 degrees
+        stiff = 2e9 * 0.02 * 0.03 + 3 * 2e9 * 0.03**3 * 0.02 / 12  # stiffness along and across the member, at 45 degrees
         found = self.values(text + "omit: [shear]\n")
         self.assertAlmostEqual(found["r"] / (stiff / 2), 1, delta=1e-6)
         path = self.folder / "across.yaml"
@@ -150,7 +150,7 @@ quantities: {r: {response: {analysis: h, node: b, component: ux, of: reaction, d
         self.assertIn("requires a motion that drives this component alone", done.stdout + done.stderr)
 
     def test_written_again(self):
-        """Axes given by z and by a member: the written scene gives the same results."""
+        """If axes are given by z and by a member, the written scene gives the same results."""
         first = json.loads(run("solve", "--scene", EXAMPLE, "-f", "collocation", "-n", "1", "--format", "json").stdout)
         again = self.folder / "again.yaml"
         again.write_text(self.answered("scene", "--scene", EXAMPLE).stdout)

@@ -1,4 +1,4 @@
-/* Series as bytes: reading them back, truncated input, and the parts that their digest excludes. */
+/* Series as bytes: reading them back, truncated input, and the parts that the digest excludes. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Two solved meshes of a path with a curve, with noise and times as if measured. */
+/* Makes two solved meshes of a path with a curve, with noise and times as if measured. */
 static void make(sweep *s)
 {
     static const int mesh[] = {1, 2};
@@ -75,7 +75,7 @@ static void round_trip(sweep *s)
     free(after.at);
 }
 
-/* Has the digest changed? */
+/* Returns 1 if the digest has changed. */
 static int differs(const sweep *s, const char *before)
 {
     const bytes now = written(s);
@@ -135,7 +135,7 @@ static void cells_tests(void)
     sweep_free(&s);
 }
 
-/* Texts in manual pages appear as they were written, whatever they begin with. */
+/* Texts in manual pages appear as they were written, whatever their first characters are. */
 
 static void written_as(const char *text, const char *wanted, const char *what)
 {
@@ -161,7 +161,7 @@ static void roff_tests(void)
                "78 columns");
 }
 
-/* Every word that the program prints as a result is explained in the glossary: the words come from
+/* Every word that the program prints as a result is explained in the glossary. The words come from
  * the program's own tables. */
 
 static glossary words;
@@ -186,7 +186,7 @@ static void words_tests(void)
              "the glossary is read %s", f.text);
     for (int i = 0; i < VERDICT_KINDS; i++)
         explained("verdict", verdict_name((verdict_kind)i));
-    for (int i = 1; i < LIMIT_KINDS; i++) /* except "none" */
+    for (int i = 1; i < LIMIT_KINDS; i++) /* except the first kind, "none" */
         explained("kind of limit", limit_kind_name((limit_kind)i));
     for (int i = 0; i <= STATUS_NO_VALUE; i++)
         explained("status", status_name((status)i));

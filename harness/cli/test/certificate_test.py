@@ -26,7 +26,7 @@ class Certificates(Tested):
         self.assertGreaterEqual(len(record["formulations"]), 10)
 
     def test_examples_keep_it(self):
-        """All examples except those that need a Fortran compiler, which have their own tests."""
+        """Returns all examples except those that need a Fortran compiler, which have their own tests."""
         for source in sorted(set(EXAMPLES.glob("*.c")) - {EXAMPLES / "uel.c"}):
             out = self.answered("element-test", "--element", self.compiled(source.name)).stdout
             self.assertIn("interface requirements: SATISFIED", out)
@@ -73,7 +73,7 @@ ROWS = re.compile(r"^    (.*) \\\\$", re.M)  # rows of LaTeX tables
 
 
 class Tables(Tested):
-    """LaTeX output for a paper: the numbers of the JSON, with version and hash of the element."""
+    """LaTeX output for a paper contains the numbers of the JSON, and the version and hash of the element."""
 
     usual = None  # output for the unmodified example
 
@@ -116,7 +116,7 @@ class Tables(Tested):
         self.assertIn("SHA-256 of the program, which contains it", out)
 
     def test_csv(self):
-        """One row for each check and each measured error."""
+        """There is one row for each check and for each measured error."""
         found = self.forms()
         rows = list(csv.DictReader(io.StringIO(found["csv"])))
         self.assertEqual([(r["family"], r["name"], r["outcome"], int(r["compared"]))
@@ -177,7 +177,7 @@ class Tables(Tested):
         self.assertRegex(found["latex"], r"stress, C and G derive .* & violated ")
 
     def test_special_characters(self):
-        """An element with characters that are special in LaTeX."""
+        """An element may have characters in its name that are special in LaTeX."""
         text = self.forms(("two nodes, one point", "50 % of {a_b} & #1 | $x^2$ ~ \\\\"),
                           ('"timoshenko"', '"my_beam"'))
         self.assertIn(r"\caption{my\_beam: ", text["latex"])

@@ -1,5 +1,5 @@
-"""The choice of solve meets the requested error at about the cost of the cheapest formulation, over all
-cases, all examples and thirty scenes; digits are shown as far as the values are certain."""
+"""The choice of solve meets the requested error at about the cost of the cheapest formulation, for all cases, all
+examples and thirty scenes. Digits are shown as far as the values are certain."""
 import json
 import random
 import re
@@ -9,14 +9,14 @@ from harness.tools.kit.program import ROOT, ProgramTest
 
 ASKED = 1e-3
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# According to converge its meshes have not converged to 0.1 % with any formulation.
+# According to converge, the meshes of this case have not converged to 0.1 % with any formulation.
 UNANSWERED = set()
-# The meshes take fifteen seconds and are solved by verify too: only the choice is checked.
+# The meshes take fifteen seconds and are also solved by verify, so only the choice is checked.
 LONG = {"hexapod_motion"}
 
 
 def bar(chance, kind):
-    """A random frame of one to three members, plane or spatial, with random supports, loads and quantities."""
+    """Returns a random frame of one to three members, plane or spatial, with random supports, loads and quantities."""
     members = chance.randint(1, 3)
     at = [[0.0, 0.0, 0.0]]
     for _ in range(members):
@@ -57,15 +57,15 @@ class Choice(ProgramTest):
         return self.record("converge", *scene, "--error", "0.1%")
 
     def is_cheap(self, name, chosen, answers):
-        """Checks that the choice costs at most twice as much as the cheapest according to converge; beyond its
-        meshes, the cost of the mesh before the chosen one counts. Returns whether converge has any answer."""
+        """Checks that the choice costs at most twice as much as the cheapest according to converge; beyond the meshes
+        of converge, the cost of the mesh before the chosen one is used. Returns whether converge has any answer."""
         cost = {a["formulation"]: a["cost"] for a in answers["answers"] if a["rank"]}
         own = cost.get(chosen["formulation"], chosen["cell"]["cost"]/2)
         self.assertLessEqual(own, 2*min(cost.values(), default=own), f"{name}: {chosen['formulation']}, {cost}")
         return bool(cost)
 
     def is_right(self, name, chosen):
-        """Checks that values are within the error of exact and independent reference values of the same model."""
+        """Checks that the values are within the error of exact and independent reference values of the same model."""
         for q in chosen["quantities"]:
             self.assertEqual(q["status"], "ok", (name, q["quantity"]))
             for t in q["truths"]:
@@ -109,7 +109,7 @@ class Choice(ProgramTest):
             self.assertTrue(apart/100 < last <= apart, (q["quantity"], shown, q["change"]))
 
     def test_status_where_values_change(self):
-        """The mesh limit ends the refinement: status not_converged, with the values and a remedy."""
+        """If the mesh limit ends the refinement, the status is not_converged, with the values and a remedy."""
         done = self.answered("solve", "deep_beam", "-f", "beamw:mass=lumped", "-k", "frequency_9", "--error", "1e-9", code=1)
         self.assertIn("was requested; use -n 2048, or raise --error", done.stderr)
         self.assertRegex(done.stdout, r"\nnot_converged: values still change with the mesh: .*frequency_9 still\s+changed by")
@@ -118,7 +118,8 @@ class Choice(ProgramTest):
         self.refused(2, "--error", "solve", "deep_beam", "-n", "4", "--error", "1%")
 
     def test_slow_convergence(self):
-        """Lateral-torsional buckling with shear: below first order the expected error exceeds the last change."""
+        """Lateral-torsional buckling with shear converges with an order below one, so the expected error exceeds the
+        last change."""
         path = self.folder / "beam.yaml"
         path.write_text("""beamwork: 1
 units: mm, N, MPa
@@ -129,7 +130,7 @@ loads: {ma: {moment: [0, 1e6, 0], on: a}, mb: {moment: [0, -1e6, 0], on: b}}
 analyses: {buck: {buckling: {}}}
 quantities: {Mcr: {critical_factor: {analysis: buck}, unit: 1}}
 """, encoding="utf-8")
-        exact = 20.354  # geometrically_exact, order 4, 32 elements
+        exact = 20.354  # value of geometrically_exact, order 4, 32 elements
         found = self.record("solve", "--scene", path, "-f", "collocation", "--error", "0.0115%")
         self.assertLess(abs(found["quantities"][0]["value"]/exact - 1), 1.15e-4, found["elements"])
 

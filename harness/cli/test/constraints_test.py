@@ -5,7 +5,7 @@ from harness.cli.test.constraints import ALL, GEAR, HEAD, MASS, ConstraintsCase
 from harness.tools.kit.program import ROOT, run
 
 EXAMPLE = ROOT / "cases" / "examples" / "geared_shafts.yaml"
-# @: placeholder at the end of m; #: at the start of n.
+# @ is a placeholder at the end of m, # at the start of n.
 FRAME = HEAD + """motions: {push: {unit: m, path: [0, 1], value: [0, 0.02]}}
 nodes:
   a: {at: [0, 0, 0], hold: [ux, uy, uz, rx, ry]}
@@ -164,20 +164,20 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
             self.assertLess(abs(two[name] / (one[name] * factor) - 1), 1e-8, name)
 
     def test_column(self):
-        """Likewise a continuation, and buckling about a path."""
+        """Two coincident equal nodes also act as one node in a continuation, and in buckling about a path."""
         one = COLUMN.replace("NODES", "").replace("#", "b").replace("CONSTRAINTS", "")
         two = COLUMN.replace("NODES", "e: {at: [0.5, 0, 0]}").replace("#", "e")
         self.same(one, two.replace("CONSTRAINTS", "constraints: {one: {equal: [e, b], components: [ux, uy, rz]}}"), 1e-7)
 
     def test_sliders(self):
-        """Sliders on slopes, joined by a member: equal displacements along the slopes act as a rigid link."""
+        """If sliders on slopes are joined by a member, equal displacements along the slopes act as a rigid link."""
         one = SLIDERS.replace("SLIDES", "part_of: p").replace("CONSTRAINTS", "")
         two = SLIDERS.replace("SLIDES", "axes: {x: [0.8, 0.6, 0], z: [0, 0, 1]}, hold: [uy, uz, rx, ry, rz]")
         self.same(one, two.replace("CONSTRAINTS", "constraints: {s: {equal: [p, q], components: ux}}"))
 
     def test_gear(self):
-        """Stiffness k1 + i^2 k2 and inertia I1 + i^2 I2, also at large rotations, in either order of the constraint,
-        and in rotated axes."""
+        """A gear has the stiffness k1 + i^2 k2 and the inertia I1 + i^2 I2, even at large rotations, in either order of
+        the constraint, and in rotated axes."""
         k1 = 80e9 * math.pi * 0.01**4 / 2
         k2 = k1 / 2
         stiff, inertia = k1 + 4 * k2, 0.3 + 4 * 0.05
@@ -194,7 +194,7 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
                     self.assertLess(abs(found[name] / value - 1), 1e-8, f"{name} {axes}")
 
     def test_turned_gear(self):
-        """A gear about an oblique axis."""
+        """The axis of a gear may be oblique."""
         text = GEAR.replace("WHO", "d").replace("OTHER", "b").replace("RATIO", "-2").replace("TORQUE", "4000")
         plain = self.values(text.replace("AXES ", ""))
         text = text.replace("AXES ", "axes: {z: [0.48, 0.64, 0.6], x: [0.8, -0.6, 0]}, ").replace("y: [0, 1, 0]", "y: [0.8, -0.6, 0]")
@@ -210,8 +210,8 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
             self.assertLess(abs(turned[name] / plain[name] - 1), 1e-8, name)
 
     def test_lever(self):
-        """Displacements in a ratio: the spring at the other end enters with the square of the ratio; if one end is
-        driven, the other follows."""
+        """If displacements have a ratio, the spring at the other end enters with the square of this ratio; if one end
+        is driven, the other follows."""
         text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0.02]}}
 nodes:
   a: {at: [0, 0, 0], hold: all}
@@ -246,8 +246,8 @@ plane: PLANE
         self.assertAlmostEqual(found["rc"], -0.06 * 700 - 20, delta=1e-9)
 
     def test_plane(self):
-        """Rotations in a ratio at the ends of two beams of a plane scene: (3 E I/2 + 9 x 4 E I) times the first
-        rotation."""
+        """If rotations at the ends of two beams of a plane scene have a ratio, the moment is (3 E I/2 + 9 x 4 E I)
+        times the first rotation."""
         found = self.values(HEAD + """
 nodes:
   a: {at: [0, 0, 0], hold: [ux, uy]}
@@ -279,7 +279,7 @@ omit: [shear]
         self.assertGreater(found["f"], 1)
 
     def test_cell(self):
-        """A cell with equal ends behaves like one of three cells in a row with equal ends."""
+        """A cell with equal ends behaves like one of three cells in a row whose outer ends are equal."""
         found = []
         for cells in (1, 3):
             nodes = "".join(f"  l{i}: {{at: [{i}, 0, 0]}}\n  h{i}: {{at: [{i + 0.4}, 0.1, 0]}}\n" for i in range(cells))
@@ -304,7 +304,7 @@ quantities:
             self.assertLess(abs(found[1][name] / value - 1), 1e-7, name)
 
     def test_loop(self):
-        """A member between equal nodes: if heated, it exerts E A alpha T; if loaded, it acts as clamped."""
+        """A member between equal nodes exerts E A alpha T if it is heated, and acts as clamped if it is loaded."""
         text = HEAD.replace("density: 2000", "density: 2000, expansion: 1e-5") + """
 nodes: {a: {at: [0, 0, 0], hold: [uz, rx, ry]}, b: {at: [1, 0, 0], hold: [uz, rx, ry]}, m: {at: [0.5, 0, 0], hold: [ux, uz]}}
 members:

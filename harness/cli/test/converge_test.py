@@ -21,7 +21,7 @@ def converge(form):
 
 
 def answer(text):
-    """The sentence at the end, as one line."""
+    """Returns the sentence at the end as one line."""
     return " ".join(text[text.rindex("\nfor 1 %"):].split())
 
 
@@ -107,7 +107,8 @@ class Forms(unittest.TestCase):
         self.assertLess(min(one["cost"] for one in wrong), cheapest["cost"])
 
     def test_of_another_model(self):
-        """The largest difference of passing formulations from a solid is printed; nothing if none is stored."""
+        """The largest difference of the passing formulations from a solid is printed; nothing is printed if no such
+        difference is stored."""
         whole = json.loads(run("converge", "sheet_cantilever", "-f", "collocation", "-f", "beamw",
                                "-n", "2,4,8", "--format", "json").stdout)
         right = {one["formulation"] for one in whole["answers"] if not one["defect"]}
@@ -124,7 +125,7 @@ class Forms(unittest.TestCase):
         self.assertFalse(converge("text").endswith("\n\n"))
 
     def test_without_a_truth_families_agree(self):
-        """The stored reference values belong to a different stroke, so agreement decides."""
+        """The stored reference values belong to a different stroke, so the agreement of formulations decides."""
         new = ("converge", "--scene", str(LEAF), "--set", "stroke=0.009")
         done = run(*new, "-f", "all", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -159,12 +160,12 @@ BESIDE_LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
 def cells(line):
-    """The columns of a line of a table."""
+    """Returns the columns of a line of a table."""
     return [line[at:at + COLUMN].strip() for at in range(HEAD, len(line), COLUMN)]
 
 
 def tables(text):
-    """{(quantity, formulation): {row: cell}} of the tables."""
+    """Returns {(quantity, formulation): {row: cell}} of the tables."""
     found, quantity, names = {}, None, []
     for line in text.splitlines():
         head = line[:HEAD].strip()
@@ -221,7 +222,7 @@ class Beside(ProgramTest):
         self.agree("--scene", BESIDE_LEAF, "-n", "1,2,4", "--set", "stroke=0.009")
 
     def test_selection(self):
-        """Selections of quantities, formulations or both; a name without a match is rejected."""
+        """Quantities, formulations or both can be selected; a name without a match is rejected."""
         found = tables(self.answered("converge", "c_column", "-k", "frequency_4").stdout)
         self.assertEqual({quantity for quantity, _ in found}, {"frequency_4"})
         self.assertGreater(len(found), 2)
@@ -264,7 +265,7 @@ class Beside(ProgramTest):
             self.refused(2, "--error", *work, error)
 
     def test_one_or_verbose(self):
-        """Values and times of each formulation by itself."""
+        """Values and times are printed separately for a single formulation, and with -v for each formulation."""
         for words in (("-f", "beamw"), ("-f", "beamw", "-f", "collocation", "-v")):
             text = self.answered("converge", "elastica", "-n", "2,4,8", *words).stdout
             self.assertIn("elastica, beamw\n  w_over_L [1]\n", text)

@@ -44,8 +44,8 @@ quantities:
 
 class Diaphragms(ConstraintsCase):
     def test_diaphragm(self):
-        """A diaphragm is rigid in its plane, also at large rotations and with eccentric loads; with free tilts it has
-        universal joints."""
+        """A diaphragm is rigid in its plane, even at large rotations and with eccentric loads. If tilts are free, it
+        has universal joints."""
         loads = """loads:
   f: {force: [1e6, 4e6, 0], on: M}
   g: {force: [1e6, -3e6, 0], on: A}
@@ -70,8 +70,8 @@ class Diaphragms(ConstraintsCase):
                 self.assertLess(abs(a[name] - value), 1e-10 * abs(a[name]), name)
 
     def test_braced_floor(self):
-        """Nodes of the floor also rise and tilt: it is the limit of stiff hinged bars in its plane; the difference is
-        their compliance."""
+        """Nodes of the floor also rise and tilt. The floor is the limit of stiff hinged bars in its plane; the
+        difference is due to their compliance."""
         loads, errors = "loads: {f: {force: [1e4, 2e4, -3e4], on: A}, g: {force: [0, 1e4, 5e3], on: C}}\n", []
         same = STOREY.replace("LOADS", loads).replace("HOLD", "").replace("RELEASE", "").replace(", hold: [uz, rx, ry], mass: 500", ", hold: [uz, rx, ry]")
         same = same[:same.index("analyses")] + "analyses: {L: {linear: {}}}\n" + """quantities:
@@ -110,7 +110,7 @@ class Diaphragms(ConstraintsCase):
         text = text.replace("pushed: {linear: {}}", "pushed: {linear: {}}\n  C: {compliance: {node: a}}")
         text = text.replace("quantities:", "quantities:" + "".join(
             f"\n  c{a}{b}: {{compliance: {{analysis: C, row: {a}, column: {b}}}}}" for a in ("ux", "uy", "rz") for b in ("ux", "uy")))
-        det = "(ky*kt - kc^2)"  # displacement of a: that of the middle + rotation x (-3, -2)
+        det = "(ky*kt - kc^2)"  # displacement of a: that of the middle, plus the rotation x (-3, -2)
         text = text.replace("truths:", "truths:" + "".join(
             f"\n  - {{quantity: c{name}, value: {value}, kind: exact, source: statics, uncertainty: 1e-9}}" for name, value in {
                 "uxux": f"1/ky + 4*ky/{det}", "uyuy": f"(kt + 6*kc + 9*ky)/{det}", "uxuy": f"(-2*kc - 6*ky)/{det}",

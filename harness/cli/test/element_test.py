@@ -7,7 +7,7 @@ from harness.tools.kit.program import environment, run
 
 EXAMPLE = EXAMPLES / "timoshenko.c"
 CASE = ("elastica", "-f", "timoshenko")
-CRASHES = environment(ASAN_OPTIONS="handle_segv=0")  # a crash is reported as such, also under sanitizers
+CRASHES = environment(ASAN_OPTIONS="handle_segv=0")  # a crash is reported as a crash, even under sanitizers
 
 
 class Loaded(PluginTest):
@@ -38,7 +38,7 @@ class Example(Loaded):
         self.answered("solve", "-f", "timoshenko", "elastica", "-n", "8", "--element", self.object)
 
     def test_gates(self):
-        """A stiffness with an error of 1 % is reported and written as a finding, and the run fails."""
+        """If a stiffness has an error of 1 %, this is reported and written as a finding, and the run fails."""
         wrong = self.example(("c->young * c->Iy / l3", "1.01 * c->young * c->Iy / l3"))
         needed = self.folder / "needed.csv"
         out = self.answered("verify", "--element", wrong, "-f", "timoshenko", "-k",
@@ -131,7 +131,7 @@ class Refused(Loaded):
 
 
 class Hostile(Loaded):
-    """Each ends as one line, in `solve` and as a cell of `converge`."""
+    """Each hostile element leads to one line, in `solve` and as a cell of `converge`."""
 
     def one_line(self, made, *words):
         done = run("solve", *CASE, "-n", "2", "--element", made, "--time-limit", "2")

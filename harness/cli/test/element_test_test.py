@@ -6,10 +6,10 @@ import subprocess
 from harness.tools.kit.program import ROOT, ProgramTest, broken, environment, run
 
 EXAMPLES = ROOT / "elements" / "examples"
-CRASHES = environment(ASAN_OPTIONS="handle_segv=0:handle_abort=0")  # a crash is one
+CRASHES = environment(ASAN_OPTIONS="handle_segv=0:handle_abort=0")  # an abort is reported as a crash
 ENTRY = "    if (out->e == NULL)"  # the beginning of the example's strain
 
-# Fault: (text of the example and its replacement) ..., words of the sentence.
+# Fault: (text of the example and its replacement) ..., and words of the sentence that reports it.
 FAULTS = {
     "energy": (
         ("e[i] * e[i] / 2;", "e[i] * e[i];"),
@@ -146,7 +146,7 @@ FORCE_FAULTS = {
         "of the undeformed element is", "not zero"),
 }
 
-# Typical errors of element authors: each is consistent in itself and shows only in structures.
+# Typical errors of element authors. Each is consistent in itself and shows only in structures.
 CLASSIC = {
     "swapped bending": (
         ("c->young * c->Iy, c->young * c->Iz}", "c->young * c->Iz, c->young * c->Iy}"),
@@ -171,7 +171,7 @@ CLASSIC = {
         "stretch: exact with one element and not with four", "a power of the length is wrong"),
 }
 
-# Declares a higher order than it has, for the analyses in question.
+# Each declares a higher order than it has, for the analyses given.
 FOURTH = """static element_order fourth(element_analysis a, const double options[])
 {
     (void)a, (void)options;
@@ -205,7 +205,7 @@ class Tested(ProgramTest):
         return one
 
     def broken(self, made, limit):
-        """Returns the sentences about violations; checks the exit status."""
+        """Returns the sentences about violations, and checks the exit status."""
         return broken(self.certificate(made, 1, limit))
 
     def told(self, name, faults):
@@ -247,7 +247,7 @@ class Planted(Tested):
         self.assertTrue(any("with its nodes exchanged" in s for s in said), said)
 
     def test_endless(self):
-        """The first part that hangs is waited for up to the time limit; later ones are not."""
+        """The first part that hangs is waited for up to the time limit; later parts are not."""
         made = self.compiled("timoshenko.c", (ENTRY, "    for (volatile int i = 1; i;)\n"
                                               "        ;\n" + ENTRY))
         out = self.answered("element-test", "--element", made, "--time-limit", "1", "-j", "1", code=1).stdout
@@ -256,7 +256,7 @@ class Planted(Tested):
 
 
 class Measured(Tested):
-    """Results of whole structures are printed as they are; a wrong limit is a violation."""
+    """Results of whole structures are printed as they are. A wrong limit is a violation."""
 
     def measured(self, *changes, code=0):
         one = self.certificate(self.compiled("timoshenko.c", *changes), code)
@@ -293,7 +293,7 @@ class Measured(Tested):
                       run("element-test", "--element", made).stdout)
 
     def test_shear_locking(self):
-        """Full integration of shear: its energy includes a part of the rotations."""
+        """With full integration of shear, the energy includes a part of the rotations, which is reported."""
         found = self.measured(("c->young * c->Iz / l3}",
                                "c->young * c->Iz / l3 + c->shear_modulus * c->A / (12 * l)}"),
                               code=1)
@@ -303,7 +303,7 @@ class Measured(Tested):
         self.assertLess(one["error"][-1], -0.99)
 
     def test_constant_shear(self):
-        """Half of the shear flexibility along y."""
+        """An element with half of the shear flexibility along y is reported."""
         found = self.measured(("shear * c->F[0]", "shear / 2 * c->F[0]"), code=1)
         self.assertLess(found["constant shear along y, short"]["error"][0], -0.05)
         self.assertLess(abs(found["constant shear along z, short"]["error"][0]), 1e-9)

@@ -1,4 +1,5 @@
-"""Every example of a formulation: compiled as an outsider would, short, and evaluated on ten cases."""
+"""Every example of a formulation is short, is compiled as an external author would compile it, and is evaluated on ten
+cases."""
 import re
 import shutil
 import subprocess
@@ -32,7 +33,7 @@ quantities:
 
 
 class Judged:
-    """Checks for each example: correct limits, and no more lines than the table allows."""
+    """Checks for each example that its limits are correct and that it has no more lines than the table allows."""
 
     cases, ending, most = (), "c", 200
 
@@ -55,7 +56,7 @@ class Judged:
         self.answered("element-test", "--element", self.object)
 
     def test_judged_like_the_others(self):
-        """Ten cases, statics, vibration and buckling."""
+        """The example passes ten cases of statics, vibration and buckling."""
         record = self.folder / "v.json"
         self.assertEqual(len(self.cases), 10)
         self.answered("verify", "--element", self.object, "-f", self.name(), "-k",
@@ -98,7 +99,7 @@ class Corotational(Judged, PluginTest):
     cases = (*STATICS_AND_FREQUENCIES, "weighted_column", "lateral_buckling")
 
     def test_converges_as_the_others(self):
-        """With an unsymmetric tangent, or a chord with little axial strain, it takes as few iterations as the
+        """With an unsymmetric tangent, or a chord with little axial strain, the element takes as few iterations as the
         others."""
         for axial in ("1e4", "1e12"):
             iterations = {
@@ -118,7 +119,7 @@ class Ancf(Judged, PluginTest):
 
 @unittest.skipUnless(shutil.which("gfortran"), "needs gfortran")
 class Uel(Judged, PluginTest):
-    """A user element in Fortran; the same beam as that of corotational.c."""
+    """A user element in Fortran models the same beam as corotational.c."""
 
     example = "uel"
     cases = ("elastica", "sprung_beam", "lateral_buckling", "loaded_cantilever",
@@ -141,7 +142,7 @@ class Uel(Judged, PluginTest):
 
 @unittest.skipUnless(shutil.which("g++"), "needs g++")
 class Frame(Judged, PluginTest):
-    """In C++, with exact derivatives; the same beam as that of corotational.c."""
+    """An element in C++ with exact derivatives models the same beam as corotational.c."""
 
     example, ending, most = "frame", "cpp", 240
     cases = Corotational.cases
@@ -170,13 +171,13 @@ class Frame(Judged, PluginTest):
             self.same_values(other, "corotational", case)
 
     def test_closed_form(self):
-        """Timoshenko's cantilever, exact with one element: F L^3/(3 E I) + F L/(G A k)."""
+        """Timoshenko's cantilever is exact with one element: F L^3/(3 E I) + F L/(G A k)."""
         self.short_cantilever()
 
 
 @unittest.skipUnless(shutil.which("gfortran"), "needs gfortran")
 class Fortran(Judged, PluginTest):
-    """In Fortran; the same beam as that of timoshenko.c."""
+    """An element in Fortran models the same beam as timoshenko.c."""
 
     example, ending, most = "timoshenko", "f90", 240
     loaded, cases = "timoshenko_f90", Timoshenko.cases
@@ -199,7 +200,7 @@ class Fortran(Judged, PluginTest):
 
 
 class Planted(PluginTest):
-    """Errors of an author are reported by the first check, `element-test`, or by `verify`."""
+    """Errors of an author are reported by the first check, by `element-test`, or by `verify`."""
 
     def broken(self, example, change, *words):
         made = self.altered(example, change)
@@ -208,7 +209,7 @@ class Planted(PluginTest):
             self.assertIn(word, told)
 
     def test_sign_of_forces(self):
-        """RHS in the place of F."""
+        """An element that returns RHS in the place of F is reported."""
         self.broken("corotational.c", ("F[i] = n * r[i]", "F[i] = -n * r[i]"),
                     "displacement along x of node 1", "the derivative of the energy is")
 
@@ -232,7 +233,7 @@ class Planted(PluginTest):
                     "with its nodes exchanged")
 
     def test_axes_exchanged(self):
-        """Exchanged axes are consistent in themselves: a different beam, which verify detects."""
+        """An element with exchanged axes is consistent but models a different beam, which verify detects."""
         made = self.altered("ancf.c", ("ky = dot(section_y", "ky = dot(section_z"),
                             ("kz = dot(section_z", "kz = dot(section_y"))
         record = self.folder / "v.json"

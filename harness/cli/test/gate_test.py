@@ -1,5 +1,5 @@
-"""Requested formulations affect the exit status: wrong elements are reported in every form in which a run
-states its outcome."""
+"""Requested formulations affect the exit status: wrong elements are reported in every form in which a run states its
+outcome."""
 import json
 import pathlib
 import subprocess
@@ -42,10 +42,10 @@ FAULTS = {
     "torsion": ("c->shear_modulus * c->It / l3", "0.9 * c->shear_modulus * c->It / l3", "fail"),
     "energy": ("out->sigma[i] = d->stiffness[i] * e[i];", "out->sigma[i] = 1.1 * d->stiffness[i] * e[i];", "fail"),
     "stub": ("energy += d->stiffness[i] * e[i] * e[i] / 2;", "energy += 0;", "fail"),
-    "coarse": ("cos(sqrt(square) / 2)", "cos(sqrt(square) / 2.1)", "pass"),  # the same limits, larger errors
+    "coarse": ("cos(sqrt(square) / 2)", "cos(sqrt(square) / 2.1)", "pass"),  # has the same limits, but larger errors
 }
-# Forces along the element, applied by the element itself: halves at its nodes, and clamping
-# moments, in its axes at rest (for more than a linear answer, in those of the scene).
+# Forces along the element that the element itself applies: halves at its nodes, and clamping
+# moments. They refer to its axes at rest or, beyond linear analyses, to those of the scene.
 OWN_LOADS = (("static int strains(const double options[])", """
 static void along(int count, const element_data *const data[], const node_state x[], along_output out[],
                   status outcome[])
@@ -79,8 +79,8 @@ static void along(int count, const element_data *const data[], const node_state 
 }
 
 static int strains(const double options[])"""), (".stress = stress,", ".stress = stress, .along = along,"))
-# Faults planted into the element that applies its own loads, with the outcome in every form of
-# output and the number of wrong verdicts; limits do not reveal wrong moments alone.
+# Faults in the element that applies its own loads, with the outcome in every form of output and the
+# number of wrong verdicts. Limits alone do not reveal wrong moments.
 PLANTS = {
     "right": ((), "pass", 0),
     "stiffness": ((("c->young * c->Iz / l3", "1.1 * c->young * c->Iz / l3"),), "fail", 2),
@@ -90,8 +90,8 @@ PLANTS = {
     "stub": ((("    (void)inner;\n", "    (void)inner;\n    return STATUS_OK;\n"),), "fail", 2),
     "refuses": ((("    (void)f;\n", "    strcpy(f->text, \"not yet\");\n    return STATUS_REFUSED;\n"),), "fail", 2),
 }
-# A force, a moment and a load along the beam: F l^3/3EI + M l^2/2EI + q l^4/8EI with EI = 1, l = 1;
-# 1.8751^2/2pi sqrt(EI/(rho A l^4)).
+# A force, a moment and a load along the beam have the deflection F l^3/3EI + M l^2/2EI + q l^4/8EI
+# with EI = 1, l = 1; the frequency is 1.8751^2/2pi sqrt(EI/(rho A l^4)).
 LOADED = """beamwork: 1
 sections: {s: {rectangle: {width: 1, thickness: 0.01}, young: 12e6, shear_modulus: 5e6, density: 100}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -119,7 +119,7 @@ print(found.passed, found.outcome)
 
 
 def changed(text, *changes):
-    """Replaces each text once; an empty text is skipped."""
+    """Replaces each text once; skips empty texts."""
     for before, after in changes:
         assert not before or text.count(before) == 1, before
         text = text.replace(before, after) if before else text
@@ -143,7 +143,7 @@ class Gate(ProgramTest):
                       for name, (changes, *_) in PLANTS.items()}
 
     def verified(self, element, *options, what=RUN, named=("-f", NAME)):
-        """Returns the process, and the contents of its files."""
+        """Returns the process and the contents of its files."""
         files = {kind: self.folder / f"out.{kind}" for kind in ("json", "xml", "md", "h5")}
         loaded = ("--element", self.element.get(element, element))
         done = run("verify", *loaded, *named, *what, "--json", files["json"],
@@ -184,9 +184,9 @@ class Gate(ProgramTest):
                 self.assertEqual("element-test" in done.stdout, broken)
 
     def test_seven_doors(self):
-        """A wrong stiffness, a wrong mass, a load with the wrong sign, and stubs: exit status, JUnit, Markdown, JSON,
-        last line, report, Python. The load along the element is applied by the element itself
-        (element_type.along)."""
+        """A wrong stiffness, a wrong mass, a load with the wrong sign, and stubs are reported in the exit status,
+        JUnit, Markdown, JSON, the last line, the report and Python. The load along the element is applied by the
+        element itself (element_type.along)."""
         scene = self.folder / "loaded.yaml"
         scene.write_text(LOADED, encoding="utf-8")
         for name, (_, outcome, wrong) in PLANTS.items():
@@ -200,8 +200,8 @@ class Gate(ProgramTest):
                 self.check_python(self.loaded[name], None, f"{outcome == 'pass'} {outcome}", scene=str(scene))
 
     def test_not_worse_than(self):
-        """Results within every tolerance that are worse than before: on one mesh of results, in the short table, not
-        on others."""
+        """Results within every tolerance that are worse than before are detected: on one mesh of results and in the
+        short table, but not on other meshes."""
         _, files = self.verified("right")
         old, table = self.folder / "old.h5", self.folder / "old.csv"
         files["h5"].rename(old)
@@ -238,7 +238,7 @@ class Gate(ProgramTest):
         self.check_doors(done, files, "fail", 1)
 
     def test_nothing_judged(self):
-        """Nothing is evaluated if the element cannot run there, is a different model, or has no reference value."""
+        """Nothing is evaluated if the element cannot run, is a different model, or has no reference value."""
         done, files = self.verified("right", what=NOWHERE)
         document, failures = self.check_doors(done, files, "nothing was judged", 3)
         self.assertEqual(document["judged"], 0)

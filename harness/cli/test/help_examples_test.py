@@ -22,23 +22,23 @@ quantity, unit, elements, unknowns, seconds, x, value, uncertainty
 w_over_L, 1, 8, 48, 0.1, , 0.3017, 1e-4
 """
 SMALL = " -k '=elastica and =default and =beamw'"
-# Replacements in expensive examples, with the reason: (part of the command, replacement).
+# Replacements in expensive examples with the reason: part of the command, and its replacement.
 REDUCED = {
     "verify --shard 1/4 --into parts": ("parts", "parts" + SMALL),  # a quarter of all verdicts: 20 s
     "verify -o build/results.h5": ("results.h5", "results.h5" + SMALL),  # all verdicts: a minute
     "--design sobol --points 200": ("200", "4"),  # every formulation at 200 points: 20 s
-    "--vary length=2..12/10 -k buckling_load --compute-references": ("2..12/10", "2..12/1"),  # a program derives each: a second
+    "--vary length=2..12/10 -k buckling_load --compute-references": ("2..12/10", "2..12/1"),  # a program derives each value: a second
     "--error 1%,0.1%": ("1%,0.1%", "1%"),  # each level is measured for three seconds
 }
 
 
 def commands(text):
-    """Indented lines that begin with the program's name; two spaces precede an explanation."""
+    """Returns the indented lines that begin with the program's name. Two spaces precede an explanation."""
     return [line.split("   ")[0].strip() for line in text.splitlines() if re.match(r"  beamwork [a-z]", line)]
 
 
 def manual_commands(page):
-    """Commands of a manual page, without markup."""
+    """Returns the commands of a manual page without markup."""
     text = run("help", "--man", page).stdout.partition(".Sh EXAMPLES")[2].partition(".Sh SEE")[0]
     plain = text.replace("\\-", "-").replace("\\(dq", '"').replace("\\&", "").replace("\\e", "\\")
     lines = (re.sub(r'^\.Dl "(.*)"$', r"\1", line) for line in plain.splitlines())

@@ -39,7 +39,7 @@ class Help(ProgramTest):
         self.assertIn("HDF5", run("--version").stdout)
 
     def test_examples_are_accepted(self):
-        """Every option in an example belongs to its verb."""
+        """Every option in an example belongs to the verb of the example."""
         seen = 0
         for verb in EVERY_VERB:
             text = self.help_of(verb)
@@ -122,7 +122,7 @@ TOLD = re.compile(r"^\.It (?:Fl (\w) , )?Fl -([\w-]+)(?: Ns (?:Oo )?= Ns Ar \"(.
 
 
 def bare(argument):
-    """"=N", "[=N]": N."""
+    """Returns N for "=N" and "[=N]"."""
     return argument[2:-1] if argument.startswith("[") else argument.removeprefix("=")
 
 
@@ -171,7 +171,7 @@ class Manual(ProgramTest):
                 self.assertIn("\n" + line.strip() + "\n", text)
 
     def test_keys_of_scenes(self):
-        """The page has all keys, as often as `scene --keys` lists them."""
+        """The page has all keys, as many times as `scene --keys` lists them."""
         keys = re.findall(r"^( *)(\w+) +\S", self.answered("scene", "--keys").stdout.partition(
             "is replaced:\n")[2], re.MULTILINE)
         shown = [name for blanks, name in keys if len(blanks) < 12]
@@ -221,14 +221,15 @@ class Manual(ProgramTest):
             self.assertEqual((done.returncode, done.stdout), (0, ""), name)
 
 
-# Commands that the program prints are run unchanged: with elements, scenes, and names that need quotes.
+# Commands that the program prints are run unchanged, with elements, scenes, and names that need
+# quotes.
 EXAMPLE = (ROOT / "elements" / "examples" / "timoshenko.c").read_text(encoding="utf-8")
 SCENE = (ROOT / "cases" / "examples" / "euler_column.yaml").read_text(encoding="utf-8")
 BENDING = "c->young * c->I"
 
 
 def commands(text):
-    """Lines that begin with the program's name, with continuation lines joined."""
+    """Returns the lines that begin with the program's name, with continuation lines joined."""
     return re.findall(r"(?:^ *|: )(beamwork (?!\w+: )[^;\n]+)", re.sub(r" \\\n *", " ", text), re.MULTILINE)
 
 

@@ -37,7 +37,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torque]
 class OwnMotion(PluginTest):
 
     def flight(self, integrator, name, *element):
-        """A flexible rod thrown in space, for one second."""
+        """Computes the motion of a flexible rod thrown in space, for one second."""
         return self.record("solve", "free_flight_space", "--set", f"integrator={integrator}", "-f",
                            name, "-n", 4, *element)
 
@@ -63,7 +63,7 @@ class OwnMotion(PluginTest):
                                                     self.folder / "c.so"))
 
     def test_by_an_energy_alone(self):
-        """A thin arm rotated by its hub."""
+        """A thin arm is rotated by its hub."""
         made = compile_shared(EXAMPLES / "ancf.c", self.folder / "a.so")
         path = self.folder / "arm.yaml"
         path.write_text(ARM, encoding="utf-8")
@@ -161,7 +161,7 @@ quantities:
 
 
 def corner(seed, how):
-    """A random scene: size, mass, excitation, amplitude (1e-7 to 1e-2 of the size) and duration."""
+    """Returns a random scene: size, mass, excitation, amplitude (1e-7 to 1e-2 of the size) and duration."""
     chance = random.Random(seed)
     L = 10**chance.uniform(-1.3, 0.5)
     t = L/chance.choice([20, 50, 100])
@@ -198,7 +198,8 @@ class MotionError(ProgramTest):
                 {one["quantity"]: one["value"] for one in record["quantities"]})
 
     def test_sudden_loads(self):
-        """From 2 pm to 20 mm, and with a different number of elements; relative to the largest motion, 2."""
+        """The error is checked for amplitudes from 2 pm to 20 mm, and with a different number of elements, relative to
+        the largest motion, 2."""
         for how, limit in (("", 1e-3), ("integrator: alpha, ", 1.2e-3)):
             for force, n in ((1e-7, 1), (1e-3, 1), (1e-3, 4), (1, 1)):
                 with self.subTest(how=how, force=force, n=n):
@@ -261,14 +262,14 @@ def with_key(scene):
 class MassTest(SceneCase):
 
     def massive(self):
-        """(case, settings) of the cases with mass."""
+        """Returns (case, settings) for the cases with mass."""
         names = [c["case"] for c in self.record("list")["cases"]]
         having = [n for n in names if "mass" in {p["name"] for p in self.record("list", n)["parameters"]}]
         self.assertEqual(set(names) - set(having), MASSLESS)
         return [(n, tuple(w for one in ASKED.get(n, ()) for w in ("--set", one))) for n in having]
 
     def lumped_differs(self, case, point):
-        """The results are bitwise those of the case's scene with `mass: lumped`, and marked."""
+        """Checks that the results are bitwise those of the case's scene with `mass: lumped` and are marked."""
         usual, lumped = (self.record("solve", case, *WHERE, *point, *mass) for mass in ((), LUMPED))
         self.assertEqual(usual["parameters"]["mass"], "usual")
         self.assertEqual(lumped["parameters"]["mass"], "lumped")
@@ -291,7 +292,7 @@ class MassTest(SceneCase):
                 self.assertIn("\nmass: lumped\n", self.answered("scene", case, *point, *LUMPED).stdout)
 
     def test_reference_values_hold(self):
-        """Meshes converge to the same limit, with order 2 for halves at the nodes."""
+        """The meshes converge to the same limit, with order 2 if half of the mass of an element is at each node."""
         found = self.record("solve", "deep_beam", "-f", "collocation", "-n", 64, *LUMPED)
         errors = [q["error"] for q in found["quantities"] if q["quantity"].startswith("frequency")]
         self.assertTrue(errors and all(e is not None and 1e-6 < abs(e) < 1e-3 for e in errors), errors)
@@ -301,7 +302,7 @@ class MassTest(SceneCase):
         self.assertIn("mass=lumped", said[1][0])
 
     def test_consistent_is_required(self):
-        """Formulations with a consistent mass give the usual results; lumping ones are rejected."""
+        """Formulations with a consistent mass give the usual results; those that lump the mass are rejected."""
         spin = ("spin_up", *WHERE, "--set", "time=0.5")
         usual = values(self.record("solve", *spin))
         self.assertEqual(values(self.record("solve", *spin, "--set", "mass=consistent")), usual)
@@ -370,7 +371,7 @@ class RestartTest(SceneCase):
         return {row["quantity"]: row["value"] for row in rows}
 
     def in_two(self, stop=1, **changes):
-        """Returns quantities of a single run, and of a run that continues another."""
+        """Returns the quantities of a single run, and those of a run that continues another."""
         path, sets = self.scene(SWING), [f"--set={k}={v}" for k, v in changes.items()]
         ends = self.folder / "ends.h5"
         one = self.values(path, *MESH, *sets)
@@ -387,7 +388,7 @@ class RestartTest(SceneCase):
                 self.assertGreater(abs(float(one["z"])), 1e-3)
 
     def test_to_round_off(self):
-        """To round-off only: a new run chooses its pivots again, and a step shortened by an end is different."""
+        """The results agree to round-off only if a run chooses its pivots again or an end has shortened a step."""
         for changes, most in (({"how": "radau"}, 1e-9), ({"how": "radau", "damp": 1e-3}, 1e-9),
                               ({"how": "radau", "tol": 1e-8}, 1e-4), ({"how": "alpha", "step": 0.01}, 1e-9)):
             with self.subTest(**changes):
@@ -396,7 +397,7 @@ class RestartTest(SceneCase):
                     self.assertAlmostEqual(float(two[name]), float(value), delta=most * max(1, abs(float(value))))
 
     def test_one_after_the_other(self):
-        """One restart continues another."""
+        """A motion can be continued several times."""
         path, ends = self.scene(SWING), [self.folder / f"{i}.h5" for i in range(3)]
         self.values(path, *MESH, "--set", "end=0.5", "--save-state", ends[0])
         self.values(path, "--set", "end=1", "--restart", ends[0], "--save-state", ends[1])

@@ -1,5 +1,5 @@
-"""The parameter `omit` of built-in cases: their sources omit physics, omit=none includes all physics, and
-stored values of a case do not apply to that."""
+"""The parameter `omit` of built-in cases: their sources omit physics, omit=none includes all physics, and and stored
+values of a case do not apply then."""
 import csv
 import io
 import json
@@ -38,7 +38,7 @@ class OmitTest(SceneCase):
         self.assertEqual(changed, 3)
 
     def test_as_the_scene(self):
-        """The results agree with those of its scene without `omit`, to 1e-12."""
+        """The results agree with those of the case's scene without `omit`, to 1e-12."""
         for case, point in (("c_column", ()), ("moment_buckling", ("--set", "length=4")), ("c_cantilever", ()),
                             ("elastica", ("--set", "load=3"))):
             where = ("-f", "geometrically_exact", "-n", 4)
@@ -54,7 +54,7 @@ class OmitTest(SceneCase):
             self.assertNotRegex(self.answered("scene", case, *WHOLE).stdout, "(?m)^omit:")
 
     def test_omitted_whatever_is_asked(self):
-        """Requesting a resultant does not restore physics that the scene omits."""
+        """A requested resultant does not restore physics that the scene omits."""
         text = """beamwork: 1
 sections:
   i: {i: {depth: 0.1, flange: 0.06, flange_thickness: 3e-3, web_thickness: 2e-3}, young: 210e9, shear_modulus: 81e9}
@@ -117,7 +117,7 @@ quantities:
             more="omit: [trapeze]\n")
 
     def test_numbers_that_are_not_given(self):
-        """Constants that a section does not give are zero. This is reported unless they have no effect, are omitted,
+        """Constants that a section does not define are zero. This is reported unless they have no effect, are omitted,
         or follow from the shape."""
         constants = "constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8%s}, young: 2e11, shear_modulus: 8e10"
         full = ", F: [1200, 0, 0, 0, 1200, 0, 0, 0, 0], Iw: 1e-10"
@@ -227,7 +227,7 @@ quantities:
                 self.assertEqual([set(f.split(", ")) for f in found], [set(told.split(", "))] if told else [], more)
 
     def test_torque_of_its_own(self):
-        """Built-in sheets have the torque of a thin strip; a constant given as zero is known and zero."""
+        """Built-in sheets have the torque of a thin strip. A constant given as zero is known and zero."""
         self.assertRegex(self.answered("scene", "sheet_wagner").stdout, "given: {Iw: [^}]*, wagner_torque: ")
         text = self.loaded_bar("").replace("omit: [trapeze]\n", "")
         for more, told in ((", given: {wagner_torque: 0}", "shear, warping"), (", given: {Iw: 0}", "shear, wagner_torque"),

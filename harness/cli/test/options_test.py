@@ -15,8 +15,9 @@ from harness.tools.kit.program import ProgramTest, ROOT, TRUTHS, environment, ru
 from reference.pack import seal
 
 
-# Contradictory or empty arguments, and a machine with too few resources: one line and the documented exit status.
-LISTS = ("formulation", "element", "elements", "set")  # may be given again
+# Contradictory or empty arguments, and a machine with too few resources, lead to one line and the
+# documented exit status.
+LISTS = ("formulation", "element", "elements", "set")  # may be given several times
 # the C library's argp does not free a byte at exit
 HELP = environment(ASAN_OPTIONS="detect_leaks=0")
 
@@ -73,14 +74,14 @@ class Words(ProgramTest):
 
 
 class Tables(ProgramTest):
-    """The arrays of options that verbs name."""
+    """Tests of the arrays of options that verbs name."""
 
     CLI = ROOT / "harness" / "cli"
-    ANSWERS = {"bench": ("bench", "contest", "contestant")}  # otherwise the file of the verb
+    ANSWERS = {"bench": ("bench", "contest", "contestant")}  # otherwise in the file of the verb
     ELSEWHERE = {("scene", "format")}  # used in the errors reported by case_input
 
     def shown(self, verb):
-        """(letter, name) of each option."""
+        """Returns (letter, name) of each option."""
         return re.findall(r"^  (?:-(\w), |    )--([a-z-]+)", run(verb, "-h", env=HELP).stdout,
                           re.MULTILINE)
 
@@ -98,7 +99,7 @@ class Tables(ProgramTest):
         self.assertEqual("".join(sorted(meaning)), "fhjknoqsv")
 
     def test_former_letters(self):
-        """Each former letter is still accepted, with a note on its name."""
+        """Each former letter is still accepted, with a note on the option's name."""
         names = {name: verb for verb in EVERY_VERB for _, name in self.shown(verb)}
         former = re.findall(r"\{'(.)', \"([a-z-]+)\"\}", self.source("options"))
         self.assertGreater(len(former), 40)
@@ -126,7 +127,7 @@ class Tables(ProgramTest):
         self.refused(2, "solve takes no --beside", "solve", "elastica", "--beside", "x.h5")
 
     def test_each_is_used(self):
-        """Each option is used by its verb; 'merge' passes all on."""
+        """Each option is used by its verb; 'merge' passes all options on."""
         everything = "".join(path.read_text(encoding="utf-8") for path in self.CLI.glob("*.c"))
         for verb in EVERY_VERB:
             name = verb.replace("-", "_")
@@ -137,7 +138,7 @@ class Tables(ProgramTest):
             self.assertTrue(members or verb == "merge", verb)
             for member in {own or shared for own, shared in members if verb != "merge"}:
                 head, _, tail = member.partition(".")
-                if tail and f"&r->{head}" in answers:  # a whole group, read by other functions
+                if tail and f"&r->{head}" in answers:  # a whole group, which other functions read
                     self.assertRegex(everything, rf"->{tail}\b", (verb, member))
                 elif (verb, member) not in self.ELSEWHERE:
                     self.assertRegex(answers, rf"->{re.escape(member)}\b", (verb, member))
@@ -151,11 +152,11 @@ class Tables(ProgramTest):
 
 
 class Machine(ProgramTest):
-    """A disk, file size limit or stack that is too small."""
+    """Tests of a disk, a file size limit or a stack that is too small."""
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
     def test_full_disk(self):
-        """A full disk is an error for every output: output that is not written is not success."""
+        """A full disk is an error for every output, because output that is not written is not success."""
         shown = [("--help",), ("help",), ("--version",), (), ("list",), ("list", "cases"),
                  ("list", "formulations"), ("list", "elastica"),
                  ("truth", "elastica"), *((verb, *work) for verb, work in WORK.items()),
@@ -169,7 +170,7 @@ class Machine(ProgramTest):
                              arguments)
 
     def test_small_files(self):
-        """ulimit -f, without a parent that ignores its signal."""
+        """A file size limit (ulimit -f) is reported, even without a parent that ignores its signal."""
         def limit():
             signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
             resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
@@ -198,15 +199,16 @@ class Machine(ProgramTest):
             self.skipTest("needs a build without sanitizers")
 
     def test_small_stack(self):
-        """ulimit -s: the limit is raised if allowed; otherwise the run is rejected in one line."""
+        """If the stack limit (ulimit -s) is too small, it is raised if this is allowed; otherwise the run is rejected
+        in one line."""
         self.needs_no_sanitizers()
         for size in (24, 32, 64, 128, 512):
             for hard in (False, True):
                 self.with_stack(size, hard, os.environ["PATH"], BEAMWORK_TRUTHS=TRUTHS)
 
     def test_least_stack(self):
-        """With the smallest stack that the loader supports, for any address layout: a message through stdio, whose
-        buffer is on the stack, crashes three times in four."""
+        """The message appears with the smallest stack that the loader supports, for any address layout; a message
+        through stdio, whose buffer is on the stack, would crash three times in four."""
         self.needs_no_sanitizers()
         for size in 8 * (16, 17, 18):
             self.with_stack(size, True, "/usr/bin:/bin")
@@ -254,13 +256,13 @@ EXAMPLES = ROOT / "cases" / "examples"
 
 
 def solve(case, *assignments):
-    """Arguments that solve a case on a small mesh."""
+    """Returns the arguments that solve a case on a small mesh."""
     sets = [word for assignment in assignments for word in ("--set", assignment)]
     return ("solve", case, "-f", "beamw", "-n", "2", *sets)
 
 
 def untimed(text):
-    """Output of verify without its run time."""
+    """Returns the output of verify without its run time."""
     return re.sub(r"noise, in [\d.]+ s", "noise", text)
 
 
@@ -386,8 +388,8 @@ class Answers(ProgramTest):
                      silent=False, env=environment(BEAMWORK_REFERENCE="/nowhere"))
 
     def test_truth_has_the_digits_of_its_uncertainty(self):
-        """Digits without rounding noise; the shear theory; a thickness without stored values; a remedy if no program
-        can derive the value."""
+        """The value has no digits of rounding noise, the shear theory is stated, a thickness without stored values has a
+        value, and a remedy is given if no program can derive the value."""
         text = self.answered("truth", "spherical_joint").stdout
         self.assertNotRegex(text, r"\d\.\d*(9{6}|0{6}\d)")
         self.assertRegex(text, r"support_stiffness_max +\S+ \+- .* exact +same, haringx\n")
@@ -399,14 +401,15 @@ class Answers(ProgramTest):
         self.assertIn("give `truths` of the scene", done.stderr)
 
     def derived(self, scene, *words):
-        """Returns {quantity: (value, uncertainty)} from the lines for the file, and the lines."""
+        """Returns {quantity: (value, uncertainty)} from the lines for the file, and these lines."""
         done = self.answered("truth", "--scene", scene, *words)
         lines = done.stdout.partition("truths:\n")[2]
         found = re.findall(r"quantity: (\w+), value: (\S+), uncertainty: (\S+), kind: exact", lines)
         return {name: (float(value), float(plus)) for name, value, plus in found}, lines
 
     def test_truth_of_a_scene(self):
-        """A user's scene is solved as a network; its values agree with those of the file and the built-in case."""
+        """A user's scene is solved as a network of members. The values agree with those of the file and of the built-in
+        case."""
         for case in ("bend_45", "shear_elastica", "roll_up"):
             scene = self.folder / f"{case}.yaml"
             self.answered("scene", case, "-o", scene)

@@ -118,7 +118,7 @@ class Places(Folder):
                 fifo.unlink()
 
     def test_standard_output(self):
-        """/dev/stdout is a pipe, or a file whose present contents are kept."""
+        """/dev/stdout may be a pipe, or a file whose present contents are kept."""
         work = ("converge", *WORK["converge"], "--format", "csv")
         piped = run(*work, "-o", "/dev/stdout").stdout
         plain = run(*work).stdout
@@ -132,7 +132,7 @@ class Places(Folder):
             self.assertEqual(run("verify", *WORK["verify"], "-o", file, stdout=out).returncode, 2)
 
     def test_links(self):
-        """The target is replaced, not the link."""
+        """If the path is a link, its target is replaced, not the link."""
         target, link = self.folder / "target", self.folder / "link"
         target.write_text("before", encoding="utf-8")
         link.symlink_to("target")
@@ -143,7 +143,7 @@ class Places(Folder):
 
 class Twice(Folder):
     def names(self, name):
-        """Other names of the same file."""
+        """Returns other names of the same file."""
         path = self.folder / name
         link = self.folder / f"link_of_{name}"
         link.unlink(missing_ok=True)
@@ -178,7 +178,7 @@ class Twice(Folder):
 
     @staticmethod
     def why_not(name):
-        """Reason for rejecting text output onto an HDF5 input: by its name, or by the target of that name."""
+        """Returns the reason for rejecting text output onto an HDF5 input: its name, or the target of that name."""
         return "not HDF5" if str(name).endswith(".h5") else "which is an input"
 
     def test_compared_file(self):
@@ -212,7 +212,7 @@ class Twice(Folder):
 
 class LongPaths(Folder):
     def test_clone(self):
-        """A clone in a folder with a very long name: reference values, derivations and outputs are found."""
+        """In a clone in a folder with a very long name, reference values, derivations and outputs are found."""
         deep = self.folder
         while len(str(deep)) < 3000:
             deep = deep / ("d" * 200)
@@ -253,7 +253,7 @@ def on_terminal(*arguments, **changes):
 
 
 class Pictures(ProgramTest):
-    """`plot`: pictures, and tables whose columns are the curves of `solve`."""
+    """`plot` creates pictures, and tables whose columns are the curves of `solve`."""
     SCENE = """beamwork: 1
 sections:
   tube: {tube: {diameter: 0.04, thickness: 2e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
@@ -296,7 +296,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
         return columns
 
     def test_forms(self):
-        """The default name, and each format, identified by its first bytes."""
+        """The default name is used, and each format is recognised by its first bytes."""
         self.assertEqual(self.plot("-f", "beamw").stdout, "arm.png\n")
         for form, begin in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
             path = self.folder / f"arm.{form}"
@@ -335,7 +335,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
 class Screen(ProgramTest):
 
     def columns(self, text):
-        """No line is wider than the screen."""
+        """Checks that no line is wider than the screen."""
         for line in text.splitlines():
             self.assertLessEqual(len(line), 100, line)
 
@@ -355,7 +355,7 @@ class Screen(ProgramTest):
         self.assertRegex(text, r"(?m)^prediction C_xx .* %  N Eq\. 54, analytic$")
 
     def without_a_rule(self):
-        """Reference values whose list of known deviations does not contain those of these cases."""
+        """Returns reference values whose list of known deviations does not contain those of these cases."""
         path = self.folder / "t.h5"
         shutil.copy(TRUTHS, path)
         with h5py.File(path, "r+") as file:
@@ -364,7 +364,7 @@ class Screen(ProgramTest):
         return path
 
     def test_matrix(self):
-        """A mark for each case and formulation, and its explanation."""
+        """There is a mark for each case and formulation, and its explanation."""
         for env, marks in ((UTF8, "≠1 ✓ · ○ ✓ ✓ ≠1 ≈2 ○ ○"), (ASCII, "#1 ok . m ok ok #1 ~2 m m")):
             text = self.answered(*SMALL, env=env).stdout
             row, = re.findall(r"^shear_elastica +(\S.*)$", text, re.M)
@@ -388,7 +388,7 @@ class Screen(ProgramTest):
         self.assertLess(len(text.splitlines()), 5)
 
     def test_unexpected(self):
-        """Unexpected results are shown in full, with commands that reproduce them, also with --quiet."""
+        """Unexpected results are shown in full, with commands that reproduce them, even with --quiet."""
         truths = self.without_a_rule()
         for quiet in ((), ("-q",), ("-v",)):
             text = self.answered(*SELECT, "--truths", truths, *quiet, code=1, env=ASCII).stdout

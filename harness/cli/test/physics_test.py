@@ -1,6 +1,6 @@
-"""Scenes as a new user writes them, without options for physics, against closed forms: torsional buckling,
-unsymmetric sections, the effect of tension and rotation on torsion, rotary inertia; also messages on omitted
-physics and the shear theory."""
+"""Scenes as a new user writes them, without options for physics, compared with closed forms: torsional buckling,
+unsymmetric sections, the effect of tension and rotation on torsion, rotary inertia; also messages on omitted physics
+and the shear theory."""
 import math
 import unittest
 
@@ -42,7 +42,7 @@ members:
 
 
 def walls(points, lines, thickness):
-    """Points and walls in the form of a scene; names are letters."""
+    """Returns points and walls in the form of a scene, with letters as names."""
     names = dict(zip("abcdefgh", points))
     return (f"points: {{{', '.join(f'{n}: [{y}, {z}]' for n, (y, z) in names.items())}}}, walls: ["
             + ", ".join(f"{{from: {one}, to: {two}, thickness: {thickness}}}"
@@ -50,9 +50,9 @@ def walls(points, lines, thickness):
 
 
 def flexural_torsional(A, I_across, I_along, It, away, length):
-    """Lowest load [N] of a fork-ended column with a section that is symmetric about one axis and does not warp;
-    I_across: of the bending that couples with the twist, because the shear centre is at a distance from the
-    centroid."""
+    """Returns the lowest critical load [N] of a fork-ended column whose section is symmetric about one axis and does
+    not warp. I_across is the second moment of area for the bending that couples with the twist, because the shear
+    centre is at a distance from the centroid."""
     euler, weak = (math.pi ** 2 * E * I / length ** 2 for I in (I_across, I_along))
     r2 = (I_across + I_along) / A + away ** 2
     twist, beta = G * It / r2, 1 - away ** 2 / r2
@@ -74,7 +74,7 @@ class PhysicsTest(SceneCase):
         self.assertLess(abs(value / exact - 1), part, (value, exact))
 
     def test_cruciform_twists(self):
-        """Four legs of 100 x 4 mm: G It A/Ip, 1/27 of the flexural buckling load."""
+        """A column of four legs of 100 x 4 mm twists at G It A/Ip, 1/27 of the flexural buckling load."""
         section = "constants: {A: 1.6e-3, Iy: 8e-6/3, Iz: 8e-6/3, It: 2.56e-8/3}"
         found = self.column(section, 1.0, material="young: 208e9, shear_modulus: 80e9")
         self.near(found["up"], 204800, 1e-9)
@@ -101,7 +101,7 @@ class PhysicsTest(SceneCase):
         self.near(self.column(section, more="omit: [shear]\n")["up"], 43535, 1e-3)
 
     def test_kinds(self):
-        """Kinds of buckling modes follow from symmetry: sections without symmetry about y or z bend and twist."""
+        """The kind of a buckling mode follows from symmetry: sections without symmetry about y or z bend and twist."""
         for section, kind in (("rectangle: {width: 0.02, thickness: 0.03}", "flexural"),
                               ("tube: {diameter: 0.04, thickness: 2e-3}", "flexural, double"),
                               ("constants: {A: 1.6e-3, Iy: 3e-6, Iz: 4e-6, It: 8e-9, Iw: 1e-12}", "torsional"),
@@ -114,7 +114,7 @@ class PhysicsTest(SceneCase):
                 self.assertEqual(found[0]["meaning"], kind, f"{section}, {formulation}")
 
     def test_angle_and_tee_twist(self):
-        """Equal-leg angles and a tee compressed at the centroid: flexural-torsional buckling."""
+        """Equal-leg angles and a tee compressed at the centroid have flexural-torsional buckling."""
         for leg, thickness, length in ((0.1, 8e-3, 2.0), (0.06, 3e-3, 1.0), (0.05, 5e-3, 3.0)):
             A, I = 2 * leg * thickness, thickness * leg ** 3
             exact = flexural_torsional(A, I / 3, I / 12, A * thickness ** 2 / 3,
@@ -123,7 +123,7 @@ class PhysicsTest(SceneCase):
             self.near(self.column(angle, length, more="omit: [shear]\n")["up"], exact, 5e-5)
             self.near(self.column(angle, length)["up"], exact, 1e-2)
             A, centre = 2 * leg * thickness, leg / 4
-            along = thickness * leg ** 3 / 12  # of the flange alone: bending perpendicular to the stem
+            along = thickness * leg ** 3 / 12  # second moment of area of the flange alone, for bending perpendicular to the stem
             across = along + thickness * leg * (centre ** 2 + (leg / 2 - centre) ** 2)
             tee = walls([(-leg / 2, 0), (0, 0), (leg / 2, 0), (0, leg)], ("ab", "bc", "bd"),
                         thickness)
@@ -133,7 +133,7 @@ class PhysicsTest(SceneCase):
             self.near(self.column(tee, length)["up"], exact, 1e-2)
 
     def test_unequal_flanges_under_a_moment(self):
-        """Critical moments of both signs, which differ due to int z (y^2 + z^2) dA."""
+        """Critical moments of the two signs differ because of int z (y^2 + z^2) dA."""
         text = walls([(-0.1, -0.15), (0, -0.15), (0.1, -0.15), (-0.05, 0.15), (0, 0.15),
                       (0.05, 0.15)], ("ab", "bc", "be", "de", "ef"), 0.012).replace(
                           "{from: b, to: e, thickness: 0.012}", "{from: b, to: e, thickness: 0.008}")
@@ -145,7 +145,7 @@ class PhysicsTest(SceneCase):
         self.assertGreater(abs(without["up"] / 177150 - 1), 0.05)
 
     def test_twisted_leaf(self):
-        """Free to shorten: M = G It w' + E/2 w'^3 (int r^4 - Ip^2/A), shortening w'^2 L Ip/2A."""
+        """A leaf that is free to shorten has M = G It w' + E/2 w'^3 (int r^4 - Ip^2/A) and shortens by w'^2 L Ip/2A."""
         text = BAR.format(
             width=50e-3, thickness=0.5e-3, length=0.1, material=MATERIAL,
             rest="motions:\n  twist: {unit: rad, path: [0, 1], value: [0, 0.2]}\nanalyses:\n"
@@ -161,9 +161,9 @@ class PhysicsTest(SceneCase):
         self.assertLess(abs(plain["ux"]), 1e-15)
 
     def test_twisted_walls(self):
-        """Free to shorten, bend and warp: M = G It w' + 4 E c w'^3, 8 c = int q^2 dA with q what r^2 has beyond 1, y
-        and z; eccentric shear centres, branched sections, unequal flanges. The parts of the torque are
-        checked with another formulation."""
+        """Walls that are free to shorten, bend and warp have M = G It w' + 4 E c w'^3 with 8 c = int q^2 dA, where q is
+        r^2 without its components along 1, y and z. The sections have eccentric shear centres, branches and unequal
+        flanges. The parts of the torque are checked with another formulation."""
         import numpy as np
         t, rate = 1e-3, 0.1
         for points, lines in (
@@ -196,7 +196,7 @@ class PhysicsTest(SceneCase):
             self.assertGreater(plain / rate, 1.02, points)
 
     def test_torsion_under_tension(self):
-        """N Ip/A in addition to G It, in a small twist and in the torsional frequency."""
+        """Tension adds N Ip/A to G It, in a small twist and in the torsional frequency."""
         b, t, length, torque = 60e-3, 2e-3, 0.5, 1e-4
         A, Ip = b * t, b * t * (b * b + t * t) / 12
         It = b * t ** 3 / 3 * (1 - 192 / math.pi ** 5 * t / b * math.tanh(math.pi * b / 2 / t) *
@@ -215,8 +215,9 @@ class PhysicsTest(SceneCase):
             self.near(swings["wanted"], math.sqrt(stiff / (RHO * Ip)) / (4 * length), 3e-3)
 
     def test_strip_that_rotates(self):
-        """Width in the plane of rotation: (G It + N Ip/A) w' with N = rho A W^2 (L^2 - x^2)/2, and the propeller
-        moment W^2 rho (I1 - I2) w; in odd Legendre polynomials w = x, x^3, ... about the hub."""
+        """A strip whose width is in the plane of rotation has the torque (G It + N Ip/A) w' with N = rho A W^2 (L^2 -
+        x^2)/2, and the propeller moment W^2 rho (I1 - I2) w; the solution is in odd powers w = x, x^3, ... about the
+        hub."""
         b, t, length, speed = 40e-3, 1e-3, 0.4, 300.0
         I1, I2, terms = t * b ** 3 / 12, b * t ** 3 / 12, 5
         Ip, It = I1 + I2, b * t ** 3 / 3 * (1 - 0.63025 * t / b)
@@ -237,7 +238,7 @@ class PhysicsTest(SceneCase):
         self.near(self.solved(text, "-n", 32)["f"], exact, 3e-3)
 
     def test_rotary_inertia(self):
-        """Timoshenko's pinned bar, third mode, with and without rotary inertia."""
+        """Timoshenko's pinned bar is checked in its third mode, with and without rotary inertia."""
         text = BAR.format(width=50e-3, thickness=30e-3, length=1, material=MATERIAL,
                           rest="analyses:\n  v: {modal: {wanted: 8}}\nquantities:\n"
                           "  f: {frequency: {analysis: v, which: 2, family: bending_y}, unit: Hz}")

@@ -1,5 +1,5 @@
-"""Different models: scenes held in a plane, physics that a formulation does not support, and formulations not
-accepted yet."""
+"""Different models: scenes held in a plane, physics that a formulation does not support, and formulations not accepted
+yet."""
 import csv
 import io
 import json
@@ -61,7 +61,7 @@ quantities:
 
 
 def turned(text, plane):
-    """The strip in another plane, whose two axes replace x and y."""
+    """Returns the strip in another plane, whose two axes replace x and y."""
     to = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}[plane]
     for old in ("[1, 0, 0]", "[0, 1, 0]", "[-1, 0, 0]"):
         x, y, _ = (int(v) for v in old[1:-1].split(","))
@@ -80,7 +80,7 @@ class Plane(ProgramTest):
         return record, {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_closed_forms(self):
-        """Bending in the plane only: Euler's load, the frequencies of a clamped beam."""
+        """A strip that bends only in the plane has Euler's load and the frequencies of a clamped beam."""
         area, stiff = HEIGHT * THICK, E * THICK * HEIGHT**3 / 12
         soft = E * HEIGHT * THICK**3 / 12
         _, space = self.solved(STRIP)
@@ -95,7 +95,8 @@ class Plane(ProgramTest):
                 self.assertLess(abs(found[name] / exact - 1), 0.02, (plane, name))
 
     def test_the_same_as_in_space(self):
-        """In-plane results agree with those in space, if states that are stable in the plane are stable in space."""
+        """Results in the plane agree with those in space if the states that are stable in the plane are also stable in
+        space."""
         text = self.answered("scene", "elastica").stdout
         whole, space = self.solved(text)
         half, plane = self.solved(text + "plane: xy\n")
@@ -110,7 +111,7 @@ class Plane(ProgramTest):
                     self.assertLess(abs(plane[name] / value - 1), 1e-8, (formulation, n, name))
 
     def test_examples(self):
-        """Rigid parts, releases, drives, a body and a motion in time."""
+        """Rigid parts, releases, drives, a body and a motion in time can be held in a plane."""
         for name in ("bent_leaf", "four_bar", "hinged_guide", "released_guide"):
             text = (EXAMPLES / f"{name}.yaml").read_text()
             _, space = self.solved(text, n=4)
@@ -164,7 +165,7 @@ class Plane(ProgramTest):
         self.assertIn("plane", self.answered("scene", "--keys").stdout)
 
     def test_what_leaves_it_is_refused(self):
-        """One line that names the culprit."""
+        """Motion out of the plane is rejected in one line that names its cause."""
         held = STRIP + "plane: xy\n"
         node = "b: {at: [1, 0, 0]"
         changes = {
@@ -219,9 +220,9 @@ class Plane(ProgramTest):
         self.refused(2, "held in a plane", "export", "--scene", path, "--to", "calculix")
 
 
-# A formulation that does not support all physics of a scene: it counts as usual if that does not
-# affect the requested quantities; otherwise it is a different model, which is shown but does not
-# affect the exit status, rankings or agreements.
+# A formulation that does not support all physics of a scene: it is evaluated as usual if this does
+# not affect the requested quantities; otherwise it is a different model, which is shown but does
+# not affect the exit status, rankings or agreements.
 LEAF = """beamwork: 1
 sections: {s: {rectangle: {width: 0.1, thickness: %s}, young: 210e9, shear_modulus: 81e9}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0.2, 0, 0]}}
@@ -251,7 +252,7 @@ class OtherModel(ProgramTest):
         return {s["formulation"]: s for s in record["series"]}, record
 
     def test_a_thin_leaf(self):
-        """Shear has no effect, so formulations with and without shear are one model."""
+        """Shear has no effect on a thin leaf, so formulations with and without shear are one model."""
         for load in ("0.1", "0"):
             leaf = self.scene("0.0005", load, "1e-4")
             one = self.series(*leaf)[0]["beamw_vlasov"]
@@ -264,12 +265,12 @@ class OtherModel(ProgramTest):
             self.assertEqual(text.count("without shear: changes no value"), 1)
 
     def test_no_load_at_all(self):
-        """Every value is zero, so missing physics has no effect."""
+        """Every value is zero without loads, so missing physics has no effect."""
         one = self.series(*self.scene("0.05", "0", "0"))[0]["beamw_vlasov"]
         self.assertEqual((one["other_model"], one["model_change"]), (False, 0))
 
     def test_a_deep_beam(self):
-        """Shear is 1e-1 of the deflection: the formulation is shown, but excluded from rankings and agreements."""
+        """Shear is 1e-1 of the deflection, so the formulation is shown, but excluded from rankings and agreements."""
         deep = self.scene("0.1", "1", "0")
         series, record = self.series(*deep)
         one = series["beamw_vlasov"]
@@ -363,7 +364,7 @@ class OtherModel(ProgramTest):
         self.assertIn("\n- leaf: trapeze, wagner_torque\n", files[2].read_text())
 
     def test_bench(self):
-        """Times are ranked: a different model is not timed with the others, and is named; on its own it is marked."""
+        """A different model is not timed with the formulations that are ranked but named; on its own it is marked."""
         deep = self.scene("0.1", "1", "0")
         text = self.answered("bench", *deep, "-f", "beamw_vlasov", "-f", "collocation", "-n",
                              "1").stdout
@@ -375,13 +376,13 @@ class OtherModel(ProgramTest):
         self.assertNotIn("B: shear", text)
 
 
-# Formulations in the source tree that are not accepted yet: they are reported, and do not affect
-# the exit status unless they are named.
+# Formulations in the source tree that are not accepted yet are reported, and do not affect the exit
+# status unless they are named.
 NAME = "sheet_second"
 
 
 def without(path, beginning):
-    """Removes the lines with this beginning from a file."""
+    """Removes the lines that begin with this text from a file."""
     lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
     kept = [line for line in lines if not line.startswith(beginning)]
     assert len(kept) < len(lines), path
@@ -389,7 +390,7 @@ def without(path, beginning):
 
 
 class NotAccepted(ProgramTest):
-    """Reference values without the findings of a formulation that has some, accepted or not."""
+    """Tests with reference values without the findings of a formulation that has some, accepted or not."""
 
     @classmethod
     def setUpClass(cls):

@@ -1,4 +1,4 @@
-"""External formulations, compiled as an outsider would, for the tests of `--element`."""
+"""External formulations, compiled as an external author would compile them, for the tests of `--element`."""
 import os
 import subprocess
 
@@ -9,7 +9,7 @@ WARNINGS = ("-Wall", "-Wextra", "-Werror")
 
 
 def compile_shared(source, made, *options):
-    """Compiles this file into a shared object, with the public headers only."""
+    """Compiles this file into a shared object with the public headers only."""
     subprocess.run([os.environ.get("CC", "cc"), "-O1", *options, "-shared", "-fPIC", "-I", ROOT,
                     source, "-lm", "-o", made],
                    check=True)

@@ -1,6 +1,6 @@
-/* Loaded into a program by LD_PRELOAD: fails the k-th allocation after the start of main, k =
- * $SCARCE_AT, in the process that was started, but not in its children. $SCARCE_ONLY: only calls of
- * this function are counted. $SCARCE_COUNT: file that receives their number. */
+/* Loaded into a program by LD_PRELOAD, this library fails the k-th allocation after the start of
+ * main, k = $SCARCE_AT, in the process that was started, but not in its children. $SCARCE_ONLY:
+ * only calls of this function are counted. $SCARCE_COUNT: file that receives their number. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>
@@ -24,7 +24,7 @@ static main_function *real_main;
 static long at, count;
 static int counts;
 static const char *only;
-/* for dlsym, before the functions are known */
+/* memory for dlsym, before the functions are known */
 static _Alignas(16) char pool[1 << 14];
 static size_t used;
 

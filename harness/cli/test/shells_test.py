@@ -36,7 +36,7 @@ LINES = {
     "explain bimom": ["explain", "bimoment"],
     "explain Poiss": ["explain", "Poisson's"],
 }
-# The command prints its arguments in a form that the shell's own output never has.
+# The command prints its arguments in a form that never occurs in the shell's own output.
 SHOW = ("beamwork() { if [ \"$1\" = help ]; then command beamwork \"$@\"; else "
         "printf '<<'; printf '%s|' \"$@\"; printf '>>\\n'; fi; }")
 
@@ -80,7 +80,7 @@ class Shell(unittest.TestCase):
                     self.folder / "a_folder" / "leaf.yaml")
 
     def check(self, prepare, *command):
-        """Types each line with a tab, then sends it. Control-U clears the rest of a previous line."""
+        """Types each line with a tab, then sends it. Control-U clears the rest of the previous line."""
         shell = Terminal(self.folder, *command)
         self.addCleanup(shell.close)
         shell.say("\n".join((*prepare, SHOW, "printf '%s%s\\n' rea dy")) + "\n")
@@ -101,7 +101,7 @@ class Shell(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("bash") and PACKAGE.exists(), "needs bash-completion")
     def test_bash_with_its_package(self):
-        """The completion file is found where packages install it, when first needed."""
+        """The completion file is found where packages install it, when it is first needed."""
         found = self.folder / "share" / "bash-completion" / "completions"
         found.mkdir(parents=True)
         shutil.copy(HERE / "beamwork.bash", found / "beamwork")
@@ -123,7 +123,7 @@ LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 class Completion(ProgramTest):
     def lines(self, *words):
-        """Completions for the line 'beamwork WORD...' with the cursor at the end of the last word."""
+        """Returns the completions for the line 'beamwork WORD...' with the cursor at the end of the last word."""
         return self.answered("help", "--complete", *words, env=ENV).stdout.splitlines()
 
     def offered(self, *words):
@@ -193,7 +193,7 @@ class Completion(ProgramTest):
         self.assertEqual(self.offered("solve", "elastica", "-n", ""), [])
 
     def test_words(self):
-        """Terms of several words in one argument or in several."""
+        """Terms of several words are completed in one argument or in several."""
         self.assertIn("limit", self.offered("explain", "wrong", ""))
         self.assertIn("wrong limit", self.offered("explain", "wrong l"))
         self.assertEqual(self.offered("explain", "bimom"), ["bimoment"])

@@ -1,4 +1,4 @@
-"""Shards of verbs, computed, killed, damaged and merged: the result is that of a single run."""
+"""Shards of verbs are computed, killed, damaged and merged; the result is that of a single run."""
 import os
 import pathlib
 import random
@@ -37,7 +37,7 @@ def without_times(text):
 
 
 class SpreadTest(ProgramTest):
-    """Helpers."""
+    """Helpers of the tests below."""
 
     def hash_of(self, file):
         """Returns the hash and the number of values of a stored run."""
@@ -54,7 +54,7 @@ class SpreadTest(ProgramTest):
 
 
 class Verify(SpreadTest):
-    """verify in shards against verify in one run."""
+    """Compares verify in shards with verify in one run."""
 
     @classmethod
     def setUpClass(cls):
@@ -98,7 +98,7 @@ class Verify(SpreadTest):
         self.assertEqual(tests[0], tests[1])
 
     def test_anywhere(self):
-        """A different working folder, and batches in two folders, some of them in both."""
+        """The working folder may differ, and the batches may be in two folders, some of them in both."""
         (self.folder / "more").mkdir()
         names = self.names()
         self.assertGreater(len(names), 3)
@@ -120,8 +120,8 @@ class Verify(SpreadTest):
         self.is_as_alone()
 
     def test_missing(self):
-        """Missing batches: exit status 5, a list, and no output; --partial writes the existing results and reports
-        it."""
+        """If batches are missing, the exit status is 5, and there is a list, but no output; --partial writes the
+        existing results and reports this."""
         names = self.names()
         for name in names[1:]:
             (self.folder / "parts" / name).unlink()
@@ -178,7 +178,7 @@ class Verify(SpreadTest):
                      self.folder / "parts", other)
 
     def test_no_room(self):
-        """A full disk: one line, exit status 4, no incomplete files; existing files remain."""
+        """A full disk leads to one line, exit status 4 and no incomplete files; existing files remain."""
         names = self.names()
         gone = max(names, key=lambda name: (self.folder / "parts" / name).stat().st_size)
         (self.folder / "parts" / gone).unlink()
@@ -191,7 +191,7 @@ class Verify(SpreadTest):
 
 
 class Killed(SpreadTest):
-    """kill -9 at random moments."""
+    """Runs are killed (kill -9) at random moments."""
 
     def test_killed(self):
         """Kills the process or its group twenty times; after the rest is computed, the hash is the same."""
@@ -217,7 +217,7 @@ class Killed(SpreadTest):
         self.assertEqual(self.hash_of(self.folder / "merged.h5"), self.hash_of(alone))
 
     def test_interrupted(self):
-        """Ctrl-C: exit status 5, one line, no incomplete files."""
+        """Ctrl-C leads to exit status 5, one line and no incomplete files."""
         parts = self.folder / "parts"
         with subprocess.Popen([PROGRAM, "verify", "--into", parts], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True) as child:
@@ -232,7 +232,7 @@ class Killed(SpreadTest):
 
 
 class Others(SpreadTest):
-    """A user's scene; invalid combinations of options."""
+    """Tests with a user's scene, and invalid combinations of options."""
 
     def test_own_scene(self):
         """Two shards merged in another folder agree with a single run; nothing is evaluated."""

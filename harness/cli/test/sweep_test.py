@@ -1,4 +1,4 @@
-"""Sweeps: varied parameters, computed values, and execution."""
+"""Sweeps: varied parameters, computed values, and how they are run."""
 import csv
 import fcntl
 import io
@@ -23,7 +23,7 @@ COLUMN = ("shear_column", "--vary", "length=0.5..2/3", "--vary", "side=0.01..0.0
 
 
 def sealed(path):
-    """Does the last line state the length of the rest of the file?"""
+    """Returns whether the last line states the length of the rest of the file."""
     data = path.read_bytes()
     word, size, _ = data[-40:].split()
     return word == b"beamwork-seal" and int(size, 16) == len(data) - 40
@@ -92,7 +92,7 @@ class Grid(ProgramTest):
         self.assertTrue((self.of["cost"] > 0).all() and (self.of["seconds"] > 0).all())
 
     def test_worst_points_are_scenes_that_solve(self):
-        """A separate solution of the worst point has the same digits as in the sweep."""
+        """A separate solution at the worst point has the same digits as in the sweep."""
         for row in self.of["worst"]:
             which = ("beamw", "collocation").index(row["formulation"].decode())
             path = self.path.with_suffix(".worst") / row["scene"].decode()
@@ -162,7 +162,8 @@ class References(ProgramTest):
         self.assertIn("the limit from the same meshes", screen)
 
     def test_limits_that_disagree_are_no_reference(self):
-        """A formulation without shear along one axis, and one with it: their limits disagree."""
+        """The limits of a formulation without shear along one axis and of one with it disagree, so they are no
+        reference value."""
         kind, _, error, screen = self.kinds(
             "--scene", LEAF, "--vary", "thickness=0.8e-3,1e-3", "-f", "sheet_second", "-f",
             "sheet_third", "-n", "8,16,32,64,128", "-k", "k_pushed", "--error", "0.1%")
@@ -227,7 +228,7 @@ class Going(ProgramTest):
             self.assertEqual(file.attrs["scene"].decode(), str(SWEEP_RUN_LEAF))
 
     def test_interrupted_goes_on(self):
-        """Finished work is kept, and after the rest the file is the same as that of an uninterrupted run."""
+        """Finished work is kept; once the rest is computed, the file is the same as that of an uninterrupted run."""
         words = ["sweep", "snap_through", "--vary", "angle=0.1..0.6/1199", "-f", "beamw", "-n",
                  "1,2", "-k", "limit_load", "-j", "1", "-o"]
         path, whole = self.folder / "s.h5", self.folder / "whole.h5"
@@ -300,7 +301,7 @@ class Going(ProgramTest):
         self.assertEqual([p.name for p in self.folder.iterdir()], ["e.worst"])
 
     def test_one_run_for_each_output(self):
-        """If another run uses the output, this one ends with one line and removes nothing."""
+        """If another run uses the output, the run ends with one line and removes nothing."""
         batches = self.folder / "e.batches"
         batches.mkdir()
         words = ("sweep", "elastica", "--vary", "load=1,2", "-f", "beamw", "-n", "1", "-o", self.folder / "e.h5")

@@ -10,10 +10,10 @@ WORK = {
     "stress": ("-k", "decay_free and collocation"),
     "sweep": ("warping_torsion", "--vary", "kL=1,2", "-f", "beamw", "-n", "2"),
 }
-# Options that name output files: for text, and for HDF5.
+# Options that name output files, for text and for HDF5.
 TEXT = {"verify": ("--json", "--junit", "--markdown"), "solve": ("-o",), "converge": ("-o",),
         "stress": ("-o", "--json"), "bench": (), "sweep": ()}
 WHOLE = {"verify": ("-o",), "bench": ("-o",), "solve": ("--shapes=1", "-o"), "converge": (),
          "stress": (), "sweep": ("-o",)}
-# Options that accept both, by the name of the file.
+# Options that accept both forms, selected by the name of the file.
 BOTH = {("converge", "-o"), ("stress", "-o")}

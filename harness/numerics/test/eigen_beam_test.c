@@ -1,5 +1,5 @@
-/* Buckling loads and frequencies of a simply supported beam with many elements: the accuracy
- * allowed by round-off. */
+/* Buckling loads and frequencies of a simply supported beam with many elements, with the accuracy
+ * that round-off allows. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,10 +13,10 @@
 typedef struct beam {
     int elements;
     double h;
-    sparse K, G, M; /* G: at unit tension */
+    sparse K, G, M; /* G: geometric stiffness at unit tension */
 } beam;
 
-/* Simply supported ends, length 1, EI = 1, mass per length 1. */
+/* Makes a beam with simply supported ends, length 1, EI = 1 and mass per length 1. */
 static void beam_init(beam *b, int elements)
 {
     double k[16], g[16], m[16];
@@ -31,7 +31,7 @@ static void beam_init(beam *b, int elements)
     matrices_add_elements(&b->M, elements, 2, 0, m);
     sparse *const all[] = {&b->K, &b->G, &b->M};
     for (int i = 0; i < 3;
-         i++) { /* the two held deflections become separate unknowns without load */
+         i++) { /* the two held deflections become separate unknowns without a load */
         const int held[2] = {0, 2 * elements};
         for (int e = 0; e < 2; e++)
             for (int j = 0; j < all[i]->n; j++)
@@ -48,7 +48,8 @@ static void beam_free(beam *b)
     matrices_free(&b->M);
 }
 
-/* Bending strains: the end slopes minus the slope of the chord. */
+/* Returns the energy from the bending strains, which are the end slopes minus the slope of the
+ * chord. */
 static double beam_energy(void *context, const double x[])
 {
     const beam *b = context;
@@ -62,8 +63,9 @@ static double beam_energy(void *context, const double x[])
     return sum;
 }
 
-/* mu of the mesh: w = W sin(k pi j h) and slope = S cos(k pi j h) at node j leave two unknowns, W
- * and S. For coarse meshes: the determinants cancel like (k pi h)^4. */
+/* Returns mu of the mesh: w = W sin(k pi j h) and slope = S cos(k pi j h) at node j leave two
+ * unknowns, W and S. This is for coarse meshes, because the determinants lose digits like (k pi
+ * h)^4. */
 static double mesh_value(const beam *b, int k, int vibration)
 {
     double K[16], G[16], M[16], form[2][3];
@@ -83,8 +85,8 @@ static double mesh_value(const beam *b, int k, int vibration)
     return (q + sqrt(q * q - 4 * p * r)) / (2 * p);
 }
 
-/* Euler's loads and frequencies (k pi)^2: the mesh's loads are too high by a factor 1 + (k pi
- * h)^4/720, its frequencies by half of that difference. */
+/* Returns the expected value from Euler's loads and frequencies (k pi)^2. The loads of the mesh are
+ * too high by a factor 1 + (k pi h)^4/720, its frequencies by half of this difference. */
 static double expected_value(const beam *b, int k, int vibration)
 {
     if (b->elements <= 20)
@@ -92,8 +94,8 @@ static double expected_value(const beam *b, int k, int vibration)
     return k * PI * k * PI * (1 + pow(k * PI * b->h, 4) / (vibration ? 1440 : 720));
 }
 
-/* Checks the values and the errors estimated by the solver, which must cover the actual errors and
- * rounding of order n^2 in the form of A. */
+/* Checks the values and the errors estimated by the solver, which must include the actual errors
+ * and rounding of order n^2 in the quadratic form of A. */
 static void compare(const beam *b, const eigen_side *found, int vibration, double allowed)
 {
     const double rounding = 1e-15 + 1e-17 * b->elements * b->elements;
@@ -135,10 +137,10 @@ static void test_beam(int elements, double allowed)
     beam_free(&b);
 }
 
-/* A matrix that has lost digits, whose elements have not. */
+/* A problem whose matrix has lost digits that its elements have kept. */
 typedef struct spoilt {
-    const sparse *K; /* as it should be */
-    double rounding; /* of x^T K x, relative */
+    const sparse *K; /* the accurate matrix */
+    double rounding; /* relative rounding error of x^T K x */
 } spoilt;
 
 static double spoilt_energy(void *context, const double x[])
@@ -156,8 +158,8 @@ static void spoilt_product(void *context, const double x[], double y[])
     sparse_mul(((const spoilt *)context)->K, x, y);
 }
 
-/* Whatever the assembly of K has changed, the result is that of the elements, and a reported error
- * is the actual error. */
+/* Whatever the assembly of K has changed, the result is that of the elements, and the reported
+ * error is the actual error. */
 static void test_spoilt(double part)
 {
     enum { ELEMENTS = 60, WANTED = 5 };
@@ -173,8 +175,8 @@ static void test_spoilt(double part)
     memcpy(good.value, b.K.value, (size_t)b.K.column[b.K.n] * sizeof *good.value);
     for (int j = 0; j < b.K.n; j++)
         for (int k = b.K.column[j]; k < b.K.column[j + 1]; k++)
-            if (b.K.row[k] == j &&
-                j % 2 == 1) /* rotation has a separate spring, stiffer along the column */
+            if (b.K.row[k] == j && j % 2 == 1) /* each rotation has a separate spring, which becomes
+                                                  stiffer along the column */
                 b.K.value[k] += part * 20 * b.h * (1 + 3.0 * j / b.K.n);
     spoilt context = {&good, 1e-4};
     p.K_energy = spoilt_energy;
@@ -243,7 +245,7 @@ static void test_missed_copies(void)
     for (int c = 0; c < COPIES; c++)
         for (int i = 0; i < MASSES; i++)
             all[c * N + i * COPIES + c] = 1e5 * sin((i + 1) * PI / (MASSES + 1));
-    for (int i = 0; i < MASSES; i++) /* the second mode of the first string */
+    for (int i = 0; i < MASSES; i++) /* starts from the second mode of the first string */
         x[i * COPIES] = sin(2 * (i + 1) * PI / (MASSES + 1));
     const double first = strings_exact(&s, 0), second = strings_exact(&s, COPIES),
                  scale = candidates_scale(&p, &work.solutions);
@@ -288,9 +290,9 @@ static void candidates_tests(void)
     test_missed_copies();
 }
 
-/* Lost eigenvalues: on one side only, after a missing one, in rounding. */
+/* Lost eigenvalues: on one side only, after a missing one, or in rounding. */
 
-/* x^T A x, which fails for one sign within a range of magnitudes. */
+/* Returns x^T A x, but fails for one sign within a range of magnitudes. */
 typedef struct broken {
     const sparse *A;
     double sign, least, most;
@@ -303,7 +305,7 @@ static double broken_energy(void *context, const double x[])
     return size > b->least && size < b->most ? NAN : energy;
 }
 
-/* Values of both signs, where those of one sign are lost as soon as they are found: the other side
+/* Values of both signs, where those of one sign are lost as soon as they are found. The other side
  * is still found, as if it alone had been requested, and the lost side is reported. */
 static void test_sides_apart(void)
 {
@@ -341,8 +343,8 @@ static void test_sides_apart(void)
     strings_free(&s);
 }
 
-/* One value of a side is lost: the values before it are returned, and none after it, because one is
- * missing among them. */
+/* One value of a side is lost. The values before it are returned, and none after it, because one of
+ * those is missing. */
 static void test_side_in_part(int lost)
 {
     enum { N = 800, WANTED = 4 };
@@ -412,8 +414,8 @@ static void eigen_lost_tests(void)
     test_rounding(120);
 }
 
-/* Eigenpairs against closed forms and against LAPACK: both signs, repeated and nearly equal values,
- * singular and indefinite matrices. */
+/* Eigenpairs compared with closed forms and with LAPACK: both signs, repeated and almost equal
+ * values, singular and indefinite matrices. */
 
 static void test_strings(int copies, int masses, double spread, int wanted, int iterate,
                          double allowed)
@@ -461,7 +463,7 @@ static void compare_sides(const eigen_result *sparse_way, const eigen_result *de
     }
 }
 
-/* Indefinite A: the sparse method against the dense one. */
+/* With an indefinite A, the sparse method agrees with the dense one. */
 static void test_both_signs(void)
 {
     enum { NODES = 60, SIZE = 3, WANTED = 7 };
@@ -498,8 +500,8 @@ static void test_both_signs(void)
     matrices_free(&A);
 }
 
-/* Two strings coupled only by A, one with the slope of the other: every value is double and occurs
- * with both signs. */
+/* Two strings are coupled only by A, each with the slope of the other: every value is double and
+ * occurs with both signs. */
 static void test_coupled_strings(int masses)
 {
     enum { WANTED = 3 };
@@ -525,7 +527,7 @@ static void test_coupled_strings(int masses)
     strings_free(&s);
 }
 
-/* A of rank 3 (two positive values, one negative): no further values are found. */
+/* If A has rank 3 (two positive values, one negative), no further values are found. */
 static void test_rank(int iterate)
 {
     enum { MASSES = 150 };

@@ -6,7 +6,7 @@
 #include "harness/numerics/numerics.h"
 #include "harness/numerics/test/matrices.h"
 
-/* Several uncoupled strings: unit masses on springs of stiffness `spring[copy]`, fixed at both
+/* Several uncoupled strings of unit masses on springs of stiffness `spring[copy]`, fixed at both
  * ends. */
 typedef struct strings {
     int copies, masses;
@@ -37,7 +37,7 @@ static inline void strings_free(strings *s)
     matrices_free(&s->M);
 }
 
-/* Energy as a sum of squared elongations, without cancellation. */
+/* Returns the energy as a sum of squared elongations, without cancellation. */
 static inline double strings_energy(void *context, const double x[])
 {
     const strings *s = context;
@@ -51,7 +51,7 @@ static inline double strings_energy(void *context, const double x[])
     return sum;
 }
 
-/* mu of rank k counted from 0. */
+/* Returns mu of rank k, counted from 0. */
 static inline double strings_exact(const strings *s, int k)
 {
     double all[8 * 64];
@@ -82,7 +82,7 @@ static inline status eigen_problems_solve(eigen_problem *p, eigen_result *r, fau
     return outcome;
 }
 
-/* Largest departure of X^T K X from the identity. */
+/* Returns the largest deviation of X^T K X from the identity matrix. */
 static inline double eigen_problems_departure(const sparse *K, int count, const double *x)
 {
     double worst = 0, *product = malloc((size_t)K->n * sizeof *product);

@@ -1,4 +1,4 @@
-/* Frequencies in a rotating frame: problems with dense matrices, and their answer by LAPACK. */
+/* Frequencies in a rotating frame: problems with dense matrices, and their solution by LAPACK. */
 #ifndef BEAMWORK_TEST_GYROSCOPIC_PROBLEM_H
 #define BEAMWORK_TEST_GYROSCOPIC_PROBLEM_H
 
@@ -12,7 +12,7 @@
 
 enum { WANTED = 8 };
 
-/* Dense, row-major [n x n]; G skew. */
+/* Dense matrices, row-major [n x n]; G is skew. */
 typedef struct problem {
     int n;
     double *K, *M, *G;
@@ -26,8 +26,8 @@ static inline void gyroscopic_problem_alloc(int n, problem *p)
     p->G = p->M + n * n;
 }
 
-/* Positive definite K with eigenvalues of many magnitudes; M definite on all except the last
- * `massless` coordinates. */
+/* Fills a positive definite K with eigenvalues of many magnitudes, and an M that is definite on all
+ * except the last `massless` coordinates. */
 static inline void gyroscopic_problem_fill(problem *p, double gyroscopic, int massless,
                                            double softening)
 {
@@ -51,7 +51,7 @@ static inline void gyroscopic_problem_fill(problem *p, double gyroscopic, int ma
     free(B);
 }
 
-/* The upper triangle, zeros included. */
+/* Returns the upper triangle, including zeros. */
 static inline sparse gyroscopic_problem_upper(int n, const double A[])
 {
     sparse s = {n, 1, calloc((size_t)n + 1, sizeof(int)), NULL, NULL, 0};
@@ -73,8 +73,8 @@ static inline int gyroscopic_problem_ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* All frequencies (lambda nearly imaginary), ascending, and the largest real part. Returns their
- * number. */
+/* Finds all frequencies (lambda almost imaginary), ascending, and the largest real part. Returns
+ * the number of frequencies. */
 static inline int gyroscopic_problem_by_lapack(const problem *p, double frequency[], double *growth)
 {
     const int n = p->n, m = 2 * n;
@@ -112,7 +112,7 @@ static inline int gyroscopic_problem_by_lapack(const problem *p, double frequenc
     return count;
 }
 
-/* y = K x for the problem passed as the context. */
+/* Computes y = K x for the problem passed as the context. */
 static inline void gyroscopic_problem_product(void *context, const double x[], double y[])
 {
     const problem *p = context;
@@ -123,7 +123,7 @@ static inline void gyroscopic_problem_product(void *context, const double x[], d
     }
 }
 
-/* Solves with K_of as the matrix and, if given, the product and its rounding. */
+/* Solves with K_of as the matrix and, if given, the product and its rounding error. */
 static inline status gyroscopic_problem_solve_by(problem *p, const double K_of[],
                                                  eigen_product *product, eigen_form *rounding,
                                                  gyroscopic_result *r, fault *f)

@@ -1,5 +1,5 @@
-/* Frequencies in a rotating frame against LAPACK on the full problem: weak and strong gyroscopic
- * terms, singular masses, equal frequencies, and indefinite stiffness. */
+/* Frequencies in a rotating frame compared with LAPACK on the full problem: weak and strong
+ * gyroscopic terms, singular masses, equal frequencies, and indefinite stiffness. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -56,7 +56,7 @@ static void definite(void)
         }
 }
 
-/* Two uncoupled copies: every frequency twice. */
+/* In two uncoupled copies every frequency occurs twice. */
 static void equal_frequencies(void)
 {
     static const int size[] = {5, 50};
@@ -80,8 +80,8 @@ static void equal_frequencies(void)
     }
 }
 
-/* Two unknowns: divergence without gyroscopic terms, stability with strong ones. Roots of lambda^4
- * + (k1 + k2 + g^2) lambda^2 + k1 k2. */
+/* A problem with two unknowns diverges without gyroscopic terms and is stable with strong ones. The
+ * eigenvalues are the roots of lambda^4 + (k1 + k2 + g^2) lambda^2 + k1 k2. */
 static void indefinite(void)
 {
     static const double k1 = -1, k2 = -2, g[] = {0.5, 4};
@@ -116,8 +116,8 @@ static void indefinite(void)
     free(p.K);
 }
 
-/* K = -diag(1, 4): gyroscopic forces stabilise it for g >= sqrt(1) + sqrt(4). Real parts due to
- * rounding do not count as growth there. */
+/* For K = -diag(1, 4), gyroscopic forces stabilise the motion if g >= sqrt(1) + sqrt(4). Real parts
+ * due to rounding do not count as growth there. */
 static void held_from(void)
 {
     static const double g[] = {2.999, 3.001};
@@ -139,8 +139,8 @@ static void held_from(void)
     }
 }
 
-/* Heavy, light and massless coordinates with indefinite K: the requested modes with mass are found,
- * and no others. */
+/* With heavy, light and massless coordinates and an indefinite K, the requested modes with mass are
+ * found, and no others. */
 static void light_and_massless(void)
 {
     for (int decade = 0; decade <= 16; decade += 2)
@@ -175,7 +175,8 @@ static void light_and_massless(void)
         }
 }
 
-/* The matrix has lost digits that the product retains: the frequencies are those of the product. */
+/* If the matrix has lost digits that the product retains, the frequencies are those of the
+ * product. */
 static void spoilt_matrix(void)
 {
     static const double noise[] = {1e-8, 1e-5, 1e-3};
@@ -233,8 +234,8 @@ static double large_rounding(void *context, const double x[])
     return part_of_rounding * sum;
 }
 
-/* The error of every frequency includes the effect of rounding in K: without gyroscopic terms half
- * the relative change, and at most ten times that. */
+/* The error of every frequency includes the effect of rounding in K: without gyroscopic terms
+ * it is at least half of the relative change and at most ten times that. */
 static void rounding_is_told(void)
 {
     static const double strength[] = {0, 2};
@@ -282,11 +283,11 @@ static void gyroscopic_tests(void)
     indefinite();
 }
 
-/* Count of frequencies in a rotating frame: the count agrees with LAPACK, and missing frequencies
+/* Count of frequencies in a rotating frame. The count agrees with LAPACK, and missing frequencies
  * are found or reported. */
 
-/* The number of frequencies below a given one, against LAPACK: between all neighbours, below the
- * first and above the last. */
+/* Compares the number of frequencies below a given one with LAPACK: between all neighbours, below
+ * the first and above the last. */
 static void compare_counts(const problem *p, const char *name)
 {
     double *frequency = calloc(2 * (size_t)p->n, sizeof *frequency), growth;
@@ -329,7 +330,7 @@ static void counts(void)
 }
 
 /* `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, followed by others of stiffness 1e6; the
- * first two of these form a top whose slow precession is `slow` [rad/s]. */
+ * first two of the latter form a top whose slow precession is `slow` [rad/s]. */
 static void oscillators_and_top(int masses, int behind, double slow, problem *p)
 {
     const double k = 1e6, g = (k / slow) - slow; /* root of w^2 + g w - k */

@@ -1,4 +1,5 @@
-/* Sparse factors against LAPACK on random matrices: inertia, condition and counted work. */
+/* Sparse factors compared with LAPACK on random matrices: inertia, condition number and counted
+ * work. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
@@ -18,8 +19,8 @@ enum { MOST = 60 };
 
 typedef enum kind { DEFINITE, INDEFINITE, UNSYMMETRIC } kind;
 
-/* About four entries in every row in addition to the diagonal; the units of rows and columns differ
- * by up to 1e3. */
+/* Fills about four entries in every row in addition to the diagonal. The units of rows and columns
+ * differ by up to 1e3. */
 static void fill_random(int n, kind what, uint64_t *seed, double A[])
 {
     memset(A, 0, (size_t)(n * n) * sizeof *A);
@@ -29,8 +30,8 @@ static void fill_random(int n, kind what, uint64_t *seed, double A[])
             const double value = random_number(seed);
             if (what == UNSYMMETRIC) {
                 A[i * n + j] += value;
-            } else if (i !=
-                       j) { /* Laplacian: positive definite after an addition to the diagonal */
+            } else if (i != j) { /* a Laplacian, which is positive definite after an addition to the
+                                    diagonal */
                 A[i * n + j] -= fabs(value);
                 A[j * n + i] -= fabs(value);
                 A[i * n + i] += fabs(value);
@@ -46,7 +47,7 @@ static void fill_random(int n, kind what, uint64_t *seed, double A[])
             A[i * n + j] *= (i % 3 == 0 ? 1e3 : 1) * (j % 3 == 0 ? 1e3 : 1);
 }
 
-/* Difference relative to the rounding error of elimination with pivoting. */
+/* Returns the difference relative to the rounding error of elimination with pivoting. */
 static double distance_from_dense(int n, const double A[], const double x[], const double b[])
 {
     double copy[MOST * MOST] = {0}, dense[MOST], worst = 0, scale = 0, norm, condition;
@@ -77,7 +78,8 @@ static int negative_eigenvalues(int n, const double A[])
     return count;
 }
 
-/* 1-norm condition number of S A S, with the roots of A's diagonal as 1/S, from the inverse. */
+/* Returns the 1-norm condition number of S A S from the inverse, where the diagonal of S contains
+ * 1/sqrt(a_ii). */
 static double scaled_condition(int n, const double A[])
 {
     double scaled[MOST * MOST] = {0}, norm[2];
@@ -95,7 +97,7 @@ static double scaled_condition(int n, const double A[])
     return norm[0] * norm[1];
 }
 
-/* Sign of the determinant by Gaussian elimination. */
+/* Returns the sign of the determinant by Gaussian elimination. */
 static int determinant_sign(int n, const double A[])
 {
     double copy[MOST * MOST];
@@ -107,8 +109,8 @@ static int determinant_sign(int n, const double A[])
     return sign;
 }
 
-/* Number of right-hand sides whose joint solution is not bitwise equal to the separate one; numbers
- * between them must not change. */
+/* Returns the number of right-hand sides whose joint solution is not bitwise equal to the separate
+ * one. Numbers stored between the right-hand sides must not change. */
 static int apart_together(matrix_factor *fa, uint64_t *seed)
 {
     enum { SIDES = 7, STRIDE = MOST + 2 };
@@ -177,8 +179,9 @@ static void random_matrices(kind what, const char *name, double allowed)
     gsl_test(!(worst < allowed), "%s: as LAPACK within %.1f eps times the condition", name, worst);
 }
 
-/* The upper triangle and the full symmetric matrix have the same condition number: the exact 1-norm
- * for a chain of n springs held at one end, with rows and columns scaled to a unit diagonal. */
+/* The upper triangle and the full symmetric matrix have the same condition number: the exact one in
+ * the 1-norm for a chain of n springs held at one end, with rows and columns scaled to a unit
+ * diagonal. */
 static void condition_of_a_triangle(void)
 {
     enum { N = 6 };
@@ -255,7 +258,7 @@ static void linear_tests(void)
     nothing_to_solve();
 }
 
-/* Singular matrices of every kind, and unsupported beams. */
+/* Singular matrices of every kind, and beams without supports. */
 
 static status outcome_of(const sparse *s, fault *f)
 {
@@ -302,7 +305,7 @@ static void small_singular_matrices(void)
     matrices_free(&s);
 }
 
-/* A beam of n elements with `held` unknowns of its first node held. */
+/* Factors a beam of n elements whose first node has `held` unknowns held. */
 static status beam_outcome(int n, int held, int unsymmetric)
 {
     double k[16], g[16], m[16];
@@ -341,7 +344,7 @@ static void singular_matrix_tests(void)
     beams_that_are_not_held();
 }
 
-/* Threads that share a loop process every index once, whatever their number; there are thousands of
+/* Threads that share a loop process every index once, whatever their number. There are thousands of
  * rounds, and sleeping threads are woken. */
 
 enum { TEST_TEAM_MOST = 1000 };
@@ -399,7 +402,7 @@ static void no_more_than_there_is_room_for(int threads)
 enum { PIECES = 500 };
 
 typedef struct relay_log {
-    int held[TEAM_SLOTS], fills[PIECES], wrong, taken, last; /* last: number of the last piece */
+    int held[TEAM_SLOTS], fills[PIECES], wrong, taken, last; /* last: index of the last piece */
 } relay_log;
 
 static void write_piece(void *context, int piece, int slot)
@@ -417,8 +420,7 @@ static int read_piece(void *context, int piece, int slot)
 }
 
 /* Pieces are taken in order, each once, with their contents intact; none after the last requested
- * piece.
- */
+ * piece. */
 static void relays(int threads)
 {
     thread_team *t = NULL;
@@ -477,7 +479,7 @@ typedef struct triangular_problem {
     double L_value[FILL], D[TRIANGULAR_MOST], y[TRIANGULAR_MOST];
 } triangular_problem;
 
-/* Blocks of `size`, each coupled with a random other block, and a few random entries. */
+/* Fills blocks of `size`, each coupled with a random other block, and a few random entries. */
 static void fill(int n, int size, uint64_t *state, triangular_problem *p)
 {
     int linked[TRIANGULAR_MOST], entries = 0;
@@ -527,7 +529,7 @@ static void hold(const triangular_problem *p, const triangular_groups *g, const 
     const triangular_factors t = {p->n,  p->path, p->begin,   L_row,
                                   value, D,       g->columns, g->of_columns};
     const size_t entries = (size_t)p->begin[p->n];
-    for (int again = 0; again < 2; again++) /* its work space is unchanged */
+    for (int again = 0; again < 2; again++) /* leaves its workspace unchanged */
         gsl_test(!factor(&rows, p->value), "%s: no pivot is zero", name);
     gsl_test(memcmp(value, p->L_value, entries * sizeof *value) != 0, "%s: L of %d", name, p->n);
     gsl_test(memcmp(D, p->D, (size_t)p->n * sizeof *D) != 0, "%s: D of %d", name, p->n);
@@ -547,7 +549,7 @@ static void hold(const triangular_problem *p, const triangular_groups *g, const 
     }
 }
 
-/* All rows are in groups and all columns in runs; the rows of a block form a group. */
+/* All rows are in groups and all columns in runs. The rows of a block form a group. */
 static void whole(const triangular_problem *p, const triangular_groups *g, int size)
 {
     int columns = 0, largest = 0;

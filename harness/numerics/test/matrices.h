@@ -11,7 +11,7 @@
 #include "elements/test/kit.h"
 #include "harness/numerics/numerics.h"
 
-/* Sparse form of A[n x n]: nonzero entries, and the diagonal in any case. */
+/* Returns the sparse form of A[n x n], with the nonzero entries and all diagonal entries. */
 static inline sparse matrices_from_dense(int n, int symmetric, const double A[])
 {
     sparse s = {n, symmetric, calloc((size_t)n + 1, sizeof(int)), NULL, NULL, 0};
@@ -28,7 +28,8 @@ static inline sparse matrices_from_dense(int n, int symmetric, const double A[])
     return s;
 }
 
-/* Block tridiagonal, `nodes` blocks of `size` x `size`, upper triangle, zero. */
+/* Returns a block tridiagonal matrix of zeros with `nodes` blocks of `size` x `size`, upper
+ * triangle. */
 static inline sparse matrices_chain(int nodes, int size)
 {
     const int n = nodes * size;
@@ -44,7 +45,7 @@ static inline sparse matrices_chain(int nodes, int size)
     return s;
 }
 
-/* x^T A x */
+/* Returns x^T A x. */
 static inline double matrices_energy(const sparse *A, const double x[])
 {
     double *y = malloc((size_t)A->n * sizeof *y);
@@ -62,7 +63,7 @@ static inline void matrices_free(sparse *s)
     memset(s, 0, sizeof *s);
 }
 
-/* The same matrix with all entries stored. */
+/* Returns the same matrix with all entries stored. */
 static inline sparse matrices_both_triangles(const sparse *a)
 {
     const int n = a->n;
@@ -80,8 +81,8 @@ static inline sparse matrices_both_triangles(const sparse *a)
         s.column[j + 1] += s.column[j];
         next[j] = s.column[j];
     }
-    /* Column j's upper part is complete before a later column adds to its lower part: rows
-     * ascend. */
+    /* The upper part of column j is complete before a later column adds to its lower part, because
+     * rows ascend. */
     for (int j = 0; j < n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             const int i = a->row[k];
@@ -118,8 +119,9 @@ static inline void matrices_add_elements(sparse *s, int elements, int size, int 
             }
 }
 
-/* Shear-rigid beam element of length h in a plane, EI = 1: stiffness, geometric stiffness at unit
- * compression (its negative) and mass per unit length 1; unknowns w and the slope at both ends. */
+/* Computes the matrices of a shear-rigid plane beam element of length h with EI = 1: the stiffness,
+ * minus the geometric stiffness at unit compression, and the mass matrix for a mass per length of
+ * 1. The unknowns are w and the slope at both ends. */
 static inline void matrices_beam(double h, double stiffness[16], double compression[16],
                                  double mass[16])
 {

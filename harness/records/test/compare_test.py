@@ -1,4 +1,5 @@
-"""beamwork compare: exit status as for diff, changes are called better or worse, and nothing in a file is trusted."""
+"""beamwork compare: the exit status is as for diff, changes are called better or worse, and all contents of a file are
+checked."""
 import unittest
 
 from harness.records.test.stored import altered, replace, table_of, verify
@@ -8,7 +9,7 @@ TABLES = "cases/warping_torsion"
 
 
 def of_cell(table):
-    """Selects the rows of a table that belong to one cell."""
+    """Returns which rows of a table belong to one cell."""
     return (table["point"] == b"default") & (table["formulation"] == b"beamw") & (table["elements"]
                                                                                   == 4)
 
@@ -65,7 +66,7 @@ class Compare(ProgramTest):
             self.assertIn("0 worse, 0 better, 0 changed, 0 gone, 0 new", done.stdout)
 
     def test_lost_value(self):
-        """Losing a value is worse, gaining one is better; the same applies to quantities."""
+        """A lost value is worse, and a gained value is better; the same applies to quantities."""
 
         def lose(file):
 
@@ -167,8 +168,8 @@ class Compare(ProgramTest):
         self.assertRegex(done.stdout, r"(?m)^new      warping_torsion/default/beamw n=4: other$")
 
     def test_near_zero(self):
-        """A value without a reference value counts as changed beyond the floor relative to its size, or to near_zero
-        if it may vanish."""
+        """A value without a reference value counts as changed if the change exceeds the floor, relative to the size of
+        the value, or to near_zero if the value may vanish."""
 
         def without_truth(near_zero):
 

@@ -46,7 +46,7 @@ static void fill_path(fields_bench *b)
         b->iteration[i].correction = i + 1;
 }
 
-/* Errors of 0.4, 0.04, ...: each mesh is the first within the next level. */
+/* Makes meshes with errors of 0.4, 0.04, ..., each of which is the first within the next level. */
 static void make(fields_bench *b)
 {
     memset(b, 0, sizeof *b);
@@ -96,7 +96,7 @@ static void make(fields_bench *b)
     b->j = (judgement){.verdicts = 1, .verdict = &b->v};
 }
 
-/* Number k of a field of a record; NAN: the field does not exist. */
+/* Returns number k of a field of a record; NAN: the field does not exist. */
 static double number_of(const record_type *type, const subject *s, const char *name, int k)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -175,7 +175,7 @@ static void paths(const gathering *g)
     gather_free(&list);
 }
 
-/* Curves of several meshes follow one another. */
+/* The curves of several meshes follow one another. */
 static void curves(const gathering *g)
 {
     subjects list = {0};
@@ -201,8 +201,8 @@ static void errors(const gathering *g)
     gather_free(&list);
 }
 
-/* Times of every round are stored, for the cell as it is and with all coordinates kept; none if
- * nothing was timed. */
+/* The times of every round are stored, for the cell as it is and with all coordinates kept; none
+ * are stored if nothing was timed. */
 static void timings(void)
 {
     cell_timing t = {.as_is = {.setup = 1, .solve = 2, .rounds = ROUNDS_COUNT},
@@ -283,8 +283,7 @@ static void fields_tests(void)
 }
 
 /* The concluding line of a convergence table: order, ties, excluded formulations, and formulations
- * without their own cost coefficients.
- */
+ * without their own cost coefficients. */
 
 enum { LINE_MESHES = 5, SERIES = 4 };
 static const parameter_type parameter[] = {{.name = NULL}};
@@ -304,8 +303,8 @@ typedef struct reach_line_bench {
     truths t;
 } reach_line_bench;
 
-/* Adds a series with values limit (1 + 0.1 n^-2), and `work` evaluations on the coarsest mesh,
- * doubled on each finer one. */
+/* Adds a series with values limit (1 + 0.1 n^-2), and `work` evaluations on the coarsest mesh;
+ * their number doubles on each finer mesh. */
 static void add(reach_line_bench *b, double limit, long work)
 {
     const int i = b->s.seriess++;
@@ -322,8 +321,8 @@ static void add(reach_line_bench *b, double limit, long work)
     }
 }
 
-/* Three series agree, with the work of the second `times` that of the first; the fourth does not
- * agree. */
+/* Makes three series that agree, with the work of the second `times` that of the first, and a
+ * fourth that does not agree. */
 static void line_make(reach_line_bench *b, double times)
 {
     fault f;
@@ -374,7 +373,7 @@ static void finish(reach_line_bench *b)
     scene_free(&b->p.scene);
 }
 
-/* The line without its costs. */
+/* Writes the line without its costs. */
 static void line_of(const reach_line_bench *b, double level, char out[1000])
 {
     char *text = NULL;

@@ -28,7 +28,7 @@ QUICK = " and ".join(f"not {word}" for word in ("_motion", "leaf_guide", "flight
 
 
 def small_files():
-    """In the child: limits files to 2000 bytes, as on a full disk."""
+    """Limits files to 2000 bytes, as on a full disk, in the child process."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
 
@@ -43,7 +43,7 @@ class Folder(ProgramTest):
 
 class Complete(Folder):
     def test_full_disk(self):
-        """Each kind of file on a full disk: one line, exit status 4, and the previous file is unchanged."""
+        """On a full disk, each kind of file leads to one line and exit status 4, and the previous file is unchanged."""
         wanted = {"-o": "r.h5", "--json": "v.json", "--junit": "j.xml"}
         for option, name in wanted.items():
             pathlib.Path(self.path(name)).write_bytes(b"before")
@@ -54,7 +54,7 @@ class Complete(Folder):
         self.assertEqual(sorted(os.listdir(self.folder)), sorted(wanted.values()))
 
     def test_killed(self):
-        """Whenever a run is killed, its file is complete or absent: before the work, during writing, and after it."""
+        """Whenever a run is killed (before the work, during writing, or after it), its file is complete or absent."""
         run(*SELECTION, "-o", self.path("whole.h5"))
         whole = os.path.getsize(self.path("whole.h5"))
         for look in range(24):
@@ -88,7 +88,7 @@ class Interrupted(Folder):
     """After a request to end (Ctrl-C, SIGTERM) the results so far are stored under names that mark them as partial."""
 
     def started(self, cells, *arguments):
-        """Returns a run that has solved this number of cells, according to its terminal output."""
+        """Returns a run that, according to its terminal output, has solved this number of cells."""
         terminal, end = pty.openpty()
         self.addCleanup(os.close, terminal)
         process = subprocess.Popen([PROGRAM, "verify", *arguments], stdout=subprocess.PIPE,
@@ -124,7 +124,7 @@ class Interrupted(Folder):
             os.remove(self.path(name))
 
     def check_content(self, summary):
-        """Values agree with those of an uninterrupted run; limits lack the noise, which is measured last."""
+        """Checks that values agree with those of an uninterrupted run; limits lack the noise, which is measured last."""
         self.assertGreater(summary["unfinished_cells"], 0)
         self.assertGreater(len(summary["verdicts"]), 0)
         with h5py.File(self.path("r.partial.h5")) as file:
@@ -241,7 +241,7 @@ class Readable(Folder):
 
 class Gate(Folder):
     def altered(self, change):
-        """Returns exit status and output of a run of one case with a changed copy of the reference values."""
+        """Returns the exit status and the output of a run of one case with a changed copy of the reference values."""
         pathlib.Path(self.path("t.h5")).write_bytes(pathlib.Path(TRUTHS).read_bytes())
         with h5py.File(self.path("t.h5"), "r+") as file:
             change(file)

@@ -1,5 +1,5 @@
 /* JUnit: well-formed XML whose header counts its elements, for every kind of verdict, expected or
- * not, and any mixture of other failures of a run. */
+ * not, and for any mixture of other failures of a run. */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -15,14 +15,14 @@
 
 enum { DEEPEST = 8, NAME = 32, HEADER = 3 };
 
-/* Contents according to an XML reader. */
+/* Contents of a document according to an XML reader. */
 typedef struct tree {
-    int bad;                                     /* not well-formed */
-    int tests, failures, skipped, both, outside; /* both: a test that has failed and was skipped */
-    int header[HEADER];                          /* tests, failures, skipped of the suite */
+    int bad;                                     /* 1: the document is not well-formed */
+    int tests, failures, skipped, both, outside; /* both: failed and skipped */
+    int header[HEADER];                          /* tests, failures and skipped of the suite */
     int depth;
     char open[DEEPEST][NAME];
-    int marks; /* of the open test */
+    int marks; /* number of marks of the open test */
 } tree;
 
 static const char *const header_name[HEADER] = {"tests", "failures", "skipped"};
@@ -39,8 +39,8 @@ static void see_start(tree *t, const char *name)
     t->both += (failure || skip) && t->marks > 1;
 }
 
-/* Reads the attributes of a start tag: name="value", without raw < or &, no name twice. Returns the
- * position after them. */
+/* Reads the attributes of a start tag: name="value" without raw < or &, and no name twice. Returns
+ * the position after them. */
 static const char *read_attributes(tree *t, const char *at, int is_suite)
 {
     char names[400] = " ";
@@ -141,7 +141,8 @@ static void bench_make(junit_bench *b)
     b->j.agreement = b->a;
 }
 
-/* Counts as in the evaluation (harness/study): the sums that the other reports show. */
+/* Adds a verdict and counts it as in the evaluation (harness/study), whose sums the other reports
+ * show. */
 static void add_verdict(junit_bench *b, verdict_kind kind, int matches)
 {
     verdict *v = &b->v[b->j.verdicts++];
@@ -234,7 +235,7 @@ static void mixtures(void)
     }
 }
 
-/* Tests the reader itself: it must detect errors. */
+/* Tests the reader itself, which must detect errors. */
 static void reader(void)
 {
     static const char head[] = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
@@ -361,7 +362,7 @@ static void csv_tests(void)
 
 /* Outlines at both ends of a tapered member: walls and corners correspond. */
 
-/* High at one end, wide at the other: corners stay in their quadrants. */
+/* A section that is high at one end and wide at the other: its corners stay in their quadrants. */
 static void rectangles(void)
 {
     const section_spec high = section_spec_rectangle(2e11, 8e10, 0.1, 0.2),
@@ -410,10 +411,9 @@ static void outline_tests(void)
     matrices();
 }
 
-/* Targets of paths: links, the same target under many names, and invalid targets for an output.
- */
+/* Targets of paths: links, the same target under many names, and invalid targets for an output. */
 
-/* The target of a link is replaced, not the link: in the same folder, in another one, through
+/* The target of a link is replaced, not the link: in the same folder, in another folder, through
  * several links, and if the target does not exist. */
 static void links(void)
 {
@@ -470,7 +470,8 @@ static void no_places(void)
     folder_remove(&of);
 }
 
-/* One target under many names: other spellings, links, hard links; files that do not exist yet. */
+/* One target under many names: other spellings, links and hard links, also for files that do not
+ * exist yet. */
 static void same_places(void)
 {
     const test_folder of = folder_make();

@@ -18,7 +18,8 @@ FORMULATIONS = ("beamw_first", "beamw", "beamw_vlasov", "beamw_consistent", "she
                 "sheet_second_consistent", "sheet_third", "sheet_third_printed",
                 "geometrically_exact", "geometrically_exact:nodes=3", "collocation")
 
-# Stocky, so that matrices have twelve digits; rigid in shear, so that every formulation supports it.
+# Stocky, so that the matrices have twelve digits; rigid in shear, so that every formulation
+# supports it.
 BAR = """beamwork: 1
 sections:
   bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8,
@@ -71,14 +72,14 @@ members:
 
 
 def scaled(K, *others):
-    """Scales all matrices by the roots of K's diagonal, for rows in metres and in radians."""
+    """Scales all matrices by the square roots of K's diagonal, because rows are in metres and in radians."""
     d = 1 / numpy.sqrt(numpy.diag(K))
     return [A * d[:, None] * d for A in (K, *others)]
 
 
 def frequencies(K, M, inside=None):
-    """Frequencies [Hz] of K x = omega^2 M x, ascending; M may be singular. With `inside`, each mode satisfies x.K
-    x = omega^2 x.M x + omega^4 x.inside x."""
+    """Returns the frequencies [Hz] of K x = omega^2 M x, ascending; M may be singular. With `inside`, each mode
+    satisfies x.K x = omega^2 x.M x + omega^4 x.inside x."""
     K, M, inside = scaled(K, M, 0*K if inside is None else inside)
     mu, x = scipy.linalg.eigh(M, K)
     mu, x = mu[mu > 1e-14 * mu[-1]], x[:, mu > 1e-14 * mu[-1]]
@@ -87,8 +88,8 @@ def frequencies(K, M, inside=None):
 
 
 def turning_frequencies(K, M, G):
-    """Frequencies [Hz] of (K + i omega G - omega^2 M) x = 0, which is Hermitian in 1/omega with K = L L^T and M =
-    R^T R."""
+    """Returns the frequencies [Hz] of (K + i omega G - omega^2 M) x = 0, which is Hermitian in 1/omega with K = L L^T
+    and M = R^T R."""
     K, M, G = scaled(K, M, G)
     L = scipy.linalg.cholesky(K, lower=True)
     size, vectors = scipy.linalg.eigh(M)
@@ -142,8 +143,8 @@ class Matrices(ProgramTest):
 class Frequencies(Matrices):
 
     def test_loaded(self):
-        """At rest, prestressed, and bent by a quarter of its length, with a rigid body; at rest the frequencies also
-        include the internal motions of elements."""
+        """The matrices are checked at rest, prestressed, and bent by a quarter of the length, with a rigid body; at
+        rest the frequencies also include the internal motions of elements."""
         checked = with_inside = 0
         for formulation in FORMULATIONS:
             folder, values = self.solved(LOADED, formulation)
@@ -205,7 +206,7 @@ class Frequencies(Matrices):
         self.assertLess(abs(tip[0] / values["uz"] - 1), 1e-11)
 
     def test_turning(self):
-        """In a rotating frame: two stations, the last with the frequencies."""
+        """In a rotating frame there are matrices for two stations, the last of which has the frequencies."""
         checked = 0
         for formulation in FORMULATIONS:
             folder, values = self.solved(TURNING, formulation)
@@ -221,7 +222,7 @@ class Frequencies(Matrices):
         self.assertEqual(checked, len(FORMULATIONS))
 
     def test_newton(self):
-        """Each form of Newton's method: the same matrices to round-off."""
+        """Each form of Newton's method gives the same matrices to round-off."""
         scene = BAR + "analyses:\n  path: {static: {stations: [1]}}\n"
         K = self.read(self.solve(scene, "collocation"), "path_station_0", "K")
         for newton in ("displacement", "dense"):
@@ -258,7 +259,7 @@ FOLLOWING = "loads:\n  p: {force: [-5, 5, 8], on: tip, follower: true}\n"
 
 
 def responses(*choices):
-    """Real and imaginary curves of (output, input) texts."""
+    """Returns the real and imaginary curves of (output, input) texts."""
     return "".join(f"  {part}_{i}: {{response: {{analysis: steady, {choice}, part: {part}, take: curve}}}}\n"
                    for i, choice in enumerate(choices) for part in ("real", "imaginary"))
 
@@ -269,10 +270,10 @@ ALL = responses(*(f"node: tip, component: uy, of: {of}, {by}" for of in ("displa
 
 
 class StateSpace(Matrices):
-    """x' = A x + B u, y = C x + D u against the harmonic analysis."""
+    """x' = A x + B u, y = C x + D u compared with the harmonic analysis."""
 
     def transfer(self, folder, state, hertz, of_motions=True):
-        """Transfer matrix [outputs x inputs], for motions instead of their accelerations."""
+        """Returns the transfer matrix [outputs x inputs], for motions instead of their accelerations."""
         A, B, C, D = (self.read(folder, f"{state}/state_space", letter)
                       if (folder/state/"state_space"/f"{letter}.mtx").exists() else 0 for letter in "ABCD")
         s = 2j*numpy.pi*hertz
@@ -288,7 +289,7 @@ class StateSpace(Matrices):
         return ((L[0] + s*L[1] + s*s*L[2]) @ numpy.linalg.solve(K + s*C + s*s*M, B) + L[3])*moved
 
     def compare(self, scene, formulation, n=2, within=1e-8):
-        """Compares every response of the scene; returns the folder and the values."""
+        """Compares every response of the scene, and returns the folder and the values."""
         shutil.rmtree(self.folder/formulation.replace(":", "_"), ignore_errors=True)
         folder = self.solve(scene, formulation, "--state-space", n=n)
         if folder is None:
@@ -316,8 +317,8 @@ class StateSpace(Matrices):
         return folder, {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_responses(self):
-        """At rest with a mass and dashpots, about a bent state, with a follower load, with all kinds of damping; the
-        poles are the damped modes."""
+        """Responses agree at rest with a mass and dashpots, about a bent state, with a follower load, and with all
+        kinds of damping; the poles are the damped modes."""
         bent = "  path: {static: {stations: [1]}}\n"
         checked = 0
         for formulation in FORMULATIONS:
@@ -339,7 +340,7 @@ class StateSpace(Matrices):
         self.assertGreater(checked, len(FORMULATIONS))
 
     def test_free(self):
-        """A free structure: six rigid-body modes with poles at zero, and no poles in the right half-plane."""
+        """A free structure has six rigid-body modes with poles at zero, and no poles in the right half-plane."""
         scene = BENT.replace("stiffness: [100, 200, 50, 1, 2, 3], ", "").replace("  modes: {modal: {damped: yes%s}}\n", "%.0s") % (
             2700, "mass: 0.3, inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]", "", "", "", "",
             "", responses("node: tip, component: uy, force: mid, along: uz"))
@@ -350,8 +351,8 @@ class StateSpace(Matrices):
         self.assertLess(max(poles.real), 1e-3)
 
     def test_without_mass(self):
-        """Massless coordinates: damped ones are of first order, others are eliminated; an output rate that follows
-        its force instantaneously is rejected."""
+        """Massless coordinates with damping are of first order, others are eliminated; an output rate that follows its
+        force instantaneously is rejected."""
         scene = BENT.replace("  modes: {modal: {damped: yes%s}}\n", "%.0s")
         scene = scene[:scene.index("  f_$n")] + scene[scene.index("mass: lumped"):]
         holds = (0, SHAKEN, "", "", "", "", "")
@@ -368,7 +369,7 @@ class StateSpace(Matrices):
                      "-f", "beamw", "-n", 2, "--matrices", self.folder/"none", "--state-space", silent=False)
 
     def test_turning(self):
-        """In a rotating frame: the frequencies of the rotation."""
+        """In a rotating frame the frequencies are those of the rotation."""
         folder, values = self.solved(TURNING, "collocation", n=2)
         folder = self.folder/"with"
         self.answered("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 2, "--matrices", folder,
@@ -378,7 +379,7 @@ class StateSpace(Matrices):
         self.agree(values, "turning", found, "poles", 1e-10)
 
     def test_reduced(self):
-        """Craig-Bampton and modal reduction against the same basis from scipy; errors.csv contains their errors."""
+        """Craig-Bampton and modal reduction agree with the same basis from scipy; errors.csv contains their errors."""
         choices = ("node: tip, component: uy, force: tip, along: uy", "node: tip, component: rx, of: velocity, drive: shake",
                    "node: root, component: uy, of: reaction, force: tip, along: uz",
                    "node: root, component: uy, of: reaction, drive: shake")
@@ -413,7 +414,7 @@ class StateSpace(Matrices):
             exact = frequencies(K[:n, :n], M[:n, :n])[:6]
             for error, one, other in zip(errors, exact, found):
                 self.assertLess(abs(float(error["whole"]) - one) + abs(float(error["reduced"]) - other), 1e-8*one)
-                self.assertGreater(other/one, 1 - 1e-10) # Rayleigh-Ritz: upper bounds
+                self.assertGreater(other/one, 1 - 1e-10) # Rayleigh-Ritz values are upper bounds
             self.assertLess(max(found/exact), 1.01 if nodes else 1 + 1e-10)
             H, h = (numpy.array([self.transfer(folder, state, hertz, False) for hertz in (3, 11, 60)])
                     for state in ("steady", "steady/reduced"))
@@ -457,7 +458,7 @@ quantities: {r: {response: {analysis: ha, node: mid, component: uy, force: tip, 
                     self.refused(1, [f"--reduce {modes}{nodes}: {words}"], *work, silent=False)
 
     def test_feedback(self):
-        """The feedback loop is open, which is stated in a line and in the files."""
+        """The feedback loop is open, which one line and the files state."""
         scene = BAR + """  motor: {force: [1, 0, 0], on: tip, feedback: {node: tip, component: uz, proportional: 3}}
 analyses: {run: {motion: {stations: 0..1e-3, step: 1e-3}}}
 quantities: {uz: {displacement: {analysis: run, node: tip, component: uz}, unit: m}}
@@ -510,7 +511,7 @@ class Contents(Matrices):
         self.assertGreater(numpy.abs(K - K.T).max(), 1e-6 * numpy.abs(K).max())
 
     def test_rows(self):
-        """Nodes, interior nodes, released ends, angles of a sequence and warping amplitudes."""
+        """Rows are nodes, interior nodes, released ends, angles of a sequence and warping amplitudes."""
         folder = self.solve(PORTAL, "beamw_consistent")
         rows = self.rows(folder)
         count = {}
@@ -549,7 +550,7 @@ class Places(Matrices):
         self.assertEqual(os.listdir(there), ["mine"])
 
     def test_empty_folder(self):
-        """An empty folder is accepted, also through a link and with a trailing slash."""
+        """An empty folder is accepted, even through a link and with a trailing slash."""
         there, link = self.folder / "there", self.folder / "link"
         there.mkdir()
         link.symlink_to("there")

@@ -13,7 +13,7 @@
 #include "harness/records/records_impl.h"
 #include "harness/records/test/folder.h"
 
-/* Can the complete file be read? */
+/* Returns 1 if the complete file can be read. */
 static int readable(const char *path, int count)
 {
     hsize_t size = 0;
@@ -59,7 +59,7 @@ static void write_failures(void)
     struct rlimit kept, small;
     getrlimit(RLIMIT_FSIZE, &kept);
     small = kept;
-    small.rlim_cur = 1000; /* [bytes], less than a compressed file needs: simulates a full disk */
+    small.rlim_cur = 1000; /* [bytes]; a compressed file needs more, as on a full disk */
     signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
     write_record(path, folder, 0, "no room");
@@ -85,7 +85,7 @@ static void write_word(FILE *to, const void *word)
     fputs(word, to);
 }
 
-/* Incomplete files of this process are deleted; complete ones remain. */
+/* Incomplete files of this process are deleted, and complete ones remain. */
 static void abandoned(void)
 {
     const test_folder of = folder_make();

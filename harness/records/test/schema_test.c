@@ -1,5 +1,5 @@
-/* The tables of fields are well formed, and every stored field survives the pipe between processes.
- */
+/* The tables of fields are well formed, and every stored field is transferred unchanged between
+ * processes. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -44,7 +44,7 @@ static void well_formed(const record_type *type)
     }
 }
 
-/* Parameters are columns of the points too. */
+/* Parameters are also columns of the points. */
 static void parameters_differ(const case_type *type)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -100,7 +100,8 @@ static void all_same(const record_type *type, const void *a, const void *b)
                      list[i]->name);
 }
 
-/* One record of each kind in a cell, with distinct values, including matrices and curves. */
+/* Transfers one record of each kind in a cell, with distinct values, including matrices and
+ * curves. */
 static void pipe_carries_all(void)
 {
     double x[2] = {1, 2}, y[2] = {3, 4}, path = 5, compliance[36], stiffness[36];
@@ -168,7 +169,7 @@ static void schema_tests(void)
     pipe_carries_all();
 }
 
-/* The summary for a pull request: differences are in a table, which no text can break. */
+/* The summary for a pull request contains the differences in a table, which no text can break. */
 
 static const case_type type = {.name = "case_of_test"};
 

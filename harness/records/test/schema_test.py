@@ -89,7 +89,7 @@ class Schema(ProgramTest):
         self.assertEqual(stages[:3], ["stages", "3|4|5|6|7|8", "5"])
 
     def test_every_table_is_seen(self):
-        """The tables used by the other tests are not empty."""
+        """The tables that the other tests use are not empty."""
         with h5py.File(self.results) as file:
             for table in self.records:
                 if table not in (*JSON_ONLY, *OF_THE_RUN, "timings", "agreements", "matrices", "imports", "assumptions"):
@@ -221,7 +221,7 @@ class Schema(ProgramTest):
             self.assertEqual(head, names + ["omitted", "assumed"] * (verb == "solve"))
 
     def test_experiments(self):
-        """Groups and JSON of the experiments have exactly the described tables."""
+        """The groups and the JSON of the experiments have exactly the described tables."""
         path = self.folder / "results.h5"
         csv_of = {"stress": "outcomes", "motion": "runs"}
         for verb, *asked in (("stress", "-k", "thin", "-f", "sheet_third"),

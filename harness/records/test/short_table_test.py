@@ -1,4 +1,4 @@
-"""The short table of a run: a change in any position is detected, and nothing in it is trusted."""
+"""The short table of a run: a change in any position is detected, and all contents are checked."""
 import csv
 import unittest
 
@@ -41,16 +41,16 @@ class ShortTable(ProgramTest):
         altered(self.old, self.new, lambda file: change_rows(file, table, change))
         done = run("compare", former or self.table, self.new)
         self.assertIn(done.returncode, (0, 1), done)
-        return done.stdout.splitlines()[:-2]  # the last two: the sums
+        return done.stdout.splitlines()[:-2]  # the last two lines are the sums
 
     def expect(self, planted, lines, words):
-        """Expects one line or more with the words for each planted name, and for no other."""
+        """Expects at least one line with the words for each changed name, and for no other."""
         self.assertEqual({line.split()[1].rstrip(":") for line in lines}, set(planted), lines)
         for word in words:
             self.assertTrue(all(word in line for line in lines), lines)
 
     def plant(self, table, allowed, alter, words):
-        """Applies alter(rows, i) to the k-th row of every series, for every k; returns the number of changes."""
+        """Applies alter(rows, i) to the k-th row of every series, for every k, and returns the number of changes."""
         total = 0
         for k in range(1000):
             planted = []
@@ -200,7 +200,7 @@ class ShortTable(ProgramTest):
             self.assertEqual(row["limits"] != "", "/default/" in row["series"], row)
 
     def test_missing(self):
-        """Detects rows missing on either side."""
+        """Detects rows that are missing on either side."""
         lines = self.text.splitlines(keepends=True)
         self.bad.write_text("".join(lines[:2] + lines[3:]), encoding="utf-8")
         for pair, word in (((self.table, self.bad), "gone"), ((self.bad, self.old), "new")):

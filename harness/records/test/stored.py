@@ -1,4 +1,4 @@
-"""Stored runs for tests: produced by verify, changed in one place, compared."""
+"""Stored runs for tests, which are produced by verify, changed in one place, and compared."""
 import contextlib
 import math
 import shutil
@@ -50,7 +50,7 @@ def replace(group, name, rows):
 
 
 def of_dtype(values):
-    """Returns a column of texts, flags or numbers; absent numbers are None."""
+    """Converts a column of texts, flags or numbers; absent numbers become None."""
     if isinstance(values[0], str):
         return numpy.array([value.encode() for value in values] or [b""])
     return numpy.array([math.nan if value is None else value for value in values])

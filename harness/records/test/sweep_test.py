@@ -92,8 +92,8 @@ class Sweeps(ProgramTest):
         self.assertRegex("\n".join(lines), r"^changed  elastica/load=0.5/reference: theta .* -> .*$")
 
     def test_points(self):
-        """Points of a different range, in a different order, with a parameter fixed or varied, or with numbers that
-        round differently are matched."""
+        """Points are matched if they come from a different range or in a different order, if a parameter is fixed or
+        varied, or if numbers round differently."""
         one = sweep(self.folder / "one.h5", "elastica", "--vary", "load=0.1..0.4/3", "-s", "axial=1e6", *OPTIONS)
         two = sweep(self.folder / "two.h5", "elastica", "--vary", "axial=1e7,1e6", "--vary", "load=0.3,0.2,0.7", *OPTIONS)
         with group_of(one) as file:
@@ -107,7 +107,8 @@ class Sweeps(ProgramTest):
         self.refused(2, "nothing was compared", "compare", self.old, one, silent=False)
 
     def test_formulations_and_meshes(self):
-        """There is one line for each, whatever the number of points; the references come from other formulations."""
+        """There is one line for each formulation or mesh, whatever the number of points; the references come from other
+        formulations."""
         new = sweep(self.new, "elastica", "--vary", "load=0.5..2/3", "-f", "sheet_third", "-f", "collocation", "-n", "1,4,8")
         lines, _ = self.compared(1, new)
         self.assertEqual(sorted(line for line in lines if "gone" in line or "new" in line),
@@ -153,7 +154,8 @@ class Sweeps(ProgramTest):
                      altered_sweep(self.old, self.new, lambda file: file.attrs.modify("beamwork_sweep", 7)))
 
 
-# compare of a partial run: unrequested series are counted, requested series without results are missing.
+# compare of a partial run: series that were not requested are counted; requested series without
+# results are missing.
 CASE = "warping_torsion"
 SCENE = ROOT / "cases" / "examples" / "euler_column.yaml"
 
@@ -180,7 +182,7 @@ class Part(ProgramTest):
         folder = cls.class_folder()
         cls.whole, cls.table = folder / "whole.h5", folder / "whole.csv"
         verify(f"{CASE}/default or elastica/default or c_column/default", cls.whole)
-        with h5py.File(cls.whole) as file:  # as a complete run
+        with h5py.File(cls.whole) as file:  # like a complete run
             cls.series = sum(len({(r["point"], r["formulation"]) for r in group["cells"][()]})
                              for group in file["cases"].values())
         cls.whole = altered(cls.whole, folder / "all.h5", lambda f: f.attrs.pop("selection"))
@@ -219,7 +221,7 @@ class Part(ProgramTest):
         self.compared(new, 0, f"2 series of {new} are outside the selection of ")
 
     def test_a_scene(self):
-        """A run of one scene against a run of all cases and that scene."""
+        """A run of one scene is compared with a run of all cases and that scene."""
         old, new = self.folder / "o.h5", self.folder / "n.h5"
         self.answered("verify", "--built-in", "--scene", SCENE, "-o", old, "-k",
                       "euler_column or elastica/default")
@@ -228,7 +230,7 @@ class Part(ProgramTest):
             old, self.folder / "all.h5", lambda f: f.attrs.pop("selection")))
 
     def test_quantities(self):
-        """Limits of selected quantities are compared; those of the others do not count as missing."""
+        """Limits of selected quantities are compared; those of other quantities do not count as missing."""
         new = verify("c_column/default and buckling_load", self.folder / "n.h5")
         self.compared(new, 0, " 0 gone, 0 new")
         done = self.answered("compare", self.table, new)
@@ -255,7 +257,7 @@ class Part(ProgramTest):
                 self.assertIn(f"gone     {CASE}/default/beamw", done.stdout)
 
     def test_new_formulations_are_told(self):
-        """A formulation in one run only is a change, unless it is new."""
+        """A formulation that exists in one run only is a change, unless it is new."""
         old = altered(self.whole, self.folder / "o.h5", lambda file: without(file, "beamw"))
         for new in (False, True):
             run_of = altered(self.whole, self.folder / "n.h5",

@@ -70,7 +70,8 @@ static int count(const char *text, const char *word)
     return n;
 }
 
-/* Any number of columns with long and short names fits, in several blocks if necessary. */
+/* Any number of columns with long and short names fits on the screen, in several blocks if
+ * necessary. */
 static void widths(void)
 {
     static const char *const names[] = {"a", "geometrically_exact",
@@ -94,7 +95,7 @@ static void widths(void)
         }
 }
 
-/* One block: the header shows each name in full, divided only within long words. */
+/* In one block, the header shows each name in full, divided only within long words. */
 static void heads(void)
 {
     static table_bench b;
@@ -120,14 +121,14 @@ static void new_ones(void)
     free(text);
 }
 
-/* If there are many cases, those that pass share lines; the others never do. */
+/* If there are many cases, those that pass share lines; other cases never do. */
 static void passing(void)
 {
     static table_bench b;
     make(&b, MOST, 4, "beam");
     b.cell[4 * 7 + 2] = (overview_cell){OVERVIEW_UNDECIDED, 0, 3};
     b.cell[4 * 9 + 1] = (overview_cell){OVERVIEW_BIASED, 1, 2};
-    for (int c = 0; c < 4; c++) /* its passes are not in a sentence about passing cases */
+    for (int c = 0; c < 4; c++) /* its passes are not in the sentence about passing cases */
         b.cell[4 * 11 + c] =
             (overview_cell){c == 2 ? OVERVIEW_OTHER_MODEL : OVERVIEW_NOTHING, 0, 1};
     char *text = shown(&b, plain);
@@ -305,12 +306,12 @@ static void unexpected_tests(void)
     holds(&b, "\n 6. reference values of 2 unknown cases, the first: gone\n");
 }
 
-/* Stable ranges of a path, in words: runs of steps, for several analyses. */
+/* Describes the stable ranges of a path: runs of steps, for several analyses. */
 
 enum { STABILITY_MOST = 16 };
 
-/* A letter for each step: o open, d no divergence, s stable, u unstable, h held; paths 0.5, 1, ...
- */
+/* Checks the description of a path with a letter for each step: o open, d no divergence, s stable,
+ * u unstable, h held; the steps end at 0.5, 1, ... */
 static void is(const char *letters, scene_analysis_kind kind, const char *expected)
 {
     static const char letter[] = "odsugh";
