@@ -1,19 +1,19 @@
 """Finds the formulation and the number of elements that reach a tolerance at the lowest cost.
 
-The rule is that of harness/study/study.h: n is the coarsest mesh from which the error of every mesh is within the
-level; formulations are sorted by the cost of their counted work on that mesh, so that two runs give the same order;
-costs that differ by less than the uncertainty of the cost model tie; a formulation that does not pass in the requested
-quantity is never the cheapest, but is listed. The pages show measured times. They omit variants that give the same
-results as the formulation without the options.
+The rule is that of harness/study/study.h. n is the coarsest mesh for which the errors of that mesh and of all finer
+meshes are within the level. Formulations are sorted by the cost of their counted work on that mesh, so that two runs
+give the same order. Costs that differ by less than the uncertainty of the cost model tie. A formulation that does not
+pass in the requested quantity is listed but is never the cheapest. The pages show measured times. They omit variants
+that give the same results as the formulation without the options.
 
     found = answers.answer(point, quantity, level)    # quantity: a name, or ALL
-    found.best       [Way] the cheapest, and those whose costs tie with it; may be empty
-    `found.dearer`   [Way] the others that pass, by cost
-    found.defective  [Way] also within the level, but with a verdict other than pass, by cost
-    found.faster     [Way] of the more expensive ones: measured faster than the cheapest in every round
+    found.best       [Way] the cheapest formulation and those whose costs tie with it; may be empty
+    `found.dearer`   [Way] the other formulations that pass, by cost
+    found.defective  [Way] those within the level but with a verdict other than pass, by cost
+    found.faster     [Way] those of `dearer` that were measured faster than the cheapest in every round
     found.unranked   [Way] those that pass but have no rank (Way.unranked gives the reason), by name
-    found.missed     [key] not within the level on these meshes
-    found.unjudged   [key] without a reference value of their theory for all requested quantities
+    found.missed     [key] formulations that are not within the level on these meshes
+    found.unjudged   [key] formulations without a reference value of their theory for all requested quantities
 """
 import math
 from dataclasses import dataclass, field
@@ -28,16 +28,16 @@ LEVELS = tuple(data.REACH)
 
 @dataclass
 class Way:
-    """The coarsest mesh from which a formulation stays within a level."""
+    """The coarsest mesh for which a formulation is within a level on that mesh and on all finer meshes."""
     key: str
     n: int
     cost: float  # [s] of counted work, with the cost coefficients of the reference machine
-    clock: object  # data.Clock: measured
-    error: float  # the largest among the requested quantities on that mesh
-    worst: object  # data.Verdict: the worst of the verdicts on the requested quantities
+    clock: object  # data.Clock: measured time
+    error: float  # the largest error of the requested quantities on that mesh
+    worst: object  # data.Verdict: the worst verdict on the requested quantities
     defects: list  # the verdicts other than pass
     priced: bool = True  # the formulation has its own cost coefficients, not the general ones
-    unranked: str = ""  # reason why it has no rank; it then has no cost either
+    unranked: str = ""  # reason why the formulation has no rank and therefore no cost
 
     @property
     def seconds(self):
@@ -59,8 +59,8 @@ class Answer:
 
     @property
     def ways(self):
-        """Returns [(Way, rank, tie)] of all that are within the level; the rank is 0 for defective and unranked
-        ones."""
+        """Returns [(Way, rank, tie)] of all formulations within the level; the rank is 0 for defective and unranked
+        formulations."""
         ranked = self.best + self.dearer
         return [(w, i + 1, len(self.best) > 1 and i < len(self.best))
                 for i, w in enumerate(ranked)] + [(w, 0, False)
@@ -82,13 +82,14 @@ def verdict_of(series, quantity):
 
 
 def error_of(mesh, quantities):
-    """Returns the error of largest magnitude; NaN if one is missing."""
+    """Returns the largest magnitude of the errors of the quantities, or NaN if an error is missing."""
     errors = [mesh.errors.get(q, math.nan) for q in quantities]
     return math.nan if any(not math.isfinite(e) for e in errors) else max(errors, key=abs)
 
 
 def first_within(series, quantity, level):
-    """Returns the number of elements of the coarsest mesh from which every error is within the level, or None."""
+    """Returns the number of elements of the coarsest mesh for which its own error and those of all finer meshes are
+    within the level, or None if there is no such mesh."""
     found = None
     for mesh in reversed(series.meshes):
         if not abs(mesh.errors.get(quantity, math.nan)) <= level:
@@ -98,21 +99,23 @@ def first_within(series, quantity, level):
 
 
 def reach(series, v, level):
-    """Returns the same, as stored by the evaluation at its levels."""
+    """Returns the same number as first_within, but as stored by the evaluation for its levels."""
     if not math.isfinite(v.truth):
         return None
     return v.reach.get(level) if level in data.REACH else first_within(series, v.quantity, level)
 
 
 def verdicts_on(series, quantities):
-    """Returns the verdicts on all quantities, or None if one has no reference value of the formulation's theory."""
+    """Returns the verdicts on all quantities, or None if a quantity has no reference value of the formulation's
+    theory."""
     found = [verdict_of(series, q) for q in quantities]
     known = not series.missing and found and all(v and math.isfinite(v.truth) for v in found)
     return found if known else None
 
 
 def repeats(point, series, quantities):
-    """Does the variant have no effect: the same errors and the same work on every mesh as without its options?"""
+    """Returns whether the options of a variant have no effect: errors and work are the same on every mesh as without
+    the options."""
     name, colon, _ = series.key.partition(":")
     plain = next((s for s in point.series if colon and s.key == name and not s.missing), None)
 
@@ -123,8 +126,8 @@ def repeats(point, series, quantities):
 
 
 def way(series, quantities, level):
-    """Returns the coarsest mesh with which a formulation has all these quantities within the level, and its cost; or
-    None."""
+    """Returns the Way of a formulation: the coarsest mesh from which all these quantities are within the level, with
+    its cost; or None."""
     verdicts = verdicts_on(series, quantities)
     if verdicts is None:
         return None
@@ -146,7 +149,7 @@ def words_of(v):
 
 
 def defect_words(w):
-    """Describes the worst verdict of a way."""
+    """Describes the worst verdict of a Way."""
     return words_of(w.worst)
 
 
@@ -179,20 +182,21 @@ def answer(point, quantity, level):
 
 
 def faster(a, b):
-    """Were all rounds of one clock below all rounds of the other?"""
+    """Returns whether all rounds of clock a were faster than all rounds of clock b."""
     return a.repeats > 1 and b.repeats > 1 and a.most < b.least
 
 
 def differ(a, b):
-    """Do the times of two clocks differ by more than their noise? All rounds of one below all of the other; single
-    runs by a factor of two."""
+    """Returns whether two clocks differ by more than their noise: all rounds of one are below all rounds of the other,
+    or, for single runs, the times differ by a factor of two."""
     if a.repeats > 1 and b.repeats > 1:
         return a.most < b.least or b.most < a.least
     return max(a.least, b.least) > 2 * min(a.least, b.least)
 
 
 def front(point, quantity):
-    """Returns [(series, mesh)] that no ranked mesh beats in both time and error, sorted by time."""
+    """Returns [(series, mesh)] of the ranked meshes for which no other is better in both time and error, sorted by
+    time."""
     cells = [(s, m) for s in point.series if not s.missing and not s.other and not s.unranked
              for m in s.meshes
              if math.isfinite(m.errors.get(quantity, math.nan))]
@@ -246,5 +250,5 @@ def line_of_case(case):
 
 
 def lines_of_cases(cases):
-    """Returns a line for every case with a reference value at its defaults."""
+    """Returns a CaseLine for every case with a reference value at its defaults."""
     return [found for found in map(line_of_case, cases) if found]

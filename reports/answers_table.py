@@ -23,22 +23,22 @@ from reports.answers import LEVELS
 COLUMNS = ("case", "parameters", "quantity", "tolerance", "formulation", "n", "cost", "seconds",
            "error", "rank", "tie", "defect", "priced", "unranked")
 UNITS = {"cost": "s", "seconds": "s", "tolerance": "1", "error": "1"}
-ASKED = 4  # columns of the request; the others belong to each answer
+ASKED = 4  # number of columns of the request; the other columns belong to the answers
 
 
 def asked_of(point):
-    """Returns the requests at a point: all quantities together, if there are several, and each quantity."""
+    """Returns the requests at a point: all quantities together, if there are several, then each quantity."""
     names = answers.judged(point)
     return ([answers.ALL] if len(names) > 1 else []) + names
 
 
 def short(value):
-    """Returns a number with its significant digits, or None if it is not finite."""
+    """Returns a number rounded to its significant digits, or None if it is not finite."""
     return float(f"{value:.3g}") if math.isfinite(value) else None
 
 
 def rows(cases, levels=LEVELS, everywhere=False):
-    """Returns [{column: value}]; everywhere: at all parameter points, otherwise at the defaults."""
+    """Returns the rows [{column: value}] at the defaults or, with `everywhere`, at all parameter points."""
     out = []
     for case in cases:
         for point in case.points if everywhere else case.points[:1]:
@@ -62,8 +62,10 @@ def as_csv(found):
 
 
 def as_json(found, about):
-    """Returns one object: the run, the names and units of the columns, and a line for each question: case, parameters,
-    quantity, tolerance, then its answers as lists, each beginning with the index of its formulation."""
+    """Returns one JSON object: the run, the names and units of the columns, and an entry for each request. An entry
+    contains case, parameters, quantity and tolerance, then the answers as lists, each of which begins with the index
+    of its
+    formulation."""
     keys = sorted({row["formulation"] for row in found})
     head = {"commit": about.get("commit", ""), "clock": about.get("clock", ""),
             "asked": COLUMNS[:ASKED], "columns": COLUMNS[ASKED:], "units": UNITS,
@@ -78,7 +80,7 @@ def as_json(found, about):
 
 
 def sentence(answer):
-    """Returns an answer as text: the formulation with the lowest cost, ties, and those with a wrong limit."""
+    """Returns an answer as text: the formulation with the lowest cost, ties, and formulations with a wrong limit."""
     def told(ways):
         return ", ".join(f"{w.key} n = {w.n}" for w in ways)
 
@@ -149,13 +151,13 @@ if __name__ == "__main__":
     main()
 
 
-# Page of answers at a tolerance that the reader chooses, with the tables to download.
+# Page of answers for a tolerance that the reader selects, with the tables to download.
 
 NAVIGATION = [("answers.html", "answers")]
 
 
 def outward(value):
-    """Rounds up to six digits, so that no mesh appears more accurate than it is."""
+    """Returns an error rounded up to six digits, so that no mesh appears more accurate than it is."""
     if not math.isfinite(value):
         return None
     near = float(f"{value:.6g}")
@@ -165,7 +167,7 @@ def outward(value):
 
 
 def staying(series, quantities):
-    """Returns for each mesh the largest error of it and all finer meshes, or None if one has no value."""
+    """Returns for each mesh the largest error of this mesh and all finer meshes, or None if a value is missing."""
     out, worst = [], 0.0
     for mesh in reversed(series.meshes):
         worst = max([worst, *(abs(mesh.errors.get(q, math.nan)) for q in quantities)],
@@ -176,8 +178,8 @@ def staying(series, quantities):
 
 
 def points_of(case, keys):
-    """Returns the data of a case at its defaults for the script of the page: for each formulation its meshes with cost
-    and time, and for each requested quantity the error within which each mesh stays."""
+    """Returns the data of a case at its defaults for the script of the page: for each formulation, its meshes with
+    cost and time; for each requested quantity, the largest error of each mesh and all finer meshes."""
     point, meshes, asked = case.points[0], {}, []
     for series in point.series:
         if series.meshes:
@@ -206,13 +208,13 @@ def short_seconds(value):
 
 
 def defect_of(verdicts):
-    """Describes the worst verdict; empty if all pass."""
+    """Describes the worst verdict; returns an empty string if all pass."""
     bad = [v for v in verdicts if v.verdict not in answers.SOUND]
     return answers.words_of(answers.words.worst(bad)) if bad else ""
 
 
 def embedded(value):
-    """Returns JSON that can be embedded in a page: it contains no end of a script and no comment."""
+    """Returns JSON that can be embedded in a page because it contains neither the end of a script nor a comment."""
     text = json.dumps(value, separators=(",", ":"), allow_nan=False)
     return Markup(text.replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e"))
 

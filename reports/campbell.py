@@ -143,7 +143,8 @@ def draw_channel(site, look):
 
 
 def channel_rows(look):
-    """Returns [(rad/s, w, printed form with lumped mass, consistent form, its error, exact)]."""
+    """Returns [(angular velocity, w, printed form with lumped mass, consistent form, error of the latter, exact
+    value)]."""
     for speed in SPEEDS[1:]:
         for w in (0.25, 0.5, 1.0):
             at = channel_at(speed, w)
@@ -156,7 +157,8 @@ def channel_rows(look):
 
 
 def orders(look, parameters, quantities):
-    """Returns [(formulation, [(error of the finest mesh, order)])] at one point."""
+    """Yields (formulation, [(error of the finest mesh, order)]) at one point; the list has an entry for each
+    quantity."""
     point = look.points.get((CASE, canonical(parameters)))
     for series in point.series if point else []:
         found = [next((v for v in series.verdicts if v.quantity == q), None) for q in quantities]

@@ -15,7 +15,8 @@ from reports.verdicts import BY_NAME, UNJUDGED, percent, remarks
 
 @dataclass
 class Drawing:
-    """figure, sections: images of the site; sections is None if no section has a shape. lines: [(heading, lines)]."""
+    """The drawing of a scene. figure, sections: images of the site; sections is None if no section has a shape. lines:
+    [(heading, lines)]."""
     figure: object
     sections: object
     counts: str
@@ -40,7 +41,8 @@ MOST_DIGITS = 15
 
 @dataclass(frozen=True)
 class Truth:
-    """One reference value of a quantity, in its unit. of: the formulations to which it applies, if not all."""
+    """A reference value of a quantity, in the unit of the quantity. of: the formulations to which it applies, if not
+    all."""
     value: str
     digits: int
     kind: str
@@ -50,7 +52,7 @@ class Truth:
 
 @dataclass
 class Quantity:
-    """meaning: description of the quantity; truths: empty if it has no verdict."""
+    """A quantity of a point. meaning: its description; truths: its reference values, empty if it has no verdict."""
     name: str
     unit: str
     meaning: str
@@ -66,7 +68,7 @@ def digits_of(value, uncertainty):
 
 
 def truths_of(point, name):
-    """Returns the different reference values used in verdicts on formulations, each once."""
+    """Returns the distinct reference values of a quantity that are used in verdicts on formulations."""
     out = {}
     for series in point.series:
         v = answers.verdict_of(series, name)
@@ -115,7 +117,7 @@ def cell_of(series, name):
 
 
 def matrix(point):
-    """Returns (series, [(quantity, cells)]) with verdicts."""
+    """Returns (series, [(quantity, cells)]) of the formulations and quantities with verdicts."""
     names = answers.judged(point)
     shown = [s for s in point.series if any(cell_of(s, n).look != "skip" for n in names)]
     return shown, [(name, [cell_of(s, name) for s in shown]) for name in names]
@@ -133,8 +135,8 @@ def tally_of(point):
 
 NAVIGATION = [("convergence.html", "to print")]
 MOST_POINTS = 3  # parameter points with a figure
-MOST_PANELS = 6  # small figures of the other quantities, and of model errors
-# of verdicts on one page; if there are more, the other parameter points have their own pages
+MOST_PANELS = 6  # number of small figures of the other quantities, and of model errors
+# Number of verdicts on one page; if there are more, the other parameter points have separate pages.
 MOST_ROWS = 1500
 
 # Figures about the first quantity, and the formulations that they do not show.
@@ -158,7 +160,7 @@ def question_of(site, point, quantity, name):
 
 
 def told_of(point, quantity):
-    """Does any error of the quantity exceed round-off?"""
+    """Returns whether any error of the quantity exceeds round-off."""
     return any(e > plots.FLOOR for s in point.series for _, e in plots.finite(s, quantity))
 
 
@@ -200,8 +202,8 @@ def cost_of(cell):
 
 
 def table_of(point, quantity):
-    """Returns [(formulation, {level: (way, cost relative to the cheapest, tie)})]: what each formulation requires for
-    each level."""
+    """Returns [(formulation, {level: (way, cost relative to the cheapest, tie)})]: the mesh and cost that each
+    formulation needs for each level."""
     rows = {}
     for level in LEVELS:
         found = answers.answer(point, quantity, level)
@@ -229,8 +231,8 @@ def limits_of(point):
 
 
 def verdicts_of(point, index):
-    """Returns [(series, verdicts)] for the table: all verdicts at the first parameter point, and those other than pass
-    at the others."""
+    """Returns [(series, verdicts)] for the table: all verdicts at the first parameter point; at the other points, only
+    verdicts other than pass."""
     def told(v):
         own = v.verdict not in ("skip", "no truth", *(("pass",) if index else ()))
         return own or math.isfinite(v.model_truth) and v.verdict != "pass"
@@ -272,12 +274,12 @@ def rows_of(point):
 
 
 def own_pages(case):
-    """Do the other parameter points of the case have their own pages?"""
+    """Returns whether the other parameter points of the case have separate pages."""
     return sum(rows_of(p) for p in case.points[1:]) > MOST_ROWS
 
 
 def page_of(case, index):
-    """Returns the page and the place where a parameter point is shown."""
+    """Returns the page and the place on it where a parameter point is shown."""
     point = case.points[index]
     if index and own_pages(case):
         return f"{case.name}_{point.name}.html"

@@ -1,6 +1,7 @@
-"""Certificates: the properties that a paper should report about its element. For each formulation, they list the
-interface requirements one by one, uniform and linear states, locking and orders of convergence, from the results of
-`beamwork element-test`."""
+"""Certificates: the properties that a paper should report about its element. For each formulation, they contain the
+results of `beamwork element-test` for each interface requirement, for uniform and linear states, for locking and for
+orders of
+convergence."""
 import functools
 import math
 
@@ -10,13 +11,13 @@ from reports.chart import Chart
 NAVIGATION = [("certificates.html", "certificates")]
 STATES, LOCKING, ORDERS = "states", "locking", "orders"
 LINES = ("-", "--", ":", "-.")
-FLOOR = 1e-16  # of what is drawn
-EXACT = 1e-9  # the bound that the program prints
+FLOOR = 1e-16  # smallest drawn value
+EXACT = 1e-9  # bound below which an error counts as exact, as in the program
 MARKS = {"holds": "✔", "broken": "✘", "not claimed": "–"}
 
 
 def part_of(record, formulation, family, points):
-    """Returns a group of a formulation: its requirements, and measurements with their points."""
+    """Returns the group of a formulation: its requirements, and its measurements with their points."""
     def own(table):
         return [row for row in record[table]
                 if (row["formulation"], row["family"]) == (formulation, family["family"])]
@@ -44,7 +45,7 @@ def read(path):
 
 
 def stored(site):
-    """Returns the record in the results, or None."""
+    """Returns the record of element tests in the results, or None."""
     return read(site.results)
 
 
@@ -123,7 +124,7 @@ def draw(site, certificate):
 
 
 def order(one):
-    """Returns the order and the declared range: "2.0, declared 2 to 4"."""
+    """Returns the order and the declared range as text, such as "2.0, declared 2 to 4"."""
     declared = f"declared {one['least']} to {one['highest']}"
     if one["order"] is None or not math.isfinite(one["order"]):
         exact = one["error"] and one["error"][-1] is not None and abs(one["error"][-1]) < EXACT

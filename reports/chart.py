@@ -1,7 +1,7 @@
-"""Charts of curves in panels, written directly as SVG. Most figures of the report are of this kind, and matplotlib
+"""Charts of curves in panels, written directly as SVG. Most figures of the report are such charts, and matplotlib
 takes a hundred times as long for their ticks.
 
-A chart has panels in rows. A panel has curves with markers, levels, labels and shaded areas, in data coordinates.
+A chart has panels in rows. A panel contains curves with markers, levels, labels and shaded areas, in data coordinates.
 Sizes in the picture are in pixels. The attributes of a curve (colour, marker, line, formulation) are those that
 style.Styles.of and Site.points return."""
 import functools
@@ -15,7 +15,7 @@ from matplotlib.markers import MarkerStyle
 from reports import style
 from reports.figures import FONT, Image, MARKERS, number, said_of
 
-# Axes of charts: limits, positions of values, a few round ticks.
+# Axes of charts: limits, positions of values, and a few round ticks.
 
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -35,7 +35,7 @@ def whole_ticks(low, high):
 
 
 def log_ticks(low, high):
-    """Returns powers of ten, at most six."""
+    """Returns at most six powers of ten as ticks."""
     first, last = math.ceil(math.log10(low) - 1e-9), math.floor(math.log10(high) + 1e-9)
     every = max(1, math.ceil((last - first + 1) / 6))
     if last > first:
@@ -53,7 +53,7 @@ def linear_ticks(low, high):
 
 
 class Axis:
-    """One axis of a panel. log: logarithmic; whole: the ticks are whole numbers."""
+    """An axis of a panel. log: logarithmic; whole: the ticks are whole numbers."""
 
     def __init__(self, log, whole=False):
         self.log, self.whole, self.low, self.high = log, whole, math.inf, -math.inf
@@ -63,7 +63,7 @@ class Axis:
         self.low, self.high = min([self.low, *values]), max([self.high, *values])
 
     def settle(self):
-        """Sets limits slightly beyond the drawn values."""
+        """Sets the limits slightly beyond the drawn values."""
         if not self.high >= self.low:
             self.low, self.high = 1, 10
         if self.log:
@@ -90,7 +90,7 @@ class Axis:
 
 INK = "currentColor"
 DASHES = {"-": "", "--": "4.4 1.9", ":": "1.2 2", "-.": "7.7 1.9 1.2 1.9", "none": "none"}
-WIDTH = 1.5  # of a curve without a given line width
+WIDTH = 1.5  # default line width of a curve
 LETTER = 6.7  # mean width of a letter of 11 pixels
 
 
@@ -106,7 +106,7 @@ def marker_path(marker, size):
 
 
 def form(marker, size):
-    """Returns a marker as an element that takes fill and stroke."""
+    """Returns a marker as an SVG element to which fill and stroke can be applied."""
     if marker == "o":
         return f'circle r="{number(0.5 * size, 2)}"'
     return f'path d="{marker_path(marker, size)}"'
@@ -117,12 +117,13 @@ def dashes(line):
 
 
 def colour(given):
-    """Returns the colour for SVG: variables for formulations; `0.6` is a grey of the text colour."""
+    """Returns the colour for SVG: a variable for the colour of a formulation, and a grey of the text colour for a
+    number such as `0.6`."""
     return style.VARIABLES.get(given, given)
 
 
 class Panel:
-    """One pair of axes. y may be the axis of another panel."""
+    """A pair of axes with curves. y may be the axis of another panel."""
 
     def __init__(self, title, xlabel, ylabel, x, y):
         self.title, self.xlabel, self.ylabel = title, xlabel, ylabel
@@ -131,7 +132,8 @@ class Panel:
 
     def plot(self, x, y, back=False, **look):
         """Adds a curve. look: color, marker, linestyle, gid, label, markersize, linewidth, alpha, hollow, marks
-        (indices of the points with markers; default: all). back: behind all others, without a label."""
+        (indices of the points with markers; default: all). back: the curve is drawn behind all others, without a
+        label."""
         self.x.take(x)
         self.y.take(y)
         (self.back if back else self.curves).append((x, y, look))
@@ -142,7 +144,7 @@ class Panel:
         self.lows.append((y, words))
 
     def ground(self, y):
-        """Grey from y down."""
+        """Shades the area below y."""
         self.below = y
 
     below = None
@@ -152,7 +154,7 @@ class Panel:
         self.words.append((x, y, words))
 
     def cross(self, x, color, gid):
-        """On the upper edge."""
+        """Adds a cross on the upper edge."""
         self.x.take([x])
         self.crosses.append((x, color, gid))
 
@@ -162,8 +164,8 @@ class Panel:
 
 
 class Chart:
-    """columns: of panels; size: of the axes of a panel, in pixels; apart: the panels of a row show different curves,
-    so that each has its own legend below it."""
+    """A chart. columns: number of panels in a row; size: of the axes of a panel, in pixels; apart: the panels of a row
+    show different curves, so that each has a legend below it."""
 
     def __init__(self, columns, size, gap=(62, 52), apart=False):
         self.columns, self.size, self.gap, self.apart = columns, size, gap, apart
@@ -190,7 +192,7 @@ class Writer:
 
     @staticmethod
     def marker(look):
-        """Returns the identifier of a marker, which is defined once in a page."""
+        """Returns the identifier of a marker, whose definition occurs only once in a page."""
         size, hollow = look.get("markersize", 4.5) / 0.75, look.get("hollow", False)
         marker, ink = look["marker"], colour(look["color"])
         filled = MarkerStyle(marker).is_filled() and not hollow
@@ -202,7 +204,7 @@ class Writer:
         return name
 
     def whose(self, gid):
-        """Returns the attributes of an element that belongs to a formulation."""
+        """Returns the attributes of an SVG element that belongs to a formulation."""
         if not (gid or "").startswith("f|"):
             return ""
         _, key, *points = gid.split("|")
@@ -233,7 +235,7 @@ class Writer:
         return f"<g{whose}>{line}</g>" if whose else line
 
     def lines(self, curves):
-        """Returns curves, [(points, look)], in one group."""
+        """Returns the curves, [(points, look)], as one group."""
         drawn = "".join(self.line(*curve) for curve in curves)
         return f'<g fill="none">{drawn}</g>' if drawn else ""
 
@@ -302,7 +304,7 @@ class Writer:
         return f'<text x="{number(x)}" y="{number(y)}"{more}>{escape(words)}</text>'
 
     def entry(self, words, wide, x, y):
-        """One of the legend."""
+        """Returns an entry of the legend."""
         look = self.labels[words]
         of = (look.get("gid") or "").split("|")
         whose = f' data-l="{escape(of[1])}"' if of[0] == "f" else ""

@@ -15,14 +15,14 @@ CONSISTENT = ("beamw_consistent", "collocation", "geometrically_exact")
 
 
 def stored(site, name):
-    """Returns a table that another target wrote next to the results, or None."""
+    """Returns a table that another make target wrote next to the results, or None."""
     path = pathlib.Path(site.results).parent / name
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
 
 
 def noticed(cases):
-    """Returns the committed tables of the smallest detected faults of these cases; false if there are none, as in an
-    installed copy."""
+    """Returns the committed tables of the smallest detected faults of these cases, or a false value if they do not
+    exist, as in an installed copy."""
     paths = [ROOT / "harness" / name for name in ("blind_spots.csv", "planted_faults.csv")]
     if not all(path.is_file() for path in paths):
         return None
@@ -42,7 +42,7 @@ def noticed(cases):
 
 
 def counted(cases):
-    """Returns [(case, points, runs, verdicts against reference values, passes)] over all points."""
+    """Returns [(case, points, runs, verdicts with a reference value, passes)], counted over all points."""
     rows = []
     for case in cases:
         counts = count_verdicts([case])
@@ -60,7 +60,7 @@ def counted(cases):
 
 
 def coverage(rows):
-    """Returns the sums of (covered, series) without the 0, 1, ... finest meshes."""
+    """Returns the sums of (covered, series) if the 0, 1, ... finest meshes are omitted."""
     sums = {}
     for row in rows:
         covered, series = sums.get(row["left_out"], (0, 0))
@@ -73,7 +73,8 @@ def of_formulation(rows, key):
 
 
 def coverages(cases):
-    """Returns the coverages on the page: of each consistent formulation, of these together, of all; and by case."""
+    """Returns the coverages on the page: for each consistent formulation, for these together, for all formulations,
+    and for each case."""
     rows = [row for case in cases for row in case.coverages]
     names = sorted({row["formulation"] for row in rows})
     by_case = [
@@ -107,10 +108,10 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_environment, site)]
 
 
-# Page of the programs and the machine of the results, how times were measured, and whether injected delays were found.
+# Page of the programs and the machine of the results, the measurement of times, and the detection of injected delays.
 
-OUTCOME = ("outcome", "sentence")  # of the run; the first page shows them
-# (make command, files that it writes next to the results, what they add)
+OUTCOME = ("outcome", "sentence")  # attributes of the run that the first page shows
+# (make command, files that it writes next to the results, their contribution to the report)
 ADDS = (
     ("lab L=bench-check", ("bench_check.json", ), "injected delays that the times must show"),
     ("lab L=bench-mechanisms", ("mechanisms_joint.h5", "mechanisms_hexapod.h5"),
@@ -121,7 +122,7 @@ ADDS = (
     ("lab L=faults", ("faults.json", ), "injected faults"),
     ("lab L=fuzz", ("fuzz.json", ), "random bytes as input"),
 )
-# (make command, experiment whose group it writes into the results, what it adds)
+# (make command, experiment whose group it writes into the results, its contribution to the report)
 GROUPS = (
     ("bench", "bench", "times with their noise"),
     ("lab L=certificates", "element-test", "interface requirements and features of each formulation"),
@@ -131,13 +132,13 @@ GROUPS = (
 
 
 def planted(site):
-    """Returns the rows of make lab L=bench-check next to the results, or []."""
+    """Returns the rows that `make lab L=bench-check` wrote next to the results, or []."""
     path = pathlib.Path(site.results).parent / "bench_check.json"
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else []
 
 
 def more(site):
-    """Returns [(command, what it adds)] of commands whose results are missing."""
+    """Returns [(command, its contribution)] of the commands whose results are missing."""
     here = pathlib.Path(site.results).parent
     groups = [(command, what) for command, name, what in GROUPS
               if not experiments.holds(site.results, name)]
@@ -146,7 +147,7 @@ def more(site):
 
 
 def noise(site):
-    """Returns {case: (timed runs, median and greatest spread between rounds)}."""
+    """Returns {case: (timed runs, median and largest spread between rounds)}."""
     out = {}
     for case in site.cases:
         spread = sorted(m.clock.most / m.clock.least - 1 for p in case.points for s in p.series

@@ -11,7 +11,7 @@ from reports.site import ROOT, number, percent
 from reports.style import plt
 from reports.verdicts import OWN_LIMITS
 
-# Errors of beamwork's formulations and of other programs, which were run elsewhere, next to each other.
+# Errors of beamwork's formulations compared with those of other programs, which were run elsewhere.
 
 
 def peers_figure(site, ours, others, name):
@@ -88,14 +88,14 @@ def column_section(site, case):
 
 
 NAVIGATION = [("claims.html", "claims"), ("papers.html", "papers")]
-PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # of sheet_cantilever: the model of reference/peers.csv
+PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # parameters of sheet_cantilever for the model of reference/peers.csv
 SECTIONS = ("printed constants", "section_data=printed"), (
-    "shear flow", "")  # of J Table 2: no single set reproduces all four of its entries
+    "shear flow", "")  # sets for J Table 2; no single set reproduces all four of its entries
 TARGET = 0.01, 2e-4  # both errors of the case of other programs within 1 %, in less than 0.2 ms of solving
 
 
 class Lookup:
-    """Values, errors and times of runs by name."""
+    """Finds values, errors and times of runs by name."""
 
     def __init__(self, cases):
         self.points = {(c.name, canonical(p.parameters)): p for c in cases for p in c.points}
@@ -189,8 +189,8 @@ def interval(slow, fast):
 
 
 def baseline(site):
-    """Returns the joint and the hexapod with the dense baseline, if 'make lab L=bench-mechanisms' wrote them next to
-    the results."""
+    """Returns the times of the joint and the hexapod with the dense baseline, if 'make lab L=bench-mechanisms' wrote
+    them next to the results."""
     files = {"spherical_joint": "mechanisms_joint.h5", "hexapod": "mechanisms_hexapod.h5"}
     here = pathlib.Path(site.results).parent
     return [
@@ -200,7 +200,7 @@ def baseline(site):
 
 
 def row_of(look, claim, fast, slow):
-    """Compares one third-order element with two condensed second-order elements, or returns None."""
+    """Returns a row that compares one third-order element with two condensed second-order elements, or None."""
     name, quantity, paper, published = claim
     third, second = look.mesh(name, "", *fast), look.mesh(name, "", *slow)
     if third is None or second is None or not math.isfinite(second.seconds):
@@ -215,7 +215,7 @@ def row_of(look, claim, fast, slow):
 
 
 def row_dense(look, claim, fast, slow):
-    """Returns the same comparison with the published algorithm, or None."""
+    """Returns the row of the same comparison with the published algorithm, or None."""
     row = row_of(look, claim, fast, slow)
     times = [look.mesh(claim[0], "", *cell).dense for cell in (slow, fast)] if row else [None]
     if None in times:
@@ -232,7 +232,8 @@ CLAIMS = (("spherical_joint", "support_stiffness_max", "N 4.2: 68 % less time", 
 
 
 def headlines(site):
-    """Returns (rows, cheapest): the two claims about time, and the lowest cost within 1 % and 0.1 %."""
+    """Returns (rows, cheapest): the two claims about time, and the formulations of lowest cost within 1 % and 0.1
+    %."""
     look, dense = Lookup(site.cases), Lookup(baseline(site))
     rows, soonest = [], []
     for claim in CLAIMS:
@@ -249,17 +250,17 @@ def headlines(site):
 
 
 def both(mesh):
-    """Returns the two errors of the case that other programs were run on."""
+    """Returns the two errors of a mesh in the case for which other programs were run."""
     return [mesh.errors.get(q, math.nan) for q in ("C_xx", "C_zz")]
 
 
 def peers_point(site):
-    """Returns the parameter point that other programs were run on, or None."""
+    """Returns the parameter point for which other programs were run, or None."""
     return Lookup(site.cases).points.get(("sheet_cantilever", canonical(PEERS)))
 
 
 def peers(site):
-    """Returns (rows by unknowns, figure, answer) of the case that other programs were run on."""
+    """Returns (rows by number of unknowns, figure, answer) of the case for which other programs were run."""
     point = peers_point(site)
     ours, out = [], []
     others = {
@@ -294,7 +295,8 @@ def write(site):
 
 
 def peers_section(site, case):
-    """Adds a link to the results of other programs on the page of their case, if it was run at their parameters."""
+    """Returns a section for the page of the case with a link to the results of other programs, if it was run at their
+    parameters."""
     if case.name != "sheet_cantilever" or peers_point(site) is None:
         return []
     return [(
@@ -330,7 +332,7 @@ def read(path=TABLE):
 
 
 def measured(look, truths, row):
-    """Describes the measured value of a row; '' if the row names no run or its run was not made."""
+    """Describes the measured value of a row; returns '' if the row names no run or the run was not made."""
     if not row["elements"]:
         return ""
     cell = row["case"], row["parameters"], row["formulation"], int(row["elements"]), row["quantity"]
@@ -352,7 +354,7 @@ def measured(look, truths, row):
 
 
 def counts(rows):
-    """Returns [(status, number of rows)] of one paper."""
+    """Returns [(status, number of rows)] for the rows of one paper."""
     return [(status, sum(r["status"] == status for r in rows)) for status in STATUSES]
 
 

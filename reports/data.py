@@ -1,5 +1,5 @@
-"""Reads results.h5 and truths.h5 into plain records. `beamwork schema` describes the tables; their column names are
-used here."""
+"""Reads results.h5 and truths.h5 into plain records, with the column names of the tables, which `beamwork schema`
+describes."""
 import math
 import multiprocessing
 
@@ -9,7 +9,7 @@ from reports.records import Case, Clock, Dense, Kept, Mesh, Point, Series, Verdi
 
 
 class Unreadable(Exception):
-    """Raised for a file that is missing, damaged or of another kind; the message names it."""
+    """Raised for a file that is missing, damaged or of another kind; the message contains its name."""
 
 
 def text(value):
@@ -18,7 +18,7 @@ def text(value):
 
 REACH = {0.1: "reach_10", 0.01: "reach_1", 0.001: "reach_0.1", 0.0001: "reach_0.01"}
 SCHEMA, VERSIONS = "beamwork-results", (2, 3)
-BENCH = "experiments/bench"  # group of the times; in version 2, a separate file
+BENCH = "experiments/bench"  # group with the times; in version 2, they were in a separate file
 
 
 def column(values):
@@ -91,7 +91,7 @@ def read_meshes(group):
         units.setdefault(row["point"], {})[name] = row["unit"]
         if math.isfinite(row["prediction"]):
             mesh.predictions[name] = row["prediction"]
-    for row in rows(group, "verdicts"):  # also points without a run
+    for row in rows(group, "verdicts"):  # includes points without a run
         units.setdefault(row["point"], {}).setdefault(row["quantity"], row["unit"])
     x, value = group["curve_x"][()], group["curve_value"][()]
     for row in rows(group, "curves"):
@@ -107,7 +107,8 @@ def read_verdict(row):
 
 
 def unranked(declared):
-    """Returns the reason why a formulation has no rank, from its row of /declarations; otherwise an empty string."""
+    """Returns the reason why a formulation has no rank, from its row of /declarations, or an empty string if it has a
+    rank."""
     if declared.get("differences"):
         return "by differences"
     if declared.get("misprint"):
@@ -116,7 +117,7 @@ def unranked(declared):
 
 
 def mark(series, declared):
-    """Marks a series with the declarations of its formulation; a series without a rank has no cost."""
+    """Adds the declarations of its formulation to a series; a series without a rank has no cost."""
     series.unranked, series.is_new = unranked(declared), bool(declared.get("is_new"))
     for mesh in series.meshes if series.unranked else []:
         mesh.cost = math.nan
@@ -143,7 +144,7 @@ def read_points(group, meshes, units, noise):
             series[of_series(row)].other = row["not_modelled"]
     for (point, key, _), mesh in sorted(meshes.items()):
         series[point, key].meshes.append(mesh)
-        if series[point, key].other:  # drawn next to the others, and never ranked
+        if series[point, key].other:  # drawn together with the others, but never ranked
             mesh.errors.update(mesh.model_errors)
     for row in rows(group, "verdicts"):
         series[of_series(row)].verdicts.append(read_verdict(row))
@@ -238,7 +239,8 @@ def read_results(path, bench=None):
 
 
 def holds(parameters, at):
-    """Does a reference value with these parameters (`*` for any value) apply at a point? Both are `name=value;...`."""
+    """Returns whether a reference value with these parameters (`*` for any value) applies at a point. Both are
+    `name=value;...`."""
     said = dict(item.split("=", 1) for item in parameters.split(";") if item)
     there = dict(item.split("=", 1) for item in at.split(";") if item)
     return all(value == "*" or there.get(name) == value
@@ -305,17 +307,19 @@ def read_truth_counts(path):
         raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
 
 
-# Values of other programs (`beamwork import`) next to those of beamwork. They are stored separately, so that nothing
-# that counts formulations counts them.
+# Values of other programs (`beamwork import`), which are shown together with those of beamwork. They are stored
+# separately, so that they are not counted as formulations.
 
 
 def truths_of(point):
-    """Returns {quantity: (reference value, kind)} used in the verdicts on formulations at a point."""
+    """Returns {quantity: (reference value, kind)} of the reference values used in the verdicts on formulations at a
+    point."""
     return {v.quantity: v.truth for s in point.series for v in s.verdicts if math.isfinite(v.truth)}
 
 
 def with_errors(series, truths):
-    """Returns the series with errors against beamwork's reference values; those of another model are model errors."""
+    """Returns the series with errors relative to beamwork's reference values. Errors relative to another model are
+    model errors."""
     for mesh in series.meshes:
         into = mesh.errors if series.model == "beam" else mesh.model_errors
         for quantity, value in mesh.values.items():
@@ -339,7 +343,7 @@ def add_beside(cases, path):
 
 
 def beside_named(point, key):
-    """Returns the other program's series with this name, or None."""
+    """Returns the series of another program with this name, or None."""
     return next((s for s in point.others if s.key == key), None)
 
 

@@ -1,4 +1,4 @@
-"""The list of known deviations (reference/findings.csv): one line for each known cause, with the verdicts."""
+"""The list of known deviations (reference/findings.csv): a line for each known cause, with its verdicts."""
 import functools
 import math
 import re
@@ -14,7 +14,7 @@ NAVIGATION = [("deviations.html", "deviations"), ("errata.html", "errata")]
 
 
 def slug(title):
-    """Returns the name of a heading in a page's address, as markdown's toc extension forms it."""
+    """Returns the anchor of a heading, as the toc extension of markdown forms it."""
     return re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", title).strip().lower())
 
 
@@ -25,7 +25,7 @@ def headings():
 
 
 def link_of(proof, titles):
-    """Returns the location of a proof in this report; '' if the proof is only a test or a program."""
+    """Returns the location of a proof in this report, or '' if the proof is only a test or a program."""
     if "ERRATA" not in proof:
         return ""
     named = next((t for t in titles if t.lower() in proof.lower()), None)
@@ -33,8 +33,8 @@ def link_of(proof, titles):
 
 
 def predictions(rows):
-    """Counts the derived limits that are met, those missed because the observed limit differs, and those still open
-    because the limit is too uncertain. Returns None if no limit was derived."""
+    """Returns the numbers of derived limits that agree with the observed limit, that disagree, and that are undecided
+    because the observed limit is too uncertain. Returns None if no limit was derived."""
     told = [r for r in rows if math.isfinite(met(r.verdict))]
     if not told:
         return None
@@ -54,15 +54,15 @@ def predictions(rows):
 
 
 def left(v):
-    """Returns the unexplained part of a limit: its distance from the derived limit if there is one, otherwise from the
-    reference value, relative to the reference value like all errors."""
+    """Returns the unexplained deviation of a limit: its distance from the derived limit or, if there is none, from the
+    reference value. The distance is relative to the reference value, like all errors."""
     if not math.isfinite(v.predicted) or not v.error:
         return abs(v.error)
     return abs((v.limit - v.predicted) * v.error / (v.limit - v.truth))
 
 
 def line(rule, rows, titles):
-    """Returns the line of one entry. rows: its verdicts, counted or not."""
+    """Returns the line of an entry. rows: its verdicts, including those that are not counted."""
     own = [r for r in rows if r.standing == verdicts.OWN]
     seen, left_out = verdicts.counts(rows)
     known = [r for r in own if math.isfinite(r.verdict.error)]
@@ -147,7 +147,7 @@ def verdict_of(study):
 
 
 def by_rule(record):
-    """Returns {entry: [(study, what it shows)]} in the order of the entries' names."""
+    """Returns {entry: [(study, its conclusion)]}, sorted by the names of the entries."""
     found = {}
     for study in record["studies"]:
         found.setdefault(study["finding"], []).append((study, verdict_of(study)))

@@ -41,7 +41,7 @@ def opened(path):
 
 
 def holds(path, name):
-    """Does the file contain a group of the experiment?"""
+    """Returns whether the file contains a group of the experiment."""
     if not os.path.exists(path):
         return False
     with opened(path) as file:
@@ -77,7 +77,7 @@ def grouped(found, *names):
 
 
 def is_newer(path, name, program):
-    """Is the group newer than this file?"""
+    """Returns whether the group was written after the program was built."""
     run = dict(made(path)).get(name)
     if run is None:
         return False

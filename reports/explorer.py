@@ -1,9 +1,10 @@
-"""A page on which the reader chooses the case, the quantity and the axes; assets/explorer.js draws it.
+"""A page on which the reader selects the case, the quantity and the axes; assets/explorer.js draws the figure.
 
-The numbers of each case are in a separate file, data_CASE.js, which is loaded when the case is chosen. Lists are
-strings of numbers separated by blanks, with `-` for missing ones. A string that is needed more than once is in the
-list `w` and is replaced by its index. If a reference value is known, the values are not stored: reference x (1 +
-error) gives them to seven digits."""
+The numbers of each case are in a separate file, data_CASE.js, which is loaded when the case is selected. Lists are
+strings of numbers separated by blanks, with `-` for missing ones. A string that occurs more than once is in the list
+`w` and is replaced by its index. If a reference value is known, values are not stored, because reference x (1 + error)
+gives them to seven
+digits."""
 import collections
 import functools
 import json
@@ -13,13 +14,13 @@ import os
 from reports import answers, chart, style
 
 NAVIGATION = [("explorer.html", "explorer")]
-COLUMNS = "fnscui"  # of a series: formulation, then those in AXES
+COLUMNS = "fnscui"  # columns of a series: the formulation, then those in AXES
 AXES = (("elements per member", "n"), ("time [s]", "s"), ("cost of counted work [s]", "c"),
         ("unknowns", "u"), ("iterations", "i"))
 
 
 def listed(values, digits):
-    """Numbers as one text."""
+    """Returns numbers as one string."""
     text = " ".join(f"{v:.{digits}g}" if v is not None and math.isfinite(v) else "-"
                     for v in values)
     return text.replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
@@ -35,15 +36,15 @@ def error_text(error):
 
 
 def follow(values, errors, truth):
-    """Returns True if all finite values equal reference x (1 + error)."""
+    """Returns whether all finite values equal reference x (1 + error)."""
     return truth != 0 and all(
         not math.isfinite(v) and not math.isfinite(e) or abs(truth * (1 + e) - v) <= 1e-9 * abs(v)
         for v, e in zip(values, errors))
 
 
 def columns_of(values, errors, verdict):
-    """Returns [errors, verdict, reference value, values] of a quantity: empty strings if there are none, and no values
-    if they follow from the other entries."""
+    """Returns [errors, verdict, reference value, values] of a quantity, with an empty string for missing entries and
+    for values that follow from the other entries."""
     said = verdict.verdict if verdict else ""
     truth = verdict.truth if verdict else math.nan
     if math.isfinite(truth) and follow(values, errors, truth):
@@ -53,8 +54,8 @@ def columns_of(values, errors, verdict):
 
 
 def series_of(series, names):
-    """Returns one formulation at one parameter point: the formulation, the columns of its meshes in the order of
-    COLUMNS, then a list of columns for each quantity (0 if it has none)."""
+    """Returns the data of a formulation at a parameter point: the formulation, the columns of its meshes in the order
+    of COLUMNS, then a list of columns for each quantity (0 if there are no values)."""
     meshes, out = series.meshes, []
     for name in names:
         found = [m.values.get(name, math.nan) for m in meshes]
@@ -79,7 +80,8 @@ def data_of(case):
 
 
 def shared(points):
-    """Returns {"w": strings that are needed more than once, "points": the points with indices instead}."""
+    """Returns {"w": strings that occur more than once, "points": the points with indices in place of these
+    strings}."""
     every = [s for p in points for s in p["s"]]
     count = collections.Counter()
     for *columns, quantities in every:
@@ -100,7 +102,7 @@ def write_case(site, case):
 
 
 def looks(site):
-    """Returns {formulation: [colour, element of its marker, dashes]}."""
+    """Returns {formulation: [colour, SVG element of its marker, dashes]}."""
     out = {}
     for key in site.styles.order:
         look = site.styles.of(key)

@@ -1,11 +1,11 @@
-"""A figure as a short SVG that is embedded in the page. The output of matplotlib is parsed and rewritten: coordinates
-are rounded to a tenth of a point, identifiers are unique in the page, and common attributes of children move to
-their parent. Black and grey become the colour of the text, so that a figure follows the page into dark mode;
-colours of formulations become variables.
+"""Converts a figure to a short SVG that is embedded in the page. The output of matplotlib is parsed and rewritten:
+coordinates are rounded to a tenth of a point, identifiers are made unique in the page, and common attributes of
+children are moved to their parent. Black and grey become the colour of the text, so that a figure changes with dark
+mode; colours of formulations become variables.
 
 Groups with the gid `f|KEY` (style.py) carry data-f="KEY" if they belong to a formulation; entries of legends carry
-data-l="KEY". data-off lists those that are hidden at first. `f|KEY|POINTS` also names the markers that were given
-to site.points(). Elements with the gid `fixed` keep their colours."""
+data-l="KEY". data-off lists formulations that are initially hidden. `f|KEY|POINTS` also names the markers that were
+passed to site.points(). Elements with the gid `fixed` keep their colours."""
 import dataclasses
 import io
 import json
@@ -18,9 +18,9 @@ from markupsafe import Markup, escape
 
 from reports import style
 
-# Markers of charts, and common attributes of the curves of a page. Each is defined once in the page.
+# Markers of charts and common attributes of curves, each of which is defined once in a page.
 
-MARKERS = {}  # identifier of a marker of charts: its definition
+MARKERS = {}  # definitions of the markers of charts by identifier
 CURVE = re.compile(r'stroke="([^"]*)"((?: [\w-]+="[^"]*")*) '
                    r'style="(marker(?:-mid)?):url\(#(\w+)\)"')
 
@@ -31,12 +31,13 @@ def markers_in(markup):
 
 
 def markers_by_name(markup):
-    """Replaces colours of formulations by names that the page's style sheet defines."""
+    """Returns the markup with the colours of formulations replaced by names that the style sheet of the page
+    defines."""
     return re.sub(r"var\((--f\d+),#[0-9a-f]{6}\)", r"var(\1)", markup)
 
 
 def with_classes(page):
-    """Returns the page with the colour and marker of each kind of curve defined once, in a class."""
+    """Returns the page with classes that define the colour and marker of each kind of curve once."""
     looks = {}
 
     def named(found):
@@ -51,7 +52,7 @@ def with_classes(page):
 
 
 def with_markers(page):
-    """Returns the page with the definitions of the markers that its charts use, each once."""
+    """Returns the page with one definition of each marker that its charts use."""
     names = markers_in(page)
     if not names:
         return page
@@ -66,14 +67,14 @@ INHERITED = ("fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width",
              "stroke-linecap", "stroke-dasharray", "font-size", "text-anchor", "clip-path")
 USUAL = {"stroke-linejoin": "round", "stroke-linecap": "butt", "stroke-dashoffset": "0",
          "stroke-opacity": "1", "fill-opacity": "1", "opacity": "1", "text-anchor": "start"}
-SHORT = {"separators": (",", ":"), "ensure_ascii": False}  # of JSON
+SHORT = {"separators": (",", ":"), "ensure_ascii": False}  # options for short JSON
 FONT = "'DejaVu Sans',Verdana,sans-serif"
 NUMBER = re.compile(r"-?\d*\.?\d+(?:e-?\d+)?")
 
 
 @dataclasses.dataclass(frozen=True)
 class Image:
-    """A figure of the site. name: of its file; markup: the SVG for the page, without a title; points: the tooltip
+    """A figure of the site. name: name of its file; markup: the SVG for the page, without a title; points: the tooltip
     texts of its markers, as JSON."""
     name: str
     markup: str
@@ -93,7 +94,7 @@ class Image:
 
 
 def plain(value, digits):
-    """Returns a number in its shortest form, a string unchanged, and None for anything else."""
+    """Returns a number in its shortest form, a string unchanged, and None for any other value."""
     if isinstance(value, (str, int)) or value is None:
         return value
     if not math.isfinite(value):
@@ -140,8 +141,8 @@ def properties(text):
 
 
 def ink(own, name):
-    """Replaces black and grey by the colour of the text, more or less opaque; white by the paper; and known colours by
-    variables."""
+    """Replaces black and grey by the colour of the text with an opacity, white by the colour of the paper, and known
+    colours by variables."""
     colour = own.get(name, "none")
     if not re.fullmatch("#[0-9a-f]{6}", colour):
         return
@@ -157,7 +158,7 @@ def ink(own, name):
 
 
 def dressed(element, fixed):
-    """Returns the attributes of an element, including its style, in the shortest form."""
+    """Returns the attributes of an SVG element, including its style, in the shortest form."""
     own = properties(element.get("style", ""))
     own.update({name: element.get(name) for name in ("clip-path",) if element.get(name)})
     if not fixed:
@@ -174,7 +175,7 @@ def dressed(element, fixed):
 
 
 class Writer:
-    """Writes one figure. prefix: of its identifiers, unique in the page."""
+    """Writes one figure. prefix: start of its identifiers, unique in the page."""
 
     def __init__(self, root, prefix):
         text = ElementTree.tostring(root, encoding="unicode")
@@ -266,7 +267,7 @@ class Writer:
 
 
 def short(svg, name):
-    """Returns (SVG for a page, points that it names) from the output of matplotlib."""
+    """Returns (SVG for a page, names of its points) from the output of matplotlib."""
     root = ElementTree.fromstring(svg)
     writer = Writer(root, f"{zlib.crc32(name.encode()):08x}"[:5].translate(
         str.maketrans("0123456789", "ghijklmnop")))
@@ -281,7 +282,7 @@ def short(svg, name):
 
 
 def alone(markup):
-    """Returns the same SVG as a separate file."""
+    """Returns the SVG of a figure in the form of a separate file."""
     names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
     used = [MARKERS[m] for m in markers_in(markup)]
     markup = markup.replace("</svg>", f"<defs>{''.join(used)}</defs></svg>") if used else markup
@@ -295,7 +296,7 @@ def handles_of(legend):
 
 
 def tag_legends(figure):
-    """Assigns the entries of legends to the formulation of the curve they name."""
+    """Assigns each entry of the legends to the formulation whose curve it names."""
     owners = {}
     for axes in figure.axes:
         for artist in axes.get_children():
@@ -311,8 +312,8 @@ def tag_legends(figure):
 
 
 def image_of(figure, name, said, tight=True):
-    """Returns the Image of a figure. said: the arguments of points(); tight: cropped to the drawing, which requires
-    drawing it twice."""
+    """Returns the Image of a figure. said: the arguments of points(); tight: the figure is cropped to its contents,
+    for which it is drawn twice."""
     tag_legends(figure)
     out = io.StringIO()
     figure.savefig(out, format="svg", metadata={"Date": None},

@@ -11,7 +11,7 @@ from markupsafe import Markup, escape
 from reports import data, pictures, shapes
 from reports.site import ASSETS
 
-MOST = 40_000  # points of all frames together: about 0.9 MB
+MOST = 40_000  # largest number of points of all frames together, about 0.9 MB
 SCRIPTS = ("player.js", "viewer.js")
 LOOK = """body { max-width: 76rem; } h1 { margin: 0; } div.viewer { max-width: none; }
 canvas.space { height: max(16rem, calc(100vh - 14rem)); }
@@ -44,11 +44,11 @@ PAGE = """<!DOCTYPE html>
 
 
 class NoFilm(Exception):
-    """Raised with the reason why there is no film."""
+    """Raised, with the reason, if there is no film."""
 
 
 def films(path):
-    """Returns {case: (summary, point)} of the cases with frames, each with its first point that has frames."""
+    """Returns {case: (summary, point)} of the cases with frames; point is the first one that has frames."""
     out = {}
     with h5py.File(path) as file:
         for name, group in file["cases"].items():
@@ -59,7 +59,7 @@ def films(path):
 
 
 def chosen(path, wanted):
-    """Returns (case, summary, point): the requested one, or the only one."""
+    """Returns (case, summary, point) of the requested case, or of the only case."""
     found = films(path)
     name = next(iter(found)) if wanted is None and len(found) == 1 else wanted
     if name in found:
@@ -72,7 +72,7 @@ def chosen(path, wanted):
 
 
 def words_of(summary, s):
-    """Describes the film."""
+    """Returns a description of the film."""
     times = s.value[shapes.frames_of(s)]
     what = f"{summary[:1].upper()}{summary[1:]}. " if summary else ""
     return (f"{what}{times[0]:.4g} to {times[-1]:.4g} s, computed with {s.formulation}, n = {s.n}, "
@@ -80,7 +80,7 @@ def words_of(summary, s):
 
 
 def page(path, wanted=None):
-    """The film as text."""
+    """Returns the film as the text of a page."""
     name, summary, point = chosen(path, wanted)
     s = shapes.read_file(path, name, point)
     first = shapes.frames_of(s)[0]

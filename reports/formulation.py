@@ -13,7 +13,7 @@ from reports.chart import Chart
 from reports.site import ROOT, file_of
 from reports.verdicts import SEVERITY, UNJUDGED, worst
 
-# elements/NAME.md: the description of a formulation, with text and equations, for its page.
+# The description of a formulation, with text and equations, from elements/NAME.md.
 
 DISPLAY = re.compile(r"\$\$(.+?)\$\$", re.S)
 INLINE = re.compile(r"\$([^$\n]+?)\$")
@@ -30,7 +30,7 @@ def rendered(text):
     text = DISPLAY.sub(lambda found: keep(found, True), text)
     text = INLINE.sub(lambda found: keep(found, False), text)
     page = markdown.markdown(text, extensions=["tables"])
-    # Text after an equation without a space stays on its line.
+    # Punctuation that follows an equation without a space stays on the same line.
     page = re.sub(r"(EQUATION\d+E)([.,;:)]+)(?!<)", r'<span class="whole">\1\2</span>', page)
     return re.sub(r"EQUATION(\d+)E", lambda found: equations[int(found.group(1))], page)
 
@@ -52,7 +52,7 @@ def linked(page, pages):
 
 
 def explanation_of(name, pages):
-    """Returns [(heading, HTML)] of a formulation, or [] if there is no description."""
+    """Returns [(heading, HTML)] of the description of a formulation, or [] if there is none."""
     path = ROOT / "elements" / f"{name}.md"
     if not path.is_file():
         return []
@@ -62,7 +62,7 @@ def explanation_of(name, pages):
 
 # Error against the number of elements of a formulation, for the cases with the smallest and the largest error.
 
-FLOOR = 1e-12  # errors below this value are drawn at it
+FLOOR = 1e-12  # errors below this value are drawn at this value
 TITLES = ("least", "largest")
 WRONG_LIMITS = ("wrong limit", "wrong limit, as predicted")
 GREY = {"back": True, "color": "currentColor", "alpha": 0.25, "linewidth": 1}
@@ -76,7 +76,7 @@ def curve(series, quantity):
 
 def candidates(found):
     """Returns [(error on the finest mesh, case name, quantity, (case, point, series))] for series with at least three
-    meshes: the first quantity with a verdict in each case, and those with a wrong limit."""
+    meshes. The quantities are the first one with a verdict in each case and those with a wrong limit."""
     out = []
     for case, point, series in found:
         names = answers.judged(point)[:1]
@@ -96,7 +96,7 @@ def extremes(found):
 
 
 def draw_extremes(site, key, items, name):
-    """Draws two panels; the other formulations are grey."""
+    """Draws the error curves in two panels; the other formulations are grey."""
     chart = Chart(2, (380, 230))
     for (case, point, series, quantity), title in zip(items, TITLES):
         one = chart.panel(f"{title}: {case.name}, {quantity}", "elements per member",
@@ -114,9 +114,9 @@ def draw_extremes(site, key, items, name):
 
 
 NAVIGATION = [("cases.html", "all cases"), ("formulations.html", "all formulations")]
-CHOICE = "When to choose it"  # heading of a text, to which measurements are added
+CHOICE = "When to choose it"  # heading of the section to which measurements are added
 ANALYSES = ("statics", "vibration", "buckling")
-# Verdicts for which more elements do not help.
+# Verdicts that more elements do not change.
 WRONG = ("wrong limit, as predicted", "wrong limit", "refused", "diverged")
 
 
@@ -152,7 +152,7 @@ def defaults(cases, key):
 
 
 def rules(rows, known, titles):
-    """Returns the known deviations that were observed: their verdicts, the worst one, and cases."""
+    """Returns the known deviations that were observed, with their verdicts, the worst verdict and the cases."""
     found = {}
     for row in rows:
         if row.verdict.finding:
@@ -161,7 +161,8 @@ def rules(rows, known, titles):
     for rule in known:
         own = found.get(rule["rule"])
         if own:
-            # A verdict that a formulation repeats because it contains the same misprint counts here, on its own page.
+            # A verdict that a formulation repeats because of the same misprint is counted on the page of that
+            # formulation.
             counted = [verdicts.TallyRow(r.case, r.parameters, r.formulation, r.verdict,
                                          verdicts.OWN) for r in own]
             out.append({**deviations.line(rule, counted, titles),
@@ -170,7 +171,8 @@ def rules(rows, known, titles):
 
 
 def lacking(found, attribute):
-    """Returns [(unsupported physics, cases)]. missing: it is not run on them; other: it solves another model."""
+    """Returns [(unsupported physics, cases)]. attribute: `missing` if the formulation is not run on these cases,
+    `other` if it solves another model."""
     lacks = {}
     for case, _, series in found:
         if getattr(series, attribute):
@@ -190,8 +192,10 @@ def all_ways(cases):
 
 
 def speed(found, key, known):
-    """Returns for each level: the cases that any formulation reaches, those that this one reaches, those of them where
-    it does not pass, those where it is first, its rank, and its median cost relative to the cheapest."""
+    """Returns for each level: the cases in which any formulation reaches the level, those in which this formulation
+    reaches it, those of the latter in which it does not pass, those in which it is first, its rank, and its median
+    cost relative to the
+    cheapest."""
     out = []
     for level in LEVELS:
         posed, doubtful, first, factors, ranks = 0, 0, [], [], []
@@ -212,7 +216,7 @@ def speed(found, key, known):
 
 def table(found):
     """Returns [(case, parameter points with verdicts, [(verdict, number)], worst verdict, its page, its point)] of the
-    cases with verdicts; the last three are None if everything passes."""
+    cases with verdicts; the last three are None if all verdicts are passes."""
     cases = {}
     for case, point, series in found:
         shown = [] if series.missing else [v for v in series.verdicts if v.verdict not in UNJUDGED]
@@ -235,13 +239,13 @@ def table(found):
 
 @dataclass(frozen=True)
 class Known:
-    """Data for all pages, collected once."""
+    """Data for the pages of all formulations, collected once."""
 
     rows: list  # verdicts.TallyRow of every verdict
-    rules: list  # of the list of known deviations
+    rules: list  # entries of the list of known deviations
     declared: dict  # formulation -> row of /declarations
     ways: dict  # all_ways
-    titles: list  # of the errata
+    titles: list  # section titles of the errata
     certified: set  # names of the formulations with a certificate
 
 
@@ -252,7 +256,7 @@ def gather(site):
 
 
 def pages_of(site):
-    """Returns {name: page} of cases and formulations, to link their names in explanations."""
+    """Returns {name: page} of cases and formulations, for links in descriptions."""
     pages = {c.name: f"{c.name}.html" for c in site.cases}
     return {**pages, **{key: f"{file_of(key)}.html" for key in site.styles.order}}
 
@@ -316,7 +320,7 @@ def tasks(site):
 
 
 def counts(rows):
-    """Returns {verdict: number} of rows that have a verdict, without second names, from bad to good."""
+    """Returns {verdict: number} of the rows with a verdict, without second names of entries, from bad to good."""
     found = {}
     for row in rows:
         if row.standing != verdicts.ALIAS and row.verdict.verdict not in UNJUDGED:
@@ -333,7 +337,8 @@ def grouped(rows, name):
 
 
 def wrong_in(cases, key):
-    """Returns the cases at whose default parameters more elements do not help."""
+    """Returns the cases in which, at the default parameters, the formulation has a verdict that more elements do not
+    change."""
     found = [(c.name, standing(s)) for c in cases for s in c.points[0].series if s.key == key]
     return [name for name, v in found if v is not None and v.verdict in WRONG]
 

@@ -1,4 +1,4 @@
-"""Explanations of the terms of the report and of the program: truths.h5, /glossary."""
+"""Explanations of the terms of the report and of the program, from /glossary in truths.h5."""
 import functools
 import re
 
@@ -25,7 +25,7 @@ def terms(truths):
 
 
 def anchor(term):
-    """Returns the name of a term in the page's address."""
+    """Returns the anchor of a term on the page."""
     return re.sub(r"[^a-z0-9]+", "-", term.lower()).strip("-") or "term"
 
 
@@ -43,7 +43,7 @@ def places(rows):
 
 
 def linker(truths):
-    """Returns the filter `term`, which turns a term into a link to the glossary if the glossary contains it."""
+    """Returns the template filter `term`, which turns a term into a link if the glossary contains it."""
     known = places(terms(truths))
 
     def term(words, name=None):

@@ -16,9 +16,9 @@ import sys
 COULD_NOT = 4
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#8c6d31")
 LINES = ("-", "--", ":", "-.")
-MARKED = 30  # curves with fewer points show markers
-WIDTH, HEIGHT = 6.4, 2.5  # of a panel [inch]
-MOST = 16  # panels
+MARKED = 30  # curves with fewer points have markers
+WIDTH, HEIGHT = 6.4, 2.5  # width and height of a panel [inch]
+MOST = 16  # largest number of panels
 PHASES = ("rad", "deg")  # units of phases over frequency
 
 
@@ -39,13 +39,14 @@ class Curve:
 
     @property
     def decades(self):
-        """Is its vertical axis logarithmic?"""
+        """Returns whether the vertical axis of the curve is logarithmic."""
         return (self.steady and self.unit not in PHASES and
                 all(b > 0 for a, b in zip(self.x, self.y) if a > 0))
 
 
 def merged(curves):
-    """Merges quantities with the same values (the largest and the smallest value of a history) into one curve."""
+    """Merges quantities with the same curve (such as the largest and the smallest value of a history) into one
+    curve."""
     found = {}
     for c in curves:
         same = found.setdefault((c.formulation, c.unit, c.x_name, *c.x, *c.y), c)
@@ -106,7 +107,7 @@ def share(panels, axes):
 
 
 def written(curves):
-    """Returns the rows of a table: for each abscissa its column, followed by one for each curve over it."""
+    """Returns the rows of a table: a column for each abscissa, followed by a column for each curve over it."""
     several = len({c.formulation for c in curves}) > 1
     columns, last = [], None
     for c in (c for panel in panels_of(curves) for c in panel):

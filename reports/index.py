@@ -1,4 +1,4 @@
-"""First page: the results, the verdicts, and the answer for every case on one screen."""
+"""First page: the results, the verdicts, and the best formulations for every case on one screen."""
 import functools
 import math
 import re
@@ -12,7 +12,7 @@ from reports.profiles import panel
 
 # Topic of a case, determined from the analyses of its scene.
 
-# A case belongs to the first kind of which it has an analysis.
+# A case belongs to the first of these kinds for which it has an analysis.
 KINDS = (
     ("stiffness and compliance", ("compliance",)),
     ("past a limit point", ("continuation",)),
@@ -37,7 +37,7 @@ def kind_of(analyses):
 
 
 def scenes(path):
-    """Returns {case: scene file of its defaults, or of its first point; "" if the results have none}."""
+    """Returns {case: scene file of its defaults or of its first point, or "" if the results contain none}."""
     found = {}
     with h5py.File(path) as file:
         for name, group in file["cases"].items():
@@ -57,9 +57,10 @@ def grouped_by_kind(cases, path):
     return sorted(groups.items(), key=lambda item: order.index(item[0]))
 
 
-# For quantities without a reference value: the limit on which formulations agree, and their distance from it.
+# Quantities without a reference value: the limit on which formulations agree, and the distance of each formulation
+# from it.
 
-AGREED = "agreement"  # name in the results of an agreement of at least two families of formulations
+AGREED = "agreement"  # name, in the results, of an agreement of at least two families of formulations
 
 
 @dataclass
@@ -78,20 +79,20 @@ class AgreedRow:
 
     @property
     def farthest(self):
-        """Returns the formulation whose limit is farthest from the agreement; None if all are equal."""
+        """Returns the formulation whose limit is farthest from the agreement, or None if all limits are equal."""
         key = max(self.errors, key=lambda key: (abs(self.errors[key]), key))
         return key if self.errors[key] else None
 
     @property
     def fewest(self):
-        """Returns (elements, formulations that need no more than these), or None."""
+        """Returns (smallest number of elements, formulations that need only this number), or None."""
         least = min(self.meshes.values(), default=None)
         keys = (k for k, n in self.meshes.items() if n == least)
         return least and (least, sorted(keys, key=lambda key: (":" in key, key)))
 
 
 def first_within(series, quantity, level):
-    """Returns the number of elements from which every mesh is within the level of the agreement, or None."""
+    """Returns the number of elements from which all meshes are within the level of the agreement, or None."""
     found = None
     for mesh in reversed(series.meshes):
         if not abs(mesh.model_errors.get(quantity, math.nan)) <= level:
@@ -123,20 +124,20 @@ def rows_agreed(cases, level):
     return found
 
 
-# Results in three sentences: speed, verdicts, reference values. The template contains the text.
+# Data for three sentences on speed, verdicts and reference values. The template contains the text.
 
-NAMED = 3  # cases that a sentence names
+NAMED = 3  # largest number of cases that a sentence names
 
 
 def ahead(values):
-    """Returns the formulations with the largest value, to within a percent, and that value."""
+    """Returns the formulations whose value is within one percent of the largest value, and this value."""
     most = max(values.values())
     return sorted(k for k, v in values.items() if round(100 * v) == round(100 * most)), most
 
 
 def of_speed(compared, rows):
-    """Returns the formulations that are most often near the best, and those that solve most problems; None if nothing
-    is compared."""
+    """Returns the formulations that are most often near the best and those that solve the most problems, or None if
+    there is no comparison."""
     if not compared.any:
         return None
     known = [r for r in rows if math.isfinite(r.solved)]
@@ -154,8 +155,8 @@ def of_speed(compared, rows):
 
 
 def of_trust(cases, rows):
-    """Returns the formulations that never have a wrong limit, the formulation with most wrong limits and where they
-    occur, and the number of derived limits."""
+    """Returns the formulations that never have a wrong limit, the formulation with the most wrong limits, the cases of
+    these limits, and the number of derived limits."""
     if not rows:
         return None
     worst = max(rows, key=lambda r: (r.wrong, r.key))
@@ -173,7 +174,8 @@ def of_trust(cases, rows):
 
 
 def of_truths(cases):
-    """Returns the number of reference values in verdicts, their kinds and uncertainties; None if there are none."""
+    """Returns the number of reference values in verdicts, their kinds and their uncertainties, or None if there are
+    none."""
     known = {}
     for row in verdicts.rows(cases):
         v = row.verdict
@@ -194,8 +196,8 @@ def of_truths(cases):
 
 
 NAVIGATION = [("index.html", "beamwork")]
-LEVEL = 0.01  # of the answers
-MOST_ROWS = 10  # of the table of verdicts on the first screen
+LEVEL = 0.01  # error level of the answers
+MOST_ROWS = 10  # largest number of rows in the table of verdicts on the first screen
 PLACES = (  # pages to read next, if the site has them
     ("answers.html", "your tolerance"),
     ("profiles.html", "profiles"),
@@ -209,11 +211,11 @@ PLACES = (  # pages to read next, if the site has them
     ("deviations.html", "causes"),
     ("glossary.html", "glossary"),
 )
-FIGURE = (300, 165)  # axes, pixels
+FIGURE = (300, 165)  # size of the axes in pixels
 
 
 def formulation_rows(cases):
-    """Returns {key: {case: {verdict: count}}} over all points, without second names."""
+    """Returns {key: {case: {verdict: count}}} over all points, without second names of entries."""
     rows = {}
     for row in verdicts.rows(cases):
         cell = rows.setdefault(row.formulation, {}).setdefault(row.case, {})

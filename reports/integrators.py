@@ -1,5 +1,5 @@
-"""Reads the results of `beamwork motion` into plain records: motions computed by integrators with steps and
-tolerances; and those of `make lab L=paces`, the same for every case of motion."""
+"""Reads the results of `beamwork motion` into plain records: motions computed by integrators with given steps and
+tolerances. Also reads the results of `make lab L=paces`, which contain the same for every case with a motion."""
 import json
 import math
 import os
@@ -9,17 +9,19 @@ from reports import experiments
 from reports.data import Unreadable
 
 PACES = "paces.json"
-KEPT = 1e-11  # of the largest energy: smaller drift counts as conserved
-ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # of legends and tables
-KEYS = ("case", "parameters", "formulation", "elements")  # of a problem
-NONE_WANTED = "none is wanted"  # of a reference
-STIFFENING = "stiffening"  # case parameter: factor on the axial stiffness
+KEPT = 1e-11  # fraction of the largest energy; the energy is conserved if its drift is smaller
+ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # order in legends and tables
+KEYS = ("case", "parameters", "formulation", "elements")  # columns that identify a problem
+NONE_WANTED = "none is wanted"  # reason stored if no reference is requested
+STIFFENING = "stiffening"  # name of the case parameter that multiplies the axial stiffness
 
 
 @dataclass(frozen=True)
 class Run:
-    """One motion. error: time error only; cost [s] of counted work; energy, momentum: largest unexplained relative
-    change; fate: outcome once no load acts; large: from a map of large steps, whose errors are not computed."""
+    """One motion. error: time-integration error only; cost: [s] of counted work; energy, momentum: largest unexplained
+    relative change; fate: outcome after the loads have ended; large: the run belongs to a map of large steps, for
+    which errors are not
+    computed."""
 
     scheme: str
     step: float
@@ -37,7 +39,7 @@ class Run:
 
     @property
     def setting(self):
-        """Returns the tolerance if it controls the steps, otherwise the step."""
+        """Returns the tolerance if the steps are controlled by a tolerance, otherwise the step."""
         return f"tolerance {self.tolerance:.2g}" if self.tolerance else f"step {self.step:.3g} s"
 
     @property
@@ -46,13 +48,13 @@ class Run:
 
     @property
     def keeps(self):
-        """Energy, to round-off."""
+        """Returns whether the run conserves energy to round-off."""
         return self.energy <= KEPT
 
 
 @dataclass(frozen=True)
 class Ladder:
-    """Order of an integrator from successively halved steps; verdict: pass, low order or undecided."""
+    """Observed order of an integrator, from successively halved steps. verdict: pass, low order or undecided."""
 
     scheme: str
     nominal: float
@@ -62,7 +64,8 @@ class Ladder:
 
 @dataclass(frozen=True)
 class Way:
-    """Cost of an integrator for an error: cost [s] at exactly that error, and the run that is within it."""
+    """Cost of an integrator for an error level. cost: [s], interpolated to exactly this error; run: a run within the
+    level."""
 
     scheme: str
     cost: float
@@ -71,7 +74,7 @@ class Way:
 
 @dataclass
 class Problem:
-    """A formulation on a mesh of a case. reached: {error: [Way]}, the cheapest first."""
+    """A mesh of a formulation in a case. reached: {error: [Way]}, the cheapest first."""
 
     case: str
     parameters: str
@@ -126,7 +129,7 @@ def run_of(row, large=False):
 
 
 def ways_of(rows, runs):
-    """{error: [Way]}"""
+    """Returns {error: [Way]}, the cheapest first."""
     found = {(r.scheme, r.step, r.tolerance): r for r in runs}
     out = {}
     for row in rows:
@@ -142,8 +145,8 @@ def stiffening_in(parameters):
 
 
 def problem_of(tables, key):
-    """Returns the runs of a case, set of parameters, formulation and mesh: those with errors, then those of which only
-    the outcome is known."""
+    """Returns the Problem of a case, set of parameters, formulation and mesh. It contains the runs with errors, then
+    those of which only the outcome is known."""
     def own(name):
         return tables[name].get(key, [])
 
@@ -166,7 +169,8 @@ def problems_of(found):
 
 @dataclass(frozen=True)
 class Check:
-    """Difference between the reference of a problem and `explicit` at two tolerances; reason: why it is unknown."""
+    """Difference between the reference of a problem and `explicit` at two tolerances. reason: why the difference is
+    unknown."""
 
     name: str
     formulation: str
@@ -177,9 +181,9 @@ class Check:
 
 @dataclass
 class Record:
-    """verdicts: rows with observed and expected verdicts. compared: problems on which integrators are compared (every
-    case of motion if `make lab L=paces` ran them). left_out: {(case, formulation): why it is not run}. about: the
-    program that ran them."""
+    """Contents of the results. verdicts: rows with observed and expected verdicts; compared: problems on which
+    integrators are compared (every case with a motion if `make lab L=paces` was run); left_out: {(case, formulation):
+    reason why it is not run}; about: the program that made the runs."""
 
     problems: list
     verdicts: list
@@ -231,16 +235,17 @@ def read(path):
     return Record(problems, found["verdicts"], *(compared_in(beside) or (problems, {}, [])), found)
 
 
-# Finds the integrator and the step with the lowest cost within a time error, and whether that is verified. `beamwork
-# motion` itself reports the cost of a scheme for an error.
+# Finds the integrator and the step with the lowest cost within a time error, and the evidence for this result.
+# `beamwork motion` itself reports the cost of a scheme for an error.
 
 LEVELS = (1e-2, 1e-4, 1e-6)
-FACTORS = [10**(i / 12) for i in range(25)]  # of profiles: from 1 to 100
+FACTORS = [10**(i / 12) for i in range(25)]  # factors of profiles, from 1 to 100
 
 
 @dataclass(frozen=True)
 class Answer:
-    """ways: the cheapest first; ties: schemes whose costs differ by less than the scatter of costs."""
+    """Answer for one problem. ways: the cheapest first; ties: schemes whose costs differ from the lowest by less than
+    the scatter of costs."""
 
     level: float
     ways: tuple
@@ -259,7 +264,7 @@ def answer(problem, level, noise=1.0):
 
 
 def by_case(problems):
-    """{(case, parameters): [Problem]}"""
+    """Returns {(case, parameters): [Problem]}."""
     out = {}
     for problem in problems:
         out.setdefault((problem.case, problem.parameters), []).append(problem)
@@ -268,9 +273,9 @@ def by_case(problems):
 
 @dataclass(frozen=True)
 class Summary:
-    """Summary of a case over all formulations. wins: {scheme: formulations in which it has the lowest cost or ties};
-    best: the ways of the scheme with most wins; keeping: the cheapest ways that conserve energy to round-off, with
-    their costs relative to the lowest."""
+    """Summary of a case over all formulations. wins: {scheme: formulations for which it has the lowest cost or ties};
+    best: the ways of the scheme with the most wins; keeping: the cheapest ways that conserve energy to round-off, with
+    their costs relative to the lowest cost."""
 
     wins: tuple
     reached: int
@@ -292,7 +297,7 @@ def summary(problems, level, noise=1.0):
 
 
 def counted(problems, level):
-    """Returns {scheme: problems in which it comes within the level}."""
+    """Returns {scheme: number of problems in which its error is within the level}."""
     return {s: sum(any(w.scheme == s for w in answer(p, level).ways) for p in problems)
             for s in ordered({r.scheme for p in problems for r in p.runs if r.known})}
 
@@ -307,20 +312,19 @@ def orders(problems):
 
 
 def judged(problems):
-    """Returns the problems with errors of the time integration."""
+    """Returns the problems for which time-integration errors are known."""
     return [p for p in problems if not p.reference and any(r.known for r in p.runs)]
 
 
 def series(problem, scheme):
-    """Returns the runs of a scheme, from the coarsest to the finest: [those with equal steps, those with a
-    tolerance]."""
+    """Returns [runs with equal steps, runs with a tolerance] of a scheme, each from the coarsest to the finest."""
     own = sorted((r for r in problem.runs if r.scheme == scheme),
                  key=lambda r: (-r.tolerance, -r.step))
     return [[r for r in own if bool(r.tolerance) == wanted] for wanted in (False, True)]
 
 
 def doubt(problem, way):
-    """Returns the reason why the error of a run may be wrong; empty if there is none."""
+    """Returns the reason why the error of a run may be wrong, or an empty string if there is none."""
     ladder = problem.ladder(way.scheme)
     if ladder is not None and ladder.verdict == "low order":
         return f"its error falls with order {ladder.order:.1f}, not {ladder.nominal:g}"
@@ -330,7 +334,8 @@ def doubt(problem, way):
 
 
 def wins(problems, level, noise=1.0):
-    """Returns ({scheme: problems in which it has the lowest cost or ties}, problems that any scheme reaches)."""
+    """Returns ({scheme: problems in which it has the lowest cost or ties}, problems in which any scheme reaches the
+    level)."""
     count, reached = {}, 0
     for problem in problems:
         found = answer(problem, level, noise)

@@ -1,5 +1,5 @@
-"""Page of integrators: which one, with which step, has the lowest cost within a time error, and whether that is
-verified (from `beamwork motion`, and from paces.json if it exists)."""
+"""Page of integrators: the integrator and the step with the lowest cost within a time error, and the evidence for it
+(from `beamwork motion`, and from paces.json if it exists)."""
 import functools
 import math
 
@@ -12,7 +12,7 @@ from reports.integrators import ordered
 from reports.motion_page import between
 from reports.profiles import Fixed, factors, stairs
 
-# Sentences about integrators.
+# Text about integrators.
 
 
 def joined(words):
@@ -25,8 +25,8 @@ def level_words(level):
 
 
 def soonest(problems, level, noise):
-    """Returns `within 1 % alpha in 2 of 3`, without those that have the lowest cost less than half as often as the
-    first; for a single problem, with its step."""
+    """Returns text such as `within 1 % alpha in 2 of 3`. Integrators that have the lowest cost less than half as often
+    as the first are omitted. For a single problem, the text includes the step."""
     count, reached = integrators.wins(problems, level, noise)
     if not reached:
         return f"within {level_words(level)} none"
@@ -43,7 +43,7 @@ def soonest(problems, level, noise):
 
 
 def trust(problems, noise):
-    """Returns the evidence for the answers, from the runs of lowest cost."""
+    """Returns text on the evidence for the answers, from the runs of lowest cost."""
     best = [(p, found.best) for p in problems
             for found in (integrators.answer(p, level, noise) for level in integrators.LEVELS)
             if found.best]
@@ -76,7 +76,7 @@ def first(problems, noise):
 
 
 def chosen(ways):
-    """Returns `tolerance 1e-05` or `step 0.01 to 0.02 s`, whichever most of the ways use."""
+    """Returns text such as `tolerance 1e-05` or `step 0.01 to 0.02 s`, whichever most of the ways use."""
     by_tolerance = [w.run.tolerance for w in ways if w.run.tolerance]
     if 2 * len(by_tolerance) >= len(ways):
         return f"tolerance {between(by_tolerance, '{:.2g}')}"
@@ -84,7 +84,8 @@ def chosen(ways):
 
 
 def keeping(found):
-    """Returns the integrators that reach the error and conserve energy, with their cost relative to the lowest."""
+    """Returns text on the integrators that reach the error and conserve energy, with their costs relative to the
+    lowest."""
     if not found.keeping:
         return "none of those within it conserves energy to round-off"
     names = joined(dict.fromkeys(scheme for scheme, _ in found.keeping))
@@ -99,7 +100,8 @@ def drift(ways):
 
 
 def stability(problems):
-    """Returns one sentence on a map: the schemes that grow or stop anywhere."""
+    """Returns one sentence on a map, which lists the schemes whose energy grows or which stop at any step and
+    stiffness."""
     bad, every = {}, {}
     for problem in problems:
         for run in problem.runs:
@@ -137,12 +139,12 @@ def verdicts(rows):
 
 SIZE, ONE, PROFILE = (250, 190), (420, 250), (250, 165)
 COLUMNS = 3
-FLOOR = 1e-14  # of what is drawn
-SLOPES = (2, 5)  # orders that have a reference line
+FLOOR = 1e-14  # smallest drawn error
+SLOPES = (2, 5)  # orders with a reference line
 
 
 def slope_lines(panel, runs):
-    """Draws dotted lines whose slopes are the orders, starting from the upper left run."""
+    """Draws dotted lines whose slopes are the orders in SLOPES, starting from the upper left run."""
     costs = [r.cost for r in runs]
     low, high = min(costs), max(costs)
     errors = [max(abs(r.error), FLOOR) for r in runs]
@@ -190,7 +192,7 @@ def work_precision(site, case, problems):
 
 
 def profile(site, problems, level):
-    """Returns the Image of a performance profile, or None if nothing comes within the level."""
+    """Returns the Image of a performance profile, or None if no run is within the level."""
     curves = integrators.profile(problems, level)
     if not any(math.isfinite(c[-1]) and c[-1] > 0 for c in curves.values()):
         return None
@@ -210,8 +212,8 @@ def profile(site, problems, level):
     return chart.image(site, f"integrators_profile_{level:g}".replace(".", "_"))
 
 
-# Stability maps: step horizontally, stiffness vertically, a panel for each integrator. Each outcome has a colour and a
-# letter, so that the map can be read without colours.
+# Stability maps, with the step on the horizontal axis, the stiffness on the vertical axis, and a panel for each
+# integrator. Each outcome has a colour and a letter, so that the map can be read without colours.
 
 # fate: letter, colour, colour of the letter, meaning
 LOOK = {
@@ -221,7 +223,7 @@ LOOK = {
     "stops": ("S", "currentColor", "var(--paper,#fff)", "a step finds no solution"),
 }
 WIDE, TALL, LEFT, TOP, BELOW, GAP = 46, 26, 84, 26, 46, 22
-MOST = 4  # panels in a row
+MOST = 4  # largest number of panels in a row
 
 
 def map_text(x, y, words, more=""):
@@ -229,7 +231,7 @@ def map_text(x, y, words, more=""):
 
 
 def short(value):
-    """Returns a power of ten as 1e6."""
+    """Returns a power of ten as text, such as 1e6."""
     return (f"{value:g}" if value < 1e4 else f"{value:.0e}").replace("e+0", "e").replace("e+", "e")
 
 
@@ -241,7 +243,7 @@ def field(x, y, fate, words):
 
 
 def map_panel(scheme, found, steps, stiffenings, left, top):
-    """One integrator."""
+    """Returns the panel of one integrator."""
     out = map_text(left + WIDE * len(steps) / 2, top - 9, scheme, 'font-size="12"')
     for j, stiffening in enumerate(stiffenings):
         for i, step in enumerate(steps):
@@ -265,7 +267,8 @@ def fates(problems):
 
 
 def draw_map(problems, legend=True):
-    """Returns the Image of a structure's map. problems: its stiffenings; legend: letters are explained below it."""
+    """Returns the Image of the map of a structure. problems: its stiffenings; legend: the letters are explained below
+    the map."""
     found = fates(problems)
     schemes = ordered({s for s, _, _ in found})
     steps, stiffenings = sorted({h for _, h, _ in found}), sorted({x for _, _, x in found})
@@ -323,8 +326,8 @@ def cases_of(problems, noise):
 
 
 def maps_of(problems):
-    """Returns [(name, Image, sentence)]: a map for each structure that was run with large steps, the largest first,
-    with the letters explained below it."""
+    """Returns [(name, Image, sentence)]: a map for each structure that was run with large steps, the largest map
+    first, with an explanation of the letters."""
     found = [own for own in integrators.structures(problems).values() if fates(own) and
              any(p.reference == integrators.NONE_WANTED for p in own)]
     found.sort(key=lambda own: -len(fates(own)))
@@ -338,8 +341,8 @@ def unmeasured(problems):
 
 
 def failures_of(problems):
-    """Returns [(case, parameters, scheme, runs that failed, formulations, one of them)] of runs without an error;
-    large steps that are expected to stop are in the maps."""
+    """Returns [(case, parameters, scheme, failed runs, formulations, one of these runs)] of runs without an error
+    value. Large steps, which are expected to fail, are in the maps instead."""
     found = {}
     for p in problems:
         for r in p.runs:
@@ -349,7 +352,7 @@ def failures_of(problems):
 
 
 def diagrams_of(site, problems):
-    """[(case, parameters, Image)]"""
+    """Returns [(case, parameters, Image)]."""
     found = [(case, parameters, work_precision(site, f"{case}_{i}", own))
              for i, ((case, parameters), own) in enumerate(integrators.by_case(problems).items())]
     return [one for one in found if one[2]]

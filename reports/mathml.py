@@ -2,7 +2,7 @@
 
 The subset: letters, numbers and operators; `_`, `^` and `'`; groups in braces; Greek letters and symbols;
 names of functions; \\frac, \\sqrt, \\mathbf, \\mathrm, \\text; accents; \\left and \\right.
-Unknown commands are rejected by name.
+Unknown commands are rejected, with their names.
 """
 import re
 
@@ -44,7 +44,7 @@ def operator(sign, stretchy=False):
 
 
 def bold(letters):
-    """Returns letters as the bold mathematical letters of Unicode."""
+    """Returns the letters as bold mathematical letters of Unicode."""
     first = {"A": 0x1D400, "a": 0x1D41A}
     return "".join(chr(first["A"] + ord(c) - ord("A")) if c.isupper() else chr(
         first["a"] + ord(c) - ord("a")) for c in letters)
@@ -72,7 +72,7 @@ class Parser:
         return token
 
     def group(self):
-        """Parses the text between braces, or a single token."""
+        """Parses the text between braces or a single token."""
         if self.peek() != "{":
             return self.atom()
         self.take("{")
@@ -81,7 +81,7 @@ class Parser:
         return row(parts) if parts else "<mrow></mrow>"
 
     def words(self):
-        """The characters between braces."""
+        """Returns the characters between braces."""
         self.take("{")
         found = ""
         while self.peek() != "}":

@@ -1,5 +1,5 @@
-"""The joint and the hexapod, compared with N sections 4.2 and 4.3: curves, relative times, growth, parts of an
-iteration, dense baseline.
+"""The joint and the hexapod, compared with N sections 4.2 and 4.3: curves, relative times, growth of the time with the
+number of elements, parts of an iteration, and the dense baseline.
 
 Times come from `make lab L=bench-mechanisms`, which writes its files into the folder of the results."""
 import functools
@@ -20,7 +20,7 @@ PUBLISHED = (("sheet_third", 1, 9.77e5, 1.0), ("sheet_third", 2, 9.61e5, 3.3),
 PUBLISHED_SHELL = 9.81e5  # N Fig. 8, shell elements: another model
 PUBLISHED_SECONDS = {"spherical_joint": 2.45,
                      "hexapod": 122.0}  # N, one third-order element per sheet
-PUBLISHED_FACTOR = 6.32  # N section 4.3: two second-order elements against one of third order
+PUBLISHED_FACTOR = 6.32  # N section 4.3: time of two second-order elements relative to one third-order element
 PARTS = ("elements", "assembly", "factorisation", "solution")
 QUANTITY = "support_stiffness_max"
 
@@ -40,7 +40,7 @@ class Cell:
 
 
 def read_bench(path, case):
-    """Returns the timed runs of the defaults in a file of `beamwork bench`; may be empty."""
+    """Returns the timed runs at the default parameters in a file of `beamwork bench`; the list may be empty."""
     if not os.path.exists(path):
         return []
     found = data.read_case(path, case, root=data.root_of_bench)
@@ -51,7 +51,7 @@ def read_bench(path, case):
 
 
 def value_of(site, key, n, parameters):
-    """Returns the largest stiffness of a run in the results."""
+    """Returns the largest support stiffness of a run in the results."""
     case = site.case("spherical_joint")
     for point in case.points if case else []:
         if point.parameters == parameters:
@@ -61,7 +61,8 @@ def value_of(site, key, n, parameters):
 
 
 def comparison(site, cells):
-    """Returns the published rows with those of beamwork. The published second-order element has no Wagner torque."""
+    """Returns the published rows together with those of beamwork. The published second-order element has no Wagner
+    torque."""
     at = {(c.key, c.n): c for c in cells if c.case == "spherical_joint"}
     first = at.get(("sheet_third", 1))
     rows = []
@@ -77,8 +78,8 @@ def comparison(site, cells):
 
 
 def curve_figure(site):
-    """Draws the support stiffness over one revolution: one and two elements against the converged beam and the
-    published shell maximum."""
+    """Draws the support stiffness over one revolution for one and two elements, the converged beam, and the published
+    maximum of shells."""
     case = site.case("spherical_joint")
     point = next((p for p in case.points if p.name == "default"), None) if case else None
     wanted = (("collocation", 1), ("sheet_third", 1), ("sheet_third", 2), ("sheet_second", 1),
@@ -149,13 +150,13 @@ def growth_figure(site, cells):
 
 
 def factor_of_orders(cells):
-    """Returns the time of two second-order elements relative to one of third order in the hexapod."""
+    """Returns the time of two second-order elements relative to one third-order element in the hexapod."""
     at = {(c.key, c.n): c.seconds for c in cells if c.case == "hexapod"}
     return at.get(("sheet_second", 2), math.nan) / at.get(("sheet_third", 1), math.nan)
 
 
 def farthest(rows):
-    """Returns the largest relative difference from the published values; NaN if one is unknown."""
+    """Returns the largest relative difference from the published values, or NaN if a value is unknown."""
     known = [abs(r["ours"] / r["published"] - 1) for r in rows]
     return max(known) if all(map(math.isfinite, known)) else math.nan
 

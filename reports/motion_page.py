@@ -1,5 +1,5 @@
-"""Motion pages: integrators, energies, momenta, steps, and quantities over time; one page for each case with a motion
-(table `motion` of the results)."""
+"""Motion pages: integrators, energies, momenta, steps, and quantities over time, with one page for each case with a
+motion (table `motion` of the results)."""
 import functools
 import math
 import re
@@ -15,8 +15,8 @@ from reports.chart import Chart
 from reports.data import holds, text
 from reports.style import COLOURS
 
-# Motions in a results file: the table `motion`, with a row for each accepted step, and the settings of the
-# integrators, from the scene.
+# Motions in a results file: the table `motion`, with a row for each accepted step, and the settings of the integrators
+# from the scene.
 
 TABLE = "motion"
 MOMENTA = {"P": ("px", "py", "pz"), "L": ("lx", "ly", "lz")}
@@ -24,7 +24,7 @@ MOMENTA = {"P": ("px", "py", "pz"), "L": ("lx", "ly", "lz")}
 
 @dataclass
 class Motion:
-    """One motion. columns: {name: values}; the first row is the start."""
+    """One motion. columns: {name: values}; the first value belongs to the start."""
 
     formulation: str
     elements: int
@@ -54,7 +54,7 @@ class Motion:
         return self.columns["drift"] / (self.scale or 1)
 
     def momentum(self, which):
-        """Returns P or L [steps x 3]."""
+        """Returns the momentum P or the angular momentum L [steps x 3]."""
         return np.stack([self.columns[name] for name in MOMENTA[which]], axis=1)
 
     def stays(self, which):
@@ -87,13 +87,13 @@ def motions_of(path, case, point="default"):
 
 
 def has_motions(path):
-    """Does any case of the file have a motion?"""
+    """Returns whether any case in the file has a motion."""
     with h5py.File(path) as file:
         return any(TABLE in group and len(group[TABLE]) for group in file["cases"].values())
 
 
 def how(point):
-    """Returns the settings of the scene's last motion, or {}."""
+    """Returns the settings of the last motion of the scene, or {}."""
     analyses = (yaml.safe_load(point.scene) or {}).get("analyses", {}) if point.scene else {}
     found = [a["motion"] for a in analyses.values() if "motion" in a]
     return found[-1] if found else {}
@@ -108,7 +108,8 @@ class Truth:
 
 
 def truths_of(path, case, quantity, end):
-    """Returns [Truth] of a quantity at the defaults, for any `time`; end: its default."""
+    """Returns [Truth] of a quantity at the default parameters except `time`, which may have any value; end: its
+    default."""
     with h5py.File(path, driver="core", backing_store=False) as file:
         group = file["truths"].get(case)
         names = ("parameters", "quantity", "model", "formulation")
@@ -124,9 +125,9 @@ def truths_of(path, case, quantity, end):
     return [Truth(*item) for item in sorted(found.items())]
 
 
-# Sentences about a motion: its integrator, steps and drift.
+# Text about a motion: its integrator, steps and drift.
 
-ROUND_OFF = 1e-6  # momenta that change by less count as conserved
+ROUND_OFF = 1e-6  # momenta that change by less are conserved
 
 
 def scheme(how):
@@ -172,7 +173,7 @@ def sentence(motion, how):
              if rejected else "")
     drift = float(np.abs(motion.drift).max())
     name = scheme(how)
-    tolerance = float(how.get("tolerance", 0))  # YAML reads 1e-05 as a string
+    tolerance = float(how.get("tolerance", 0))  # because YAML reads 1e-05 as a string
     by = f" with a tolerance of {tolerance:g} per step" if tolerance else ""
     return (f"{name[0].upper()}{name[1:]}{by} takes {words_of_steps(motion)}{tries} to "
             f"{motion.time[-1]:.4g} s, {motion.columns['iterations'][1:].mean():.1f} iterations "
@@ -181,7 +182,7 @@ def sentence(motion, how):
 
 
 def between(values, form):
-    """Returns `smallest to largest`, or one value if both print the same."""
+    """Returns `smallest to largest`, or one value if both have the same text."""
     least, most = form.format(min(values)), form.format(max(values))
     return least if least == most else f"{least} to {most}"
 
@@ -192,7 +193,7 @@ def whenever(meaning):
 
 
 def spread(motions):
-    """Compares the other formulations; empty if there are none."""
+    """Compares the first motion with those of other formulations; returns an empty string if there are none."""
     if len(motions) < 2:
         return ""
     drifts = [float(np.abs(m.drift).max()) for m in motions]
@@ -201,11 +202,11 @@ def spread(motions):
             f"{between(drifts, '{:.0e}')}, and a step takes {between(counts, '{:.1f}')} iterations.")
 
 
-# Scales the numbers of an axis close to one: values in thousandths or millionths of a unit, or in thousands.
+# Scales the numbers of an axis to be close to one by means of a unit prefix: thousandths, millionths or thousands.
 
 PREFIXES = ((1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"))
 POWERS = {1e-6: "10⁻⁶ ", 1e-3: "10⁻³ ", 1e3: "10³ "}
-PLAIN = ("m", "rad", "J", "N", "N m", "s")  # units that take a prefix unchanged
+PLAIN = ("m", "rad", "J", "N", "N m", "s")  # units to which a prefix can be added
 
 
 def fitting(values, unit):
@@ -225,8 +226,8 @@ def fitting(values, unit):
 # Figures of a motion over time.
 
 WIDE, HALF = (640, 200), (300, 170)
-MOST_POINTS = 150  # of a curve
-MOST_CURVES = 7  # with the reference value, one fewer than a figure initially shows
+MOST_POINTS = 150  # largest number of points of a curve
+MOST_CURVES = 7  # with the curve of the reference value, one fewer than a figure initially shows
 FLOOR = 1e-17  # smallest drawn drift
 # column: name, colour, line
 ENERGIES = {"kinetic": ("kinetic", 0, "-"), "strain": ("strain", 1, "-"),
@@ -236,19 +237,19 @@ AXES = {"x": (0, "-"), "y": (1, "--"), "z": (2, ":")}
 
 
 def thinned(values, most=MOST_POINTS):
-    """Returns indices of this number of values, evenly spaced, including both ends."""
+    """Returns the indices of at most this number of values, evenly spaced and including both ends."""
     return np.unique(np.linspace(0, len(values) - 1, min(len(values), most)).round().astype(int))
 
 
 def largest(x, y, most=MOST_POINTS):
-    """Returns (x, y) of the largest y in each of this number of parts, so that no peak is lost."""
+    """Returns (x, y) of the largest y in each of this number of intervals, so that no peak is lost."""
     parts = np.array_split(np.arange(len(y)), min(len(y), most))
     at = [int(part[np.nanargmax(y[part])]) for part in parts]
     return x[at], y[at]
 
 
 def line(site, panel, name, look, x, y, unit, size):
-    """Draws a curve that belongs to no formulation; size: that of the unit of the axis."""
+    """Draws a curve that belongs to no formulation. size: size of the unit of the axis."""
     index, dash = look
     marks = thinned(x, 9)
     told = site.points(name, ("time", f"value [{unit}]"),
@@ -274,7 +275,7 @@ def draw_energies(site, motion, name):
 
 
 def draw_momenta(site, motion, name):
-    """Draws momentum and angular momentum, each in a panel."""
+    """Draws the momentum and the angular momentum, each in a panel."""
     chart = Chart(2, HALF, gap=(76, 52))
     at = thinned(motion.time)
     for which, words, unit in (("P", "momentum", "kg m/s"), ("L", "angular momentum", "kg m²/s")):
@@ -287,7 +288,7 @@ def draw_momenta(site, motion, name):
 
 
 def leading(motions):
-    """Returns the motions that are drawn, plain formulations first."""
+    """Returns the motions that are drawn, with formulations without options first."""
     rank = sorted(motions, key=lambda m: (verdicts.corrected(m.formulation) is not None,
                                           ":" in m.formulation))
     return rank[:MOST_CURVES]
@@ -313,7 +314,7 @@ def draw_drifts(site, motions, name):
 
 
 def draw_steps(site, motions, name):
-    """Draws step lengths and iterations; for equal steps, iterations only."""
+    """Draws step lengths and iterations, or only iterations if all steps are equal."""
     told = leading(motions)
     equal = all(np.ptp(m.steps) <= 1e-6 * m.steps.max() for m in told)
     chart = Chart(1 if equal else 2, WIDE if equal else HALF, gap=(76, 52))
@@ -332,8 +333,8 @@ def draw_steps(site, motions, name):
 
 
 def over_time(case, quantity):
-    """Returns {formulation: (times, values, elements, whole)} of the finest meshes: the curve of the quantity, or its
-    values at points that differ only in `time`."""
+    """Returns {formulation: (times, values, elements, whole)} of the finest meshes. The values are the curve of the
+    quantity (whole) or its values at points that differ only in `time`."""
     out, end = {}, end_of(case)
     for series in case.points[0].series:
         curves = [m for m in series.meshes if quantity in m.curves and
@@ -362,8 +363,8 @@ def end_of(case):
 
 
 def draw_quantity(site, case, name, image):
-    """Draws a quantity over time with its reference values, as far as it was computed. Returns None for a single
-    instant."""
+    """Draws a quantity over time, as far as it was computed, with its reference values. Returns None if it is known at
+    only one instant."""
     found, end = over_time(case, name), end_of(case)
     instants = {t for x, *_ in found.values() for t in x}
     if len(instants) < 2:
@@ -428,13 +429,13 @@ def parts_of(site, case, motions):
 
 
 def found_in(site):
-    """[(case, [Motion])]"""
+    """Returns [(case, [Motion])]."""
     found = ((case, motions_of(site.results, case.name)) for case in site.cases)
     return [(case, motions) for case, motions in found if motions]
 
 
 def section(site, case):
-    """Returns the motions section on the page of a case."""
+    """Returns the section on motions for the page of a case."""
     motions = motions_of(site.results, case.name)
     if not motions:
         return []

@@ -1,8 +1,8 @@
 """The bar at the top of every page: groups of pages, and the pages of the open group."""
 from dataclasses import dataclass
 
-# Titles, each with its pages in order; a group without pages is not shown. Pages in no group are listed with the last
-# one.
+# Titles of the groups, each with its pages in order. A group without pages is not shown. Pages in no group are listed
+# in the last group.
 GROUPS = (
     ("beamwork", ("index.html",)),
     ("Answers", ("answers.html", "explorer.html")),
@@ -17,12 +17,12 @@ GROUPS = (
     ("Glossary", ("glossary.html",)),
     ("About", ("environment.html", "checks.html", "convergence.html")),
 )
-SWEEP = "sweep_"  # prefix of the files of sweeps
+SWEEP = "sweep_"  # prefix of the files of sweep pages
 
 
 @dataclass(frozen=True)
 class Group:
-    """file: of its first page; pages: [(file, title)]."""
+    """A group of pages. file: that of its first page; pages: [(file, title)]."""
 
     title: str
     file: str
@@ -49,8 +49,7 @@ def groups(pages):
 
 
 def group_of(name, found, cases):
-    """Returns the group that a page belongs to, or None. Pages of cases and formulations belong to the groups of the
-    same name."""
+    """Returns the group of a page, or None. Pages of cases and formulations belong to the groups with these names."""
     if name.startswith("formulation_"):
         name = "formulations.html"
     elif name.startswith("motion_"):

@@ -1,5 +1,5 @@
-"""Compares Newton's method in coordinates, strains and stresses together with Newton's method in displacements only:
-the largest possible step, and its cost."""
+"""Compares Newton's method in coordinates, strains and stresses (mixed form) with Newton's method in displacements
+only: the largest possible step, and its cost."""
 import functools
 import json
 import os
@@ -20,7 +20,7 @@ def read(path):
 
 
 def largest(values, iterations):
-    """Returns (largest value up to which all smaller ones converged in one step, iterations there), or (None,
+    """Returns (largest value up to which all values converged in one step, iterations at this value), or (None,
     None)."""
     best = (None, None)
     for value, count in zip(values, iterations):
@@ -43,8 +43,8 @@ def singles(data):
 
 
 def farther(data):
-    """Returns (formulations, those for which the mixed form goes farther in one step, those for which it goes less
-    far)."""
+    """Returns (formulations, those for which the mixed form converges for larger steps than the other form, those for
+    which it converges only for smaller steps)."""
     best = [[largest(s["values"], s[form])[0] or 0 for form in FORMS] for s in data["singles"]]
     return len(best), sum(m > d for m, d in best), sum(m < d for m, d in best)
 
@@ -62,7 +62,7 @@ def contests(data):
 
 
 def figure_of(case, histories):
-    """Draws each correction against the preceding one: slope two."""
+    """Draws each correction against the preceding one; quadratic convergence has the slope two."""
     figure, axes = plt.subplots(figsize=(5.2, 4.2))
     for marker, form in zip("o+", FORMS):
         for h in (h for h in histories if h["form"] == form):

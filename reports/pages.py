@@ -42,9 +42,9 @@ PAGES = (
     "glossary",
 )
 
-ALONE = ("sweep_page", "glossary")  # pages of a sweep without results
+ALONE = ("sweep_page", "glossary")  # pages that can be written for a sweep without other results
 _tasks = [
-]  # of the current run; inherited by the processes of the pool, so that no record is copied
+]  # site of the current run; the processes of the pool inherit it, so that no record is copied
 
 
 def _run(index):
@@ -52,14 +52,14 @@ def _run(index):
 
 
 def present(site):
-    """Returns the modules whose data exist."""
+    """Returns the page modules whose data exist."""
     names = ALONE if site.alone else PAGES
     modules = [importlib.import_module(f"reports.{name}") for name in names]
     return [m for m in modules if not hasattr(m, "present") or m.present(site)]
 
 
 def build(results, truths, folder, bench=None, others=(), sweeps=()):
-    """Writes the whole site, or nothing; returns the number of tasks."""
+    """Writes the whole site, or nothing after an error. Returns the number of tasks."""
     folder = pathlib.Path(folder).absolute()
     folder.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as part:

@@ -1,5 +1,5 @@
-"""Equilibrium paths: load against deflection of the C-shaped cantilever compared with 3-D solids, the paper's
-conclusions from them, and limit points."""
+"""Equilibrium paths: load against deflection of the C-shaped cantilever compared with 3-D solids, the conclusions of
+the paper, and limit points."""
 import dataclasses
 import functools
 import math
@@ -19,7 +19,7 @@ EDGES = {"D": "load_height=edge;w=2.6",
 FORMS = (("beamw_first", "first-order modes"), ("beamw_vlasov", "J Eq. 66"),
          ("beamw_consistent", "consistent second order"))
 EXACT, COARSE = "collocation", 10
-WAGNER = "wagner_moments=1"  # with the part of the Wagner moments that J omits
+WAGNER = "wagner_moments=1"  # includes the part of the Wagner moments that J omits
 SHEAR = ((1.0, ""), (2.5, ""), (1.0, "load_point=E;"))
 SNAPS = ("lee_frame", "snap_through")
 EVENTS = ("limit point", "bifurcation", "branch jump")
@@ -27,7 +27,7 @@ EVENTS = ("limit point", "bifurcation", "branch jump")
 
 @dataclasses.dataclass
 class Solid:
-    """Points on a curve of another model."""
+    """Points on a curve of another model, such as 3-D solids."""
     w: np.ndarray
     value: np.ndarray
     source: str
@@ -35,7 +35,7 @@ class Solid:
 
 @dataclasses.dataclass
 class Event:
-    """Event on a path."""
+    """A critical point or other event on a path."""
     kind: str
     before: int
     after: int
@@ -83,7 +83,7 @@ def draw_curve(ax, mesh, quantity, scale, label, style):
 
 
 def draw_cantilever(site, look):
-    """Draws load and lateral displacement against w, for D and E, with the solid models."""
+    """Draws load and lateral displacement against w for the load points D and E, together with the solid models."""
     figure, axes = plt.subplots(2, 2, figsize=(11, 7.4), sharex="col")
     for column, (letter, parameters) in enumerate(EDGES.items()):
         for row, (quantity, scale, label) in enumerate(
@@ -215,7 +215,7 @@ def model_points(site, parameters):
 
 
 def continued(site, case):
-    """Does the case have a path at its default parameters?"""
+    """Returns whether the case has a path at its default parameters."""
     found = site.case(case)
     return found is not None and any("curve" in m.curves for s in found.points[0].series
                                      if s.key == "beamw_consistent" for m in s.meshes[-1:])

@@ -1,5 +1,5 @@
-"""Pictures of every scene, undeformed and deformed, with its modes (shapes.py): a still picture, and a model that can
-be rotated.
+"""Pictures of every scene, undeformed and deformed, and of its modes (shapes.py): a still picture, and a model that
+can be rotated.
 
 Surfaces are projected in parallel and painted from back to front."""
 import functools
@@ -13,8 +13,9 @@ from reports import shapes
 from reports.shapes import CLAMPED, FRAME, bodies, distance, exaggeration, read, size_of, strips
 
 NAVIGATION = [("pictures.html", "pictures")]
-FLAT = 0.02  # ratio of extent to size below which a structure lies in a plane
-FAR, NEARLY = 0.45, 0.9  # of the largest distance: below a half and the whole, which evenly spaced states miss slightly
+FLAT = 0.02  # ratio of extent to size below which a structure is considered plane
+FAR, NEARLY = 0.45, 0.9  # fractions of the largest distance, slightly below one half and one, because evenly spaced states miss these
+                         # values slightly
 
 MEMBER, BODY, SUPPORT = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80, 0.62]), "#1c2430"
 LIGHT = np.array([0.35, -0.55, 0.76])
@@ -22,7 +23,7 @@ MOST_STRIPS, MOST_MODES = 500, 4
 
 
 class View:
-    """Parallel projection, z upwards."""
+    """A parallel projection with z upwards."""
 
     def __init__(self, azimuth=-58, elevation=24):
         self.angles = (azimuth, elevation)
@@ -39,7 +40,7 @@ class View:
 
 
 def best_view(s, states):
-    """Returns the view from the side, or from higher up if that shows significantly more of the displacements."""
+    """Returns the view from the side, or from higher up if the displacements are then significantly more visible."""
 
     def seen(view):
         return max((float(np.linalg.norm(view.flat(s.position[k] - s.position[0]), axis=1).max())
@@ -74,13 +75,13 @@ def supports(s):
 
 
 def hinges(s):
-    """Returns points at released ends."""
+    """Returns the points at released member ends."""
     ends = np.column_stack([s.first[:-1], s.first[1:] - 1])
     return ends[s.released != 0]
 
 
 def drawn_polygons(s, state, scale):
-    """Returns [(corners, colour)] of one state, and of the undeformed one behind it (colour None)."""
+    """Returns [(corners, colour)] of one state, and of the undeformed state behind it (colour None)."""
     every = max(1, math.ceil(len(s.position[0]) / MOST_STRIPS))
     rest = [(p, None) for p in strips(s, 0, 1, every)] if state else []
     here = [(p, shade(p, MEMBER)) for p in strips(s, state, scale, every)]
@@ -89,7 +90,7 @@ def drawn_polygons(s, state, scale):
 
 
 class Sheet:
-    """The frame of the picture: millimetres of paper for metres of the scene."""
+    """The frame of the picture, which maps metres of the scene to the paper."""
 
     def __init__(self, view, points, width=560, most=380):
         flat = view.flat(points)
@@ -100,7 +101,7 @@ class Sheet:
         self.view, self.low = view, low - [(width / self.scale - span[0]) / 2, 30 / self.scale]
 
     def at(self, points):
-        """Returns positions on the sheet, in pixels, to a tenth."""
+        """Returns positions on the sheet in pixels, rounded to a tenth."""
         x, y = ((self.view.flat(np.asarray(points)) - self.low) * self.scale).T
         return [f"{a:.1f} {self.height - b:.1f}" for a, b in zip(x, y)]
 
@@ -117,7 +118,8 @@ class Sheet:
 
 
 def still(s, state):
-    """Returns one state over the pale undeformed one, as SVG, which is shown where the model cannot be rotated."""
+    """Returns one state, drawn over the pale undeformed state, as SVG. It is shown where the model cannot be
+    rotated."""
     scale = 1 if s.kind[state] == FRAME else exaggeration(s, state)
     view = best_view(s, [state])
     rest, here = drawn_polygons(s, state, scale)
@@ -157,8 +159,8 @@ def title_of(s, state, scale):
 
 
 def chosen(s):
-    """Returns the states with a picture: the first distant state of a path and the last state that is farthest from
-    it, a linear solution, and the first modes."""
+    """Returns the states with a picture: of a path, the first distant state and the last state that is farthest from
+    it; a linear solution; and the first modes."""
     path = [k for k, kind in enumerate(s.kind) if kind in ("path", FRAME)]
     out = [0]
     if path:

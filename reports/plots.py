@@ -1,4 +1,5 @@
-"""Parts of all error figures: axes, the formulations drawn, and markers below the digits of the reference value."""
+"""Common parts of all error figures: axes, selection of the formulations, and markers below the uncertainty of the
+reference value."""
 import math
 
 import numpy as np
@@ -8,14 +9,14 @@ from reports import answers, data, style, verdicts
 from reports.chart import Chart
 
 FLOOR = 1e-13  # errors below this value are round-off
-NEARLY = 1e-10  # errors below this value are of no interest
-CEILING = 1e3  # larger values count as diverged
-MOST_CURVES = style.MOST  # of formulations in a figure
+NEARLY = 1e-10  # differences below this error are not relevant
+CEILING = 1e3  # larger errors are not drawn
+MOST_CURVES = style.MOST  # largest number of formulations in a figure
 OPEN = "open: below the reference value's own digits"
 
 
 def log_axis(axis, whole=False):
-    """Sets few ticks: whole numbers as such, otherwise powers of ten."""
+    """Sets a few ticks: whole numbers if `whole` is set, otherwise powers of ten."""
     low, high = axis.get_view_interval()
     decades = math.log10(high / low) if low > 0 else 6
     if whole and decades < 0.7:
@@ -50,8 +51,8 @@ def finite(series, quantity, errors="errors"):
 
 
 def work_of(point):
-    """Returns (label, function of a mesh) of the counted work: iterations, or evaluated elements if nothing
-    iterates."""
+    """Returns (label, function of a mesh) of the counted work: iterations, or evaluated elements if there are no
+    iterations."""
     if any(m.iterations > 0 for s in point.series for m in s.meshes):
         return "Newton iterations", lambda m: m.iterations
     return ("evaluations of elements",
@@ -75,8 +76,8 @@ def tolerance_of(point, quantity):
 
 
 def digits_of(point, quantity):
-    """Returns the relative uncertainty of the reference value, below which errors have no meaning; None if it is below
-    the range of the plot."""
+    """Returns the relative uncertainty of the reference value, below which errors have no meaning, or None if it is
+    below the range of the plot."""
     found = (answers.verdict_of(s, quantity) for s in point.series)
     known = [v.truth_uncertainty / abs(v.truth) for v in found
              if v and v.truth and math.isfinite(v.truth)]
@@ -85,8 +86,8 @@ def digits_of(point, quantity):
 
 
 def leading(point, quantity):
-    """Returns (series to draw, further ones): at most MOST_CURVES. Uncorrected misprints and options are dropped first
-    (but options on the front of time and error are drawn), then the least accurate series."""
+    """Returns (at most MOST_CURVES series to draw, other series). Uncorrected misprints and options are omitted first
+    (except options on the front of time and error), then the least accurate series."""
     drawn = [s for s in point.series if finite(s, quantity)]
     front = {s.key for s, _ in answers.front(point, quantity)}
 
@@ -102,7 +103,7 @@ def leading(point, quantity):
 
 
 def telling(point, quantities):
-    """Returns the first of these quantities in which most formulations differ from the reference value on their
+    """Returns the first of these quantities for which most formulations differ from the reference value on their
     coarsest mesh, or the first quantity if there is none."""
     def tells(quantity):
         least = max(digits_of(point, quantity) or 0, NEARLY)
@@ -113,7 +114,7 @@ def telling(point, quantities):
 
 
 def marks_of(site, point, series, quantity, meshes, errors="errors"):
-    """Returns the arguments of plot() for the curve of a formulation through these meshes, with the values of its
+    """Returns the arguments of plot() for the curve of a formulation through these meshes, with the data of its
     markers."""
     v = answers.verdict_of(series, quantity)
     unit = point.units.get(quantity, "")
@@ -126,8 +127,8 @@ def marks_of(site, point, series, quantity, meshes, errors="errors"):
 
 
 def draw_series(site, panel, point, series, quantity, where, errors="errors", told=True, **look):
-    """Draws the curve of a formulation. Markers below the digits of the reference value are hollow and lie at the
-    limit of these digits, on the grey background. `told`: each marker carries its values."""
+    """Draws the curve of a formulation. Markers below the uncertainty of the reference value are hollow and are drawn
+    at this uncertainty, on the grey background. `told`: the markers have tooltips with their values."""
     digits = digits_of(point, quantity) if errors == "errors" else None
     pairs = [(m, e) for m, e in finite(series, quantity, errors) if where(m) > 0]
     if not pairs:
@@ -155,7 +156,7 @@ def draw_series(site, panel, point, series, quantity, where, errors="errors", to
 
 
 def slope_triangle(panel, shown, quantity):
-    """Draws the order of the most accurate formulation next to its last points."""
+    """Draws a triangle with the order of the most accurate formulation next to its last points."""
     best = None
     for series in shown:
         pairs, v = finite(series, quantity), answers.verdict_of(series, quantity)
@@ -181,7 +182,7 @@ def draw_failures(site, panel, shown, quantity, where):
 
 
 def front_line(point, quantity):
-    """Returns the times and errors of the front, as a staircase."""
+    """Returns the times and errors of the front as a step curve."""
     least = digits_of(point, quantity) or FLOOR
     best = [(1e3 * m.seconds, max(clipped(m.errors[quantity]), least))
             for _, m in answers.front(point, quantity)]
@@ -189,16 +190,16 @@ def front_line(point, quantity):
     return [p for pair in zip(best, corners + [None]) for p in pair if p]
 
 
-# Figures of a case, each for one question: errors of a quantity, errors of the others, curves of paths.
+# Figures of a case: errors of one quantity, errors of the other quantities, and curves of paths.
 
 ONE = (520, 280)  # axes of a figure with one panel [pixels]
-TWO = (400, 260)  # of each of two side by side
-SMALL = (250, 150)  # of one among many
+TWO = (400, 260)  # axes of each of two panels side by side
+SMALL = (250, 150)  # axes of one of many panels
 
 
 def errors_figure(site, point, quantity, shown, abscissae, name, told=True):
     """Draws the error of one quantity against elements, time, unknowns or work, with a panel for each of the given
-    abscissae. Returns None if there is no error. `told`: markers carry their values."""
+    abscissae. Returns None if there is no error. `told`: the markers have tooltips with their values."""
     if not any(finite(s, quantity) for s in [*shown, *point.others]):
         return None
     chart = Chart(len(abscissae), ONE if len(abscissae) == 1 else TWO)
@@ -221,7 +222,7 @@ def draw_errors(site, panel, point, quantity, shown, abscissa, told):
         draw_series(site, panel, point, series, quantity, where, told=told)
     for i, series in enumerate(point.others):
         pairs = [(where(m), e) for m, e in finite(series, quantity) if where(m) > 0]
-        if pairs:  # not all data are known for other programs
+        if pairs:  # some data are unknown for other programs
             panel.plot([x for x, _ in pairs], [e for _, e in pairs], label=series.label,
                        **data.style_beside(i))
     if abscissa == "elements":
@@ -232,7 +233,7 @@ def draw_errors(site, panel, point, quantity, shown, abscissa, told):
 
 
 def draw_times(site, panel, point, shown, quantity):
-    """Draws the front of the best results, and the scatter of times."""
+    """Draws the front of the best results and the scatter of times."""
     line = front_line(point, quantity)
     panel.plot([x for x, _ in line], [y for _, y in line], back=True, color="currentColor",
                linewidth=5, alpha=0.15)
@@ -260,7 +261,7 @@ def shown_in_all(point, quantities, errors="errors"):
 
 def small_multiples(site, point, quantities, name, errors="errors", ylabel="relative error",
                     abscissa="time"):
-    """Draws one small panel for each quantity, with the same formulations in all."""
+    """Draws a small panel for each quantity, with the same formulations in all panels."""
     columns = min(3, len(quantities))
     chart = Chart(columns, SMALL if len(quantities) > 1 else ONE, gap=(66, 62))
     label, where, whole = against(point, abscissa)

@@ -1,4 +1,4 @@
-"""Compares analytic estimates with single elements, on the pages of the cases that have estimates."""
+"""Compares analytic estimates with the coarsest meshes, on the pages of the cases that have estimates."""
 import math
 
 from markupsafe import Markup
@@ -14,7 +14,7 @@ def tasks(site):
 
 
 def truths_of(point):
-    """{quantity: exact value}"""
+    """Returns {quantity: exact value}."""
     return {v.quantity: v.truth for s in point.series for v in s.verdicts if math.isfinite(v.truth)}
 
 

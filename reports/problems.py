@@ -1,12 +1,11 @@
-"""The problems on which formulations are compared, and the cost of each formulation to solve one.
+"""The problems on which formulations are compared, and the cost at which each formulation solves a problem.
 
 A problem is a quantity with an exact reference value of the same model, at a parameter point of a case.
-Second names of the same entry are not counted. Every case has the same weight, and so has every problem within a
-case: a case with 60 parameter points counts as much as one with a single point.
+Second names of the same entry are not counted. Every case has the same weight, and so has every problem within a case:
+a case with 60 parameter points has the same weight as a case with a single point.
 
-A formulation has solved a problem to a level with its coarsest mesh whose error, and that of all
-finer ones, is within the level, unless its limit is known to be outside the level.
-"""
+A formulation solves a problem to a level with the coarsest mesh for which the errors of that mesh and of all finer
+meshes are within the level, unless its limit is known to be outside the level. """
 import math
 from collections import Counter
 from dataclasses import dataclass, field
@@ -22,13 +21,13 @@ COUNTS = {  # cost measures of a mesh
 
 @dataclass
 class Problem:
-    """tries: {formulation: (data.Series, data.Verdict)} of those that support the problem."""
+    """A problem. tries: {formulation: (data.Series, data.Verdict)} of the formulations that support the problem."""
 
     case: str
     point: str
     quantity: str
     tries: dict
-    meshes: list  # of all runs of the same structure
+    meshes: list  # meshes of all runs of the same structure
     least: dict = field(default_factory=dict)  # measure -> smallest value over all those meshes
 
 
@@ -71,24 +70,25 @@ def problems(cases, keys):
 
 
 def defect(verdict, level):
-    """Is its limit known to differ from the reference value by more than the level?"""
+    """Returns whether the limit is known to differ from the reference value by more than the level."""
     return verdict.verdict in OWN_LIMITS and abs(verdict.error) > level
 
 
 def any_defect(verdict, level):
-    """Is its limit known to differ from the reference value, by any amount?"""
+    """Returns whether the limit is known to differ from the reference value by any amount."""
     del level
     return verdict.verdict in OWN_LIMITS
 
 
 def no_defect(verdict, level):
-    """Ignores the limit: only the errors of the meshes count."""
+    """Returns False, so that only the errors of the meshes matter."""
     del verdict, level
     return False
 
 
 def solved(problem, key, level, forbids=defect):
-    """Returns the data.Mesh that solves it, or None. forbids: the known defect that counts as not solved."""
+    """Returns the data.Mesh with which a formulation solves the problem, or None. forbids: function for a known
+    defect, which counts as not solved."""
     if key not in problem.tries:
         return None
     series, verdict = problem.tries[key]
@@ -99,14 +99,15 @@ def solved(problem, key, level, forbids=defect):
 
 
 def weights(found, key=None):
-    """Returns the weight of each problem, with a sum of 1; key: only problems that this formulation supports."""
+    """Returns the weights of the problems, whose sum is 1. key: only problems that this formulation supports have a
+    weight."""
     kept = [p for p in found if key is None or key in p.tries]
     sizes = Counter(p.case for p in kept)
     return [(p, 1 / sizes[p.case] / len(sizes)) for p in kept]
 
 
 def paid(problem, keys, level, count, forbids=defect):
-    """Returns {formulation: cost of the mesh that solves it}; infinite if none does."""
+    """Returns {formulation: cost of the mesh that solves the problem}, infinite if no mesh does."""
     meshes = {key: solved(problem, key, level, forbids) for key in keys}
     return {key: COUNTS[count](m) if m else math.inf for key, m in meshes.items()}
 
@@ -135,7 +136,8 @@ class Question:
 
 
 def factors(found, keys, question):
-    """Returns {formulation: [(problem, its cost over the unit)]}; infinite if the formulation does not solve it."""
+    """Returns {formulation: [(problem, cost divided by the unit)]}; the cost is infinite if the formulation does not
+    solve the problem."""
     out = {key: [] for key in keys}
     for problem in found:
         bills = paid(problem, keys, question.level, question.count, question.forbids)
@@ -145,7 +147,7 @@ def factors(found, keys, question):
     return out
 
 
-# Reliability and speed: the verdicts on each formulation, and its cost.
+# Reliability and speed: the verdicts on each formulation and its costs.
 
 LEVEL, NEAR = 0.01, 2  # "within twice the best, to 1 %"
 GROUPS = {  # column -> verdicts counted in it
@@ -162,14 +164,14 @@ COLUMN = {verdict: name for name, verdicts in GROUPS.items() for verdict in verd
 
 @dataclass
 class TrustRow:
-    """One formulation; shares are fractions of the weight of all problems."""
+    """A row of the table for one formulation. Shares are fractions of the weight of all problems."""
 
     key: str
     counts: dict  # column of GROUPS -> verdicts
     offered: float = math.nan
-    solved: float = math.nan  # to LEVEL
+    solved: float = math.nan  # share of problems solved to LEVEL
     near: float = math.nan  # share solved to LEVEL within NEAR times the best
-    factor: float = math.nan  # relative to the best: the median over the problems that it solves to LEVEL
+    factor: float = math.nan  # median cost relative to the best, over the problems that it solves to LEVEL
 
     @property
     def judged(self):
@@ -186,7 +188,8 @@ class TrustRow:
 
 
 def median(pairs):
-    """Returns the weighted median: half of the weight is at or below it; NaN if there is none."""
+    """Returns the weighted median of [(value, weight)], with half of the weight at or below it; NaN if there are no
+    pairs."""
     half, reached = sum(w for _, w in pairs) / 2, 0.0
     for value, weight in sorted(pairs):
         reached += weight
@@ -196,7 +199,7 @@ def median(pairs):
 
 
 def count_trust(cases):
-    """Returns {formulation: {column: number}} over all points and quantities, without second names."""
+    """Returns {formulation: {column: number}} over all points and quantities, without second names of entries."""
     out = {}
     for row in verdicts.rows(cases):
         name = COLUMN.get(row.verdict.verdict)
@@ -207,12 +210,12 @@ def count_trust(cases):
 
 
 def judged(cases):
-    """Returns every formulation with a verdict, with any options."""
+    """Returns every formulation that has a verdict, including options."""
     return [key for key, counts in count_trust(cases).items() if sum(counts.values())]
 
 
 def speed(row, found, pairs):
-    """Fills in the data on problems in a row. pairs: [(problem, cost relative to the best)]."""
+    """Adds the data on problems to a row. pairs: [(problem, cost relative to the best)]."""
     weight = {id(p): w for p, w in weights(found)}
     reached = [(f, weight[id(p)]) for p, f in pairs if math.isfinite(f)]
     row.offered = sum(weight[id(p)] for p in found if row.key in p.tries)
@@ -222,7 +225,7 @@ def speed(row, found, pairs):
 
 
 def trust_table(cases, found, keys):
-    """Returns [TrustRow] of these formulations, as far as they have verdicts."""
+    """Returns [TrustRow] of the formulations that have verdicts."""
     counts, measured = count_trust(cases), factors(found, contestants(cases), Question(LEVEL))
     rows = [TrustRow(key, counts[key]) for key in keys if sum(counts.get(key, {}).values())]
     for row in rows:
@@ -232,14 +235,15 @@ def trust_table(cases, found, keys):
 
 
 def trust_order(row):
-    """Sorts by the number of solved problems; formulations that are not compared (options, uncorrected misprints) come
-    last."""
+    """Returns the sort key of a row: the number of solved problems; formulations that are not compared (options,
+    uncorrected misprints) come last."""
     solved = row.solved if math.isfinite(row.solved) else -1
     return -round(solved, 6), -round(row.share, 6), row.key
 
 
 def wrong_cases(cases, key):
-    """Returns {case: verdicts} for which a formulation converges to a wrong limit, most first."""
+    """Returns {case: verdicts} of the cases in which a formulation converges to a wrong limit, those with the most
+    such verdicts first."""
     sizes = {}
     for row in verdicts.rows(cases):
         wrong = COLUMN.get(row.verdict.verdict) in ("predicted", "wrong")

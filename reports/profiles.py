@@ -11,14 +11,14 @@ from reports.chart import Axis, Chart
 from reports.problems import Question, any_defect, defect, no_defect, to_the_best, to_the_smallest
 from reports.style import plt
 
-ROUND = (1, 1.2, 1.4, 1.7, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8)  # in each decade, at which shares are read
+ROUND = (1, 1.2, 1.4, 1.7, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8)  # factors in each decade at which shares are read
 FARTHEST = {to_the_best: 100, to_the_smallest: 1000}  # where the axis ends
-SLACK = 1e-9  # of a factor: equal costs stay equal in floating point
+SLACK = 1e-9  # relative tolerance of a factor, so that equal costs remain equal in floating-point arithmetic
 
 
 @dataclass(frozen=True)
 class Picture:
-    """One figure for each level. offered: only problems that a formulation supports count."""
+    """A figure for each level. offered: only problems that a formulation supports are counted."""
 
     name: str
     count: str
@@ -49,10 +49,11 @@ def places(farthest):
 
 
 def shares(pairs, at):
-    """Returns the share of the weight of problems solved within each factor, and last the share solved at any factor.
+    """Returns the share of the weight of problems solved within each factor, followed by the share solved at any
+    factor.
 
-    pairs: [(factor, weight)] of one formulation, infinite if it does not solve the problem; at: ascending.
-    """
+    pairs: [(factor, weight)] of one formulation; the factor is infinite if the problem is not solved. at: ascending
+    factors. """
     ordered = sorted(pairs)
     whole, reached, i, out = sum(w for _, w in ordered), 0.0, 0, []
     for place in [*at, math.inf]:
@@ -79,13 +80,13 @@ def profile(found, keys, question, offered=False):
 
 
 def read_at(curves, at, factor):
-    """Returns [(share within the factor, formulation)], the largest first; factor: one of the places."""
+    """Returns [(share within the factor, formulation)], the largest first; factor: one of the factors in `at`."""
     i = at.index(factor)
     return sorted(((values[i], key) for key, values in curves.items()), reverse=True)
 
 
 class Compared:
-    """Comparison of results: the problems, the formulations, and those with a curve."""
+    """Comparison of results: the problems, the formulations, and the formulations with a curve."""
 
     def __init__(self, cases):
         self.keys = problems.contestants(cases)
@@ -97,7 +98,7 @@ class Compared:
 
     @property
     def any(self):
-        """Can anything be compared: is there a problem, and are there two formulations to solve it?"""
+        """Returns whether a comparison is possible, which requires a problem and two formulations."""
         return bool(self.problems) and len(self.keys) > 1
 
     def profile(self, question, offered=False):
@@ -123,7 +124,8 @@ def xlabel(picture):
 
 
 def marks_of(site, key, at, shares, marked):
-    """Returns the arguments of plot() for a curve whose markers give the share, and the share solved at any cost."""
+    """Returns the arguments of plot() for a curve whose markers show the share at their factor and the share solved at
+    any cost."""
     rows = [(f"{x:g}", f"{100 * share:.1f} %", f"{100 * shares[-1]:.1f} %")
             for x, share in list(zip(at, shares))[marked]]
     return site.points(key, ("factor", "solved", "at any cost"), rows)
@@ -141,7 +143,7 @@ def legend_of(site, keys, name="profile_legend"):
 
 
 class Fixed(Axis):
-    """An axis with given limits and ticks. ticks: [(value, label)]."""
+    """An axis with prescribed limits and ticks. ticks: [(value, label)]."""
 
     def __init__(self, log, limits, ticks):
         super().__init__(log)
@@ -149,10 +151,10 @@ class Fixed(Axis):
         self.given = ticks
 
     def take(self, values):
-        """Nothing moves it."""
+        """Ignores the values, because the limits are prescribed."""
 
     def settle(self):
-        """It is."""
+        """Does nothing, because the limits are prescribed."""
 
     def ticks(self):
         return self.given
@@ -164,7 +166,7 @@ def factors(farthest):
 
 
 def stairs(at, shares):
-    """Returns the corners of the curve: a share holds from its factor on."""
+    """Returns the corners of the step curve: each share applies from its factor on."""
     xs, ys = [at[0]], [shares[0]]
     for x, y in zip(at[1:], shares[1:]):
         if y != ys[-1]:
@@ -174,7 +176,7 @@ def stairs(at, shares):
 
 
 def figure_of(site, picture, curves, keys, name, size=(250, 175)):
-    """Draws curves: {formulation: shares at places}; size: of the axes, in pixels."""
+    """Draws a profile. curves: {formulation: shares at `places`}; size: of the axes, in pixels."""
     at = places(FARTHEST[picture.unit])
     chart = Chart(1, size)
     panel = chart.panel(xlabel=xlabel(picture), ylabel="share of problems")
@@ -208,12 +210,12 @@ def write_table(site, compared, name="profiles.csv"):
 # The page of profiles, winners and reliability.
 
 NAVIGATION = [("profiles.html", "profiles")]
-NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor of the reading example
+NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor of the example of how to read the figure
 READINGS = (defect, no_defect, any_defect)
 
 
 def panel(site, compared, picture, level, name=None, size=(250, 175)):
-    """Returns a figure with a reading example: the leading curve at NEAR."""
+    """Returns a figure with an example of how to read it: the leading curve at the factor NEAR."""
     curves = compared.profile(picture.question(level), picture.offered)
     at = places(FARTHEST[picture.unit])
     factor = NEAR[picture.unit]
@@ -231,7 +233,7 @@ def panel(site, compared, picture, level, name=None, size=(250, 175)):
 
 
 def readings(compared):
-    """Returns [(formulation, [(level, shares solved by each of READINGS)])]."""
+    """Returns [(formulation, [(level, shares solved in each of READINGS)])]."""
     shares = {
         (level, forbids): compared.profile(Question(level, forbids=forbids))
         for level in LEVELS

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Clock:
-    """Time of a run: the smallest of all repetitions, and the smallest and largest round; for a single run, all three
-    are equal."""
+    """Time of a run: the smallest time of all repetitions, and the times of the fastest and the slowest round. For a
+    single run, all three are equal."""
     setup: float
     solve: float
     least: float
@@ -17,15 +17,15 @@ class Clock:
 
 @dataclass
 class Kept:
-    """The same run with all degrees of freedom kept."""
+    """The same run without elimination of degrees of freedom."""
     clock: Clock
     free: int
 
 
 @dataclass
 class Dense:
-    """The same run with the published algorithm (newton=dense). whole: the whole run was timed, not one iteration
-    multiplied by their number."""
+    """The same run with the published algorithm (newton=dense). whole: the whole run was timed; otherwise the time is
+    that of one iteration multiplied by the number of iterations."""
     seconds: float
     unknowns: int
     whole: bool
@@ -96,7 +96,7 @@ class Verdict:
     model_error: float = math.nan
     reach: dict = field(
         default_factory=dict
-    )  # level -> number of elements of the coarsest mesh from which every mesh is within it
+    )  # level -> number of elements of the coarsest mesh from which all meshes are within the level
 
 
 @dataclass
@@ -112,17 +112,17 @@ class Series:
     model: str = "beam"
     unranked: str = ""  # reason why it has no rank: derivatives by differences, or another process
     is_new: bool = False  # not accepted yet: its verdicts do not affect the exit status
-    other: str = ""  # relevant physics that it omits: another model
-    without: str = ""  # the physics that it omits, and the effect of the omission
+    other: str = ""  # relevant physics that the formulation omits, so that it solves another model
+    without: str = ""  # physics that the formulation omits, and the effect of the omission
 
     @property
     def marks(self):
-        """Returns the remarks that follow its name everywhere."""
+        """Returns the remarks that follow the name of the series everywhere."""
         return "; ".join(filter(None, (self.unranked, "new, without effect on the exit status" if self.is_new else "")))
 
     @property
     def label(self):
-        """Returns its name in a legend."""
+        """Returns the name of the series in a legend."""
         other = f"without {self.other}" if self.other else ""
         marks = "; ".join(filter(None, (self.marks, other)))
         return f"{self.key} ({marks})" if marks else self.key
@@ -137,7 +137,7 @@ class Point:
     units: dict
     others: list = field(default_factory=list)  # series of other programs (reports/data.py)
     noise: float = 1.25  # cost ratio below which costs tie
-    scene: str = ""  # as a scene file
+    scene: str = ""  # text of the scene file
     meanings: dict = field(default_factory=dict)  # quantity -> description in one line
     omitted: str = ""  # description of the physics that the scene omits
     assumed: list = field(default_factory=list)  # (kind, assumption about a section)

@@ -16,11 +16,11 @@ from scipy.spatial.transform import Rotation
 
 from reports.data import text
 
-SYMBOL = 0.03  # half the side of a rectangle that represents a section known only by constants, at most, relative to the size
+SYMBOL = 0.03  # largest half side, relative to the size, of a rectangle that represents a section known only by its constants
 THIN = 0.2  # ratio of thickness to length up to which a wall is drawn as a surface
-VISIBLE = 0.02  # displacement relative to the size below which the picture exaggerates
+VISIBLE = 0.02  # displacement, relative to the size, below which the picture exaggerates displacements
 GAP = 0.35  # distance between points of a body, relative to its extent, beyond which they are drawn as parts joined by rods
-CLAMPED = 63  # all six components held
+CLAMPED = 63  # bits of all six components
 FRAME = "motion"  # kind of a state that is a frame of a motion; its value is the time [s]
 
 
@@ -35,8 +35,8 @@ class Shapes:
     held: np.ndarray  # [nodes]: bits
     released: np.ndarray  # [members x 2]: bits of both ends
     sections: list  # [walls x 4 x 2] in m
-    far: dict  # member: the section at its far end, if it changes along the member
-    equivalent: list  # the section is known only by its constants: drawn as a rectangle
+    far: dict  # {member: section at its far end}, if the section changes along the member
+    equivalent: list  # True if the section is known only by its constants and drawn as a rectangle
     kind: list
     acting: list  # loads of a linear solution, such as "combination ULS"; "" for all loads
     value: np.ndarray
@@ -65,7 +65,7 @@ def read(site, case):
 
 
 def read_file(path, name, point="default"):
-    """Returns the shapes of a case of a file at a point, or None."""
+    """Returns the shapes of a case at a point from a file, or None."""
     with h5py.File(path) as file:
         place = f"cases/{name}/shapes/{point}"
         if place not in file:
@@ -128,7 +128,7 @@ def axes_of(s, state, scale):
 
 
 def is_thick(wall):
-    """Is the wall drawn with all its sides rather than as its mid-line?"""
+    """Returns whether the wall is drawn with all its sides instead of its mid-line."""
     return np.linalg.norm(wall[0] - wall[1]) > THIN * np.linalg.norm(wall[1] - wall[2])
 
 
@@ -159,7 +159,7 @@ def strips(s, state, scale, every):
 
 
 def hull_faces(points):
-    """Returns the faces of the convex hull as indices; for points in a plane the polygon, for points on a line the
+    """Returns the faces of the convex hull as indices; for points in a plane, the polygon; for points on a line, the
     segment."""
     rounded, index = np.unique(np.round(points, 12), axis=0, return_index=True)
     middle = rounded.mean(axis=0)
@@ -176,12 +176,13 @@ def hull_faces(points):
 
 
 def hull(points):
-    """The same as points."""
+    """Returns the faces of the convex hull as points."""
     return [points[face] for face in hull_faces(points)]
 
 
 def clusters(points):
-    """Returns the indices of points that lie together: gaps below GAP times the extent join them."""
+    """Returns groups of indices of points that are close together: gaps below GAP times the extent do not separate
+    points."""
     reach = GAP * np.linalg.norm(np.ptp(points, axis=0))
     group = np.arange(len(points))
     for i in range(len(points)):
@@ -192,8 +193,8 @@ def clusters(points):
 
 
 def groups_of_bodies(s):
-    """Returns [(nodes of a rigid body, groups of those that lie together)]. A body also contains its own node if that
-    is a hinge, which is partly fixed."""
+    """Returns [(nodes of a rigid body, groups of nodes that are close together)]. A body also contains its main node
+    if this node is a hinge (partly fixed)."""
     out = []
     for b in sorted({int(b) for b in s.body if b >= 0}):
         attached = np.append(np.flatnonzero(s.body == b), [b] * (s.held[b] not in (0, CLAMPED)))
@@ -203,7 +204,7 @@ def groups_of_bodies(s):
 
 
 def bodies(s, state, scale):
-    """Returns the faces, and the rods between their middles."""
+    """Returns the faces of the rigid bodies and the rods between the middles of their groups."""
     faces = []
     nodes = s.nodes[0] + scale * (s.nodes[state] - s.nodes[0])
     for attached, groups in groups_of_bodies(s):
@@ -216,18 +217,18 @@ def bodies(s, state, scale):
 
 # Shapes for the 3-D viewer (assets/viewer.js): one file for each case, loaded when the case is viewed.
 #
-# Positions and axes of all stored states are 16-bit integers: a position is a fraction of half the scene's size from
-# its middle; axes are quaternions. Invisible displacements are exaggerated, as in the still pictures; the label of the
-# state gives the factor.
+# Positions and axes of all stored states are 16-bit integers: positions are relative to the middle of the scene and in
+# units of half its size; axes are quaternions. Invisible displacements are exaggerated, as in the still pictures; the
+# label of the state contains the factor.
 
 WHOLE = 32767
-MOST_POINTS = 1300  # of all members; beyond this number, only every second or third point is kept
+MOST_POINTS = 1300  # largest number of points of all members; if there are more, only every second or third point is stored
 MOST_FRAMED = 16_000  # of all frames of a motion together
-LEAST = 3  # points of a bent member, before frames are dropped
+LEAST = 3  # smallest number of points of a bent member before the number of frames is reduced
 
 
 def packed(values):
-    """Returns numbers from -1 to 1 as text."""
+    """Returns numbers from -1 to 1 encoded as text."""
     whole = np.round(np.clip(values, -1, 1) * WHOLE).astype("<i2")
     return base64.b64encode(whole.tobytes()).decode()
 
@@ -238,7 +239,7 @@ def frames_of(s):
 
 
 def drawn_states(s, most=MOST_FRAMED):
-    """Returns the states that are stored: all, except that a motion keeps only as many evenly spaced frames, including
+    """Returns the states that are stored: all states, but of a motion only as many evenly spaced frames, including
     both ends, as `most` points allow."""
     frames = frames_of(s)
     count = max(2, most // (LEAST * max(1, len(s.members))))
@@ -249,7 +250,7 @@ def drawn_states(s, most=MOST_FRAMED):
 
 
 def kept(s, most=MOST_FRAMED):
-    """Returns (points that are kept, the first of each member among them)."""
+    """Returns (indices of the stored points, index of the first of these for each member)."""
     framed = sum(s.kind[k] == FRAME for k in drawn_states(s, most))
     points = max(LEAST * len(s.members), min(MOST_POINTS, most // max(1, framed)))
     every = -(-s.position.shape[1] // points)
@@ -262,8 +263,8 @@ def kept(s, most=MOST_FRAMED):
 
 
 def ends(wall, other, pick, half):
-    """Returns the corners at the near end, and at the far end if they differ: [y, z, y, z, ...] as fractions of
-    half."""
+    """Returns the corners at the near end and, if they differ, at the far end: [y, z, y, z, ...] in units of
+    `half`."""
     return [[round(float(x) / half, 6) for x in pick(w).ravel()] for w in (wall, other)
             if w is not None]
 
@@ -283,7 +284,7 @@ def profile(walls, far, half):
 
 
 def drawn_bodies(s):
-    """Returns (faces, groups that rods join) as indices of nodes."""
+    """Returns (faces, groups that are joined by rods) as indices of nodes."""
     faces, rods = [], []
     for attached, groups in groups_of_bodies(s):
         for group in groups:
@@ -295,8 +296,8 @@ def drawn_bodies(s):
 
 
 def exaggerations(s):
-    """Returns the scale of every state. The states of a path share the scale of the state that has moved farthest;
-    motions have none."""
+    """Returns the scale of every state. All states of a path have the scale of the state with the largest
+    displacement; motions are not exaggerated."""
     found = [1.0 if kind == FRAME else float(exaggeration(s, k))
              for k, kind in enumerate(s.kind)]
     path = [k for k, kind in enumerate(s.kind) if kind == "path"]
@@ -306,8 +307,8 @@ def exaggerations(s):
 
 def shape(s, words, supports, hinges, start, view, most=MOST_FRAMED):
     """Returns the data for the viewer. words: title of a state and its exaggeration; supports: nodes; hinges: points;
-    start: state shown first; view: (azimuth, elevation) in degrees; most: points of all frames of a motion
-    together."""
+    start: state shown first; view: (azimuth, elevation) in degrees; most: largest number of points of all frames of a
+    motion together."""
     at, first = kept(s, most)
     drawn, every = drawn_states(s, most), exaggerations(s)
     scales = [(k, every[k]) for k in drawn]
@@ -347,7 +348,7 @@ def shape(s, words, supports, hinges, start, view, most=MOST_FRAMED):
 
 
 def as_json(found):
-    """A shape as text."""
+    """Returns the data of a shape as JSON."""
     return json.dumps(found, separators=(",", ":"))
 
 

@@ -1,4 +1,4 @@
-"""Parts of every page: records, styles, templates, and the output folder."""
+"""Common parts of all pages: records, styles, templates, and the output folder."""
 import math
 import os
 import pathlib
@@ -25,7 +25,7 @@ def percent(value):
 
 
 def limit(v):
-    """Returns a limit to its significant digits, and one more, with its uncertainty."""
+    """Returns a limit as text, with its significant digits, one further digit, and its uncertainty."""
     if not math.isfinite(v.limit):
         return "–"
     if not math.isfinite(v.limit_uncertainty):
@@ -36,7 +36,7 @@ def limit(v):
 
 
 def breakable(key):
-    """Returns the name of a formulation, which may be broken before its options."""
+    """Returns the name of a formulation with possible line breaks before its options."""
     return escape(key).replace(":", Markup(":<wbr>")).replace(",", Markup(",<wbr>"))
 
 
@@ -52,14 +52,14 @@ def file_of(key):
 
 
 def file_name(path):
-    """Returns a name for use in an address, from the name of a file."""
+    """Returns a name for use in a URL, from the name of a file."""
     return "".join(c if c.isalnum() or c in "-_" else "_" for c in pathlib.Path(path).stem)
 
 
 class Site:
-    """One report. cases: data.Case records; about, bench: environments of the results and of the times (None: no
-    benchmark); kinds: reference values by kind; sweeps: stored.Sweep records. results may also be a sweep; then there
-    are no cases."""
+    """A report. cases: data.Case records; about, bench: environments of the results and of the times (None: no
+    benchmark); kinds: numbers of reference values by kind; sweeps: stored.Sweep records. If `results` is a sweep,
+    there are no cases."""
 
     def __init__(self, results, truths, folder, bench=None, others=(), sweeps=()):
         self.alone = stored.is_alone(results)
@@ -115,7 +115,7 @@ class Site:
                 out.write(asset.read_text(encoding="utf-8") + own)
 
     def has_page(self, name):
-        """Is a page of the bar among those that are written?"""
+        """Returns whether a page of the bar is written."""
         return any(file == name for file, _ in self.navigation)
 
     def bar(self, name):
@@ -124,14 +124,15 @@ class Site:
         return found, navigation.group_of(name, found, {c.name for c in self.cases})
 
     def name_of(self, sweep):
-        """Returns the name of a sweep's page: that of its file, with a number if another sweep has the same name."""
+        """Returns the name of the page of a sweep: the name of its file, with a number if another sweep has the same
+        name."""
         name = file_name(sweep.path)
         before = self.sweeps[:self.sweeps.index(sweep)]
         same = sum(file_name(s.path) == name for s in before)
         return f"{name}_{same + 1}" if same else name
 
     def page_of(self, sweep):
-        """Returns the file of a sweep's page; without other results, the first sweep is the first page."""
+        """Returns the file of the page of a sweep. Without other results, the first sweep is the first page."""
         alone = self.alone and sweep is self.sweeps[0]
         return "index.html" if alone else f"sweep_{self.name_of(sweep)}.html"
 
@@ -148,10 +149,10 @@ class Site:
 
     def points(self, key, columns, rows, title=""):
         """Returns the arguments of plot() for a curve whose markers carry data: with the pointer on a marker, or by
-        keyboard, a box shows the title, the formulation and the row of the marker.
+        keyboard, a tooltip shows the title, the formulation and the row of the marker.
 
-        key: formulation; columns: names of the entries of a row, of which `error` is shown in percent and `time [s]`
-        in a suitable unit; rows: one for each drawn marker, in their order, of numbers, strings or None."""
+        key: formulation; columns: names of the entries of a row; `error` is shown in percent and `time [s]` in a
+        suitable unit. rows: a row of numbers, strings or None for each drawn marker, in the order of the markers."""
         digits = [{"error": 3, "time [s]": 4}.get(name, 8) for name in columns]
         self.said.append({"f": key, "t": title, "c": list(columns),
                           "r": [[figures.plain(v, d) for v, d in zip(row, digits)]
@@ -160,15 +161,15 @@ class Site:
         return {**look, "gid": f"{look['gid']}|{len(self.said) - 1}"}
 
     def image(self, figure, name, tight=True):
-        """Returns a figure for the macro `figure` of a page, which embeds it in the page, and closes it. tight:
-        cropped to the drawing, which requires drawing it twice."""
+        """Returns the Image of a matplotlib figure for the macro `figure` of a page, and closes the figure. tight: the
+        figure is cropped to its contents, for which it is drawn twice."""
         image = figures.image_of(figure, name, self.said, tight)
         plt.close(figure)
         self.said.clear()
         return image
 
     def keep(self, image):
-        """Writes an image also as a separate file; returns its name."""
+        """Writes an image also as a separate file. Returns the name of the file."""
         with open(os.path.join(self.folder, image.name), "w", encoding="utf-8") as out:
             out.write(figures.alone(image.markup))
         return image.name

@@ -1,5 +1,5 @@
-"""Stability: every formulation in every extreme case, as a map, as curves of error against the varied parameter, and
-as numbers."""
+"""Numerical stability of every formulation in every extreme case: a map, curves of the error against the varied
+parameter, and numbers."""
 import functools
 import math
 
@@ -13,7 +13,7 @@ from reports.figures import FONT, Image
 # tested values, from left to right as in the tables.
 
 WIDE, TALL, HEAD, LEFT = 42, 22, 150, 190  # width and height of a field, space for the names above and on the left
-MOST = 22  # extremes next to each other
+MOST = 22  # largest number of extremes side by side
 
 
 def map_text(x, y, words, more=""):
@@ -22,7 +22,7 @@ def map_text(x, y, words, more=""):
 
 
 class Fields:
-    """All fields, collected by outcome: one path and one group of signs for each kind."""
+    """All fields, collected by outcome: one path and one group of signs for each kind of outcome."""
 
     def __init__(self, look):
         self.look = look
@@ -56,13 +56,13 @@ class Fields:
 
 
 def paint(kind, colour):
-    """Returns the colours of a field and its sign: wrong values have the colour of the text, which changes on a dark
-    page."""
+    """Returns the colours of a field and of its sign. Wrong values have the colour of the text, which changes in dark
+    mode."""
     return ("currentColor", "var(--paper,#fff)") if kind == "wrong" else (colour, "#111418")
 
 
 def draw_band(fields, extremes, keys, all_cells, top):
-    """Draws the names of extremes above, those of formulations on the left, and their fields."""
+    """Draws the fields of some extremes, with the names of extremes above and those of formulations on the left."""
     out = ""
     for column, extreme in enumerate(extremes):
         x = LEFT + (column + 0.5) * WIDE
@@ -107,7 +107,7 @@ def draw_map(record, all_cells, look, meaning):
 
 NAVIGATION = [("stability.html", "stability")]
 
-# From good to bad: colours that also differ in brightness, and a sign that needs no colour.
+# Outcomes from good to bad, with colours that also differ in brightness and signs that can be read without colour.
 LOOK = {
     "value": ("#009E73", ""), "coarse": ("#8FD3F4", "·"), "named": ("#E69F00", "△"),
     "wrong": ("#000000", "×"), "fault": ("#CC79A7", "!")
@@ -141,7 +141,7 @@ def kind(outcome):
 
 
 class Cell:
-    """One formulation at one value of one extreme: as bad as its worst quantity."""
+    """Outcome of one formulation at one value of one extreme: that of the worst quantity."""
 
     def __init__(self, outcomes):
         order = list(LOOK)
@@ -162,8 +162,8 @@ class Cell:
 
 
 def cells(record):
-    """Returns {(extreme, formulation): {x: Cell}} of all runs: only some values of x, if the others need unsupported
-    physics."""
+    """Returns {(extreme, formulation): {x: Cell}} of all runs. Values of x that need unsupported physics are
+    missing."""
     groups = {}
     for o in record["outcomes"]:
         if o["outcome"] != "skip":
@@ -175,7 +175,7 @@ def cells(record):
 
 
 def largest(found, name):
-    """Returns the largest error of an extreme's runs, as text."""
+    """Returns the largest error of the runs of an extreme as text."""
     values = [getattr(c, name) for c in found.values() if math.isfinite(getattr(c, name))]
     return f"{max(values):.2g}" if values and max(values) > 0 else "–"
 
@@ -207,7 +207,7 @@ def draw_curve(site, extreme, keys, all_cells):
 
 def findings(record):
     """Returns [(extreme, formulations, outcome, values, proof)] of outcomes that are neither accurate nor
-    under-resolved; equal values of x and equal formulations are joined."""
+    under-resolved; entries with the same values of x or the same formulations are merged."""
     rows, told = {}, {}
     for o in record["outcomes"]:
         if kind(o) in ("named", "wrong", "fault"):

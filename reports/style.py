@@ -1,7 +1,7 @@
-"""One permanent colour and marker per formulation: a new formulation does not change those of others.
+"""A permanent colour and marker for each formulation. A new formulation does not change those of others.
 
-The colours are distinguishable without colour vision (Okabe and Ito; the last two by Tol). On a dark page, each colour
-has a lighter one of the same hue: figures.py writes the variable, base.html defines it."""
+The colours are distinguishable without colour vision (Okabe and Ito; the last two by Tol). In dark mode, each colour
+is replaced by a lighter colour of the same hue: figures.py writes a variable, which base.html defines."""
 import zlib
 
 import matplotlib
@@ -24,13 +24,13 @@ TABLE = {
     "sheet_third": ("#882255", "#d8639b", "<"),
     "sheet_third_printed": ("#44aa99", "#7fdccd", ">"),
 }
-# Integrators of motions, likewise; their colours are among those above.
+# The same for integrators of motions, with colours from the table above.
 SCHEMES = {
     "alpha": ("#0072b2", "#4a9fe0", "o"), "conserving": ("#d55e00", "#ff8c42", "s"),
     "radau": ("#009e73", "#2bc495", "D"), "explicit": ("#882255", "#d8639b", "^"),
     "hht": ("#56b4e9", "#8fd2fa", "v"), "trapezoidal": ("#000000", "#f4f6f9", "X"),
 }
-# Formulations that are not in the table get one of these, chosen by their name.
+# Formulations that are not in the table get one of these colours, selected by their names.
 RESERVE = (("#6a51a3", "#a793dc"), ("#a6761d", "#dfb060"), ("#c51b7d", "#f06cb4"),
            ("#1b7837", "#5fc07c"), ("#5b6675", "#aab4c2"))
 RESERVE_MARKERS = "hpd8H"
@@ -46,7 +46,7 @@ MEANINGS = {"#b03a00": "var(--bad,#b03a00)", "#005a94": "var(--accent,#005a94)",
             "#6a5a00": "var(--fair,#6a5a00)"}
 VARIABLES = MEANINGS | {light: f"var(--f{i},{light})" for i, (light, _) in enumerate(COLOURS)}
 
-# Text remains text, so that it can be searched and figures are small.
+# Text is written as text, so that it can be searched and figures are small.
 plt.rcParams.update({
     "font.size": 9, "axes.grid": True, "grid.alpha": 0.25, "grid.linewidth": 0.5,
     "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False,
@@ -57,7 +57,8 @@ plt.rcParams.update({
 
 
 def extra(keys):
-    """Returns the keys that a figure drops first: options, then uncorrected misprints and old forms."""
+    """Returns the keys of the formulations that a figure omits first: options, then uncorrected misprints and old
+    forms."""
     keys = list(keys)
     last = [k for k in keys if ":" in k] + [k for k in LAST if k in keys]
     rest = [k for k in keys if k not in last]
@@ -88,7 +89,7 @@ def corners(marker):
 
 
 def marks():
-    """The rules of class_of()."""
+    """Returns the rules of the style sheet for the classes of class_of()."""
     known = [(f"m{i}", i, marker) for i, (_, _, marker) in enumerate(TABLE.values())]
     reserve = [(f"m{i}{marker}", i, marker) for i in range(len(TABLE), len(COLOURS))
                for marker in RESERVE_MARKERS]
@@ -109,14 +110,14 @@ def line_of(options):
 
 
 class Styles:
-    """keys: all formulation keys of a result file, in the order of their names."""
+    """Styles of formulations. keys: all formulation keys of a results file, sorted by name."""
 
     def __init__(self, keys):
         self.order = sorted(set(keys))
 
     @staticmethod
     def of(key):
-        """Returns the arguments of plot() for the curve of a formulation; its gid names the formulation
+        """Returns the arguments of plot() for the curve of a formulation; the gid contains the formulation
         (figures.py)."""
         colour, _, marker = look(key)
         options = key.partition(":")[2]
@@ -136,5 +137,5 @@ class Styles:
 
     @staticmethod
     def fill(key):
-        """Returns the colour for a page, which a dark page changes."""
+        """Returns the colour of a formulation for a page, as a variable that changes in dark mode."""
         return VARIABLES[look(key)[0]]

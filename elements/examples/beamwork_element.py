@@ -44,7 +44,8 @@ class Refused(Exception):
 
 
 def checked(value, name, count, each, why, numbers="biuf"):
-    """Returns the result of a function as an array[count, *each] (count 0: [*each]); raises Refused if it has another shape or type."""
+    """Returns the result of a function as an array[count, *each] (count 0: [*each]); raises Refused if it has another
+    shape or type."""
     def words(shape):
         all_of = ["N" if count and (i, v) == (0, count) else str(v) for i, v in enumerate(shape)]
         return f"({', '.join(all_of)})" if shape else "one number"
@@ -86,7 +87,8 @@ def rotation_vector(T):
 
 @functools.lru_cache
 def steps(n, second):
-    """Returns the real and imaginary increments [P, n, 7] of the coordinates for the P evaluations from which derivatives are computed."""
+    """Returns the real and imaginary increments [P, n, 7] of the coordinates for the P evaluations from which
+    derivatives are computed."""
     one = np.eye(7 * n)
     if not second:
         return np.zeros((7 * n, n, 7)), one.reshape(-1, n, 7)
@@ -220,7 +222,8 @@ def states(x):
 
 
 def inertia(mask, kind, x, body, functions):
-    """Returns the inertia outputs that the mask requests for elements x[N, n, 16]; body[N, ...] contains the frame and the rates."""
+    """Returns the inertia outputs that the mask requests for elements x[N, n, 16]; body[N, ...] contains the frame and
+    the rates."""
     N, c = len(x), 7 * x.shape[1]
 
     def mass(kind, *state):
@@ -338,8 +341,8 @@ def taken(functions, words):
 
 
 def serve(*functions, **words):
-    """Answers requests until beamwork sends no more. Example: serve(prepare, strain, stress, family="..."). words: keys of the protocol's
-    first line. Functions that are not needed may be omitted."""
+    """Answers requests until beamwork sends no more. Example: serve(prepare, strain, stress, family="..."). words:
+    keys of the protocol's first line. Functions that are not needed may be omitted."""
     (functions, said), kinds = taken(functions, words), {}
     requests, to = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # print goes to standard error

@@ -11,7 +11,8 @@ from beamwork_element import rotation_vector, serve, sinc
 def prepare(kind):
     """Returns the element's stiffness C [N/m]: sigma = C e."""
     c, l = kind.section, kind.length
-    # Transverse flexibility: that of shear, if requested, and that of the bending which a uniform curvature does not represent.
+    # Transverse flexibility: that of shear, if requested, and that of the bending which a uniform curvature does not
+    # represent.
     shear = l / c.shear_modulus if "shear" in kind.features else 0
     across_y = shear * c.F[0] + l**3 / (12 * c.young * c.Iz)
     across_z = shear * c.F[4] + l**3 / (12 * c.young * c.Iy)

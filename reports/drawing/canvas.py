@@ -10,31 +10,31 @@ from reports.style import plt
 
 
 def number(value):
-    """Returns a number with four digits; the digits of large ones are in groups of three."""
+    """Returns a number with four digits as text; large numbers have their digits in groups of three."""
     if 1e4 <= abs(value) < 1e8:
         return f"{float(f'{value:.4g}'):,.0f}".replace(",", "\u202f")
     return f"{value + 0:.4g}"
 
 
 def length(value):
-    """Returns a length in m, a small one in mm."""
+    """Returns a length as text in m, or in mm if it is small."""
     return f"{number(value)} m" if abs(value) >= 0.5 or value == 0 else f"{number(1e3 * value)} mm"
 
 
 def vector(values, unit):
-    """Returns the magnitude of a vector along an axis, otherwise all three components."""
+    """Returns a vector as text: the magnitude if it is along an axis, otherwise all three components."""
     along = [v for v in values if v]
     said = number(abs(along[0])) if len(along) == 1 else f"({', '.join(map(number, values))})"
     return f"{said} {unit}"
 
 
-# Greys follow the page into dark mode; loads and motions each have a colour (style.py).
+# Greys change in dark mode; loads, motions and springs have their own colours (style.py).
 INK, SOFT, LOAD, MOTION, SPRING = "#141414", "#606060", "#b03a00", "#005a94", "#6a5a00"
 STEEL, BODY, ROD, MASS = "#c9d3de", "#e3dcc8", "#a89f86", "#8c8468"
 FONT = 9  # [pt]
-WIDE, HIGH = 0.6, 1.25  # of a letter, relative to the font size
-MOST_FACES = 100  # whose edges labels avoid
-SPACING = 3  # of the points that represent a line when labels are placed [pt]
+WIDE, HIGH = 0.6, 1.25  # width and height of a letter, relative to the font size
+MOST_FACES = 100  # largest number of faces whose edges labels avoid
+SPACING = 3  # distance of the points that represent a line when labels are placed [pt]
 WAYS = [np.array([np.cos(a), np.sin(a)]) for a in np.arange(8) * np.pi / 4]
 
 
@@ -46,7 +46,7 @@ def boxes_overlap(a, b):
 
 
 class Canvas:
-    """Collects the shapes; `finish` makes the figure."""
+    """Collects the shapes of a drawing; `finish` makes the figure."""
 
     def __init__(self):
         self.faces, self.draws, self.points, self.labels, self.boxes = [], [], [], [], []
@@ -61,7 +61,7 @@ class Canvas:
                 self.points.append(a + np.linspace(0, 1, steps + 1)[:, None] * (b - a))
 
     def face(self, corners, depth, colour, edge=INK):
-        """Adds a filled polygon; near polygons cover those farther away."""
+        """Adds a filled polygon; near polygons cover those that are farther away."""
         self.faces.append((depth, corners, colour, edge))
         if len(self.faces) < MOST_FACES:
             self.occupy(np.vstack([corners, corners[:1]]))
@@ -165,7 +165,7 @@ class Canvas:
                 *m, t, color=c, fontsize=s, ha="center", va="center", zorder=8))
 
     def finish(self, margin=6):
-        """The figure."""
+        """Returns the figure."""
         self.place_labels()
         self.labels = []
         low, high = self.extent()

@@ -1,4 +1,4 @@
-"""Describes a drawing: supports, motions, loads, springs, sections."""
+"""Describes the contents of a drawing: supports, motions, loads, springs and sections."""
 import numpy as np
 
 from reports.drawing import geometry, loads
@@ -6,7 +6,7 @@ from reports.drawing.canvas import length, number, vector
 from reports.drawing.members import ends_that_warp, held_of, spring_words
 
 CONSTANTS = (("A", "m²"), ("Iy", "m⁴"), ("Iz", "m⁴"), ("It", "m⁴"), ("Iw", "m⁶"))
-MOST = 12  # lines of one kind
+MOST = 12  # largest number of lines of one kind
 
 
 def place(position):
@@ -93,7 +93,7 @@ def mass(node):
 
 
 def warping(scene):
-    """Lists where warping is restrained and where it is free: nodes, or members if their ends at a node differ."""
+    """Lists the nodes at which warping is restrained or free, or the members if their ends at a node differ."""
     at = {}
     for member, end, word in ends_that_warp(scene):
         at.setdefault(member.ends[end], []).append((word, member.name))
@@ -111,7 +111,7 @@ def warping(scene):
 
 
 def shortened(lines):
-    """Shortens many lines to a few."""
+    """Returns the lines, shortened if there are too many."""
     found = [line for line in lines if line]
     return found[:MOST] + [f"and {len(found) - MOST} more"] if len(found) > MOST else found
 

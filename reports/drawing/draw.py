@@ -25,7 +25,7 @@ def edges(low, high, axis):
 
 
 def put_size(canvas, view, low, high, axis):
-    """Draws a dimension line outside the drawing, below it or on its right side."""
+    """Draws a dimension line outside the drawing, below it or to its right."""
     along = view(np.eye(3)[axis]) / view.scale
     if np.linalg.norm(along) < 0.2:
         return
@@ -62,7 +62,7 @@ def put_sizes(canvas, view, points):
 
 
 def put_axes(canvas, view):
-    """Draws x, y, z in the lower left corner; an axis that points at the reader is a dot."""
+    """Draws the axes x, y, z in the lower left corner; an axis that points at the reader is a dot."""
     low, _ = canvas.extent()
     at = low + [-16, -12]
     for axis, name in enumerate("xyz"):
@@ -75,7 +75,7 @@ def put_axes(canvas, view):
         canvas.text(at + 26 * way + 7 * way / np.linalg.norm(way), name, INK, 8)
 
 
-# Sections next to a drawing, at their own scale, with their dimensions.
+# Sections next to a drawing, at a separate scale, with their dimensions.
 
 SIZE, THINNEST = 84, 1.6  # largest size on paper, smallest thickness [pt]
 GAP = 46  # between two sections [pt]
@@ -83,7 +83,7 @@ MOST = 3
 
 
 def thick(polygon, scale):
-    """Returns the section on paper, with thin walls widened so that they are visible."""
+    """Returns the polygon of a section on paper, with thin walls widened so that they are visible."""
     flat = polygon * scale
     sides = np.linalg.norm(np.roll(flat, -1, axis=0) - flat, axis=1)
     if len(flat) != 4 or min(sides[:2]) >= THINNEST:
@@ -119,9 +119,9 @@ def thickness_words(section):
 
 
 def put_section(canvas, name, section, left):
-    """Draws the section as seen along x: y upwards, z to the right. Returns the right end."""
+    """Draws the section as seen along x, with y upwards and z to the right. Returns the position of its right edge."""
     polygons = geometry.outline(section)
-    both = np.vstack(polygons)[:, ::-1]  # across the paper z, upwards y
+    both = np.vstack(polygons)[:, ::-1]  # z is horizontal, y vertical
     low, high = both.min(axis=0), both.max(axis=0)
     scale = SIZE / max(high - low)
     shift = np.array([left, 0]) - low * scale
@@ -152,7 +152,7 @@ def put_section(canvas, name, section, left):
 
 
 def sections_drawn(scene):
-    """Returns the names of the sections whose shape is known, each shape once."""
+    """Returns the names of the sections with a known shape, without repeated shapes."""
     out = {}
     for member in scene.members.values():
         for name in member.sections:
@@ -162,7 +162,7 @@ def sections_drawn(scene):
 
 
 def draw_sections(scene):
-    """Returns the figure, or None if no section has a shape."""
+    """Returns the figure of the sections, or None if no section has a known shape."""
     names = sections_drawn(scene)
     if not names:
         return None
@@ -173,7 +173,7 @@ def draw_sections(scene):
 
 
 FAR = 5  # distance, in multiples of the structure's size, from which an axis is no longer drawn
-MOST_NAMES = 9  # nodes whose names are written
+MOST_NAMES = 9  # largest number of nodes whose names are drawn
 
 
 def skeleton(scene, lines):
@@ -222,7 +222,7 @@ def put_names(canvas, look, scene):
 
 
 def near_spin(scene, points):
-    """Is the axis of rotation near enough to be drawn?"""
+    """Returns whether the axis of rotation is near enough to be drawn."""
     if scene.spin is None:
         return False
     away = np.linalg.norm(scene.spin.centre - points.mean(axis=0))
@@ -230,7 +230,7 @@ def near_spin(scene, points):
 
 
 def compose(scene):
-    """Returns a canvas with the scene on it."""
+    """Returns a canvas with the drawn scene."""
     lines = {name: geometry.line_of(scene, m) for name, m in scene.members.items()}
     points = skeleton(scene, lines)
     solid = any(geometry.outline(s) for s in scene.sections.values())

@@ -6,18 +6,19 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-STEPS = 24  # of a curved member
+STEPS = 24  # number of segments of a curved member
 
 
 @dataclass
 class Line:
-    """Axis of a member: points [n x 3], and the triads at them [n x 3 x 3], rows x, y, z."""
+    """Axis of a member: points [n x 3], and the triads at these points [n x 3 x 3] with rows x, y, z."""
     points: np.ndarray
     axes: np.ndarray
 
 
 def triad(x, y):
-    """Returns the triad with rows: the axis along x, the part of y normal to it, and the third axis."""
+    """Returns the triad whose rows are the unit vector along x, that along the part of y normal to x, and the third
+    axis."""
     x = x / np.linalg.norm(x)
     y = y - x * (x @ y)
     y = y / np.linalg.norm(y)
@@ -25,8 +26,8 @@ def triad(x, y):
 
 
 def chord(k, s):
-    """Returns the position on an arc with torsion and curvature k [1/m] after a length s, in the triad at its
-    start."""
+    """Returns the position at the length s on an arc with torsion and curvature k [1/m], in the axes of the triad at
+    its start."""
     w = np.linalg.norm(k)
     e = np.array([1.0, 0, 0])
     if w * s < 1e-9:
@@ -66,12 +67,12 @@ def rectangle(y, z, height, width):
 
 
 def meet(walls):
-    """Do the walls have a point in common, so that an open section of them does not warp?"""
+    """Returns whether the walls have a common point, so that an open section of these walls does not warp."""
     return bool(set.intersection(*({w["from"], w["to"]} for w in walls)))
 
 
 def warps(section):
-    """Does the section have a warping constant?"""
+    """Returns whether the section has a warping constant."""
     given = section.get("given", {})
     if "Iw" in given:
         return float(given["Iw"]) > 0
@@ -81,7 +82,7 @@ def warps(section):
 
 
 def walls_of(section):
-    """Returns strips [4 x 2] of thin walls about their centroid, and the mid-lines [walls x 2 x 2]."""
+    """Returns the strips [4 x 2] of thin walls relative to their centroid, and their mid-lines [walls x 2 x 2]."""
     points = {name: np.array([float(v) for v in p]) for name, p in section["points"].items()}
     ends = np.array([[points[w["from"]], points[w["to"]]] for w in section["walls"]])
     thickness = np.array([float(w["thickness"]) for w in section["walls"]])
@@ -123,17 +124,17 @@ def prism(line, here, there):
     return np.concatenate(sides), [edges[0], edges[-1]]
 
 
-# Viewpoint of a structure: face-on if it lies in a plane, otherwise from above at an angle.
+# View of a structure: normal to its plane if it is plane, otherwise from above at an angle.
 
 WIDTH, HEIGHT = 400, 230  # of the structure on paper, at most [pt]
 FLAT = 1e-6  # extents below this fraction of the whole count as zero
 AZIMUTHS, ELEVATIONS = (-72, -64, -56, -48, -40, -32), (18, 24, 31)  # [degrees]
-MOST_POINTS = 60  # by which an angle is rated
+MOST_POINTS = 60  # largest number of points by which a view is rated
 
 
 @dataclass
 class View:
-    """right, up, near: unit vectors of the picture; scale [pt/m]."""
+    """A view. right, up, near: unit vectors of the picture; scale: [pt/m]."""
     right: np.ndarray
     up: np.ndarray
     scale: float = 1
@@ -165,7 +166,7 @@ FACES = (View(X, Y), View(X, Z), View(Y, Z))
 
 
 def in_plane(normal, flat, shifts, turns):
-    """Does everything lie and move in the plane normal to an axis, and rotate only about that axis?"""
+    """Returns whether all points lie and move in the plane normal to an axis and rotate only about this axis."""
     others = np.eye(3)[[i for i in range(3) if i != normal]]
     return bool(flat[normal] and all(abs(v[normal]) <= FLAT * np.linalg.norm(v) for v in shifts)
                 and all(max(abs(others @ v)) <= FLAT * np.linalg.norm(v) for v in turns))
@@ -201,6 +202,6 @@ def choose_view(points, shifts, turns, solid):
 
 
 def scaled(view, points):
-    """Returns the same view, at the largest scale that fits these points [n x 3]."""
+    """Returns the view with the largest scale at which these points [n x 3] fit."""
     width, height = np.maximum(np.ptp(View(view.right, view.up)(points), axis=0), 1e-300)
     return View(view.right, view.up, min(WIDTH / width, HEIGHT / height))

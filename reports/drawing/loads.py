@@ -7,7 +7,7 @@ from reports.drawing.canvas import LOAD, MOTION, number, vector
 from reports.drawing.scene import COMPONENTS
 
 ARROW, SHORT, RADIUS = 38, 20, 15  # [pt]
-ALONG = 9  # arrows of a load along a member
+ALONG = 9  # number of arrows of a load along a member
 MOST_MOTIONS = 4  # motions with their ranges; others are in the list below the drawing
 UNITS = {"force": "N", "moment": "N m", "distributed": "N/m", "distributed_moment": "N m/m",
          "gravity": "m/s²"}
@@ -18,7 +18,8 @@ def unit(v):
 
 
 def arc(view, at, axis, radius=RADIUS, begin=-0.35, turn=1.5):
-    """Returns a right-handed arc around an axis through a point, on paper [n x 2]. turn: in units of pi."""
+    """Returns a right-handed arc around an axis through a point, on paper [n x 2]. begin, turn: start and angle of the
+    arc in units of pi."""
     axis = unit(axis)
     side = view.right - axis * (axis @ view.right)
     side = unit(side if np.linalg.norm(side) > 0.2 else view.up - axis * (axis @ view.up))
@@ -28,7 +29,7 @@ def arc(view, at, axis, radius=RADIUS, begin=-0.35, turn=1.5):
 
 
 def straight(view, at, way, ways, size=ARROW):
-    """Returns an arrow on paper [2 x 2]: away from the point, or towards it if a member is in the way."""
+    """Returns an arrow on paper [2 x 2] that points away from the point, or towards it if a member is in the way."""
     flat = view(unit(way)) / view.scale
     size = size * max(np.linalg.norm(flat), 0.45)
     flat = unit(flat)
@@ -38,7 +39,7 @@ def straight(view, at, way, ways, size=ARROW):
 
 
 def size(load):
-    """Returns the magnitude of the load's vector, or both magnitudes if it varies."""
+    """Returns the magnitude of the vector of a load, or both magnitudes if the load varies."""
     unit_of = UNITS[load.kind]
     if not load.varies():
         return vector(load.vector, unit_of)
@@ -98,8 +99,8 @@ def put_within(canvas, view, load, line):
 
 
 def put_along(canvas, view, load, line, told):
-    """Draws arrows along a member that point to its line; a thin line joins their tails. `told`: labels that are
-    already drawn."""
+    """Draws arrows that point to the line of a member, and a thin line through their tails. `told`: labels that have
+    already been drawn."""
     parts = np.linspace(0.03, 0.97, ALONG)[:, None]
     begin, end = load.within or (0, 1)
     ways = (1 - parts) * in_fixed(load, line, load.vector) + parts * in_fixed(load, line, load.last)
@@ -151,7 +152,8 @@ def put_loads(canvas, view, scene, lines, into):
 
 
 def motions_of(scene, node):
-    """Returns [(direction, whether it is a rotation, name of the motion)] of the prescribed components that move."""
+    """Returns [(direction, whether it is a rotation, name of the motion)] of the components that are prescribed by a
+    motion."""
     out = [(np.eye(3)[COMPONENTS.index(c) % 3], c[0] == "r", motion)
            for c, motion in node.driven.items()]
     out += [(t.axis, True, t.angle) for t in node.turns if t.angle in scene.motions]
@@ -191,7 +193,7 @@ def put_motions(canvas, view, scene, into):
 
 
 def put_spin(canvas, view, scene, size):
-    """Draws the axis about which everything rotates, and its direction."""
+    """Draws the axis about which the axes of the scene rotate, and the direction of rotation."""
     if scene.spin is None:
         return
     omega, at = scene.spin.omega, scene.spin.centre

@@ -9,13 +9,13 @@ from reports.drawing.scene import COMPONENTS
 THIN = 0.2  # ratio of thickness to length up to which a wall is drawn as a surface
 SEEN = 2.5  # size on paper from which a section is drawn [pt]
 LIGHT = np.array([0.3, -0.5, 0.81])
-FEW = 10  # members with centre lines
-HINGE = 9  # from the end of a member [pt]
-WARPING = 7  # likewise
+FEW = 10  # largest number of members whose centre lines are drawn
+HINGE = 9  # distance of a hinge from the end of a member [pt]
+WARPING = 7  # distance of a warping symbol from the end of a member [pt]
 
 
 def shade(colour, quad):
-    """Returns a lighter colour if it faces the light."""
+    """Returns the colour of a face, which is lighter if the face is turned towards the light."""
     normal = np.cross(quad[1] - quad[0], quad[2] - quad[1])
     size = np.linalg.norm(normal)
     bright = abs(normal @ LIGHT) / size if size > 0 else 1
@@ -88,7 +88,7 @@ def put_hinges(canvas, view, member, line):
 
 
 def ends_that_warp(scene):
-    """Returns (member, its end: 0 or 1, fixed, free or shared) of all members whose section warps."""
+    """Yields (member, its end (0 or 1), fixed, free or shared) for all members whose sections warp."""
     if "warping" in scene.omitted or "all" in scene.omitted:
         return
     for member in scene.members.values():
@@ -115,7 +115,8 @@ def put_warping(canvas, view, scene, lines):
 
 
 def put_bodies(canvas, view, scene):
-    """Draws convex hulls of nodes that move together, and rods between parts that are far from each other."""
+    """Draws rigid bodies: convex hulls of nodes that move together, and rods between parts that are far from each
+    other."""
     for name, node in scene.nodes.items():
         own = [n.position for n in scene.nodes.values() if n.part_of == name]
         if not own or node.part_of:
@@ -159,8 +160,8 @@ def spiral(turns=2.2, radius=12):
 
 
 def stands_along(view, spring):
-    """Returns the direction on paper of a spring to the ground: that of its stiffest displacement, otherwise
-    downwards."""
+    """Returns the direction on paper of a spring to the ground: that of its stiffest translation, or downwards if
+    there is none."""
     k = spring.stiffness[:3] if spring.stiffness[:3].any() else spring.acts[:3]
     way = view(np.eye(3)[int(np.argmax(k))]) if k.any() else np.zeros(2)
     way = way if np.linalg.norm(way) > 0.2 * view.scale else np.array([0, -1.0])
@@ -200,16 +201,16 @@ def put_ground(canvas, at, away):
         canvas.line([at + k * across, at + (k - 4) * across + 5 * way], INK, 0.7)
 
 
-# Supports of a structure: clamps, pins, fork supports, single components.
+# Supports of a structure: clamps, pins, fork supports and single components.
 
-PLATE = 15  # half the side of a clamp's plate [pt]
-HATCHES = 9  # lines of a plate
-MOST_LETTERS = 4  # supports with letters; others are in the list below the drawing
+PLATE = 15  # half the side of the plate of a clamp [pt]
+HATCHES = 9  # number of hatching lines of a plate
+MOST_LETTERS = 4  # largest number of supports with letters; others are in the list below the drawing
 
 
 def held_of(scene, node):
-    """Returns the components that do not move: fixed ones, those driven by a motion that stays at zero, and fixed
-    rotations."""
+    """Returns the components that do not move: fixed components, components with a motion that is always zero, and
+    fixed rotations."""
     still = [c for c, motion in node.driven.items() if scene.motions.get(motion) == (0, 0)]
     turned = [f"turn {i + 1}" for i, t in enumerate(node.turns) if t.angle == "held"]
     return [c for c in COMPONENTS if c in node.held or c in still] + turned
@@ -221,7 +222,7 @@ def rigid(scene, name):
 
 
 def into(scene, lines, name):
-    """Returns unit vectors from a node into its members."""
+    """Returns the unit vectors from a node along its members."""
     out = []
     for key, member in scene.members.items():
         line = lines[key].points
@@ -251,7 +252,7 @@ def put_plate(canvas, view, at, way, mark):
 
 
 def put_edge(canvas, view, at, way, mark):
-    """Draws the plate seen edge-on: a hatched line behind the node."""
+    """Draws a plate seen edge-on, as a hatched line behind the node."""
     flat = view(way)
     flat = flat / np.linalg.norm(flat) if np.linalg.norm(flat) > 0.1 * view.scale else \
         np.array([0, 1.0])
@@ -260,7 +261,7 @@ def put_edge(canvas, view, at, way, mark):
 
 
 def put_pin(canvas, at, way, mark, roller):
-    """Draws a triangle on the side `way` of the node; roller: it can slide."""
+    """Draws a triangle on the side `way` of the node. roller: the support can slide."""
     across = np.array([-way[1], way[0]])
     foot = at + 11 * way
     canvas.area(np.array([at, foot - 7 * across, foot + 7 * across]), "white", INK, 1.1, mark=mark,
@@ -272,7 +273,7 @@ def put_pin(canvas, at, way, mark, roller):
 
 
 def put_fork(canvas, view, at, fork, mark):
-    """Draws two guides on both sides of the web."""
+    """Draws two guides, one on each side of the web."""
     axis, web = (v / np.linalg.norm(v) for v in fork)
     normal, h = np.cross(web, axis), 13 / view.scale
     for sign in (-1, 1):
@@ -283,8 +284,8 @@ def put_fork(canvas, view, at, fork, mark):
 
 
 def pin_way(view, seen, ways):
-    """Returns the direction of the symbol: below the node, or, if only one direction on paper is fixed, along it and
-    away from the members."""
+    """Returns the direction of the symbol of a pin: downwards, or, if only one direction on paper is fixed, along this
+    direction and away from the members."""
     down = np.array([0, -1.0])
     if not view.face_on or len(seen) != 1:
         return down
@@ -294,7 +295,7 @@ def pin_way(view, seen, ways):
 
 
 def put_support(canvas, view, scene, lines, node):
-    """Draws the symbol of a node with fixed components."""
+    """Draws the symbol of the support of a node."""
     mark, at, held = f"support_{node.name}", view(node.position), held_of(scene, node)
     ways = into(scene, lines, node.name)
     if len(held) == 6:

@@ -1,4 +1,4 @@
-"""Reads a scene as `beamwork scene CASE` writes it into plain records; lengths in m, forces in N."""
+"""Reads a scene file in the form that `beamwork scene CASE` writes into plain records; lengths in m, forces in N."""
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,20 +10,20 @@ Loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)  # every scalar is text u
 
 @dataclass
 class Turn:
-    """A rotation about an axis, which is free, fixed or prescribed by a motion."""
+    """A rotation about an axis that is free, fixed or prescribed by a motion."""
     axis: np.ndarray
     angle: str
 
 
 @dataclass
 class Node:
-    """position [m]; held: components that do not move; driven: {component: motion}."""
+    """A node. position: [m]; held: components that do not move; driven: {component: motion}."""
     name: str
     position: np.ndarray
     part_of: str = ""
     held: tuple = ()
     driven: dict = field(default_factory=dict)
-    turns: list = field(default_factory=list)  # one after the other, each with its own axis
+    turns: list = field(default_factory=list)  # successive rotations, each with its axis
     vector: tuple = ()  # motions of a rotation vector
     fork: np.ndarray = None  # axis and web of a fork [2 x 3]
     mass: float = 0
@@ -32,8 +32,8 @@ class Node:
 
 @dataclass
 class Member:
-    """y: direction of the y axis of its section; released: components at both ends; warping at both ends: fixed, free
-    or shared."""
+    """A member. y: direction of the y axis of its section; released: components at both ends; warping: fixed, free or
+    shared at both ends."""
     name: str
     ends: tuple  # names of two nodes
     sections: tuple  # names of the sections at both ends
@@ -45,9 +45,9 @@ class Member:
 
 @dataclass
 class Load:
-    """kind: force, moment, distributed, distributed_moment, gravity; on: a node or a member. within: the fractions of
-    the member's length between which it acts, equal for a force or a moment, None at a node; last: the vector at
-    its end."""
+    """A load. kind: force, moment, distributed, distributed_moment or gravity; on: a node or a member. within: the
+    fractions of the member's length between which the load acts, which are equal for a force or a moment; None at a
+    node. last: the vector at the end of this range."""
     name: str
     kind: str
     vector: np.ndarray
@@ -55,7 +55,7 @@ class Load:
     at: np.ndarray  # point of application of a force, from the node or the centroid [m]
     member_axes: bool
     follower: bool
-    grows: bool  # with the path parameter
+    grows: bool  # True if the load increases with the path parameter
     within: tuple = None
     last: np.ndarray = None
     lumped: bool = False
@@ -81,7 +81,7 @@ class Spring:
 
 @dataclass
 class Spin:
-    """Rotating axes. omega [rad/s] at the end of the path, centre [m]."""
+    """Rotating axes. omega: [rad/s] at the end of the path; centre: [m]."""
     omega: np.ndarray
     centre: np.ndarray
 
@@ -106,7 +106,7 @@ def numbers(values):
 
 
 def words_of(said):
-    """Returns one word, or the words of a list, as a list."""
+    """Returns a word, or the words of a list, as a list."""
     return said if isinstance(said, (list, tuple)) else [said]
 
 
@@ -137,7 +137,7 @@ def read_member(name, said):
                   tuple("shared" if isinstance(word, dict) else word for word in warping))
 
 
-IN_TIME = ("time", "pieces", "table")  # keys of a motion that is a function of time
+IN_TIME = ("time", "pieces", "table")  # keys that make a motion a function of time
 KINDS = ("force", "moment", "distributed", "distributed_moment", "gravity")
 
 

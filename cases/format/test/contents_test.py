@@ -71,7 +71,8 @@ omit: [wagner_torque]
         return self.scene(text, name)
 
     def test_loads(self):
-        """Loads of every kind and with every key are written and read bit for bit, and a rotated structure has the same displacements."""
+        """Loads of every kind and with every key are written and read bit for bit, and a rotated structure has the
+        same displacements."""
         first = self.loads("first.yaml", TIP="[1, 0, 0]", Y="[0, 1, 0]", FORCE="[1, 2, 3]", AT="[0.1, 0.2, 0.3]", TURN="[0, 4, 1]",
                            GRAVITY="[0, 0, -9.81]", X="ux", Z="uz")
         turned = self.loads("turned.yaml", TIP="[0, 1, 0]", Y="[0, 0, 1]", FORCE="[3, 1, 2]", AT="[0.3, 0.1, 0.2]", TURN="[1, 0, 4]",
@@ -85,7 +86,8 @@ omit: [wagner_torque]
                 self.assertGreater(abs(value), 1e-4)
 
     def test_shapes(self):
-        """Shapes given by dimensions, tubes and cells are written bit for bit, and expressions can use their constants."""
+        """Shapes given by dimensions, tubes and cells are written bit for bit, and expressions can use their
+        constants."""
         path = self.scene(SHAPES, "shapes.yaml")
         text = self.answered("scene", "--scene", path).stdout
         again = self.scene(text, "again.yaml")
@@ -93,7 +95,8 @@ omit: [wagner_torque]
         where = ("-f", "collocation", "-n", 1)
         once, twice = (values(self.record("solve", "--scene", p, *where)) for p in (path, again))
         self.assertEqual(once, twice)
-        # Expected values: e = 3 b^2 t_f/(h t_w + 6 b t_f) for the mid-lines of a channel, a ring, and Bredt's formula for a polygon.
+        # Expected values: e = 3 b^2 t_f/(h t_w + 6 b t_f) for the mid-lines of a channel, a ring, and Bredt's formula
+        # for a polygon.
         height, width, flange, web = 0.2, 0.06, 6e-3, 4e-3
         centre = 3*width**2*flange/(height*web + 6*width*flange)
         ring = (0.05**4 - 0.044**4)*3.141592653589793/32
@@ -126,8 +129,8 @@ quantities:
 """
 
     def test_internal(self):
-        """Resultants at both ends follow from statics for every formulation that supports a channel, and the written scene gives the same
-        values bit for bit."""
+        """Resultants at both ends follow from statics for every formulation that supports a channel, and the written
+        scene gives the same values bit for bit."""
         path = self.scene(self.INTERNAL, "internal.yaml")
         exact = {"N": (5, 5), "Qy": (0.7, 0.7), "Qz": (0.7, 0.3), "Mx": (1, 1), "My": (-1, 0), "Mz": (1.4, 0)}
         for formulation in ("collocation", "geometrically_exact", "beamw", "beamw_consistent"):
@@ -171,8 +174,8 @@ quantities:
 """
 
     def test_stress(self):
-        """The stress in a box that is free to warp, under tension and torsion, contains Bredt's flow and the part that varies through its
-        thinnest wall; the written scene gives the same values bit for bit."""
+        """The stress in a box that is free to warp, under tension and torsion, contains Bredt's flow and the part that
+        varies through its thinnest wall; the written scene gives the same values bit for bit."""
         area, swept, perimeter = 2*(0.1*3e-3 + 0.06*2e-3), 2*0.1*0.06, 2*(0.1/3e-3 + 0.06/2e-3)
         It = swept**2/perimeter + 2*(0.1*3e-3**3 + 0.06*2e-3**3)/3
         tau = max(300/It*(swept/perimeter/t + t) for t in (2e-3, 3e-3))
@@ -220,8 +223,8 @@ quantities:
         self.assertEqual(*written)
 
     def test_weight_of_a_body(self):
-        """A weight at a centre of mass that rotates with its body gives P L^3/3 E I + P a L^2/2 E I, bit for bit as the equal force
-        does."""
+        """A weight at a centre of mass that rotates with its body gives P L^3/3 E I + P a L^2/2 E I, bit for bit as
+        the equal force does."""
         heavy = LEAF.replace("  push: {force: [0, 1, 0], on: tip}", "  weight: {gravity: [0, -9.81, 0], on: tip}")
         body = heavy.replace("tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}")
         self.assertNotIn("push", body)
@@ -237,7 +240,8 @@ quantities:
             self.refused(2, words, "scene", "--scene", self.scene(body.replace(*change)))
 
     def test_weight_of_all(self):
-        """Gravity on all acts once on each member with a density and each body with a mass, but not on a massless member."""
+        """Gravity on all acts once on each member with a density and each body with a mass, but not on a massless
+        member."""
         one = LEAF.replace("push: {force: [0, 1, 0], on: tip}", "weight: {gravity: [0, -9.81, 0], on: all}").replace(
             "tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}\n  end:  {at: [0.2, 0, 0]}").replace(
             "loads:", "  more: {from: tip, to: end, section: light, y: [0, 1, 0]}\nloads:").replace(
@@ -277,7 +281,8 @@ class ExamplesTest(SceneCase):
             self.answered("list", "--scene", path)
 
     def test_folder(self):
-        """All examples, run together with a case, give the expected verdict for every formulation, and their names are unique."""
+        """All examples, run together with a case, give the expected verdict for every formulation, and their names are
+        unique."""
         verdicts = self.folder / "verdicts.json"
         done = self.answered("verify", "--scene", EXAMPLES, "-v", "--json", verdicts)
         judged = {v["case"] for v in json.loads(verdicts.read_text(encoding="utf-8"))["verdicts"]}
@@ -306,7 +311,8 @@ class ExamplesTest(SceneCase):
         self.refused(2, "would overwrite", "verify", "--scene", self.folder, "-o", taken)
 
     def test_leaf_spring_guide(self):
-        """Stiffnesses in the undeformed state equal closed forms; those of the displaced stage equal the reference program's."""
+        """Stiffnesses in the undeformed state equal closed forms; those of the displaced stage equal the reference
+        program's."""
         path = EXAMPLES / "leaf_spring_guide.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 4))
         self.assertAlmostEqual(got["k_drive"] / 2624.536778, 1, delta=1e-9)
@@ -356,14 +362,15 @@ class ExamplesTest(SceneCase):
 
 # Scenes as a new user would write them, without specified physics, are compared with closed forms.
 #
-# The first lines of each file in cases/textbook describe the scene and its correct values, which the file contains as reference values. The
-# formulation that solve selects, and formulations with all physics, must give these values. A wrong value must never have status ok.
+# The first lines of each file in cases/textbook describe the scene and its correct values, which the file contains as
+# reference values. The formulation that solve selects, and formulations with all physics, must give these values. A
+# wrong value must never have status ok.
 SCENES = sorted((ROOT / "cases" / "textbook").glob("*.yaml"))
 # Relative tolerance of a value on the mesh that solve selects.
 CLOSE = 2e-3
 
-# Scenes in which the elements of this formulation are too long for their axial force, for any number of elements: the formulation is
-# reported as failed, and no value is shown.
+# Scenes in which the elements of this formulation are too long for their axial force, for any number of elements: the
+# formulation is reported as failed, and no value is shown.
 REFUSED = {"rotating_string": "geometrically_exact"}
 
 

@@ -85,8 +85,8 @@ class LoadsTest(SceneCase):
         return [line for line in self.written(text).partition("\nloads:\n")[2].splitlines() if line.startswith("  l")]
 
     def test_every_key(self):
-        """A key that a kind of load can have is preserved by writing and reading. Any other key is rejected with one line that contains the
-        key and a remedy."""
+        """A key that a kind of load can have is preserved by writing and reading. Any other key is rejected with one
+        line that contains the key and a remedy."""
         taken, refused = [], 0
         for (kind, said), (key, kinds) in itertools.product(KINDS.items(), KEYS.items()):
             where = key.startswith("where") and "within" in kind
@@ -111,8 +111,8 @@ class LoadsTest(SceneCase):
             self.assertIn(key, once)
 
     def test_analyses(self):
-        """Files with every kind of load and every analysis are reproduced. Loads without a potential are rejected, with their name, by
-        analyses that require one."""
+        """Files with every kind of load and every analysis are reproduced. Loads without a potential are rejected,
+        with their name, by analyses that require one."""
         several = [said for kind, said in KINDS.items() if kind != "all"]
         several += [f"{KINDS[kind]}, from: 0.25, to: 0.5, to_value: [4, 5, 6], follower: true" for kind in SPREAD]
         for analysis, said in ANALYSES.items():
@@ -151,7 +151,8 @@ class LoadsTest(SceneCase):
             self.assertRegex(done.stderr, r":11:3: l0: it (acts|rotates) out of the plane, .*; remove this, or remove plane: xy\n$")
 
     def test_units(self):
-        """In mm and N, fractions of a length have no unit, and vectors at both ends have the unit of their kind of load."""
+        """In mm and N, fractions of a length have no unit, and vectors at both ends have the unit of their kind of
+        load."""
         def loads(millimetre):
             force, moment, line, moments, arm = (f"[{x}, {2*x}, {3*x}]" for x in (1, 0.5*millimetre, 2/millimetre, 0.25, 0.125*millimetre))
             more = [f"distributed: {line}, on: bar, from: 0.25, to: 0.5, at: {arm}, to_value: [0, {8/millimetre}, 0]",
@@ -254,8 +255,8 @@ class MotionTest(SceneCase):
         self.assertNotEqual(got[0], got[1])
 
     def test_mass(self):
-        """By default and on request, mass is distributed along members; lumped mass is less accurate. Elements with three nodes and
-        integrators without support reject consistent mass, with their names."""
+        """By default and on request, mass is distributed along members; lumped mass is less accurate. Elements with
+        three nodes and integrators without support reject consistent mass, with their names."""
         text = reader_file("howto/dynamics.md", "swing.yaml")
         lumped = self.scene(text.replace("0..1/100", "0..1/100, mass: lumped"), "lumped.yaml")
         usual = self.scene(text, "usual.yaml")
@@ -289,8 +290,8 @@ class MotionTest(SceneCase):
             self.assertEqual("only lumped mass" in done.stdout + done.stderr, code == 2)
 
     def test_forms_of_newton(self):
-        """Newton's method in displacements gives the same motion; a form of Newton's method that the integrator does not support is
-        rejected."""
+        """Newton's method in displacements gives the same motion; a form of Newton's method that the integrator does
+        not support is rejected."""
         path = self.block("time: sin(20*t)")
         where = ("solve", "--scene", path, "-n", 1, "-f")
         mixed, alone = (values(self.record(*where, f"collocation:newton={how}"))["u"]
@@ -354,7 +355,8 @@ class MotionTest(SceneCase):
             self.assertEqual((curve["x_name"], curve["x_unit"]), wanted)
 
     def test_one_reason_once(self):
-        """If a quantity has no value for the same reason as the previous quantity, its message refers to that quantity."""
+        """If a quantity has no value for the same reason as the previous quantity, its message refers to that
+        quantity."""
         path = self.block("time: 1")
         late = "{rate: {analysis: swing, node: block, component: ux, at: 0.9}}"
         path.write_text(path.read_text("utf-8").replace(
@@ -408,7 +410,8 @@ class StabilityTest(SceneCase):
                          ["yes", "yes", "no", "no"])
 
     def test_meshes(self):
-        """converge reports where the stability changes; solve refines to the finest mesh, because coarser meshes might miss the change."""
+        """converge reports where the stability changes; solve refines to the finest mesh, because coarser meshes might
+        miss the change."""
         text = self.answered("converge", "--scene", self.scene(COLUMN), "-f", "collocation", "-f", "beamw").stdout
         self.assertIn("collocation met unstable states:\n  n = 1: stable up to 0.95", text)
         line = self.answered("solve", "--scene", self.scene(COLUMN), "-f", "collocation").stdout

@@ -136,7 +136,8 @@ CONSTANTS = ("A", "Iy", "Iz", "It", "Iw", "ys")
 
 
 def half_unit(printed):
-    """Returns half a unit of the last printed digit. Integers with five or more digits are printed with four significant digits."""
+    """Returns half a unit of the last printed digit. Integers with five or more digits are printed with four
+    significant digits."""
     digits = len(printed.replace(".", "").lstrip("0"))
     if "." in printed:
         return 0.5 * 10**-len(printed.split(".")[1])
@@ -144,8 +145,8 @@ def half_unit(printed):
 
 
 def scene(sections, material="young: 210e9, shear_modulus: 81e9, density: 7850", loads=None):
-    """Returns a scene file with these sections. loads: text with the loads; by default, forces that contain the constants of each
-    section."""
+    """Returns a scene file with these sections. loads: text with the loads; by default, forces that contain the
+    constants of each section."""
     loads = loads or {
         f"{name}_{k}": f"[{name}.{k}*1e12, 0, 0]" for name in sections for k in CONSTANTS
     }
@@ -197,7 +198,8 @@ class ProfilesTest(SceneCase):
                                        msg=f"{constant} of {name}")
 
     def test_sizes_without_fillets(self):
-        """T-sections and non-standard angles consist of walls without fillets, with the exact area of sharp corners."""
+        """T-sections and non-standard angles consist of walls without fillets, with the exact area of sharp
+        corners."""
         got = self.constants({
             "t": "t: {depth: 0.1, flange: 0.1, flange_thickness: 0.01, web_thickness: 0.01}",
             "l": "profile: L100x77x8",
@@ -211,8 +213,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["given"]["A"], 28.48e-4, delta=5e-7)
 
     def test_angles(self):
-        """The constants of angles agree with all printed digits, exchanged legs rotate the section, and the shear centre of equal legs is
-        the intersection of their centre lines."""
+        """The constants of angles agree with all printed digits, exchanged legs rotate the section, and the shear
+        centre of equal legs is the intersection of their centre lines."""
         sections = {f"s{i}": f"profile: {name}" for i, name in enumerate(ANGLES)}
         got = self.constants(sections)
         for key, printed in zip(sections, ANGLES.values()):
@@ -234,9 +236,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(e[2], -23.22e-3, delta=1e-5)
 
     def test_angle_bends_askew(self):
-        """A load along one leg of L100x75x8 causes the deflection that follows from the second moments about axes along the legs: d = F
-        L^3/3E
-        [Iz, -Iyz; -Iyz, Iy]/(Iy Iz - Iyz^2), including fillets."""
+        """A load along one leg of L100x75x8 causes the deflection that follows from the second moments about axes
+        along the legs: d = F L^3/3E [Iz, -Iyz; -Iyz, Iy]/(Iy Iz - Iyz^2), including fillets."""
         text = scene({"l": "profile: L100x75x8"}, loads={"p": "[0, 0, 10]", "t": "[0, 0, 0]"})
         text = text.replace("  t: {force: [0, 0, 0], on: b}", "  t: {moment: [10*l.ey, 0, 0], on: b}")
         text = text.replace("  uz:", "  uy: {displacement: {analysis: run, node: b, component: uy}}\n  uz:")
@@ -248,8 +249,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["uy"] / (-flexibility * Iyz), 1, delta=4e-3)
 
     def test_stresses_of_an_angle(self):
-        """Stresses at the heel and the sharp toes are -M (Iy y - Iyz z)/(Iy Iz - Iyz^2) about axes along the legs, with the constants of
-        the outline with fillets integrated here."""
+        """Stresses at the heel and the sharp toes are -M (Iy y - Iyz z)/(Iy Iz - Iyz^2) about axes along the legs,
+        with the constants of the outline with fillets integrated here."""
         def spandrel(sign, y, z, sy, sz, r, n=4000):
             strips = [(r / n * h, (i + 0.5) * r / n, h) for i in range(n)
                       for h in [r - math.sqrt(r * r - (r - (i + 0.5) * r / n)**2)]]
@@ -277,8 +278,8 @@ class ProfilesTest(SceneCase):
             self.assertEqual(max(stress), stress[0])
 
     def test_beam(self):
-        """The deflection and stress of a cantilever follow from the printed constants, P L^3/(3 E Iy) and P L/Wel with Wel = 194.3 cm^3,
-        for all formulations that support the section."""
+        """The deflection and stress of a cantilever follow from the printed constants, P L^3/(3 E Iy) and P L/Wel with
+        Wel = 194.3 cm^3, for all formulations that support the section."""
         text = scene({"beam": "profile: ipe 200"}, loads={"p": "[0, 0, 1000]"})
         text += "omit: {shear: yes}\n"
         for formulation in ("beamw_consistent", "geometrically_exact", "collocation"):

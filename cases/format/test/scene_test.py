@@ -58,7 +58,8 @@ class SceneTest(SceneCase):
         self.assertAlmostEqual(values(record)["tip_uy"] / exact, 1, delta=1e-9)
 
     def test_bytes(self):
-        """Line endings and byte order marks of other editors and letters of other languages do not change the results."""
+        """Line endings and byte order marks of other editors and letters of other languages do not change the
+        results."""
         own = self.answered("scene", "--scene", self.scene(LEAF)).stdout
         for name, text in (("ends", LEAF.replace(
                 "\n", "\r\n")), ("mark", "\ufeff" + LEAF), ("letters", LEAF + "# Größe – 大きさ\n")):
@@ -102,7 +103,8 @@ class SceneTest(SceneCase):
             self.assertEqual(again, written)
 
     def test_needs_of_earlier_versions(self):
-        """Physics that `needs` does not list is omitted, except warping, and one line states the replacement of this key."""
+        """Physics that `needs` does not list is omitted, except warping, and one line states the replacement of this
+        key."""
         rest = ["shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia"]
         buckles = LEAF + ("analyses:\n  run: {buckling: {}}\nquantities:\n"
                           "  P: {critical_factor: {analysis: run}, unit: \"1\"}\n")
@@ -130,7 +132,8 @@ class SceneTest(SceneCase):
         self.refused(2, "did you mean 'width'", *where, "--set", "wdth=0.1")
 
     def test_truths_of_a_point(self):
-        """A reference value that names parameters applies only at this parameter point, and `verify` runs this point."""
+        """A reference value that names parameters applies only at this parameter point, and `verify` runs this
+        point."""
         path = self.scene(
             LEAF.replace("width: 50e-3", "width: width").replace(
                 "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +
@@ -366,7 +369,8 @@ class ChoicesTest(SceneCase):
         self.assertIn("force: [0, 2.5, 0]", self.written("size=20", "shear=1")[0])
 
     def test_refused(self):
-        """Parameter values without a valid scene are rejected at the position of the cause; a switch has two values."""
+        """Parameter values without a valid scene are rejected at the position of the cause; a switch has two
+        values."""
         path = self.scene(CHOSEN)
         self.refused(2, f"{path}:11:49: size = 12.5 N on the root's side; give less than 10 N", "solve",
                      "--scene", path, "--set", "load=root_side", "--set", "size=12.5")
@@ -405,7 +409,8 @@ class PartsTest(SceneCase):
         self.assertAlmostEqual(abs(got["tip_ux"]) / own["tip_uy"], 1, delta=1e-12)
 
     def test_springs_of_a_part(self):
-        """The spring of a rotated part has the rotated matrix T K T^T, both at a port and between nodes of the part."""
+        """The spring of a rotated part has the rotated matrix T K T^T, both at a port and between nodes of the
+        part."""
         turn, a = 0.4, [3e3, 1e3, 2e3, 4.0, 5.0, 6.0]
         c, s = math.cos(turn), math.sin(turn)
         R = np.kron(np.eye(2), [[c, -s, 0], [s, c, 0], [0, 0, 1]])
@@ -432,7 +437,8 @@ loads:""") + "  pull: {force: [0.5, 1, 2], on: own}\n"
         self.assertGreater(min(map(abs, own.values())), 1e-9)
 
     def test_components_of_a_turned_part(self):
-        """Supports and motions are along the axes of the part, even if a motion is opposite to an axis of the scene."""
+        """Supports and motions are along the axes of the part, even if a motion is opposite to an axis of the
+        scene."""
         part = PLACED.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
         where = ("-f", "collocation", "-n", 1)

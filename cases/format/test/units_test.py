@@ -474,7 +474,8 @@ class Doubtful(SceneCase):
         self.assertRegex(self.told("7.85e-9", "1").stdout, r"\nN +0 N mm")
 
     def test_kelvin(self):
-        """The unit of a load factor may be that of its load, which is K in any unit system; another unit requires a factor."""
+        """The unit of a load factor may be that of its load, which is K in any unit system; another unit requires a
+        factor."""
         self.assertRegex(self.answered("solve", "--scene", self.scene(WARM), "-f", "beamw", "-n", 8).stdout,
                          r"\ndT +\S+ K")
         self.refused(2, "or 'unit: MPa, factor: 1' if the load has the value 1 in this unit", "solve", "--scene",

@@ -82,7 +82,8 @@ class WarpingTest(SceneCase):
                     self.is_twisted(scene + TWIST, ONE_HELD)
 
     def test_free(self):
-        """Warping is free if a component is free, if the node has only a mass or a fork support, or if a word specifies it."""
+        """Warping is free if a component is free, if the node has only a mass or a fork support, or if a word
+        specifies it."""
         drives = "motions: {still: {path: [0, 1], value: [0, 0]}}\n"
         held = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         for tip in ("", ", mass: 3", ", mass: 3, inertia: [1, 1, 1, 0, 0, 0], centre: [0.1, 0, 0]",
@@ -115,8 +116,8 @@ class WarpingTest(SceneCase):
                     [f"fixed, {told}"])
 
     def test_tied(self):
-        """Warping is restrained at the attached nodes of a body, and at the node of the body itself if other entries are joined to the body
-        elsewhere."""
+        """Warping is restrained at the attached nodes of a body, and at the node of the body itself if other entries
+        are joined to the body elsewhere."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         part = base + "  body: {at: [4, 0, 0]}\n" + TIP + ", part_of: body}\n" + CANTILEVER
         self.assertEqual(self.words(part), ["fixed, fixed"])
@@ -133,8 +134,8 @@ class WarpingTest(SceneCase):
         self.assertEqual(self.words(both), ["fixed, fixed", "fixed, fixed"])
 
     def test_guide(self):
-        """A guide of two leaves between clamped bases, one of them driven, and a stage has the expected transverse stiffness at the end of
-        its stroke."""
+        """A guide of two leaves between clamped bases, one of them driven, and a stage has the expected transverse
+        stiffness at the end of its stroke."""
         guide = """nodes:
   base_a: {at: [0, 0, 0], hold: all}
   base_b: {at: [0.06, 0, 0], hold: [ux, uy, uz, ry, rz], drive: {rx: tilt}}
@@ -332,7 +333,8 @@ class CurvesTest(SceneCase):
         return list(csv.DictReader(io.StringIO(text)))
 
     def test_abscissa(self):
-        """The abscissa contains the values of another quantity on the same path, also for quantities of analyses that follow the path."""
+        """The abscissa contains the values of another quantity on the same path, also for quantities of analyses that
+        follow the path."""
         found = curves(self.record("solve", "--scene", self.scene(FEW), *WHERE))
         places = found["place"]["curve_value"]
         self.assertEqual(len(places), 21)
@@ -358,8 +360,8 @@ class CurvesTest(SceneCase):
         self.assertEqual(len([r for r in rows if r["quantity"] == "force"]), 3*21)
 
     def test_text(self):
-        """Curves with the same abscissa are in one table. If there are many points, only some are shown, with the command that shows
-        all."""
+        """Curves with the same abscissa are in one table. If there are many points, only some are shown, with the
+        command that shows all."""
         text = self.answered("solve", "--scene", self.scene(FEW), *WHERE).stdout
         lines = [line.split() for line in text.splitlines()]
         at = lines.index(["place", "[mm]", "force", "[N]", "k_z", "[N/m]", "stable"])

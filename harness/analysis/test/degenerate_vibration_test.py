@@ -270,8 +270,8 @@ def root(function, low, high):
 
 
 def timoshenko(section, wave, upper=False):
-    """Returns the frequency [Hz] of a hinged beam, whose deflection and rotation are a sine and a cosine of wave x (2 x
-    2 problem)."""
+    """Returns the frequency [Hz] of a hinged beam, whose deflection and rotation are a sine and a cosine of wave x (2
+    x 2 problem)."""
     area, inertia, shear = section["A"], section["Iz"], G / section["F"][0]
     k11, k12, k22 = shear * wave**2, -shear * wave, shear + E * inertia * wave**2
     m1, m2 = RHO * area, RHO * inertia

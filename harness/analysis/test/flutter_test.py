@@ -103,8 +103,8 @@ class Flutter(ProgramTest):
             self.assertLess(abs(7*found/40.0537 - 1), 1e-5, formulation)
 
     def test_any_load(self):
-        """The critical load does not depend on the load about which it is computed, from a thousandth of it to a thousand
-        times it."""
+        """The critical load does not depend on the load about which it is computed, from a thousandth of it to a
+        thousand times it."""
         for size in (0.02, 19, 21, 20000):
             self.assertLess(abs(size*self.critical(tip_force(size))/20.05132 - 1), 1e-6, size)
 
@@ -143,8 +143,8 @@ class Flutter(ProgramTest):
             self.assertRegex(said, "is an artefact of the mesh|no critical load from path 0 to", formulation)
 
     def test_wound(self):
-        """Greenhill's shaft, twisted by less or more than half a turn and then compressed, with and without mass, has a
-        double point at M^2/4 + P = pi^2; above a torque of 2 pi it buckles by the torque alone."""
+        """Greenhill's shaft, twisted by less or more than half a turn and then compressed, with and without mass, has
+        a double point at M^2/4 + P = pi^2; above a torque of 2 pi it buckles by the torque alone."""
         for density in ("", ", density: 1e-9"):
             for angle in (0, 1e-9, 1, 3, 3.5, 5, 10):
                 found = self.values(WOUND % (density, angle), 8, "collocation")[0][0]
@@ -152,8 +152,8 @@ class Flutter(ProgramTest):
                 self.assertLess(abs(found/exact - 1), 1e-5, (density, angle))
 
     def test_with_damping_or_without(self):
-        """Frequencies about symmetric states are undamped, and this is reported; frequencies about other states include
-        damping."""
+        """Frequencies about symmetric states are undamped, and this is reported; frequencies about other states
+        include damping."""
         one = self.folder / "scene.yaml"
         said, found = {}, {}
         for follows in ("", ", follower: true"):

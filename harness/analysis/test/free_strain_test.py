@@ -106,8 +106,8 @@ quantities:
                     self.assertAlmostEqual(got[name], size, delta=tolerance * abs(size))
 
     def test_length(self):
-        """A member that is too short is in tension. A pretensioned member has its pretension, or half of it if an equal
-        member is in series."""
+        """A member that is too short is in tension. A pretensioned member has its pretension, or half of it if an
+        equal member is in series."""
         for keys, force in ((", pretension: 500", 500), (f", unstressed_length: {L * (1 - 1e-5)}", E * A * 1e-5),
                             (", strain: [-1e-5, 0, 0]", E * A * 1e-5)):
             text = f"""nodes: {{a: {{at: [0, 0, 0], hold: all}}, b: {{at: [{L}, 0, 0], hold: [uy, uz, rx, ry, rz]}},

@@ -110,7 +110,8 @@ class MultiplePoints(ProgramTest):
             self.assertLess(abs(value / right - 1), part, (found, about))
 
     def test_equal_and_almost_equal(self):
-        """Two points or one double point are found, never none, both in one step over all of them and in many steps."""
+        """Two points or one double point are found, never none, both in one step over all of them and in many
+        steps."""
         for off in (0, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3):
             for step in (1e-6, 1e-5, 4.5e-5):
                 self.near(self.points(Iy=1 + off, step=step, to=4.5e-5, **PINNED),
@@ -160,8 +161,8 @@ class MultiplePoints(ProgramTest):
                           fine[:2], 1e-8, Iy, step)
 
     def test_partly_following(self):
-        """The fraction eta of a force on a free head follows the rotation. Stability is lost and regained at cos sqrt P
-        = -eta/(1 - eta); for eta above one half there is no such point."""
+        """The fraction eta of a force on a free head follows the rotation. Stability is lost and regained at cos sqrt
+        P = -eta/(1 - eta); for eta above one half there is no such point."""
         for eta in (0.2, 0.4, 0.49, 0.4999, 0.501, 1):
             self.follow(eta, 1, (1e-6, 3e-6, 1e-5))
         self.follow(0.4, 3, (1e-6, 3e-6, 1e-5, 3e-5))

@@ -249,7 +249,8 @@ class Turns(ProgramTest):
                     self.assertLess(abs(turn/(-right*part/5) - 1), within*max(1, angle*angle/100), (formulation, angle))
 
     def test_readings(self):
-        """The angle of a node that rotates by 10 rad about its axis, or about a perpendicular one, is read correctly."""
+        """The angle of a node that rotates by 10 rad about its axis, or about a perpendicular one, is read
+        correctly."""
         for component, hold, moment, stiffness in (("rx", ", hold: [uy, uz, ry, rz]", "load, 0, 0", 160),
                                                    ("rz", "", "0, 0, load", 200), ("ry", "", "0, load, 0", 200)):
             for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):

@@ -1,4 +1,5 @@
-"""Initial shapes of members compared with closed forms: magnified moments, frequencies of a shallow arch, no stress."""
+"""Initial shapes of members compared with closed forms: magnified moments, frequencies of a shallow arch, no
+stress."""
 import math
 
 from cases.format.test.scene_case import SceneCase, values
@@ -217,8 +218,8 @@ omit: [shear]
             self.refused(2, words, "solve", "--scene", self.scene(filed), "-n", 1)
 
     def test_shifted_lengths(self):
-        """Strains refer to the shifted length: a member drawn with 1 m is 0.98 m long after the shift, and its unstressed
-        length is 0.979 m."""
+        """Strains refer to the shifted length: a member drawn with 1 m is 0.98 m long after the shift, and its
+        unstressed length is 0.979 m."""
         def bar(at, length, shift):
             return f"""beamwork: 1
 sections: {{bar: {{rectangle: {{width: 20e-3, thickness: 10e-3}}, young: 200e9, shear_modulus: 77e9}}}}
