@@ -33,8 +33,8 @@ static void to_fixed(const double v[3], double out[3])
         out[i] = along[i] * v[0] + across[i] * v[1] + (i == 2 ? v[2] : 0);
 }
 
-/* Total force of the loads on an undeformed member of length 2, and their moment about its
- * middle. */
+/* Computes the total force of the loads on an undeformed member of length 2, and their moment
+ * about its middle. */
 static void sums_of(const scene_load *load, const char *name, double force[3], double moment[3])
 {
     const double end = 1;
@@ -138,7 +138,8 @@ static void along_a_part(const char *name, int lumped)
     }
 }
 
-/* A load at an offset from the tip of a bent cantilever: gives the reaction force and moment. */
+/* Computes the reaction force and moment of a bent cantilever under a load at an offset from its
+ * tip. */
 static void cantilever(const element_type *type, int attached, int follower, double out[6])
 {
     static const double P[3] = {0.2, -0.3, 0.4}, edge[3] = {0.1, 0.2, -0.3};
@@ -199,8 +200,8 @@ static void applied_tests(void)
         offset_is_an_arm(registry_formulations[i]);
 }
 
-/* Elements evaluated in lanes, with members of two alternating sections, give the results of one
- * element at a time; an element that cannot be evaluated is named. */
+/* Elements evaluated in lanes, with members of two alternating sections, give the same results
+ * as elements evaluated one at a time. An element that cannot be evaluated is named. */
 
 enum { ELEMENTS = 7, MEMBERS = 3, QUANTITIES = 6 };
 
@@ -353,7 +354,7 @@ static void foot_of_an_arm(const element_type *type)
     scene_hold_all(&s, foot);
     scene_add_member(&s, arm, tip, scene_add_section(&s, &spec), y);
     scene_add_load(&s, SCENE_FORCE, tip, P[0], P[1], P[2]);
-    scene_add_load(&s, SCENE_FORCE, foot, 5, 6, 7); /* acts directly on the support */
+    scene_add_load(&s, SCENE_FORCE, foot, 5, 6, 7); /* the load acts directly on the support */
     scene_add_static(&s, 1, &end, 1);
     for (int k = 0; k < 9; k++) {
         char name[8];

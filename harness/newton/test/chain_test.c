@@ -1,5 +1,5 @@
-/* Links and chains agree with dense matrices of all coordinates, and a long chain with the beam
- * that it represents. */
+/* Links and chains agree with dense matrices of all coordinates, and a long chain agrees with
+ * the beam that it represents. */
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
 #include <math.h>
@@ -18,7 +18,7 @@ enum { LINKS = 5, STRAINS = 18, MOST = CHAIN_JOINT * (2 * LINKS + 1) };
 
 /* Elements with random matrices; indefinite: H makes some of their eigenvalues negative. */
 typedef struct chain_row {
-    int nodes, joint, joints, all; /* of the whole row: joints x joint coordinates */
+    int nodes, joint, joints, all; /* of the whole chain: joints x joint coordinates */
     double J[LINKS][STRAINS * ELEMENT_MAX_COORDINATES], C[LINKS][STRAINS * STRAINS],
         H[LINKS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[LINKS][9];
 } chain_row;
@@ -94,8 +94,8 @@ static double largest(int n, const double a[], const double b[])
     return most;
 }
 
-/* The coordinates of the ends come first and last. Compares the number of negative eigenvalues of
- * the coordinates in between, in the dense matrix and in the chain. */
+/* Compares the number of negative eigenvalues of the inner coordinates in the dense matrix and
+ * in the chain. The coordinates of the ends come first and last. */
 static int held_inside(const chain_row *of, const double K[], const chain *s)
 {
     const int inside = of->all - 2 * of->joint;
@@ -109,8 +109,8 @@ static int held_inside(const chain_row *of, const double K[], const chain *s)
     return negative;
 }
 
-/* Solves for loads on all coordinates, with both ends on springs: densely, and from the condensed
- * ends. */
+/* Solves for loads on all coordinates, with both ends on springs: with the dense matrix, and
+ * with the condensed ends. */
 static void solutions(const chain_row *of, double K[], chain *s, uint64_t *seed)
 {
     const int c = of->joint, n = of->all;
@@ -166,8 +166,8 @@ static void random_rows(void)
     gsl_test(negative < 20, "%d negative eigenvalues were there to be counted", negative);
 }
 
-/* A link of a clamped beam with unit length and unit stiffnesses; strains are the motion of the
- * second joint relative to the first. */
+/* A link of a clamped beam with unit length and unit stiffnesses. Its strains are the motion of
+ * the second joint relative to the first. */
 static void uniform_link(double l, double J[], double C[], double H[], double r[])
 {
     const int n = 2 * NODE_COORDINATES;
@@ -187,7 +187,8 @@ static void uniform_link(double l, double J[], double C[], double H[], double r[
     C[2 * 6 + 4] = C[4 * 6 + 2] = 6 / (l * l);
 }
 
-/* The coefficients are 12, 6, 4 and 2, from link stiffnesses that are 1e15 times larger. */
+/* The stiffness coefficients of a long chain are 12, 6, 4 and 2, although the stiffnesses of its
+ * links are 1e15 times larger. */
 static void long_chain(void)
 {
     enum { MANY = 100000 };
@@ -222,8 +223,8 @@ static void chain_tests(void)
     long_chain();
 }
 
-/* The guess of the next state of a path is exact for paths as smooth as the number of stored states
- * allows, and extrapolates no further than the states support. */
+/* The initial guess for the next state of a path is exact for polynomial paths of a degree that
+ * the number of stored states allows. It does not extrapolate further than the states support. */
 
 enum { MOST_DEGREE = MODEL_EXTRAPOLATED };
 
@@ -251,7 +252,7 @@ static void extrapolate_fill(const model *m, int degree, double path, model_stat
     }
 }
 
-/* Largest difference in vertices that have their own coordinates. */
+/* Returns the largest difference in vertices that have their own coordinates. */
 static double apart(const model *m, const model_state *a, const model_state *b)
 {
     double worst = 0;
@@ -268,8 +269,8 @@ static double apart(const model *m, const model_state *a, const model_state *b)
     return worst;
 }
 
-/* Error of the guess at `to` after states at path[count], for a path of the given degree that
- * reverses at a kink. */
+/* Returns the error of the guess at `to` after states at path[count], for a path of the given
+ * degree that reverses at a kink. */
 static double error_of_guess(const model *m, int degree, double kink, int count,
                              const double path[], double to)
 {
@@ -298,7 +299,7 @@ static double error_of_guess(const model *m, int degree, double kink, int count,
     return error;
 }
 
-/* Uses steps of different lengths, more than are stored. */
+/* Checks steps of different lengths, more of them than are stored. */
 static void smooth_paths(const model *m)
 {
     static const double path[] = {0.04, 0.09, 0.15, 0.2,  0.26, 0.33, 0.39, 0.46,
@@ -315,7 +316,7 @@ static void smooth_paths(const model *m)
         }
 }
 
-/* The longest extrapolated step is one and a half times the last one. */
+/* The longest extrapolated step is one and a half times the last step. */
 static void long_steps(const model *m)
 {
     static const double path[] = {0.1, 0.2, 0.3, 0.4, 0.5};

@@ -9,8 +9,8 @@
 enum { MOST = 40 };
 enum { LINE, SPIN };
 
-/* Forces of one component on the vertices of a member of length 2 along x, due to a load along it
- * or to a frame that rotates about z. The ends come first. */
+/* Computes the forces of one component on the vertices of a member of length 2 along x, due to a
+ * load along it or to a frame that rotates about z. The ends come first. */
 static void forces_along(int what, const char *name, double path, int follows, int nodes,
                          double out[])
 {
@@ -49,8 +49,8 @@ static void forces_along(int what, const char *name, double path, int follows, i
     scene_free(&s);
 }
 
-/* The whole load along a member is applied, with its first moment; the second moment is that of the
- * rule (trapezoidal; Simpson's, which is exact). */
+/* The nodal forces have the total and the first moment of the load along a member. The second
+ * moment is that of the rule: trapezoidal; or Simpson's, which is exact. */
 static void along_a_member(const char *name, int nodes)
 {
     double F[MOST], sum[3] = {0};

@@ -1,5 +1,5 @@
-/* Loads on nodes of a rigid body in a rotated state agree with their work, and with their factors
- * along the path. */
+/* Loads on nodes of a rigid body in a rotated state agree with the derivatives of their work,
+ * and with their factors along the path. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "harness/newton/test/turned_body.h"
 #include "harness/tools/kit/scenes.h"
 
-/* Five-point difference, with an error of fourth order. */
+/* Returns a five-point difference of the work, with an error of fourth order. */
 static double slope(const turned_body *s, int k)
 {
     return (8 * (turned_body_work_at(s, k, turned_body_step, -1, 0) -
@@ -61,8 +61,8 @@ static void follow_stations(scene_load *load, const double path[3], const double
     memcpy(load->factor, value, 3 * sizeof *value);
 }
 
-/* Factors 0, 2, 1 at path 0, 1, 3: the rate at a station is that of the next piece, and is zero
- * outside. */
+/* Factors are 0, 2, 1 at path 0, 1, 3. The rate at a station is that of the next piece, and is
+ * zero outside. */
 static void rates(void)
 {
     static const double path[] = {0, 1, 3}, value[] = {0, 2, 1};
@@ -168,8 +168,8 @@ static void loads_tests(void)
 /* Stiffness of loads on nodes of a rigid body in a rotated state: the second derivative of their
  * work, or the derivative of the loads. */
 
-/* A dead force has a potential: its stiffness is the second derivative of its work, with the sign
- * of K. */
+/* A dead force has a potential: its stiffness is the second derivative of its work, with the
+ * sign that it has in K. */
 static void stiffness(int body)
 {
     turned_body s;
@@ -204,8 +204,8 @@ static void stiffness(int body)
     turned_body_release(&s);
 }
 
-/* If the coordinates are angles, the stiffness is the derivative of the generalised loads, also for
- * moments and follower loads, which have no potential. at [m]: offset from the node. */
+/* If the coordinates are angles, the stiffness is the derivative of the generalised loads, even
+ * for moments and follower loads, which have no potential. at [m]: offset from the node. */
 static void stiffness_of_angles(int body, scene_load_kind kind, int follower, const double at[3])
 {
     turned_body s;

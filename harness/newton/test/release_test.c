@@ -1,5 +1,5 @@
-/* Released ends in a rotated state: the tangent is the derivative of the forces, whatever is
- * released, wherever the node is and whatever acts on the member, and Newton's method converges
+/* Released ends in a rotated state: the tangent is the derivative of the forces, for any
+ * releases, positions of the node and loads on the member, and Newton's method converges
  * accordingly. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -135,8 +135,8 @@ static void linearised(release_subject *t, const model_state *s, double path)
             t->A[t->K.row[k] * t->n + j] = t->K.value[k];
 }
 
-/* Finds equilibrium under a fraction of the load; returns 1 when the corrections decrease as with
- * an exact tangent. */
+/* Finds equilibrium under a fraction of the load. Returns 1 when the corrections decrease as
+ * with an exact tangent. */
 static int solve(release_subject *t, double path, const char *what)
 {
     int pivot[MOST];
@@ -254,7 +254,7 @@ static int warping_member(const element_type *type, int first, int last, scene *
     return made == STATUS_OK;
 }
 
-/* Size of a correction that changes only one coordinate. */
+/* Returns the size of a correction that changes only one coordinate. */
 static double size_of(model *m, int coordinate, double step)
 {
     const model_size size = model_sizes(m);
@@ -344,7 +344,7 @@ static const char *const formulations[] = {"beamw", "sheet_third", "geometricall
                                            "collocation"};
 enum { FORMULATIONS = sizeof formulations / sizeof formulations[0], NEVER = 1000000 };
 
-/* A fifth of a motion is solved with the same steps as the whole. */
+/* Shortens a motion to a fifth, which is solved with the same steps as the whole motion. */
 static void shorten(const case_type *type, double parameter[])
 {
     const int time = parameter_index(type->parameters, "time");
@@ -362,7 +362,7 @@ static status test_condensation_solve(const case_type *type, const char *of, int
     return cell_run(&request, out, &f);
 }
 
-/* Largest value of quantities with the same unit, as a scale for zeros. */
+/* Returns the largest value of quantities with the same unit, as a scale for zeros. */
 static double scale_of(const cell_result *r, const char *unit)
 {
     double largest = 0;
@@ -373,7 +373,7 @@ static double scale_of(const cell_result *r, const char *unit)
     return largest;
 }
 
-/* Compares all values and returns their number. */
+/* Compares all values. Returns their number. */
 static int compare(const char *name, const char *of, const cell_result *a, const cell_result *b)
 {
     int compared = 0;
@@ -487,8 +487,8 @@ static void condensation_tests(void)
     gsl_test(!found, "c_cantilever is there");
 }
 
-/* An analysis passes on all eigenvalues, and the reason why there are no more; results of one kind
- * of analysis cannot be read as those of another. */
+/* An analysis passes on all eigenvalues, and the reason why there are no more. Results of one
+ * kind of analysis cannot be read as those of another kind. */
 
 static void handed_over(status outcome, int rounding, const char *reason, const char *said)
 {
@@ -549,7 +549,7 @@ static void by_kind(void)
     static const struct {
         const char *name;
         void (*read)(const void *);
-        unsigned kinds; /* kinds of analyses that produce it */
+        unsigned kinds; /* kinds of analyses that produce these results, as bits */
     } row[] = {
         {"displacements", read_displacements, 1 << SCENE_LINEAR},
         {"spectrum", read_spectrum, 1 << SCENE_BUCKLING | 1 << SCENE_MODAL},

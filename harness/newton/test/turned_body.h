@@ -93,7 +93,7 @@ static inline void turned_body_release(turned_body *s)
     scene_free(&s->scene);
 }
 
-/* Generalised loads at the end of the path. */
+/* Computes the generalised loads at the end of the path. */
 static inline void turned_body_loads(const turned_body *s, double out[])
 {
     double without[MOST];
@@ -110,7 +110,7 @@ static inline void turned_body_loads(const turned_body *s, double out[])
         out[k] -= without[k];
 }
 
-/* Displacement and rotation of the loaded node since the rotated state. */
+/* Computes the displacement and rotation of the loaded node from the rotated state. */
 static inline void turned_body_motion(const turned_body *s, const double dx[], double d[3],
                                       double turn[3])
 {
@@ -123,7 +123,7 @@ static inline void turned_body_motion(const turned_body *s, const double dx[], d
     rotation_between(from, q, turn);
 }
 
-/* Work of the load to first order; for a force, the exact work. */
+/* Returns the work of the load to first order; for a force, the exact work. */
 static inline double turned_body_work(const turned_body *s, const double dx[])
 {
     const scene_load *load = &s->scene.load[0];

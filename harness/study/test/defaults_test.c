@@ -1,7 +1,7 @@
 /* reference/defaults.csv, which the programs of reference/derive read, agrees with the parameter
- * tables of the cases: the same parameters in the same order, the same numbers and words. It
- * excludes the last parameters, for omitted physics and the position of mass, which the original
- * source does not have. */
+ * tables of the cases: it has the same parameters in the same order, with the same numbers and
+ * words. It excludes the last parameters, for omitted physics and the position of mass, which
+ * the original source does not have. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* A formulation whose cells end in a given way. */
+/* A formulation whose cells end in a given way, for example by a crash. */
 #ifndef BEAMWORK_TEST_ENDING_H
 #define BEAMWORK_TEST_ENDING_H
 
@@ -19,7 +19,7 @@ static inline void never_end(int says)
         pause();
 }
 
-/* A formulation that runs on the first case. */
+/* Returns a formulation that runs on the first case. */
 static inline formulation ending_good(void)
 {
     formulation chosen;

@@ -114,7 +114,8 @@ static void two_families(void)
     finish(&b);
 }
 
-/* A third family whose limit is poorly known makes neither the limit nor its uncertainty worse. */
+/* If the limit of a third family is poorly known, it worsens neither the agreed limit nor its
+ * uncertainty. */
 static void known_badly(void)
 {
     families_bench b;
@@ -132,7 +133,8 @@ static void known_badly(void)
     finish(&b);
 }
 
-/* Two families against two give no agreement; of three against two, the three count. */
+/* If two families agree on one limit and two on another, there is no agreement; with three
+ * against two, the three decide. */
 static void disputes(void)
 {
     families_bench b;
@@ -150,8 +152,8 @@ static void disputes(void)
     finish(&b);
 }
 
-/* The most accurate formulation is the centre; a formulation whose distance exceeds its uncertainty
- * is named. */
+/* The most accurate formulation is the centre. A formulation whose distance from it exceeds its
+ * uncertainty is named. */
 static void known_best(void)
 {
     families_bench b;
@@ -207,7 +209,8 @@ static void uncertain(void)
     finish(&b);
 }
 
-/* Index of the mesh from which a series is within 1 % in all quantities, or -1. */
+/* Returns the index of the coarsest mesh such that the series is within 1 % in all quantities on
+ * it and on all finer meshes; or -1. */
 static int every(const families_bench *b, int series_index)
 {
     reach_question q = {.s = &b->s, .quantity = REACH_EVERY, .level = 0.01};
@@ -222,8 +225,8 @@ static int every(const families_bench *b, int series_index)
     return found;
 }
 
-/* Finds the coarsest mesh from which all quantities are within 1 %, with respect to the agreement
- * if there is no reference value. */
+/* Finds this mesh by comparison with the reference values or, if there are none, with the
+ * agreement. */
 static void reach(void)
 {
     families_bench b;
@@ -347,8 +350,8 @@ typedef struct reach_bench {
     int count;
 } reach_bench;
 
-/* Four formulations without cost coefficients of their own, exact on every mesh; the reference
- * value is 1. The work of each is ten times that of the previous one. */
+/* Makes four formulations without cost coefficients of their own, exact on every mesh; the
+ * reference value is 1. The work of each is ten times that of the previous one. */
 static void reach_make(reach_bench *b)
 {
     static const char *const key[SERIES] = {"cheap", "dear", "other", "last"};
@@ -402,8 +405,8 @@ static void by_work(void)
     expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "whatever the clock says");
 }
 
-/* A formulation within 1 % on the coarsest mesh, but not on the next one, counts from the third
- * mesh on, with the work of that mesh. */
+/* A formulation that is within 1 % on the coarsest mesh, but not on the next one, is ranked by
+ * the third mesh, with the work on that mesh. */
 static void by_accident(void)
 {
     reach_bench b;
@@ -462,8 +465,8 @@ static void ties(void)
     gsl_test_int(reach_ties(b.list, 0), 0, "nothing ties");
 }
 
-/* A formulation without a reference value of its theory for some quantity, or that does not run, is
- * excluded from the ranking over all quantities. */
+/* A formulation that does not run, or that has no reference value of its theory for some
+ * quantity, is excluded from the ranking over all quantities. */
 static void not_asked(void)
 {
     reach_bench b;

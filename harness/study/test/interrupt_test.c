@@ -1,6 +1,6 @@
-/* No process outlives the one that started it, and an interrupted run keeps its finished results.
- * Nothing here depends on the machine's speed: every step waits for an event, and END and WAIT only
- * bound a test that would never end. */
+/* No process outlives the one that started it, and an interrupted run keeps its finished
+ * results. Nothing here depends on the speed of the machine: every step waits for an event. END
+ * and WAIT only stop a test that would never end. */
 #include <gsl/gsl_test.h>
 #include <poll.h>
 #include <signal.h>
@@ -63,7 +63,7 @@ static family begin_family(const sweep_request *request, int sound)
     return out;
 }
 
-/* Returns the process of a cell that has started; 0: no process can report any more; -1: nothing
+/* Returns the process of a cell that has started. 0: no process can report any more; -1: nothing
  * happens. */
 static pid_t next_cell(const family *of)
 {
@@ -150,7 +150,7 @@ static int is_asked(const interrupt *i)
     return poll(&end, 1, 0) > 0;
 }
 
-/* An ignored signal (nohup) is no request; afterwards the signal mask is restored. */
+/* An ignored signal (nohup) does not count as a request. The signal mask is restored at the end. */
 static void requests(void)
 {
     interrupt i;
@@ -173,8 +173,8 @@ static void requests(void)
 
 int main(void)
 {
-    signal(SIGINT, SIG_DFL); /* a background job of a shell ignores it, and an ignored signal stays
-                                ignored */
+    signal(SIGINT, SIG_DFL); /* a background job of a shell ignores SIGINT, and a signal that is
+                                ignored at the start stays ignored */
     alarm(END);
     orphans();
     own_limit();

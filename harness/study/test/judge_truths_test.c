@@ -35,7 +35,7 @@ static void predictions(void)
     bench_free(&b);
 }
 
-/* A formulation is evaluated with the reference value of its own shear theory, whatever the scene
+/* A formulation is compared with the reference value of its own shear theory, whatever the scene
  * requests. */
 static void theories(void)
 {
@@ -78,8 +78,8 @@ static void publications(void)
     bench_free(&b);
 }
 
-/* If a limit was derived, the distance from that limit must be within the range of the rule,
- * however far the reference value is. */
+/* If a limit was derived, the distance from the derived limit must be within the range of the
+ * rule, however far away the reference value is. */
 static void bound_by_the_derived_limit(void)
 {
     static char kind[] = "wrong limit, as predicted|undecided";
@@ -192,8 +192,8 @@ static void expectations(void)
     bench_free(&b);
 }
 
-/* A reference value of a motion at an instant that the run does not evaluate is not used and does
- * not count as unmet; for a case without a motion it does. */
+/* A reference value of a motion at an instant that the run does not evaluate is not used. It
+ * does not count as unmet; a reference value of a case without a motion does. */
 static void other_instants(void)
 {
     static const parameter_type both[] = {{"length", "m", 2, 1, 9, NULL, "some length"},
@@ -257,8 +257,8 @@ static void stored_values(void)
     bench_free(&b);
 }
 
-/* Stored values are compared with their own series, after that of another formulation with other
- * values on its meshes. */
+/* Stored values are compared with their own series, even if this follows a series of another
+ * formulation with other values on the same meshes. */
 static void of_its_own_series(void)
 {
     judge_bench b;
@@ -353,7 +353,7 @@ static void orders(void)
     bench_expect(&b, VERDICT_PASS, 0,
                  "changes that the reference value's own uncertainty hides show no order");
     b.row[0].uncertainty = 0;
-    /* changes, starting with the finest mesh: orders 1.2, 1.2 and then `earlier` */
+    /* changes between meshes, starting with the finest one: orders 1.2, 1.2 and then `earlier` */
     const double earlier[] = {1.2, 2.2};
     for (int k = 0; k < 2; k++) {
         double change = 1e-5, value = 3 + change / (pow(2, 1.2) - 1);
@@ -460,8 +460,8 @@ static void doubtful_noise(void)
     bench_free(&b);
 }
 
-/* Counts how many limits lie within their uncertainty of exact reference values, also without the
- * finest meshes. */
+/* Counts how many limits are within their uncertainty of exact reference values, also without
+ * the finest meshes. */
 static void coverages(void)
 {
     judge_bench b;

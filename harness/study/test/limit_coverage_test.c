@@ -1,5 +1,5 @@
-/* How often the limit of a sequence lies within its own uncertainty: for families of sequences with
- * a known limit, and under noise. Seeds are fixed. */
+/* Measures how often the limit of a sequence is within its own uncertainty of the known limit,
+ * for families of sequences and under noise. Seeds are fixed. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_test.h>
@@ -14,16 +14,16 @@ static const double value = 3; /* the limit of all families */
 static const int grid[GRIDS][MOST] = {{1, 2, 4, 8, 16, 32, 64},
                                       {2, 4, 8, 16, 32, 64, 128},
                                       {5, 10, 20, 40, 80, 160, 320},
-                                      {1, 2, 3, 4, 8, 16, 32}, /* 3 is dropped by thinning if 4 is
-                                                                  used */
+                                      {1, 2, 3, 4, 8, 16, 32}, /* mesh 3 is dropped by thinning
+                                                                  if mesh 4 is used */
                                       {2, 4, 8, 16, 30, 32, 64}};
 
 /* Parameters of one random sequence. */
 typedef struct draw {
     double order, order_2, order_3;
-    double ratio,
-        ratio_3; /* signed ratios of the second and third term to the first, on the coarsest mesh */
-    double bend; /* elements at which the behaviour changes */
+    double ratio, ratio_3; /* signed ratios of the second and the third term to the first one, on
+                              the coarsest mesh */
+    double bend;           /* number of elements at which the behaviour changes */
     double phase;
     int first, last; /* meshes */
 } draw;
@@ -43,7 +43,7 @@ static double sign(gsl_rng *r)
     return gsl_rng_uniform(r) < 0.5 ? -1 : 1;
 }
 
-/* Error of mesh i with n elements, before scaling. */
+/* Returns the error of mesh i with n elements, before scaling. */
 static double power(const draw *d, int i, double n)
 {
     (void)i;
@@ -112,7 +112,7 @@ typedef struct coverage_family {
     const char *name;
     error_function *error;
     mixture mixture;
-    double order;   /* 0: any of 1, 1.5, 2, 3, 4 */
+    double order;   /* 0: one of 1, 1.5, 2, 3, 4, at random */
     double covered; /* fraction of the limits that must lie within their uncertainty */
 } coverage_family;
 
@@ -186,7 +186,7 @@ static draw draw_from(gsl_rng *r, const coverage_family *f, const int n[], int m
     return d;
 }
 
-/* Result for one random sequence of the family. */
+/* Returns the limit for one random sequence of the family. */
 static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
 {
     const int *n = grid[gsl_rng_uniform_int(r, GRIDS)];
@@ -194,8 +194,9 @@ static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
     const double round_off = 1e-14,
                  first = sign(r) * between_log(r, 1e-3, 0.3) * value / f->error(&d, 0, n[0]);
     const double usual =
-        fmin(first, 0.3 * value / fabs(f->error(&d, 1, n[1]))); /* where the first two terms cancel
-                                                                   on the coarsest mesh */
+        fmin(first, 0.3 * value / fabs(f->error(&d, 1, n[1]))); /* position where the first two
+                                                                   terms cancel on the coarsest
+                                                                   mesh */
     double v[MOST];
     for (int i = 0; i < meshes; i++)
         v[i] = value + usual * f->error(&d, i, n[i]) + value * gsl_ran_gaussian(r, round_off);
@@ -203,7 +204,7 @@ static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
     return limit_of(&s);
 }
 
-/* Does the limit lie within its uncertainty? */
+/* Returns 1 when the limit is within its uncertainty. */
 static int is_covered(gsl_rng *r, const coverage_family *f, int meshes)
 {
     const mesh_limit l = shown(r, f, meshes);
@@ -226,7 +227,7 @@ static void coverage_of_families(void)
     gsl_rng_free(r);
 }
 
-/* Noise of any size, known within a factor of three: more or less than the actual noise. */
+/* Noise of any size, which is known only within a factor of three. */
 static void coverage_under_noise(void)
 {
     static const coverage_family noisy[] = {{"n^-2", power, ONE_TERM, 2, 0.95},
@@ -305,7 +306,8 @@ enum { LIMIT_MOST = 7, DOUBLED = 6 };
 static const double limit_value = 3; /* the limit of all one-term sequences */
 static const int mesh[LIMIT_MOST] = {1, 2, 4, 8, 16, 32, 64};
 
-/* Limit from values on 1, 2, 4, ... elements; round-off not measured, nominal order 2. */
+/* Computes the limit from values on 1, 2, 4, ... elements. Round-off was not measured; the
+ * nominal order is 2. */
 static mesh_limit doubled(int count, const double v[])
 {
     return limit_of(&(limit_sequence){count, mesh, v, NAN, 2, 4, 0});
@@ -379,7 +381,7 @@ static void worked(void)
     gsl_test(isfinite(slow.order), "is not believed");
 }
 
-/* Two values show no order: first order is assumed, and the uncertainty is three times the change
+/* Two values show no order: order 1 is assumed, and the uncertainty is three times the change
  * plus four times the noise. Three values never suffice to estimate two orders. */
 static void few_meshes(void)
 {
@@ -427,9 +429,9 @@ static void settled(void)
     gsl_test_rel(l.order, 8, 0.02, "shows its order above it");
 }
 
-/* C_uz_My of sheet_second (sheet_cantilever, tip_warping=1) [1e-7/N]: from 64 elements on another
- * term contributes, orders of 4.5 and 4.7 agree although four is the highest possible, and the
- * limits seem to settle. 1024 elements show the limit. */
+/* C_uz_My of sheet_second (sheet_cantilever, tip_warping=1) [1e-7/N]. From 64 elements on,
+ * another term contributes: orders of 4.5 and 4.7 agree although four is the highest possible,
+ * and the limits seem to settle. The value on 1024 elements shows the limit. */
 static void orders_beyond_the_highest(void)
 {
     static const double v[] = {-7.541557376815, -7.572498677944, -7.749537235739, -7.764447957971,

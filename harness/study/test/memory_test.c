@@ -85,7 +85,8 @@ FILE *__wrap_open_memstream(char **text, size_t *size)
     return file;
 }
 
-/* A tested operation; *value: a sum over its results. Returns STATUS_OK after *value was set. */
+/* A tested operation. *value: a sum over its results. Returns STATUS_OK after *value has been
+ * set. */
 typedef status memory_attempt(const void *what, double *value, fault *f);
 
 /* Runs the operation once with enough memory, then with the k-th allocation failing, k = 1, 1 +
@@ -165,7 +166,7 @@ static status read_truths(const void *what, double *value, fault *f)
     return outcome;
 }
 
-/* Reads a scene file, its scene and its reference values; value: number of reference values
+/* Reads a scene file, its scene and its reference values. *value: number of reference values
  * plus a weighted sum over the positions of nodes. */
 static status read_scene(const void *what, double *value, fault *f)
 {
@@ -209,8 +210,8 @@ static status write_results(const void *what, double *value, fault *f)
         outcome = store_write(what, NULL, &s, &j, &e, f);
     *value = access(what, F_OK) == 0;
     if (outcome != STATUS_OK && *value != 0)
-        fault_set(f, STATUS_OK, "a file\nwas left"); /* reported as a failure whose message is not
-                                                        one line */
+        fault_set(f, STATUS_OK, "a file\nwas left"); /* a remaining file is reported as a failure
+                                                        whose message is not one line */
     unlink(what);
     judgement_free(&j);
     sweep_free(&s);

@@ -1,5 +1,5 @@
-/* Noise of a finest mesh: measured on request, twice the larger difference, and due to rounding
- * only. */
+/* Noise on a finest mesh: it is measured on request, is twice the larger difference, and is due
+ * to rounding only. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -39,7 +39,7 @@ static int all_but_the_first(void *context, const sweep *s, int series_index)
     return series_index > 0;
 }
 
-/* Noise is due to rounding only, also for formulations that depend on the order of nodes. */
+/* Noise is due to rounding only, even for formulations that depend on the order of nodes. */
 static void rounding(const case_type *type)
 {
     sweep s;
@@ -76,7 +76,7 @@ static int change(void *context, const sweep *s, int series_index)
     return 1;
 }
 
-/* A changed value differs from both repetitions by the change. */
+/* If one value is changed, it differs from both repetitions by the change. */
 static void size_of_it(const case_type *type)
 {
     for (int k = 0; k < 2; k++) {
@@ -96,7 +96,7 @@ static void size_of_it(const case_type *type)
     }
 }
 
-/* One value of a case and formulation, with an equivalent scene. */
+/* Returns one value of a case and formulation for an equivalent scene. */
 static double in_other_words(const case_type *type, const formulation *chosen, scene_edit edit,
                              int quantity)
 {
@@ -114,7 +114,7 @@ static double in_other_words(const case_type *type, const formulation *chosen, s
     return out;
 }
 
-/* The larger of the two differences counts, whichever repetition it belongs to. */
+/* The larger of the two differences counts, from whichever repetition it comes. */
 static void larger_of_two(const case_type *type)
 {
     sweep s;
@@ -194,8 +194,8 @@ static void noise_tests(void)
     larger_of_two(case_find("elastica", &f));
 }
 
-/* Every cell occurs once among the tasks; those of the most expensive series come first, then the
- * others in order, and within a series the finest mesh first. */
+/* Every cell occurs once among the tasks. Cells of the most expensive series come first, the
+ * others follow in order. Within a series the finest mesh comes first. */
 
 static const int mesh[] = {1, 2, 4};
 
@@ -223,7 +223,7 @@ static double expense_of(const sweep *s, int index)
     return all;
 }
 
-/* Is the cost of the series less than a hundredth of the work of one process? */
+/* Returns 1 when the cost of the series is less than a hundredth of the work of one process. */
 static int is_small(const sweep *s, int jobs, int index)
 {
     double all = 0;
@@ -292,8 +292,8 @@ static void counted(const char *name, expense_kind kind, double wanted)
     scene_free(&s);
 }
 
-/* Adaptive steps are counted from the tolerance: their number is a power of it, and Radau's steps
- * are longer. */
+/* The number of adaptive steps follows from the tolerance: it is a power of the tolerance, and
+ * Radau's steps are longer. */
 static void adapts(void)
 {
     const double instant = 3;

@@ -1,5 +1,5 @@
-/* The overview: the worst verdict of each case and formulation, with unexpected verdicts first; and
- * the sentence that ends a run. */
+/* The overview shows the worst verdict of each case and formulation, with unexpected verdicts
+ * first. The sentence at the end of a run summarises it. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -59,7 +59,7 @@ static void shows(const run *r, int row, int column, const char *ascii, const ch
     overview_free(&o);
 }
 
-/* Each kind of verdict is shown alone, and in preference to less severe ones, in any order. */
+/* Each kind of verdict is shown if it is alone, and if the others are less severe, in any order. */
 static void the_worst(void)
 {
     static const verdict_kind rising[] = {VERDICT_SKIP,
@@ -85,7 +85,7 @@ static void the_worst(void)
         }
 }
 
-/* One unexpected verdict is shown in preference to ten worse ones. */
+/* One unexpected verdict is shown even if ten expected ones are worse. */
 static void the_unexpected(void)
 {
     run r;
@@ -301,7 +301,7 @@ static void set(judgement *j, size_t offset, int value)
     memcpy((char *)j + offset, &value, sizeof value);
 }
 
-/* Changes every count of the judgement, one by one, including new ones. */
+/* Changes every count of the judgement separately, including counts that are new. */
 static void exit_codes(void)
 {
     int walked = 0;
@@ -322,8 +322,8 @@ static void exit_codes(void)
         judgement none = {0};
         set(&none, at, 1);
         const int broken = at == offsetof(judgement, breaches) ||
-                           at == offsetof(judgement, regressions); /* these fail even without a
-                                                                      verdict */
+                           at == offsetof(judgement, regressions); /* these make the run fail
+                                                                      even if there is no verdict */
         gsl_test_int(judgement_exit(&none),
                      is_among(at, CHECKING, checking) ? 0
                      : broken                         ? 1
@@ -381,7 +381,8 @@ static void throw_errors(double error[MESHES])
     }
 }
 
-/* From which mesh on is every error within the level? Tests each mesh in turn. */
+/* Returns the index of the coarsest mesh such that the error on it and on all finer meshes is
+ * within the level, by a test of each mesh in turn. */
 static int by_definition(const double error[MESHES], double level)
 {
     for (int first = 0; first < MESHES; first++) {
@@ -405,7 +406,7 @@ static void meshes_reached(void)
         for (int i = 0; i < MESHES; i++) {
             t.b.quantity[i].value = truth_value + error[i] * fabs(truth_value);
             error[i] = verdict_error(&t.b.p.scene.quantity[0], t.b.quantity[i].value, truth_value);
-            t.timing[i].as_is.round[0] = uniform(); /* must have no effect */
+            t.timing[i].as_is.round[0] = uniform(); /* this time must have no effect */
         }
         for (int k = 0; k < REACH_LEVELS; k++) {
             const int right = by_definition(error, reach_level[k]);
@@ -420,15 +421,14 @@ static void meshes_reached(void)
     bench_free(&t.b);
 }
 
-/* The levels are those named in every table. */
+/* The levels are those that every table names. */
 static void levels(void)
 {
     for (int k = 0; k < REACH_LEVELS; k++)
         gsl_test_rel(reach_level[k], pow(10, -1 - k), 1e-15, "level %d", k);
 }
 
-/* Nothing is reached without a reference value, without the formulation, or with a missing
- * value. */
+/* No level is met without a reference value, without the formulation, or with a missing value. */
 static void unreached(void)
 {
     timed t;
@@ -459,20 +459,21 @@ static void gate_tests(void)
     unreached();
 }
 
-/* When a limit counts as the derived one: at the edges given by the uncertainties, on either side
- * of the reference value, and whatever the source of the uncertainty. */
+/* Determines when a limit counts as the derived one: at the edges given by the uncertainties, on
+ * either side of the reference value, and whatever the source of the uncertainty. */
 
 static const double just = 3e-3; /* distance inside or outside an edge, relative to the distance of
                                     the edge */
 
-/* Verdict with a prediction at the distance `apart` above the limit (negative: below). */
+/* Returns the verdict if the derived limit is at the distance `apart` above the limit (negative:
+ * below). */
 static verdict_kind judged(judge_bench *b, double limit, double apart)
 {
     b->row[1].value = limit + apart;
     return bench_judge(b)->kind;
 }
 
-/* The prediction is met up to the distance `edge` from the limit, but not beyond. */
+/* A limit counts as the derived one up to the distance `edge` between them, but not beyond. */
 static void edges(judge_bench *b, double edge, verdict_kind beyond, const char *what)
 {
     const double limit = bench_judge(b)->fit.limit;
@@ -492,13 +493,13 @@ static void with_prediction(judge_bench *b, double limit)
 {
     static double none[1] = {0};
     bench_make(b);
-    b->one.noise = none; /* measured: zero */
+    b->one.noise = none; /* noise was measured, and is zero */
     bench_fill(b, limit, 0.7, 2);
     bench_add_prediction(b, limit);
 }
 
-/* For an accurately known limit, the uncertainty of the prediction decides, whatever the size and
- * sign of the error; even a small fraction of the error is too far. */
+/* For an accurately known limit, the uncertainty of the derived limit decides, whatever the size
+ * and sign of the error. A distance of even a small fraction of the error is too large. */
 static void sharp_limits(void)
 {
     static const double error[] = {0.003, -0.003, 0.3, -0.03};
@@ -588,7 +589,7 @@ int main(void)
 {
     gate_tests();
     predicted_tests();
-    overview_tests(); /* last, because it loads a formulation, after which verdicts of others do not
-                         affect the exit status */
+    overview_tests(); /* must be the last test, because it loads a formulation, after which
+                         verdicts on other formulations do not affect the exit status */
     return gsl_test_summary();
 }

@@ -1,5 +1,6 @@
-/* The cells of a verification: the points of the reference values, each once, and their meshes. A
- * row that is valid for any value of a parameter (*) adds no point and applies to all. */
+/* The cells of a verification: each point of the reference values occurs once, with the meshes
+ * of these values. A row that is valid for any value of a parameter (*) adds no point and
+ * applies to all points. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -36,7 +37,7 @@ static truth row_of(const case_type *type)
     return row;
 }
 
-/* Counts the points of one case; *own: number of its series of that formulation that contain the
+/* Counts the points of one case. *own: number of series of that formulation that contain the
  * mesh of a row. */
 static int count_points(const sweep *s, const case_type *type, int *own)
 {
@@ -90,8 +91,8 @@ static void points(const case_type *type, const int number[2])
     expect(type, 3, row, 2, 0, "of one that holds at none of them");
 }
 
-/* Each series has the given number of additional meshes, the last one with 2^n times the elements;
- * the other meshes do not change. */
+/* Each series has the given number of additional meshes. The last one has 2^n times the
+ * elements; the other meshes do not change. */
 static void doublings(void)
 {
     const truths none = {.rows = 0};
@@ -114,8 +115,8 @@ static void doublings(void)
     sweep_free(&two);
 }
 
-/* The first case of the registry, with as many meshes as a scene can have, or with the given number
- * of elements. */
+/* Builds the first case of the registry, with as many meshes as a scene can have, or with the
+ * given number of elements. */
 static status with_meshes(const double value[], scene *s, fault *f)
 {
     double defaults[CASE_MAX_PARAMETERS] = {0};
@@ -148,7 +149,7 @@ static void refuses(double elements, int doublings, const char *refusal)
     sweep_free(&s);
 }
 
-/* Too many meshes or elements are rejected; no mesh is omitted. */
+/* Too many meshes or elements are rejected, and no mesh is omitted. */
 static void too_many(void)
 {
     refuses(0, 0, NULL);
@@ -174,8 +175,8 @@ static void plan_tests(void)
     gsl_test(cases < 10, "%d cases have two numbers", cases);
 }
 
-/* Effect of omitted physics: bounds agree with fine meshes, for beams of any thickness under any
- * load, and for every case at its defaults; if there is no bound, the model counts as another
+/* Effect of omitted physics. Bounds agree with fine meshes, for beams of any thickness under any
+ * load, and for every case at its defaults. If there is no bound, the model counts as another
  * one. */
 
 static const double length = 0.1, young = 2e11, shear_modulus = 8e10;
@@ -222,7 +223,7 @@ static void leaf(scene *s, double thickness, omission_acting how, int held)
     }
 }
 
-/* A formulation without shear that supports everything else. */
+/* Returns a formulation without shear that supports everything else. */
 static const element_type *rigid_one(const scene *s)
 {
     for (int i = 0; registry_formulations[i] != NULL; i++)

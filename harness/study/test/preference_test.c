@@ -1,4 +1,4 @@
-/* The default choice of a formulation and of a mesh. */
+/* The default choice of a formulation and a mesh. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -74,8 +74,8 @@ static void of_case(const case_type *type)
     scene_free(&s);
 }
 
-/* The chosen mesh is one of the scene's or the finest of them doubled, and it has converged unless
- * stated otherwise. */
+/* The chosen mesh is one of the scene's meshes or the finest of them doubled. It has converged
+ * unless stated otherwise. */
 static void of_meshes(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -125,7 +125,7 @@ static void nothing_offers_all(void)
     scene_free(&s);
 }
 
-/* If only one formulation is accepted, either that formulation or none is chosen. */
+/* If only one formulation is accepted, the choice is either that formulation or none. */
 static void no_new_one(void)
 {
     const element_type *accepted = registry_formulations[0];
@@ -157,8 +157,8 @@ static void preference_tests(void)
     no_new_one();
 }
 
-/* Transfer of a cell's results between processes: everything arrives bit for bit as it was sent,
- * and truncated data are rejected. */
+/* Results of a cell that are transferred between processes arrive bit for bit as they were sent.
+ * Truncated data are rejected. */
 
 static void round_trips(dice *d)
 {
@@ -173,7 +173,8 @@ static void round_trips(dice *d)
             unwritten += serialise_write(file, &sent[i]) != 0;
         }
     rewind(file);
-    for (int i = 0; i < CELLS; i++) { /* one after the other, as a worker sends them */
+    for (int i = 0; i < CELLS; i++) { /* several cells one after the other, as a worker sends
+                                         them */
         cell_result got;
         unread += serialise_read(file, &got) != 0;
         const difference here = compare_cells(&sent[i], &got);
@@ -250,8 +251,8 @@ static void serialise_tests(void)
         truncated(&d, i % 2);
 }
 
-/* Cells with equal results are solved once, others separately: only times differ from solving
- * all. */
+/* Cells with equal results are solved once, other cells separately. Compared with solving all
+ * cells, only the times differ. */
 
 /* Runs all formulations at two points of a case, on meshes of one and two elements. */
 static void run(const case_type *type, const char *const text[2], int share, sweep *s)
@@ -279,8 +280,8 @@ static double seconds(const cell_result *c)
     return c->solve.seconds_setup + c->solve.seconds_solve;
 }
 
-/* Number of cells whose time is bit-for-bit equal to that of another cell, so that they share its
- * results. */
+/* Returns the number of cells whose time is bit-for-bit equal to that of another cell, which
+ * shows that they share its results. */
 static int shared(const sweep *s)
 {
     int out = 0;

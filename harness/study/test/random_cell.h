@@ -48,7 +48,7 @@ static inline double *numbers(dice *d, size_t count)
     return out;
 }
 
-/* Random text of any length, without a zero byte before its end. */
+/* Makes a random text of any length, without a zero byte before its end. */
 static inline void fill_text(dice *d, size_t size, char text[])
 {
     const size_t length = (size_t)whole(d, (int)size - 1);
@@ -190,7 +190,7 @@ static inline void fill_left_out(dice *d, cell_result *c)
     }
 }
 
-/* The caller frees it with cell_result_free. */
+/* Returns a random cell, which the caller frees with cell_result_free. */
 static inline cell_result random_cell(dice *d)
 {
     cell_result c = {.size = {0}};
@@ -211,7 +211,7 @@ static inline cell_result random_cell(dice *d)
     return c;
 }
 
-/* Requires that every member is filled: if a struct has grown (padding included), its new member
+/* Checks that every member is filled. If a struct has grown (padding included), its new member
  * must be added here. */
 static inline void random_cell_complete(void)
 {

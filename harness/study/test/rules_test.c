@@ -9,7 +9,7 @@
 #include "harness/study/study_impl.h"
 #include "harness/study/test/truths_file.h"
 
-/* Does the rule with this condition apply to a point of the first case? */
+/* Returns 1 when the rule with this condition applies to a point of the first case. */
 static int holds(const char *path, const char *condition, const rule_subject *s)
 {
     truths t;
@@ -24,7 +24,7 @@ static int holds(const char *path, const char *condition, const rule_subject *s)
     return out;
 }
 
-/* Every part of a rule must match separately. */
+/* A rule applies only if every part of it matches. */
 static void subjects(const char *path)
 {
     const case_type *type = registry_cases[0];
@@ -49,7 +49,7 @@ static void subjects(const char *path)
     gsl_test(holds(path, "", &s), "another case");
 }
 
-/* first: a numeric parameter of the case. */
+/* first: index of a numeric parameter of the case. */
 static void conditions(const char *path)
 {
     const case_type *type = registry_cases[0];
@@ -91,7 +91,7 @@ static void conditions(const char *path)
     truths_file_refused(path, "condition", r, "a word for a number");
 }
 
-/* A rule is observed if a verdict shows it and verdicts confirm each of its predictions. */
+/* A rule is observed if a verdict shows it and verdicts confirm each of its derived limits. */
 static void predictions(const char *path)
 {
     truths t;

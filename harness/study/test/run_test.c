@@ -76,8 +76,7 @@ static void parameters(void)
              "refused: %s", f.text);
 }
 
-/* Any value is recovered from its text, and so are names of formulations with every option
- * changed. */
+/* Any value is recovered from its text, and so is any formulation with every option changed. */
 static void texts(void)
 {
     static const double value[] = {1.0 / 3, 0.1 + 0.2, 1e-300, 123456789.123456789,
@@ -101,7 +100,7 @@ static void texts(void)
     }
 }
 
-/* Meshes of a series are sorted, without duplicates, in whatever order they are given. */
+/* Meshes of a series are sorted and have no duplicates, in whatever order they are given. */
 static void meshes(void)
 {
     static const int given[] = {8, 1, 4, 8, 2, 1}, right[] = {1, 2, 4, 8};
@@ -218,7 +217,7 @@ static void run_tests(void)
     truth_files();
 }
 
-/* Scales below which changes of a value are round-off: for every kind of quantity, in its unit. */
+/* Scales below which changes of a value are round-off, for every kind of quantity, in its unit. */
 
 /* Size 5 m, E = 2e11 Pa, A = 0.02 m^2. */
 static void make(scene *s)
@@ -263,7 +262,7 @@ static void change_tests(void)
     make(&s);
     for (int i = 0; i < ROWS; i++) {
         char unit[8];
-        snprintf(unit, sizeof unit, "%d", i); /* unlike any other unit */
+        snprintf(unit, sizeof unit, "%d", i); /* a unit that no other quantity has */
         scene_add_quantity(&s, row[i].name, unit, 0, row[i].what)->factor = i % 2 ? -1 : 10;
     }
     const solve_result r = {.quantities = ROWS, .quantity = value};
@@ -343,10 +342,10 @@ static void rounding_tests(void)
     every_size();
 }
 
-/* The progress line: the remaining time follows the work, not the count; the line is removed at the
- * end. */
+/* The progress line: the remaining time follows from the work, not from the number of cells, and
+ * the line is removed at the end. */
 
-/* Output of a run; the caller frees it. */
+/* Returns the output of a run, which the caller frees. */
 static char *shown(double now, int done, double share, int ends)
 {
     char *text = NULL;

@@ -6,7 +6,7 @@
 
 #include "harness/study/study.h"
 
-/* Name of the first member that differs. */
+/* Finds the first member that differs. */
 typedef struct difference {
     const char *name;
 } difference;
@@ -163,7 +163,7 @@ static inline void compare_solution(difference *out, const solve_result *a, cons
     SAME(seconds_setup);
     SAME(seconds_solve);
     SAME(phase);
-    if (out->name != NULL) /* with different counts, arrays cannot be compared */
+    if (out->name != NULL) /* arrays with different counts cannot be compared */
         return;
     for (int i = 0; i < a->quantities; i++)
         compare_quantity(out, &a->quantity[i], &b->quantity[i]);

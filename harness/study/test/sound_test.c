@@ -1,6 +1,6 @@
-/* The run record of a cell: an artificial consistent cell, with each number changed separately; and
- * real cells, with every kind of analysis and form of Newton's method, whose elements count their
- * own evaluations. */
+/* The check of run records. One cell is artificial and consistent, and each of its numbers is
+ * changed separately. Others are real, with every kind of analysis and form of Newton's method,
+ * and their elements count their own evaluations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -62,8 +62,8 @@ static void expect(const sound_bench *b, int sound, const char *what)
     gsl_test(!sound && why[0] == '\0', "%s: it says why", what);
 }
 
-/* A count that is too small is always inconsistent; one that is too large is so only if the
- * solution does no other work. */
+/* A count that is too small is always inconsistent. A count that is too large is inconsistent
+ * only if the solution does no other work. */
 static void counts(scene_analysis_kind kind)
 {
     const struct {
@@ -159,7 +159,7 @@ static status counted_inertia(const element_data *d, const node_state x[],
     return inner->inertia(d, x, frame, out);
 }
 
-/* The same for several elements. */
+/* Likewise for several elements. */
 static void counted_strains(int count, const element_data *const data[], const node_state x[],
                             strain_output out[])
 {
@@ -214,8 +214,8 @@ static void actual(const char *name, int elements, const char *formulation_name,
              formulation_name, newton, f.text);
     gsl_test(sound_cell(&cell, &cell.scene, newton, why) != 1, "%s, %s, Newton %d: %s", name,
              formulation_name, newton, why);
-    /* Evaluations of the stiffness at rest, made because a path was unstable, are not work of the
-     * solution. */
+    /* Evaluations of the stiffness at rest, which are made because a path is unstable, do not
+     * belong to the work of the solution. */
     stresses -= looks * cell.size.elements;
     strains -= looks * cell.size.elements;
     gsl_test(cell.counters.stress_evaluations != stresses,
@@ -254,8 +254,8 @@ static void sound_tests(void)
     actual("hexapod", 3, "sheet_third", "steps=3", NEWTON_MIXED, 1, 0);
 }
 
-/* Times of the parts of a solution and of the whole come from the same clock: idle time is in
- * neither, and no part is missing. */
+/* Times of the parts of a solution and of the whole come from the same clock. Idle time is
+ * included in neither, and no part is missing. */
 
 static const element_type *sleepy_type;
 
@@ -288,7 +288,7 @@ static void parts_are_the_whole(const cell_request *request, const char *what)
                  phase_name((newton_phase)k), cell.solve.phase[k], cell.solve.seconds_solve);
     }
     gsl_test(!(cell.solve.phase[PHASE_ELEMENTS] > 0), "%s: elements take time", what);
-    /* the gaps between the readings are at most four fifths of it */
+    /* the gaps between the readings are at most four fifths of the total time */
     gsl_test(!(sum <= cell.solve.seconds_solve && sum > 0.2 * cell.solve.seconds_solve),
              "%s: the parts, %g s, are the whole, %g s, but for the readings", what, sum,
              cell.solve.seconds_solve);
@@ -305,7 +305,7 @@ static void parts_of(const char *name, const char *key, int elements)
     parts_are_the_whole(&request, "asleep at times");
 }
 
-/* Without a request, the clock is not read and there are no times of parts. */
+/* Times of the parts are measured only on request. */
 static void nothing_unasked(void)
 {
     const cell_request request = cells_of(case_find("elastica", NULL), "collocation", 2);

@@ -1,5 +1,5 @@
-/* Sweeps in several processes give the same results for any number of jobs; crashes and endless
- * cells count as results. END only bounds a test that would never end. */
+/* Sweeps in several processes give the same results for any number of jobs. Crashes and endless
+ * cells count as results. END only stops a test that would never end. */
 #include <gsl/gsl_test.h>
 #include <signal.h>
 #include <string.h>
@@ -32,8 +32,8 @@ static void crashes(int end, int jobs, const char *reason)
     sweep_free(&s);
 }
 
-/* With `together`, a killed worker ends the process that requested the sweep; a worker that crashes
- * or exceeds the time limit still counts as a result. */
+/* With `together`, a killed worker ends the process that requested the sweep. A worker that
+ * crashes or exceeds the time limit still counts as a result. */
 static void together(int end, int dies)
 {
     static const int mesh[] = {1};
@@ -96,7 +96,7 @@ static void jobs(void)
 /* Log of the calls of a follower. */
 typedef struct follower_log {
     int told, disorder, unfinished, doubted;
-    int most; /* number of series that it accepts before it fails */
+    int most; /* number of series that the follower accepts before it fails */
 } follower_log;
 
 static int doubts(void *context, const sweep *s, int series_index)
@@ -118,7 +118,7 @@ static status is_told(void *context, const sweep *s, int series_index, fault *f)
     return log->told <= log->most ? STATUS_OK : fault_set(f, STATUS_REFUSED, "enough");
 }
 
-/* The follower receives every series in order, with its cells and its noise, while others are
+/* The follower receives every series in order, with its cells and its noise, while other cells
  * run. */
 static void followed(int jobs, int most)
 {
@@ -183,8 +183,8 @@ static void cells_share_a_scene(void)
 
 int main(void)
 {
-    signal(SIGINT, SIG_DFL); /* a background job of a shell ignores it, and an ignored signal stays
-                                ignored */
+    signal(SIGINT, SIG_DFL); /* a background job of a shell ignores SIGINT, and a signal that is
+                                ignored at the start stays ignored */
     alarm(END);
     crashes(KILLED, 1, "crashed with signal 9");
     crashes(KILLED, 2, "crashed with signal 9");

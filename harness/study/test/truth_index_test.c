@@ -20,7 +20,7 @@ static void fill(truths *t, int from, int to)
     t->rows = to;
 }
 
-/* Requires the same rows of one case and quantity as a full search, in the same order. */
+/* Requires the same rows of one case and quantity as a full search finds, in the same order. */
 static void compare(const truths *t, const case_type *type, const char *quantity)
 {
     int i = truth_index_first(t, type, quantity), wrong = 0;
@@ -54,7 +54,7 @@ int main(void)
     compare_all(&t); /* no row is in the index */
     gsl_test(truth_index_make(&t, &f) != STATUS_OK || t.indexed != ROWS / 3, "of a third");
     compare_all(&t);
-    fill(&t, ROWS / 3, ROWS); /* added later */
+    fill(&t, ROWS / 3, ROWS); /* rows that are added later */
     compare_all(&t);
     gsl_test(truth_index_make(&t, &f) != STATUS_OK || t.indexed != ROWS, "of all");
     compare_all(&t);

@@ -1,4 +1,5 @@
-/* Files of reference values: a valid one, and every way in which a file can be invalid. */
+/* Files of reference values: a valid one is read, and files that are invalid in any way are
+ * rejected. */
 #include <gsl/gsl_test.h>
 #include <hdf5.h>
 #include <math.h>
@@ -12,8 +13,8 @@
 #include "harness/study/study.h"
 #include "harness/study/test/truths_file.h"
 
-/* HDF5 1.10 never frees a few bytes of a damaged file's header; leaks of this program are still
- * found. */
+/* HDF5 1.10 never frees a few bytes of the header of a damaged file. Leaks of this program are
+ * still found. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
@@ -96,8 +97,8 @@ static void wrong_files(const char *path)
     truths_file_refused(path, "at", r, "infinite abscissa");
 }
 
-/* Rows that are not used for limits: of one formulation, of a curve, or without effect on the exit
- * status. */
+/* Rows that are not used for limits: those of one formulation, of a curve, or without effect on
+ * the exit status. */
 static void rows_that_do_not_judge(const char *path)
 {
     recipe of_formulation = right, of_curve = right, agreed = right, unrepeatable = right;
@@ -121,8 +122,8 @@ static void rows_that_do_not_judge(const char *path)
     }
 }
 
-/* A row for any value of a parameter, or of all parameters, applies to every point with the
- * remaining values. */
+/* A row that is valid for any value of a parameter, or of all parameters, applies to every point
+ * with the remaining values. */
 static void any_value(const char *path)
 {
     const case_type *type = registry_cases[0];
@@ -165,7 +166,7 @@ static void new_columns(const char *path)
     truths_free(&t);
 }
 
-/* Truncated files (in steps) and files with flipped bits are rejected. */
+/* Files that are truncated at any of many lengths, and files with flipped bits, are rejected. */
 static void damaged_files(const char *path)
 {
     static char bytes[1 << 20];
@@ -208,8 +209,8 @@ static void damaged_files(const char *path)
     gsl_test_int(broken, 0, "damaged files without a clear refusal");
 }
 
-/* The formulations in the table affect the exit status, the other built-in ones do not; until a
- * table is read, all do. */
+/* The verdicts on formulations in the table affect the exit status, those on other built-in
+ * formulations do not. Until a table is read, all verdicts do. */
 static void accepted_ones(const char *path)
 {
     truths t;
