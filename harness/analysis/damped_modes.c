@@ -78,7 +78,7 @@ static double size_of(const unsymmetric_result *r, int i)
 /* The shift relative to the slowest mode. */
 static const double small = 1e-3;
 
-/* Does the slow pole of an integral hide other modes in round-off? */
+/* Returns 1 if the slow pole of an integral hides other modes in round-off. */
 static int hides(const unsymmetric_problem *p, const unsymmetric_result *r)
 {
     const double digits = 1e-10, some = 1e-7, bearable = 1e-6;
@@ -117,7 +117,7 @@ static status solve_shifted(vibration *v, unsymmetric_problem *p, int integrals,
     return STATUS_OK;
 }
 
-/* Are two results one pole, not a double one? */
+/* Returns 1 if results i and k are the same pole, found twice, and not a double pole. */
 static int is_same(const unsymmetric_result *r, int i, int k)
 {
     const double same = 1e-6, *a = r->mode + (size_t)i * (size_t)r->n,
@@ -129,7 +129,8 @@ static int is_same(const unsymmetric_result *r, int i, int k)
            part > (1 - same) * size;
 }
 
-/* Refines the poles that the shift of the solution rounds. closed: without the shift. */
+/* Refines the slow poles, which lose digits because of the shift. closed: matrices without the
+ * shift. */
 static status refine_slow(const sparse closed[], double shift, unsymmetric_result *r, fault *f)
 {
     const double slow = 1e-2 * shift;

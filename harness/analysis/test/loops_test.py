@@ -1,4 +1,5 @@
-"""Feedback loops in small vibrations: poles, responses and state spaces against closed forms for masses and springs."""
+"""Feedback loops in small vibrations: poles, responses and state spaces compared with closed forms for masses and
+springs."""
 import csv
 import json
 import re
@@ -9,7 +10,8 @@ from scipy.linalg import expm
 
 from harness.tools.kit.program import ProgramTest, run
 
-# A wall on a shaking base, a cart of 2 kg and a tool of 0.5 kg, joined by bars of k1 and k2 along x.
+# A wall on a shaking base, a cart of 2 kg and a tool of 0.5 kg, joined along x by bars of stiffness
+# k1 and k2.
 SCENE = """beamwork: 1
 let: {k1: %(k1)s, k2: 200}
 sections:
@@ -54,7 +56,8 @@ INPUTS = {"force": {"force": "tool", "along": "ux"}, "drive": {"drive": "shake"}
 
 
 class Plant:
-    """The equations: u = (Kp + Kd s + Ki/s)(r - S x - S0 q), with the base q."""
+    """Equations of the cart and the tool with the loop u = (Kp + Kd s + Ki/s)(r - S x - S0 q), where q is the motion of
+    the base."""
 
     def __init__(self, k1=300.0, c=4.0, at="cart", kp=0.0, kd=0.0, ki=0.0, relative=False):
         self.K = np.array([[k1 + K2, -K2], [-K2, K2]])
@@ -65,7 +68,7 @@ class Plant:
         self.gains = kp, kd, ki
 
     def poles(self):
-        """Roots of the characteristic polynomial, multiplied by s if there is an integral."""
+        """Returns the roots of the characteristic polynomial, which is multiplied by s if there is an integral."""
         kp, kd, ki = self.gains
         P = np.poly1d
         k = [[P([M[i, j], self.C[i, j], self.K[i, j]]) for j in range(2)] for i in range(2)]
@@ -78,7 +81,7 @@ class Plant:
         return sorted((z for z in s if z.imag >= 0), key=abs)
 
     def response(self, hertz, what):
-        """x of cart and tool, and the force on the base along the drive."""
+        """Returns x of the cart and the tool, and the force on the base along the drive."""
         s = 2j*np.pi*hertz
         kp, kd, ki = self.gains
         D = self.K + s*self.C + s*s*M
@@ -110,7 +113,8 @@ class Loops(ProgramTest):
         return {q["quantity"]: q for q in record["quantities"]}
 
     def test_poles(self):
-        """A damper and a spring, the roots of a cubic, and a loop that drives a mode that it does not measure."""
+        """The poles are those of a damper and a spring, the roots of a cubic, and those of a loop that drives a mode
+        that it does not measure."""
         for at, gains in (("cart", {"kp": 150, "kd": 7}), ("cart", {"kp": 80, "kd": 12, "ki": 90}),
                           ("tool", {"kp": 3, "kd": 0.02, "ki": 2}), ("tool", {"kp": 60, "kd": 9}), ("cart", {"ki": 40}),
                           ("tool", {"kp": 40, "kd": 8, "ki": 100})):
@@ -125,7 +129,8 @@ class Loops(ProgramTest):
                              max(s.real for s in expected) > 1e-9, (at, gains, expected))
 
     def test_single_mass(self):
-        """PD is a spring and a dashpot; with an integral the poles are the roots of a cubic, also without a spring."""
+        """A PD loop acts as a spring and a dashpot; with an integral the poles are the roots of a cubic, even without a
+        spring."""
         text = """beamwork: 1
 sections: {bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}}
 nodes:
@@ -150,7 +155,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
                 self.assertAlmostEqual(complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])/s, 1, 11)
 
     def test_slow_integral(self):
-        """A pole far slower than the modes hides neither a mode nor growth."""
+        """A pole far slower than the modes hides neither a mode nor the growth of a mode."""
         k, own = 2e7, np.array([[3e4, -3e4], [-3e4, 3e4]])
         rate = "  rate: {force: [1, 0, 0], on: tool, feedback: {node: tool, component: ux, derivative: -20}}\n"
         for ki, kd in ((1e-2, 0), (1e-4, 0), (1e-8, 0), (1e-2, -20), (1e-5, -20), (1e-8, -20)):
@@ -183,7 +188,8 @@ loads:
             self.assertEqual("a mode grows at 3.754" in done.stderr, kd < 0, done.stderr)
 
     def test_integral_of_drive(self):
-        """The integral of a loop that pushes a driven component moves nothing: no pole, and the motor's force is its reaction."""
+        """The integral of a loop that pushes a driven component moves nothing: it has no pole, and the motor's force is
+        its reaction."""
         plant = Plant()
         (self.folder / "scene.yaml").write_text((SCENE % {
             "k1": 300, "c": 4, "at": "tool", "time": "", "still": "", "analyses": POLES + STEADY.replace("[0, ", "["),
@@ -200,7 +206,7 @@ loads:
             self.assertLess(abs(complex(curves["wall_real"][i], curves["wall_imaginary"][i])/wall - 1), 1e-9)
 
     def test_equal_real_poles(self):
-        """Two equal loops have two equal real poles; round-off makes no pair of them."""
+        """Two equal loops have two equal real poles; round-off does not turn them into a complex pair."""
         loop = "  %(c)s: {force: [%(x)s], on: cart, feedback: {node: cart, component: u%(c)s, proportional: 5, derivative: %(kd)s, integral: 3}}\n"
         for kd in (3, 100, 200):
             text = """beamwork: 1
@@ -226,7 +232,7 @@ quantities:
                 self.assertLess(abs(s/expected[i//2] - 1), 1e-7, (kd, i))
 
     def test_two_slow_integrals(self):
-        """Two integrals on a chain of carts, also with more than 200 coordinates."""
+        """Two integrals on a chain of carts have the expected poles, even with more than 200 coordinates."""
         for n, gains, slow in ((3, (1e-4, 1e-9), 2), (3, (1e-6, 400), 1), (250, (1e-3, 1e-7), 2), (250, (2, 1e-8), 2)):
             K = 1e4*(2*np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
             at, kp, kd, m, c = (0, n - 1), 5.0, 3.0, 0.4, 0.02
@@ -264,7 +270,7 @@ quantities:
                 self.assertLess(abs(one/s - 1), 1e-6, (n, gains, i, one, s))
 
     def test_responses(self):
-        """All inputs and outputs, including zero frequency, where an integral leaves no error."""
+        """Responses are exact for all inputs and outputs, even at zero frequency, where an integral leaves no error."""
         quantities = "".join(read(f"{node}_{name}", node=node, component="ux", **keys) for name, keys in INPUTS.items()
                              for node in ("cart", "tool")) + "".join(
             read(f"wall_{name}", node="base", component="ux", of="reaction", **keys) for name, keys in INPUTS.items())
@@ -290,7 +296,7 @@ quantities:
         self.assertAlmostEqual(self.values(record)["most"]["value"]/most, 1, 6)
 
     def test_unstable(self):
-        """An unstable closed loop has no steady vibration; the open loop has."""
+        """An unstable closed loop has no steady-state vibration, but the open loop has one."""
         plant = Plant(at="tool", kp=60, kd=9)
         quantities = read("r", node="cart", component="ux", force="cart", along="ux")
         done = self.solve(plant, STEADY, quantities, at="tool", code=1, kp=60, kd=9)
@@ -302,7 +308,7 @@ quantities:
         self.assertAlmostEqual(record["curves"][0]["curve_value"][0], 1/300, 12)
 
     def test_state_space(self):
-        """Transfer functions of the reference, poles, and the step response of a motion."""
+        """Transfer functions of the reference, poles, and the step response of a motion agree with closed forms."""
         for at, gains in (("cart", {"kp": 80, "kd": 12, "ki": 90}), ("tool", {"kp": 3, "kd": 0.02}), ("cart", {"ki": 40})):
             plant = Plant(at=at, **gains)
             quantities = read("tool", node="tool", component="ux", reference="motor") \
@@ -326,7 +332,8 @@ quantities:
             found = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0 and abs(s) > 1e-6), key=abs)
             for s, e in zip(found, plant.poles()):
                 self.assertAlmostEqual(s/e, 1, 8)
-            # the step starts at 0 s: the reference, which is a state, is set at once; e' has no impulse
+            # the step occurs at 0 s: the reference, which is a state, is set at once, so that e'
+            # has no impulse
             step = np.zeros(len(A))
             step[np.flatnonzero(B[:, reference] == 1)[-1]] = 0.01
             self.assertAlmostEqual((C @ expm(1.5*A) @ step)[0]/self.values(record)["end"]["value"], 1, 6)
