@@ -1,5 +1,5 @@
-/* Conclusions of a benchmark about times: decided only if the noise allows it; the counted work is
- * the same every time. */
+/* Conclusions of a benchmark about times: one is drawn only if the noise allows it, and the
+ * counted work is the same every time. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -14,8 +14,8 @@
 
 enum { PAIRS = 101, TRIALS = 300 };
 
-/* A lap of 1.7 ms with the noise of a shared machine: mostly small, sometimes large, and
- * drifting. */
+/* Returns the time of a lap of 1.7 ms with the noise of a shared machine: mostly small,
+ * sometimes large, and drifting. */
 static double noisy(const gsl_rng *random, double drift)
 {
     const double tail =
@@ -96,8 +96,8 @@ static void test_compare(void)
     gsl_test_int(rounds_compare(&even, &even), 0, "times that are equal do not differ");
 }
 
-/* Errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %: the answer is the coarsest mesh from which all finer ones
- * are within the level. */
+/* Errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %: the answer is the coarsest mesh such that it and all
+ * finer meshes are within the level. */
 static void test_reach(void)
 {
     const double error[5] = {0.2, -0.005, 0.03, 0.002, -0.0005};
@@ -175,7 +175,7 @@ static void bench_tests(void)
 /* The published algorithm as a baseline: the size of its system, when it is timed, and how its time
  * is used. */
 
-/* Order of the matrix that is eliminated. */
+/* Returns the order of the matrix that is eliminated. */
 static int order_of(const cell_request *request)
 {
     scene s;
@@ -261,8 +261,8 @@ static void dense_tests(void)
 
 static char all[] = "*", word[32];
 
-/* Counts for one outcome of the given kind, with a known deviation that expects this or another
- * outcome. */
+/* Returns the counts for one outcome of the given kind, with a known deviation that expects this
+ * or another outcome. */
 static extreme_count judged(outcome_kind kind, const char *expected, int whole, int *unexpected,
                             int *code)
 {
@@ -338,7 +338,7 @@ static void one_outcome(outcome_kind kind, double x, expectation *out)
                              .count = &out->count};
 }
 
-/* A known deviation that no outcome shows fails a whole run, but not a selection. */
+/* A known deviation that no outcome shows makes a whole run fail, but not a selection. */
 static void unobserved(void)
 {
     for (int whole = 0; whole < 2; whole++) {
@@ -351,7 +351,7 @@ static void unobserved(void)
     }
 }
 
-/* Two outcomes, of one cell or (one_cell 0) of two cells, in either order: a cell is as bad as its
+/* Two outcomes, in one cell or (one_cell 0) in two cells, in either order: a cell counts as its
  * worst outcome. */
 static void cells(void)
 {
@@ -415,9 +415,9 @@ static void expect_tests(void)
     unobserved();
 }
 
-/* An inaccurate value is classified as coarse if its error decreases with more elements, otherwise
- * as wrong: with artificial neighbouring meshes, finer or coarser than its own, with and without
- * values. */
+/* An inaccurate value is classified as under-resolved if its error decreases with more elements,
+ * otherwise as wrong. The neighbouring meshes are artificial: finer or coarser than the mesh
+ * itself, with and without values. */
 
 enum { MESHES = 1 + OUTCOME_NEIGHBOURS };
 static const double exact = 7;
@@ -437,7 +437,7 @@ typedef struct neighbours_bench {
 
 static char words[][16] = {"", "exact", "same", "m"};
 
-/* Index of an extreme with exact values. */
+/* Returns the index of an extreme with exact values. */
 static int exact_extreme(void)
 {
     int i = 0;
@@ -446,8 +446,8 @@ static int exact_extreme(void)
     return i;
 }
 
-/* own: elements of the mesh that is evaluated. error[0]: its relative error; the others: errors of
- * its neighbours; NAN: no value. */
+/* own: number of elements of the mesh that is evaluated. error[0]: its relative error; the
+ * others: errors of its neighbours; NAN: no value. */
 static void make(int own, const int mesh[OUTCOME_NEIGHBOURS], const double error[MESHES],
                  neighbours_bench *b)
 {

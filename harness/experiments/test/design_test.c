@@ -21,7 +21,7 @@ static void unit_axes(sweep_axis out[3])
         out[i] = (sweep_axis){.of = &table[i], .index = i, .kind = AXIS_LINEAR, .from = 0, .to = 1};
 }
 
-/* The last axis changes fastest. */
+/* The last axis varies fastest. */
 static void grid(void)
 {
     static const double right[] = {0, 1, 0, 2, 0, 3, 5, 1, 5, 2, 5, 3};
@@ -54,7 +54,7 @@ static void sobol(void)
     design_free(&d);
 }
 
-/* The digits of n in a base, reflected at the point. */
+/* Returns the digits of n in a base, reflected at the point. */
 static double mirrored(int n, int base)
 {
     double out = 0, digit = 1.0 / base;
@@ -79,7 +79,7 @@ static void halton(void)
     design_free(&d);
 }
 
-/* Points are the same wherever a request starts, also across marks. */
+/* Points are the same wherever a request starts, before or after a mark. */
 static void anywhere(design_kind kind)
 {
     enum { POINTS = 2 * DESIGN_STRIDE + 100 };
@@ -144,7 +144,7 @@ static void design_tests(void)
     is_refused(DESIGN_SOBOL, &parted, 10, "'/4' is for a grid; remove it");
 }
 
-/* Orders and the cost of an error, from runs with artificial errors. */
+/* Orders, and the cost at an error level, from runs with artificial errors. */
 
 enum { RUNS = 5 };
 
@@ -205,8 +205,8 @@ static void order_of_each(void)
     gsl_test_rel(run[2].order, 1, 1e-14, "against the run before");
 }
 
-/* Errors and costs are powers of the step: a level between two runs has the cost given by that
- * power. */
+/* Errors and costs are powers of the step size: a level between two runs has the cost given by
+ * that power. */
 static void cost_of_a_level(void)
 {
     pace p;
@@ -225,8 +225,8 @@ static void cost_of_a_level(void)
     gsl_test(r.run != NULL, "a shorter step is not within it");
 }
 
-/* Do these errors of a quantity, on successively finer runs, fail to converge? The errors of
- * positions converge. */
+/* Returns 1 when the errors of a quantity, on successively finer runs, count as not converging.
+ * The errors of positions converge. */
 static int stands(const double error[RUNS], double floor)
 {
     pace p;

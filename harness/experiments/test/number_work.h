@@ -89,7 +89,7 @@ static inline void numbers_begin(numbers_work *out)
                           .take = numbers_take};
 }
 
-/* Result of all batches, computed in this process. */
+/* Returns the result of all batches, computed in this process. */
 static inline double numbers_alone(void)
 {
     numbers_work here;
@@ -108,7 +108,7 @@ static inline status numbers_shard(const numbers_work *of, const char *into, int
     return shard_run(&of->w, &request, out, f);
 }
 
-/* Merges every batch of the folders once, and gives their sum. */
+/* Merges every batch of the folders once, and computes their sum. */
 static inline status numbers_merge(numbers_work *of, const char *const folder[], int folders,
                                    stock *s, fault *f)
 {

@@ -1,4 +1,4 @@
-/* Faults injected into formulations that have none: each is detected, with a sentence that names
+/* Faults injected into formulations that have none: each is detected, with a message that names
  * the cause. A fault changes the output of one function. */
 #include "harness/experiments/experiments_impl.h"
 #include <math.h>
@@ -59,7 +59,7 @@ static status half_energy(const element_data *d, const double e[], const double 
     return outcome;
 }
 
-/* Replaces a position or rotation with NaN by that of a node at rest. */
+/* Replaces a position or rotation that is NaN by that of a node at rest. */
 static void deaf(const node_state x[], int node, int turn, node_state out[2])
 {
     memcpy(out, x, 2 * sizeof *out);
@@ -108,7 +108,7 @@ static status soft_about_z(const element_data *d, const double e[], const double
     return outcome;
 }
 
-/* If exactness is not claimed, the sentence gives the error of the element. */
+/* If exactness is not claimed, the message gives the error of the element. */
 static void not_exact(void)
 {
     static claims c;
@@ -193,7 +193,7 @@ static status no_reason(const element_request *request, element_data *out, fault
     return request->features & FEATURE_SHEAR ? base->prepare(request, out, f) : STATUS_REFUSED;
 }
 
-/* In a call for many elements, returns the energy of the first for all of them. */
+/* In a call for many elements, returns the energy of the first one for all of them. */
 static void one_energy(int count, const element_data *const data[], const double *const e[],
                        const double *const inner[], stress_output out[], status outcome[])
 {
@@ -301,7 +301,7 @@ static void planted_tests(void)
     the_rest();
 }
 
-/* Faults injected into the inertia of formulations: each is detected, with a sentence that names
+/* Faults injected into the inertia of formulations: each is detected, with a message that names
  * the cause. */
 
 /* Defines an inertia function whose outputs are changed. */
@@ -325,7 +325,7 @@ INERTIA(half_potential, if (out->potential != NULL) *out->potential /= 2)
 INERTIA(wrong_force, if (out->force != NULL) out->force[8] *= -1)
 INERTIA(wrong_softening, if (out->N != NULL) out->N[14 * 2 + 2] *= 1.01)
 INERTIA(unsymmetric_softening, if (out->N != NULL) out->N[14 * 1 + 2] *= 1.01)
-/* The error is larger for rotations than for translations, in units of the specimen's length
+/* The error is larger for rotations than for translations, in units of the test element's length
  * [m]. */
 INERTIA(
     unsymmetric_turns, if (out->N != NULL) {

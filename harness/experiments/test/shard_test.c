@@ -1,5 +1,5 @@
-/* Shards computed into folders and merged give the same results as one process, however they
- * end. */
+/* Shards that are computed into folders and merged give the same results as one process, however
+ * they end. */
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -33,8 +33,8 @@ static void one_folder(void)
     folder_remove(&of);
 }
 
-/* Batches of works with different numbers of shards are combined; a batch in both folders is used
- * once. */
+/* Batches of works with different numbers of shards are combined. A batch that is in both
+ * folders is used once. */
 static void two_folders(void)
 {
     const test_folder a = folder_make(), b = folder_make();
@@ -63,7 +63,7 @@ static void two_folders(void)
     folder_remove(&other);
 }
 
-/* If the process of a batch ends, only this batch is lost, and it is computed after a restart. */
+/* If the process of a batch ends, only this batch is lost; it is computed after a restart. */
 static void lost(void)
 {
     const test_folder of = folder_make();
@@ -116,7 +116,7 @@ static void failures(void)
     folder_remove(&of);
 }
 
-/* The run is killed at twenty random moments, and then completes undisturbed. */
+/* The run is killed at twenty random moments, and then runs to completion. */
 static void killed(void)
 {
     const test_folder of = folder_make();

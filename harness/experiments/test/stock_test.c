@@ -13,7 +13,7 @@ typedef struct filled {
     test_folder of;
     const char *folder[1];
     numbers_work w;
-    char name[BATCH_NAME]; /* of batch 4 */
+    char name[BATCH_NAME]; /* name of batch 4 */
     folder_entry path;
 } filled;
 
@@ -31,7 +31,7 @@ static void fill(filled *out)
     out->path = folder_path(&out->of, out->name);
 }
 
-/* Reads the folder; said: the messages. */
+/* Reads the folder. said: the messages. */
 static status take(filled *of, stock *s, char said[400], fault *f)
 {
     memset(said, 0, 400);
@@ -47,7 +47,7 @@ static long size_of(const char *path)
     return stat(path, &there) == 0 ? (long)there.st_size : -1;
 }
 
-/* The batch counts as missing, is named once, and is computed again. */
+/* The damaged batch counts as missing, is named once, and is computed again. */
 static void is_done_again(filled *of, const char *what)
 {
     stock s;
@@ -92,7 +92,7 @@ static void damaged(void)
     folder_remove(&of.of);
 }
 
-/* The folder is rejected by a merge and by a restart; the message contains these words. */
+/* A merge and a restart reject the folder, with a message that contains these words. */
 static void is_refused(filled *of, const char *words)
 {
     stock s;
@@ -138,7 +138,7 @@ static void foreign(void)
     folder_remove(&of.of);
 }
 
-/* Files left by killed processes, and files that are no batches. */
+/* Files that killed processes have left, and files that are not batches. */
 static void others(void)
 {
     filled of;
@@ -182,8 +182,8 @@ static void nowhere(void)
     folder_remove(&of);
 }
 
-/* Batches from another processor or with another BLAS are reported; a different host alone is
- * not. */
+/* Batches that were computed on another processor or with another BLAS are reported; those from
+ * another host are not. */
 static void machines(void)
 {
     filled of;
@@ -234,7 +234,7 @@ static void stock_tests(void)
     nowhere();
 }
 
-/* Digests, and division of work into batches and shards. */
+/* Digests, and the division of work into batches and shards. */
 
 /* The examples in FIPS 180-4. */
 static void known_digests(void)
@@ -291,8 +291,8 @@ static void cut(void)
     gsl_test_int(deal_cut(0, cost, 0.5, first), 0, "of nothing no batch");
 }
 
-/* Each batch is assigned to one shard, the costs of the shards are nearly equal, and the result is
- * reproducible. */
+/* Each batch is assigned to one shard, the costs of the shards are nearly equal, and the result
+ * is reproducible. */
 static void dealt(void)
 {
     enum { BATCHES = 500, SHARDS = 7 };
@@ -348,7 +348,7 @@ static void deal_tests(void)
     dealt();
 }
 
-/* Integrators, steps and tolerances in command-line form. */
+/* Integrators, steps and tolerances as given on the command line. */
 
 static void list_is(const char *text, double ratio, int count, const double right[])
 {

@@ -36,9 +36,11 @@ static void make(parameter_ranges *r)
 
 /* Errors of both quantities with 4 and 8 elements at each point. */
 static const double errors[POINTS][MESHES][2] = {
-    {{0.001, 0.002}, {0.0001, 0.0002}}, /* within the tolerance from 4 elements on */
-    {{0.02, 0.002}, {0.003, 0.0002}},   /* the first quantity from 8 elements on */
-    {{0.001, 0.002}, {0.05, 0.0002}},   /* the first quantity never: the finer mesh is inaccurate */
+    {{0.001, 0.002}, {0.0001, 0.0002}}, /* within the tolerance with 4 and more elements */
+    {{0.02, 0.002}, {0.003, 0.0002}},   /* the first quantity is within the tolerance only with 8
+                                           elements */
+    {{0.001, 0.002}, {0.05, 0.0002}},   /* the first quantity is never within the tolerance,
+                                           because the finer mesh is inaccurate */
     {{NAN, NAN}, {NAN, NAN}},           /* no solution with 8 elements */
     {{NAN, 0.004}, {NAN, -0.0004}},     /* the first quantity has no reference */
     {{NAN, NAN}, {NAN, NAN}},           /* no scene */
@@ -173,7 +175,7 @@ static void tally_tests(void)
     ranges_free(&r);
 }
 
-/* --vary: values, limits, rejected arguments. */
+/* Arguments of --vary: values, limits, and rejected ones. */
 
 static const parameter_type axis_table[] = {
     {"width", "m", 0.05, 1e-3, 10, NULL, "of a strip"},
@@ -202,7 +204,7 @@ static void values_are(const char *text, axis_kind kind, int count, const double
     axis_free(&a);
 }
 
-/* The ends are exactly the given numbers, not sums. */
+/* The ends are exactly the given numbers, and not sums. */
 static void ends_are_exact(void)
 {
     sweep_axis a = read_good("width=0.2..0.9/7"), b = read_good("width=0.2..0.9/7:log");
@@ -212,7 +214,7 @@ static void ends_are_exact(void)
     axis_free(&b);
 }
 
-/* Values at fractions of an axis: ends, midpoints, and the word at each fraction. */
+/* Values at fractions of an axis: ends and midpoints, and the word at each fraction. */
 static void shares(void)
 {
     sweep_axis a = read_good("turn=-1..1"), b = read_good("width=0.01..1:log"),
@@ -265,7 +267,8 @@ static void axis_tests(void)
     is_refused("ends=fixd", "unknown choice");
 }
 
-/* Every formulation satisfies every claim that it makes, and makes enough claims. */
+/* Tests that a formulation satisfies every claim that it makes, and that its claims are
+ * compared. */
 
 static void tell(const char *key, const checks_family *family, const claims *c)
 {
@@ -302,7 +305,8 @@ enum { PLACES = 8 };
 static const parameter_type map_table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {0}};
 static const case_type map_box = {.name = "box", .parameters = {map_table}};
 
-/* With reference values at some points only, and without. */
+/* Fields with their marks in a sweep with reference values at some points only (mixed), and
+ * without any (alike). */
 static const struct {
     tally_place place;
     const char *mixed, *alike;

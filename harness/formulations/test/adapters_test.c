@@ -1,5 +1,5 @@
-/* Derivatives by differences agree with those that the formulations compute themselves: for each
- * formulation, J, H, forces or tangents are removed and replaced. */
+/* Derivatives by finite differences agree with those that the formulations compute themselves:
+ * for each formulation, J, H, forces or tangents are removed and replaced. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -72,8 +72,8 @@ static status force_of_source(const element_data *d, const node_state x[], force
     return STATUS_OK;
 }
 
-/* Largest difference relative to the largest entry, in the unit of each node's coordinates (force,
- * moment, bimoment). */
+/* Returns the largest difference relative to the largest entry, in the unit of each node's
+ * coordinates (force, moment, bimoment). */
 static double departure(int n, const double a[], const double b[], const double unit[])
 {
     double apart = 0, most = 0;
@@ -136,8 +136,8 @@ static void compare(const adapters_subject *whole, const adapters_subject *part,
              what, worst[0], worst[1], worst[2]);
 }
 
-/* Geometric stiffness [n x n] of linear buckling: about the undeformed element, prestressed by
- * small motions v [n] of its nodes. */
+/* Computes the geometric stiffness [n x n] of linear buckling: about the undeformed element,
+ * prestressed by small motions v[n] of its nodes. */
 static double prestressed(const adapters_subject *s, const double v[], double K[])
 {
     const int n = s->coordinates, m = s->strains;
@@ -309,7 +309,7 @@ static void adapters_tests(void)
                  "%s: nothing is left out, nothing is made", given->name);
         passes_on(given, &c);
         if (element_inner(given, options) > 0)
-            continue; /* requires a solution of its own equations */
+            continue; /* such an element requires a solution of its own equations */
         without(given, &c, LEAVES_H, "without second derivatives");
         without(given, &c, LEAVES_J, "without derivatives");
         forces_only(given, &c);
@@ -317,14 +317,15 @@ static void adapters_tests(void)
     refusals(registry_formulations[0]);
 }
 
-/* For types that take many elements at once, differences are bit-for-bit equal to those of the same
- * type that takes one element after the other, also for failing states. */
+/* For types that evaluate many elements in one call, finite differences are bit-for-bit equal to
+ * those of the same type with one element per call, also for states that fail. */
 
 enum { ELEMENTS = 5, GATHER_M = ELEMENT_MAX_STRAINS, GATHER_N = ELEMENT_MAX_COORDINATES };
 
 static const element_type *gather_source;
 static double gather_options[ELEMENT_MAX_OPTIONS];
-static int requests, most; /* requests for many elements, and the largest number in one */
+static int requests, most; /* number of requests for many elements, and largest number of
+                              elements in one */
 
 static void note(int count)
 {
@@ -440,7 +441,7 @@ static void same(const both *b, const char *what, const double mine[], const dou
              b->given[0].name, what);
 }
 
-/* Compares J and H of all elements in one call with those of each element alone. */
+/* Compares J and H of all elements, evaluated in one call, with those of each element alone. */
 static void strains(unsigned leaves)
 {
     both b;
@@ -469,7 +470,7 @@ static void strains(unsigned leaves)
     end(&b);
 }
 
-/* Compares energy, stresses and stiffness. */
+/* Compares energy, stresses and stiffness, likewise. */
 static void stresses(unsigned leaves)
 {
     both b;

@@ -61,8 +61,8 @@ static void turned(const double R[9], const double about[3], double J[9])
     }
 }
 
-/* Adds the force of the sections at a node with angular velocity w and angular acceleration a:
- * J a + w x J w, and its derivatives. */
+/* Adds the force of the sections at a node with angular velocity w and angular acceleration a, J
+ * a + w x J w, and its derivatives. */
 static void add_node(const double J[9], int at, const double w[3], const double a[3],
                      inertia_output *out)
 {

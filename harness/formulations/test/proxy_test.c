@@ -1,5 +1,6 @@
-/* A formulation of this program, served by this program as another process (its first argument
- * names the formulation), gives bit-for-bit the same results as in the process of the solver. */
+/* A formulation of this program that another process serves (this program again, whose first
+ * argument names the formulation) gives bit-for-bit the same results as in the process of the
+ * solver. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -44,7 +45,7 @@ static void learn(void)
 {
     int64_t head[3];
     double first[7], numbers[111], *at = numbers;
-    section *c = calloc(1, sizeof *c); /* the kind stores it */
+    section *c = calloc(1, sizeof *c); /* the kind stores this section */
     get(head, sizeof *head, 3);
     get(first, sizeof *first, 7);
     get(numbers, sizeof *numbers, 111);

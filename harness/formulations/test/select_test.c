@@ -12,7 +12,8 @@ enum { LONGEST = 4000, EXPRESSIONS = 4000 };
 static const char *const words[] = {"hexapod", "c_column/default", "beamw", "and_or"};
 static const char text[] = "c_column/default/beamw/buckling_load";
 
-/* An expression with the necessary brackets, the same with additional ones, and its value. */
+/* An expression with the necessary brackets, the same expression with additional brackets, and
+ * its value. */
 typedef struct sample {
     char bare[LONGEST], bracketed[LONGEST];
     int value;
@@ -60,7 +61,7 @@ static int grow(sample *s, uint64_t *seed, int depth, int around)
     return value;
 }
 
-/* Removes the k-th bracket from the expression; returns 0 if there is none. */
+/* Removes the k-th pair of brackets from the expression. Returns 0 if there is none. */
 static int without_bracket(const char *expression, int k, char out[LONGEST])
 {
     const char *at = expression - 1;
@@ -139,7 +140,8 @@ static status all_met(const char *expression, fault *f)
     return select_all_met(expression, &met, f);
 }
 
-/* Does the expression hold for every text that contains the name of the case? */
+/* Checks for which expressions the result is true for every text that contains the name of the
+ * case. */
 static void covered(void)
 {
     const struct {

@@ -1,4 +1,5 @@
-/* The host's settings change no bit and are restored afterwards; threads use their own handles. */
+/* The host's settings change no bit of the results and are restored afterwards. Threads use
+ * their own handles. */
 #include <fenv.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_gamma.h>
@@ -52,7 +53,7 @@ static void rounding(const char *expected)
 #endif
 }
 
-/* Sets a locale with a decimal comma; returns 0 if the machine has none and none can be made. */
+/* Sets a locale with a decimal comma. Returns 0 if the machine has none and none can be made. */
 static int set_comma(char folder[])
 {
     char command[200];
@@ -116,7 +117,7 @@ static void handlers(const char *expected)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }
 
-/* The library prints not a single byte, even after errors. */
+/* The library prints nothing, even after errors. */
 static void silence(void)
 {
     char *text = NULL, *why = NULL;
@@ -152,8 +153,8 @@ static void silence(void)
     close(error);
 }
 
-/* Cases whose analyses use all libraries, with enough elements for iterated eigenvalues; every
- * thread runs them in another order. */
+/* Cases whose analyses use all libraries, with enough elements for iterated eigenvalues. Every
+ * thread runs them in a different order. */
 static const char *const several[] = {"c_column", "c_column", "lateral_buckling", "tip_body"};
 enum { SEVERAL = sizeof several / sizeof several[0], MANY = 150 };
 static char *alone[SEVERAL];
@@ -192,7 +193,7 @@ enum { BESIDE = 0 };
 enum { BESIDE = 1 };
 #endif
 
-/* All threads solve one scene, and processes are started meanwhile or afterwards. */
+/* All threads solve one scene, and processes are started at the same time or afterwards. */
 static void threads(void)
 {
     pthread_t thread[THREADS], other;
@@ -250,8 +251,8 @@ static void shared_scene(void)
     bw_scene_free(s);
 }
 
-/* A numerical library that stops the program, as LAPACK does for a wrong argument, ends it with
- * status 0. */
+/* 1: the program has reached its end. A numerical library may end the program early with status
+ * 0, as LAPACK does for a wrong argument. */
 static int ended;
 
 static void mind_the_end(void)
@@ -261,7 +262,7 @@ static void mind_the_end(void)
 }
 
 /* OpenBLAS 0.3.21 with its own threads occasionally gives one of several host threads different
- * last digits. It has one thread here, a setting that it reads when it is loaded. */
+ * last digits. The test sets it to one thread, which OpenBLAS reads when it is loaded. */
 static void begin_again(char **arguments)
 {
     if (getenv("OPENBLAS_NUM_THREADS") != NULL)

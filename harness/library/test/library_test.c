@@ -1,4 +1,4 @@
-/* Every failing call returns a status and a line; handles keep each other alive. */
+/* Every failing call returns a status and a message of one line; handles keep each other alive. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -234,8 +234,8 @@ static void library_tests(void)
     not_converged();
 }
 
-/* A motion in time through the interface: values and when they were reached, curves, every step
- * with its energies, and frames. */
+/* A motion through the interface: values and when they were reached, curves, every step with its
+ * energies, and frames. */
 
 /* A tip mass on an arm that falls from rest. */
 static const char falling[] =

@@ -1,5 +1,6 @@
-/* The energy balance is checked: an allowed error passes, and a larger one ends the motion with one
- * line. Work of external loads of every kind is included, with every integrator. */
+/* The energy balance is checked: an allowed error is accepted, and a larger one ends the motion
+ * with a one-line message. Work of external loads of every kind is included, with every
+ * integrator. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -26,8 +27,8 @@ static const struct {
                     {"goes on", "parts=2;middle=0.6"}};
 enum { DAMPED = 3, FOLLOWER = 6, KINDS = sizeof account_kind / sizeof account_kind[0] };
 
-/* Largest energy-balance error of the motion, relative to account_size; *turned: work relative to
- * the energy. */
+/* Returns the largest energy-balance error of the motion, relative to account_size. *turned:
+ * work relative to the energy. */
 static double missing(const solve_result *r, double *turned)
 {
     account of = {.largest = 0};
@@ -40,7 +41,7 @@ static double missing(const solve_result *r, double *turned)
     return most / account_size(&of);
 }
 
-/* Checks fixed steps; adaptive steps with a tolerance must be at least as accurate. */
+/* Checks fixed steps. Adaptive steps with a tolerance must be at least as accurate. */
 static void balanced(scene_scheme by, double step, double most)
 {
     for (int k = 0; k < KINDS; k++) {
@@ -66,11 +67,12 @@ static void balanced(scene_scheme by, double step, double most)
     }
 }
 
-/* Energy 10 J and work 2 J that alternates `turned` times; `drift` of it is unexplained. */
+/* A motion with energy 10 J, and work of 2 J that alternates `turned` times; `drift` [J] of the
+ * energy is unexplained. */
 static const struct {
     double drift, turned, rounding, rho, tolerance;
     scene_scheme by;
-    const char *words; /* NULL: allowed */
+    const char *words; /* words of the message; NULL: the error is allowed */
 } row[] = {
     {0.09, 0, 0, 0.9, 1e-4, SCENE_ALPHA, NULL},
     {0.11, 0, 0, 0.9, 1e-4, SCENE_ALPHA, "more energy than work was done, 1.1 % of 10 J"},
@@ -132,7 +134,7 @@ static status run(const case_type *type, const char *parameters, int elements, c
     return cell_run(&request, out, &f);
 }
 
-/* Steps that do not resolve axial waves gain energy: the motion ends there, or takes shorter
+/* Steps that do not resolve axial waves gain energy: the motion ends, or continues with shorter
  * steps. */
 static void made(void)
 {
@@ -166,13 +168,13 @@ static void account_tests(void)
 }
 
 /* Strains from stresses: a member that is a million times stiffer in elongation than in bending
- * gets strains that match its stresses, also if Newton's method does not find them at once.
+ * gets strains that match its stresses, even if Newton's method does not find them at once.
  * Elements that already agree keep all bits, and types with linear stresses do not change. */
 
 extern const element_type element_beamw_consistent, element_beamw, element_geometrically_exact,
     element_collocation;
 
-enum { ELEMENTS = 9, MOST = ELEMENT_MAX_STRAINS }; /* more elements than are evaluated at once */
+enum { ELEMENTS = 9, MOST = ELEMENT_MAX_STRAINS }; /* more elements than are evaluated together */
 
 /* A long thin leaf along x. */
 static model *leaf(const element_type *type, scene *s)
@@ -205,8 +207,8 @@ static double largest(int n, const double a[], const double b[])
     return out;
 }
 
-/* Stresses of element i: bending by `angle`, a small twist, hardly any elongation; and the
- * corresponding strains by a linear law. */
+/* Sets the stresses of element i to those of bending by `angle`, a small twist and hardly any
+ * elongation, and computes the corresponding strains by a linear law. */
 static void load(const model *m, int i, double angle, double sigma[], double e[])
 {
     const double l = model_kind_of(m, i)->length;
@@ -284,7 +286,7 @@ static void take(const element_type *type, double angle)
     scene_free(&s);
 }
 
-/* Strains do not change if none with the given stresses are found. */
+/* Strains do not change if there are none with the given stresses. */
 static void keep(void)
 {
     scene s;
@@ -343,11 +345,11 @@ static void complement_tests(void)
     leave(&element_collocation, "it has unknowns of its own");
 }
 
-/* Work of forces on coordinates without inertia: warping amplitudes with and without mass. */
+/* Work of forces on coordinates without inertia, with warping amplitudes that have mass or not. */
 
 enum { MASSLESS_MOST = 80 };
 
-/* An I-section member free in space; omit: omitted physics. */
+/* A free member with an I-section. omit: physics to be omitted. */
 static void warps(unsigned omit, int heavy)
 {
     static const double y[3] = {0, 1, 0}, point[][2] = {{-0.03, 0.05},  {0, 0.05},  {0.03, 0.05},

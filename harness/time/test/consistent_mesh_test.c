@@ -1,5 +1,6 @@
-/* Meshes with consistent and with lumped mass converge to the same limit. For a released structure
- * that oscillates, coarse meshes are more accurate with consistent mass, whose order is higher. */
+/* Meshes with consistent mass converge to the same limit as meshes with lumped mass. For a
+ * released structure that oscillates, coarse meshes are more accurate with consistent mass,
+ * whose order is higher. */
 #include <math.h>
 
 #include "harness/time/test/moving.h"
@@ -7,7 +8,7 @@
 extern const element_type element_beamw_consistent;
 extern const case_type case_release, case_leaf_guide;
 
-/* Value of a quantity of a motion. */
+/* Returns the value of a quantity of a motion. */
 static double value_of(const case_type *type, const char *parameters, const char *quantity,
                        scene_mass mass, int elements)
 {
@@ -28,9 +29,9 @@ static double value_of(const case_type *type, const char *parameters, const char
     return answer_of(&a, quantity);
 }
 
-/* Errors of the coarsest and the third mesh with respect to the finest: their order is `order`, and
- * they are at most `part` of the errors with lumped mass, which converges to the same limit within
- * `near`. */
+/* Checks the errors of the coarsest and the third mesh with respect to the finest one. Their
+ * order must be `order`, and they must be at most the fraction `part` of the errors with lumped
+ * mass, which must converge to the same limit within `near`. */
 static void meshes(const case_type *type, const char *parameters, const char *quantity,
                    double order, double part, double near)
 {

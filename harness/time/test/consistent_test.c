@@ -1,7 +1,7 @@
-/* Motions with consistent mass: momenta and energy of free flights are conserved with the order of
- * the scheme. Reactions at a fixed or driven base equal the rate of momentum, also over rigid
- * offsets, bodies and released ends. Newton's method takes as many iterations as with lumped mass,
- * whatever is stiff. Unsupported combinations are rejected by name. */
+/* Motions with consistent mass. In free flights, momenta and energy are conserved with the order
+ * of the scheme. Reactions at a fixed or prescribed base equal the rate of change of momentum,
+ * also with rigid offsets, bodies and released ends. Newton's method takes as many iterations as
+ * with lumped mass, even if members are stiff. Unsupported combinations are rejected by name. */
 #include <math.h>
 
 #include "harness/analysis/analysis.h"
@@ -76,8 +76,8 @@ static void end_of(const element_type *type, scene_scheme scheme, double step, d
     gsl_test(out->outcome != ASK_ANSWERED, "%s flies freely (%s)", type->name, out->reason);
 }
 
-/* Largest changes of the momenta after 0.5 s, when no load acts, and the energy-balance error
- * relative to the energy. */
+/* Returns the largest changes of the momenta after 0.5 s, when no load acts, and the
+ * energy-balance error relative to the energy. */
 static consistent_flight fly(const element_type *type, scene_scheme scheme, double step)
 {
     static const double end[] = {0.8, 1.1, 1.4, 2};
@@ -116,8 +116,8 @@ static void free_flight(const element_type *type)
              "what is missing by radau: %.1e, %.1e, %.1e", d.momentum, d.angular, d.energy);
 }
 
-/* A base driven along and about two axes. A rod with a body at its end is attached to it with an
- * offset, and a second rod is attached to a node of that body. */
+/* A base that is moved along two axes and rotated about two. A rod with a body at its end is
+ * attached to it with an offset, and a second rod is attached to a node of that body. */
 static void add_driven(scene *s, int released, double step, double end)
 {
     scene_init(s, "driven base");
@@ -171,7 +171,7 @@ static void driven(const element_type *type, int released)
         gsl_test(a[i].outcome != ASK_ANSWERED, "%s is driven (%s)", type->name, a[i].reason);
     }
     double size = 0;
-    a[1].value[9] -= answer_of(&a[1], "z") * answer_of(&a[1], "Fy"); /* about the origin */
+    a[1].value[9] -= answer_of(&a[1], "z") * answer_of(&a[1], "Fy"); /* moment about the origin */
     a[1].value[10] += answer_of(&a[1], "z") * answer_of(&a[1], "Fx");
     for (int i = 0; i < 6; i++)
         size = fmax(size, fabs(a[1].value[6 + i]));
@@ -219,7 +219,7 @@ static double iterations_of(double stiffening, scene_mass mass, scene_scheme sch
     return mean;
 }
 
-/* Newton's method takes as many iterations as with lumped mass, whatever is stiff. */
+/* Newton's method takes as many iterations as with lumped mass, whichever stiffness is large. */
 static void iterations(void)
 {
     for (int k = 0; k < 2; k++) {
@@ -268,13 +268,14 @@ static void consistent_tests(void)
     refuse();
 }
 
-/* Energy gained equals work done, for loads that rise and end, gravity, and a drive. The difference
- * decreases with the order of the scheme; for the conserving scheme it is zero. */
+/* The energy gained equals the work done, for loads that rise and end, gravity, and a prescribed
+ * motion. The difference decreases with the order of the scheme; for the conserving scheme it is
+ * zero. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_spin_up, case_elbow, case_pendulum;
 
-/* Largest difference over all stations, relative to the largest energy. */
+/* Returns the largest difference over all stations, relative to the largest energy. */
 static double drift(const case_type *type, scene_scheme scheme, double step, double end)
 {
     scene s;
@@ -292,7 +293,7 @@ static double drift(const case_type *type, scene_scheme scheme, double step, dou
     return moving_largest(&a, "drift") / energy;
 }
 
-/* radau: with the shortest step; conserving: with the first two steps */
+/* for radau with the shortest step; for conserving with the first two steps */
 static const struct {
     const case_type *type;
     double step, end, conserving;
@@ -322,17 +323,17 @@ static void drift_tests(void)
     }
 }
 
-/* The momentum in free flight is the time integral of the load, to round-off, with every
- * integrator, since the loads are piecewise linear. (Generalized-alpha averages accelerations over
- * two steps: while a load rises, the momentum lags by a fraction of h^2, which vanishes when the
- * load has ended.) Unsupported options of motion cases are rejected. */
+/* In free flight the momentum is the time integral of the load, to round-off, with every
+ * integrator, since the loads are piecewise linear. (Generalized-alpha averages accelerations
+ * over two steps. While a load rises, the momentum therefore lags by a fraction of h^2, which
+ * vanishes when the load has ended.) Unsupported options of motion cases are rejected. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_free_flight_plane, case_release,
     case_leaf_guide, case_rigid_body, case_pendulum;
 
-/* Impulse of the force along x: triangle, 8 N m s^-1 for 2.5 s and back; step, 8 N for the same
- * time. */
+/* Impulse of the force along x. The triangle rises at 8 N/s for 2.5 s and then falls back; the
+ * step is 8 N for the same time. */
 static double impulse_of_triangle(double t)
 {
     const double rise = fmin(t, 2.5), fall = fmin(fmax(t - 2.5, 0), 2.5);
@@ -404,8 +405,9 @@ static void flight_tests(void)
     refused(&case_release, "tolerance=1", "tolerance");
 }
 
-/* Members that are stiff in elongation need no additional iterations, with any formulation: a swing
- * of the pendulum with EA times 1, 1e3 and 1e6, in long steps, none of which is halved. */
+/* Members that are stiff in elongation need no additional iterations, with any formulation.
+ * Example: a swing of the pendulum with EA times 1, 1e3 and 1e6, in long steps, none of which is
+ * halved. */
 
 extern const case_type case_pendulum;
 extern const element_type element_collocation;
@@ -413,11 +415,11 @@ extern const element_type element_collocation;
 enum { ELEMENTS = 4 };
 
 typedef struct swing {
-    double iterations; /* iterations per step; NAN: the formulation does not support it */
+    double iterations; /* iterations per step; NAN: the formulation does not support the motion */
     long steps;
 } swing;
 
-/* Steps of equal length. */
+/* Makes steps of equal length. */
 static swing take(const formulation *with, scene_scheme by, double stiffening, double step,
                   int steps, int elements)
 {
@@ -464,7 +466,7 @@ static void compare(const element_type *type, scene_scheme by, double step, doub
     }
 }
 
-/* Solves with one element, whose forces have no more digits than eps EA allows, while its moments
+/* Solves with one element. Its forces have no more digits than eps EA allows, but its moments
  * do. */
 static void one_element(void)
 {

@@ -1,6 +1,6 @@
-/* Error estimates of integrators for one step, which determine the next step size, in milliseconds:
- * a mass on a spring, whose step is known in closed form, and the order of the estimate for driven,
- * rotating and damped masses. */
+/* Error estimates of integrators for one step, which determine the next step size. A mass on a
+ * spring has a step in closed form; for prescribed, rotating and damped masses the order of the
+ * estimate is checked. All tests take milliseconds. */
 #include <math.h>
 
 #include "elements/math/dense.h"
@@ -31,7 +31,7 @@ static void add_motion(scene *s, scene_scheme by, const scene_alpha *alpha, doub
                                     .start = {.velocity = {vx}}});
 }
 
-/* eta: damping [s]; the force is 2 + 3 t. */
+/* A mass on a spring. eta: damping [s]; the force is 2 + 3 t. */
 static void add_oscillator(scene *s, scene_scheme by, const scene_alpha *alpha, double eta,
                            int forced)
 {
@@ -56,8 +56,9 @@ static void begin(const scene *s, flying *f)
     gsl_test(outcome != STATUS_OK, "begins: %s", f->why.text);
 }
 
-/* The error estimate of RADAU5 for y = (x, v), y' = J y + (0, F/m) (Hairer & Wanner II, IV.8, eq.
- * 8.19): (1 - h c J)^-1 [c h y'(0) + e . z], c the inverse of the real eigenvalue of A^-1. */
+/* Returns the error estimate of RADAU5 for y = (x, v), y' = J y + (0, F/m) (Hairer & Wanner II,
+ * IV.8, eq. 8.19): (1 - h c J)^-1 [c h y'(0) + e . z], where c is the inverse of the real
+ * eigenvalue of A^-1. */
 static double radau_of(double x, double v, double eta, double F0, double F1, double h)
 {
     const double s = sqrt(6), c0 = 0.2748888295956773677478286,
@@ -152,8 +153,8 @@ static void explicit_one(void)
     gsl_test(!(log2(error[0] / error[1]) > 7.5), "explicit: estimates %g, %g", error[0], error[1]);
 }
 
-/* A rod on a body that is lifted and rotates freely; its centre of mass is at a distance from the
- * lifted point. */
+/* Returns the estimate for a rod on a body that is lifted and rotates freely. Its centre of mass
+ * is at a distance from the lifted point. */
 static double of_lifted(double eta, double h)
 {
     const section_spec spec = timed_profile(&(timed_section){
@@ -207,10 +208,10 @@ static void estimate_tests(void)
     explicit_one();
 }
 
-/* Bending rotations without inertia, while the twist has inertia: the gyroscopic moment of the
- * twist loads them. Rods with an oblique spin start in equilibrium with that moment and are
- * integrated with the order of each integrator. They are the limit of rods whose bending inertia
- * decreases; and a restart in equilibrium changes nothing. */
+/* Bending rotations have no inertia, but the twist has: the gyroscopic moment of the twist loads
+ * them. Rods with an oblique spin start in equilibrium with that moment and are integrated with
+ * the order of each integrator. They are the limit of rods whose bending inertia decreases. A
+ * restart in equilibrium changes nothing. */
 
 extern const element_type element_geometrically_exact;
 
@@ -223,8 +224,8 @@ static struct {
     int joint, thrown;
 } how;
 
-/* A rod oblique to all axes; with a joint, another rod at its end that rotates about a single axis.
- * Thrown: starts at rest, under a force and a moment that rise and end. */
+/* A rod oblique to all axes. With a joint, another rod at its end rotates about a single axis.
+ * Thrown: the rods start at rest, under a force and a moment that rise and end. */
 static void build(scene *s, scene_scheme by, double step)
 {
     scenes_read(s, RODS,
@@ -234,7 +235,7 @@ static void build(scene *s, scene_scheme by, double step)
                 how.thrown);
 }
 
-/* Integrates to 0.8 s and gives the position of node B. */
+/* Integrates to 0.8 s and computes the position of node B. */
 static void fly(scene_scheme by, double step, double place[PLACES])
 {
     scene s;
@@ -264,7 +265,7 @@ static double error_of(scene_scheme by, double step)
     return distance(place, exact);
 }
 
-/* Compares the time-integration error with that of half the step size. */
+/* Compares the time-integration errors for a step size and for half of it. */
 static void converge(scene_scheme by, double step, double ratio)
 {
     const double first = error_of(by, step), second = error_of(by, step / 2);
@@ -278,7 +279,7 @@ static void agree(scene_scheme by, double step, double most)
     gsl_test(!(error < most), "integrator %d, spin %g, joint: error %g m", by, how.spin, error);
 }
 
-/* Compares with explicit steps, which require inertia, with decreasing inertia. */
+/* Compares with explicit steps, which require inertia, while the inertia decreases. */
 static void limit(void)
 {
     double place[3][PLACES], without[PLACES];
@@ -334,7 +335,7 @@ static void start_again(void)
     scene_free(&s);
 }
 
-/* The spin is so fast that bending cannot balance the gyroscopic moments. */
+/* The spin is so fast that bending cannot balance the gyroscopic moments: the start is rejected. */
 static void refuse(void)
 {
     scene s;
@@ -353,7 +354,7 @@ static void motion_massless_tests(void)
     for (how.joint = 0; how.joint < 2; how.joint++)
         for (int i = 0; i < 2; i++) {
             how.spin = spins[i];
-            if (how.joint) { /* its modes are not resolved by these steps */
+            if (how.joint) { /* the modes of the second rod are not resolved by these steps */
                 agree(SCENE_ALPHA, 0.01, 3e-3);
             } else {
                 converge(SCENE_ALPHA, 0.02, 4);
@@ -370,8 +371,9 @@ static void motion_massless_tests(void)
     limit();
 }
 
-/* Steps of all integrators: the trapezoidal rule is reversible, a rigid body without torque follows
- * its exact motion with the order of the scheme, and steps end at kinks of loads. */
+/* Steps of all integrators: the trapezoidal rule is reversible, a rigid body without torque
+ * follows its exact motion with the order of the scheme, and steps end at slope discontinuities
+ * of loads. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space;
@@ -418,7 +420,8 @@ static void reverse(void)
     scene_free(&s);
 }
 
-/* J = diag(1, 2, 3), w(0) = (0.5, 0.2, 2): Jacobi's elliptic functions, at 10 s. */
+/* Checks a body with J = diag(1, 2, 3) and w(0) = (0.5, 0.2, 2) at 10 s against Jacobi's
+ * elliptic functions. */
 static double turn_body(scene_scheme by, double h)
 {
     static const double w[3] = {0.069492061156576, 0.5340139075307, 1.9794636602342},
@@ -438,7 +441,7 @@ static double turn_body(scene_scheme by, double h)
                                                              .polar = 2e-11,
                                                              .rotary = 1e-11});
     const int profile = scene_add_section(&s, &spec), body = scene_add_node(&s, 0, 0, 0);
-    /* with a massless rod, because a member must be attached */
+    /* a massless rod, because a member must be attached */
     scene_add_member(&s, body, scene_add_node(&s, 1, 0, 0), profile, y_axis);
     scene_node_at(&s, body)->body = (scene_body){.mass = 1, .inertia = {1, 2, 3}};
     const int motion = scene_add_motion(&s, SCENE_NONE, 1, at,
@@ -468,7 +471,7 @@ static void check_body(scene_scheme by, double h, double order, double least)
              log2(first / second));
 }
 
-/* The impulse of 50 N s is exact, although only shortened steps end at a kink. */
+/* The impulse of 50 N s is exact. Only steps that are shortened end at a slope discontinuity. */
 static void impulse(scene_scheme by)
 {
     scene s;

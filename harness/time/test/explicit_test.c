@@ -1,5 +1,5 @@
-/* The explicit integrator: the exact motion of a body without torque, its order, agreement with the
- * implicit integrator of order 5, and the models that it rejects. */
+/* The explicit integrator: it agrees with the exact motion of a body without torque and with the
+ * implicit integrator of order 5, has its order, and rejects models without inertia. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sf_ellint.h>
 #include <gsl/gsl_sf_elljac.h>
@@ -35,7 +35,7 @@ static int add_motion(scene *s)
     return scene_add_motion(s, SCENE_NONE, 1, &how.time, m);
 }
 
-/* J = diag(1, 2, 3): a body, with a rod between two points of it. */
+/* A body with J = diag(1, 2, 3), with a rod between two of its points. */
 static status body(const double value[], scene *s, fault *f)
 {
     static const double y_axis[] = {0, 1, 0};
@@ -56,8 +56,8 @@ static status body(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Rates of the free body by Jacobi's functions (Landau and Lifshitz, Mechanics, section 37), L^2 >
- * 2 T J_y. */
+/* Computes the rates of the free body by Jacobi's functions (Landau and Lifshitz, Mechanics,
+ * section 37), for L^2 > 2 T J_y. */
 static void exact_rates(double t, double w[3])
 {
     double energy = 0, square = 0, sn, cn, dn;
@@ -81,7 +81,7 @@ static void exact_rates(double t, double w[3])
 
 static double error_of_body(double step, double tolerance)
 {
-    /* first column of R at 10 s: quadrature of the precession */
+    /* first column of R at 10 s, by quadrature of the precession */
     static const double column[3] = {0.1439879275647, 0.9873599189256, -0.066240978366};
     double w[3], largest = 0;
     cell_result r;
@@ -142,7 +142,7 @@ static status rod(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Compares two integrators that have neither the order nor Newton's method in common. */
+/* Compares two integrators that differ in order and share no Newton iteration. */
 static void against_radau(const char *chosen)
 {
     cell_result one, other;
@@ -196,12 +196,12 @@ static void explicit_tests(void)
     refused("geometrically_exact", "released ends");
 }
 
-/* The tangent operator of rotations, its inverse and its derivative agree with differences of the
- * rotations, on both sides of the angle below which series are used. */
+/* The tangent operator of rotations, its inverse and its derivative agree with finite
+ * differences of the rotations, on both sides of the angle below which series are used. */
 
 static const double along[3] = {0.48, -0.6, 0.64}, other[3] = {0.7, 0.4, -0.9}, step = 1e-4;
 
-/* Rotation vector of exp(-t~) exp(s~). */
+/* Computes the rotation vector of exp(-t~) exp(s~). */
 static void between(const double t[3], const double s[3], double out[3])
 {
     double p[4], q[4], back[4];
@@ -212,7 +212,7 @@ static void between(const double t[3], const double s[3], double out[3])
     rotation_log(q, out);
 }
 
-/* Derivative of f along d at t, from differences of fourth order: out[3]. */
+/* Computes the derivative of f along d at t by finite differences of fourth order: out[3]. */
 static void differ(void (*f)(const double t[3], double out[3]), const double t[3],
                    const double d[3], double out[3])
 {
@@ -275,7 +275,7 @@ static void turn(double angle)
     check("one turn behind another", angle, back, other);
 }
 
-/* The series are exact to rounding at the angle where they take over; there is no jump. */
+/* The series are exact to rounding at the angle below which they are used; there is no jump. */
 static void seam(double angle)
 {
     static const char *const what[] = {"Jr", "its inverse", "its derivative"};

@@ -27,11 +27,12 @@ typedef struct flight {
     carried_masses masses;
     motion_scheme *scheme;
     instant now, next;
-    int most, sum, steps; /* iterations */
+    int most, sum, steps; /* numbers of iterations: largest in a step, sum; number of steps */
     fault why;
 } flight;
 
-/* Prepares the scene, whose only analysis is the motion. REFUSED and other failures: see `why`. */
+/* Prepares the scene, whose only analysis is the motion. After REFUSED and other failures, `why`
+ * gives the reason. */
 static inline status flight_prepare(flight *f, const char *with, int elements)
 {
     model_request request = {&f->scene, NULL, f->chosen.option, elements, 0, 0};
@@ -54,8 +55,8 @@ static inline status flight_prepare(flight *f, const char *with, int elements)
     return instant_alloc(f->m, &f->next, &f->why);
 }
 
-/* build: function of a case without parameters. The flight starts at rest, in the state as
- * built. */
+/* build: function of a case without parameters. The flight starts at rest in the undeformed
+ * state. */
 static inline status flight_ready(flight *f,
                                   status (*build)(const double value[], scene *, fault *),
                                   const char *with, int elements)
@@ -88,7 +89,7 @@ static inline void flight_end(flight *f)
     scene_free(&f->scene);
 }
 
-/* Makes one step; h < 0: backwards. */
+/* Makes one step of h [s]; h < 0: backwards. */
 static inline status flight_step(flight *f, double h)
 {
     double error;
@@ -129,7 +130,7 @@ static inline double flight_strain_energy(const flight *f)
     return sum;
 }
 
-/* Kinetic energy and momenta. */
+/* Returns the kinetic energy and the momenta. */
 static inline inertia_balance flight_inertia(const flight *f)
 {
     inertia_balance b;

@@ -89,7 +89,8 @@ static inline status flying_step(flying *f, double h)
     return outcome;
 }
 
-/* Copies all numbers of an instant; returns how many there are; numbers NULL: only counts. */
+/* Copies all numbers of an instant, and returns how many there are. numbers NULL: only counts
+ * them. */
 static inline size_t flying_numbers(const flying *f, const instant *at, double *numbers)
 {
     const size_t n = (size_t)model_all_coordinates(f->m), size = at->state->size,
@@ -116,7 +117,7 @@ static inline size_t flying_numbers(const flying *f, const instant *at, double *
     return 3 * n + size + 6 + rates + ends;
 }
 
-/* All numbers of the present instant; the caller frees them. */
+/* Returns all numbers of the present instant, which the caller frees. */
 static inline double *flying_all(const flying *f)
 {
     double *all = malloc(flying_numbers(f, &f->now, NULL) * sizeof *all);

@@ -1,13 +1,13 @@
-/* Inertia forces of everything with mass (off-centre bodies, beams at offsets from their nodes,
- * sequences of angles, released ends, warping) are the rates of momenta and of kinetic energy along
- * a motion; kinetic energy is the sum over all masses. */
+/* Inertia forces are the rates of change of momenta and of kinetic energy along a motion, for
+ * everything with mass: off-centre bodies, beams at offsets from their nodes, sequences of
+ * angles, released ends, warping. Kinetic energy is the sum over all masses. */
 #include "elements/math/rotation.h"
 #include "elements/test/kit.h"
 #include "harness/model/model.h"
 #include "harness/time/test/masses.h"
 #include "harness/time/time_impl.h"
 
-/* Rates of the coordinates as increments about fixed axes. */
+/* Computes the rates of the coordinates as increments about fixed axes. */
 static void in_space(const moving_one *o, const double v[], double out[])
 {
     memcpy(out, v, (size_t)o->all * sizeof *out);
@@ -26,7 +26,8 @@ static void in_space(const moving_one *o, const double v[], double out[])
     }
 }
 
-/* Momenta and kinetic energy after a short time dt; the third derivatives do not matter. */
+/* Computes the momenta and the kinetic energy after a short time dt, so short that third
+ * derivatives do not matter. */
 static void later(const moving_one *o, double dt, inertia_balance *out)
 {
     fault f = {""};
@@ -101,8 +102,8 @@ static void virtual_work(const moving_one *o)
     near("virtual work", given, found, 1e-11);
 }
 
-/* Energy of a mass whose centre is at a distance from the frame, from the motion of the frame; J
- * about the centre. */
+/* Returns the energy of a mass whose centre is at a distance from the frame, from the motion of
+ * the frame. J: about the centre. */
 static double energy_of(double of, const double beside[3], const double J[9], const double W[3],
                         const double v[3])
 {
@@ -114,7 +115,7 @@ static double energy_of(double of, const double beside[3], const double J[9], co
     return (of * vec3_dot(at, at) + vec3_dot(W, JW)) / 2;
 }
 
-/* Velocity of any vertex in its own axes. */
+/* Computes the velocity of any vertex in its own axes. */
 static void own_rates(const moving_one *o, int vertex, double v[3], double W[3])
 {
     const mesh_vertex *at = model_vertex(o->m, vertex);
@@ -182,8 +183,9 @@ static void inertia_tests(void)
     }
 }
 
-/* Interpolation between two instants reproduces both: positions, shifts, angles, warping, rates and
- * accelerations, for bodies, sequences of angles and released ends that rotate by half a radian. */
+/* Interpolation between two instants reproduces both of them: positions, shifts, angles,
+ * warping, rates and accelerations, for bodies, sequences of angles and released ends that
+ * rotate by half a radian. */
 
 static void rates_of(const moving_one *o, uint64_t seed, instant *at)
 {
@@ -199,7 +201,7 @@ static double apart(size_t count, const double a[], const double b[])
     return largest;
 }
 
-/* Ends that rotate freely have no rates inside a step. */
+/* Returns the largest difference of rates. Ends that rotate freely have no rates inside a step. */
 static double rates_apart(const model *m, const double a[], const double b[])
 {
     double largest = 0;
@@ -290,7 +292,7 @@ static void between_tests(void)
     }
 }
 
-/* The tangent of inertia forces is their derivative, in the exponential chart, with rates that
+/* The tangent of inertia forces is their derivative in the exponential chart, where the rates
  * follow the increments of a step with finite rotations. */
 
 /* Rates follow the increments: v = g inc, a = b inc. */
@@ -312,7 +314,8 @@ static void force_at(const moving_one *o, const double inc[], const double from[
     kinematics_state_free(s);
 }
 
-/* Moments in the exponential chart: adds half of their vector product with the increment. */
+/* Transforms moments to the exponential chart: adds half of their vector product with the
+ * increment. */
 static void add_chart(const moving_one *o, const double out[], int column, double slope[])
 {
     for (int i = 0; i < model_first_release(o->m); i++) {
@@ -385,8 +388,8 @@ static void tangent_tests(void)
     }
 }
 
-/* A rotation prescribed by its vector along any path: increments lead to the prescribed
- * orientation, and rates and their derivatives are those of the frame, from any state. */
+/* A rotation prescribed by its vector along any path. From any state, increments lead to the
+ * prescribed orientation, and rates and their derivatives are those of the frame. */
 
 static void build_driven(scene *s)
 {

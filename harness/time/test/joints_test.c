@@ -1,6 +1,6 @@
 /* Two bars with every kind of joint are loaded by a follower force and a moment with fixed axes,
- * and then left alone: the energy gained is the work of the loads and remains constant, and so do
- * both momenta if nothing is fixed. */
+ * and then move without loads. The energy gained is the work of the loads and then remains
+ * constant, and so do both momenta if nothing is fixed. */
 #include <stdio.h>
 
 #include "harness/model/model.h"
@@ -12,8 +12,9 @@ static const double y_axis[] = {0, 1, 0};
 /* The connection of the second bar to the first. */
 typedef struct tested_joint {
     const char *name;
-    int released, component[SCENE_RELEASED]; /* at the start of the second bar */
-    int offset, spring, ground, hinge;       /* hinge 2: driven */
+    int released, component[SCENE_RELEASED]; /* released components at the start of the second
+                                                bar */
+    int offset, spring, ground, hinge;       /* hinge 2: the hinge is prescribed */
 } tested_joint;
 
 static const tested_joint joints[] = {
@@ -177,14 +178,14 @@ static void joints_tests(void)
     }
 }
 
-/* Bodies without torque with the conserving scheme: one node, two bodies connected by a stiff rod,
- * and a flexible rod between two bodies at offsets from its ends. */
+/* Bodies without torque with the conserving scheme: one node; two bodies connected by a stiff
+ * rod; and a flexible rod between two bodies, at offsets from its ends. */
 
 static const double bodies_y_axis[] = {0, 1, 0};
 
 static struct {
     double stiffness;
-    int rod; /* 0: one body; 1: two bodies that form the same one; 2: at offsets */
+    int rod; /* 0: one body; 1: two bodies that together are the same one; 2: bodies at offsets */
 } how;
 
 static int profile_of(scene *s, double E, double mass)
@@ -209,7 +210,7 @@ static void bodies_add_motion(scene *s, const double spin[3])
     scene_add_motion(s, SCENE_NONE, 1, &end, motion);
 }
 
-/* J = diag(1, 2, 3) about the middle, which does not move; the rod is massless. */
+/* A body with J = diag(1, 2, 3) about the middle, which does not move. The rod is massless. */
 static status free_body(const double value[], scene *s, fault *f)
 {
     static const double spin[] = {0.5, 0.2, 2};
@@ -261,7 +262,8 @@ static void bodies_fly(flight *f, int steps, double h, double *drift, double *an
     gsl_test(outcome != STATUS_OK, "steps of %g s: %s", h, f->why.text);
 }
 
-/* Error of R at 10 s, whose exact value comes from quadrature of the precession: largest entry. */
+/* Returns the error of R at 10 s as the largest error of an entry. The exact value comes from
+ * quadrature of the precession. */
 static double error_of_body(double h)
 {
     static const double exact[9] = {0.1439879275647, -0.9562925632996, 0.2545034579204,
@@ -338,10 +340,10 @@ static void bodies_tests(void)
     offsets();
 }
 
-/* Rotations without inertia with the conserving scheme: conserved quantities remain constant, the
- * rates follow the motion without changing sign in every step, and a node rotates by several
- * angles. A scene in which no rotation has inertia is rejected, and so is a node that rotates by
- * two free angles. */
+/* Rotations without inertia with the conserving scheme. Conserved quantities remain constant,
+ * the rates follow the motion without changing sign in every step, and a node may rotate by
+ * several angles. A scene in which no rotation has inertia is rejected, and so is a node that
+ * rotates by two free angles. */
 
 static const double massless_y_axis[] = {0, 1, 0};
 
@@ -383,7 +385,7 @@ static status massless_build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Largest change of an angular velocity from one step to the next [rad/s]. */
+/* Returns the largest change of an angular velocity from one step to the next [rad/s]. */
 static double roughest(double h)
 {
     flight f;

@@ -1,6 +1,6 @@
-/* Motions of all formulations. The results must not depend on the direction of a member, the axes
- * of the scene, whether the base moves or the equivalent inertia field acts, or the stiffness of
- * modes that are not examined. A small motion has the frequency of its mode. */
+/* Motions of all formulations. The results must not depend on the direction of a member, on the
+ * axes of the scene, on whether the base moves or the equivalent inertia field acts, or on the
+ * stiffness of modes that are not examined. A small motion has the frequency of its mode. */
 #include <math.h>
 
 #include "elements/math/scalar.h"
@@ -100,8 +100,8 @@ static motion_rod add_rod(scene *s, const char *name)
     return out;
 }
 
-/* A body at the tip of a nearly massless rod: one mode, whose frequency is known from a modal
- * analysis. */
+/* A body at the tip of a nearly massless rod: there is one mode, whose frequency is known from a
+ * modal analysis. */
 static void check_frequency(scene_scheme by, double step, double tolerance)
 {
     const double one[1] = {1}, first = sqrt(3 * EI / 50);
@@ -131,7 +131,8 @@ static void check_frequency(scene_scheme by, double step, double tolerance)
              u, a.reason);
 }
 
-/* The base moves as t^3, or the equivalent inertia field acts. */
+/* Returns the result if the base moves as t^3 or, with moves 0, if the equivalent inertia field
+ * acts. */
 static double base(scene_scheme by, int moves)
 {
     const double at[1] = {0.7};
@@ -160,7 +161,7 @@ static void check_base(scene_scheme by, double tolerance)
              "scheme %d: the base moves or its inertia acts: %.12g, %.12g", by, moves, acts);
 }
 
-/* Iterations per step. */
+/* Returns the number of iterations per step. */
 static double work_at(const char *integrator, const char *stiffening, double *A_x)
 {
     char how[64], much[64];

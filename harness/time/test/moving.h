@@ -1,4 +1,4 @@
-/* Motions for tests: the structure of a case with a separate integration. */
+/* Motions for tests: the structure of a case, with a motion defined by the test. */
 #ifndef BEAMWORK_TEST_MOVING_H
 #define BEAMWORK_TEST_MOVING_H
 
@@ -39,7 +39,7 @@ static inline void moving_unload(scene *s)
     s->loads = 0;
 }
 
-/* A motion to `end` [s] with stations at equal distances. */
+/* Adds a motion to `end` [s] with stations at equal distances. */
 static inline int motion_added(scene *s, scene_scheme by, double step, double end)
 {
     double path[MOVING_STATIONS];
@@ -53,7 +53,7 @@ static inline int motion_added(scene *s, scene_scheme by, double step, double en
                                                                       integrators */
 }
 
-/* Adds NAME_max and NAME_min over the stations. */
+/* Adds the quantities NAME_max and NAME_min over the stations. */
 static inline void moving_range(scene *s, const char *name, int motion, scene_balance what)
 {
     char full[SCENE_NAME];
@@ -64,7 +64,7 @@ static inline void moving_range(scene *s, const char *name, int motion, scene_ba
     }
 }
 
-/* The larger magnitude of the two. */
+/* Returns the larger magnitude of the two quantities. */
 static inline double moving_largest(const answer *a, const char *name)
 {
     char full[SCENE_NAME];

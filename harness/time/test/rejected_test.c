@@ -1,6 +1,6 @@
-/* A rejected step leaves no trace: it changes no bit of the instant that it started from, nor the
- * following steps, with inner unknowns, springs, damping and prescribed motions; nor does it affect
- * watched quantities, stations and records. */
+/* A rejected step has no effect: it changes no bit of the instant from which it started, nor of
+ * the following steps, with inner unknowns, springs, damping and prescribed motions. It does not
+ * affect watched quantities, stations and records either. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -31,7 +31,7 @@ static void shake_rods(scene *s, scene_scheme by)
 {
     scenes_read(s, REJECTED_SWUNG, "base=shaken;second=%s;integrator=%s;step=0.02",
                 by == SCENE_EXPLICIT ? "joined" : "slides", scenes_integrator[by]);
-    /* not accepted by the reader, since no such body exists */
+    /* the reader would not accept this body, since no such body exists */
     scene_set_body(s, scenes_find(s, SCENE_NODES, "tip_free"),
                    (scene_body){0.3, {0, 0.1, 0.1}, {0.1, 0.2, 0.3, 0, 0.01, 0}});
 }
@@ -41,8 +41,8 @@ static int same(const flying *f, const double a[], const double b[])
     return memcmp(a, b, flying_numbers(f, &f->now, NULL) * sizeof *a) == 0;
 }
 
-/* Pivots of an unsymmetric tangent are kept from step to step; those of a rejected step may
- * differ. */
+/* Returns 1 when two instants are equal. Pivots of an unsymmetric tangent are kept from step to
+ * step; those of a rejected step may differ. */
 static int is_close(const flying *f, const double a[], const double b[])
 {
     const double rounding = 1e-11;
@@ -52,7 +52,7 @@ static int is_close(const flying *f, const double a[], const double b[])
     return 1;
 }
 
-/* Tries steps of which the last are too long for Newton's method; the successful ones are not
+/* Tries steps, the last of which are too long for Newton's method. The successful ones are not
  * accepted. */
 static int try_in_vain(flying *f, double h)
 {
@@ -116,8 +116,8 @@ static void near(int by, const char *what, double found, double expected)
              found, expected);
 }
 
-/* Each crossing is counted once, whatever steps were tried before, and stations are those of the
- * accepted steps: within `close` [m] of the motion of the tip with short steps. */
+/* Each crossing is counted once, whatever steps were tried before. Stations are those of the
+ * accepted steps: they agree within `close` [m] with the motion of the tip for short steps. */
 static void pass(int by, double step, double tolerance, double close, const cell_result *exact)
 {
     cell_result r;
@@ -167,9 +167,9 @@ static void rejected_tests(void)
     cell_result_free(&exact);
 }
 
-/* A damped leaf without rotary inertia, bent far by an impulse or rotated by a moment that acts at
- * once: energies, reactions and resultants of all integrators, for linear and nonlinear
- * stresses. */
+/* A damped leaf without rotary inertia is bent far by an impulse, or rotated by a moment that is
+ * applied suddenly. Energies, reactions and resultants are checked for all integrators, with
+ * linear and nonlinear stresses. */
 
 extern const element_type element_geometrically_exact, element_beamw, element_beamw_consistent,
     element_collocation;
@@ -177,12 +177,12 @@ extern const element_type element_geometrically_exact, element_beamw, element_be
 static const double y_axis[3] = {0, 1, 0};
 
 typedef struct blow {
-    double force[3], moment[3]; /* at the tip [N, N m]; only one of them is nonzero */
-    const char *first;          /* factor until 0.0205 s */
+    double force[3], moment[3]; /* load at the tip [N, N m]; only one of the two is nonzero */
+    const char *first;          /* factor of the load until 0.0205 s */
     const char *then;
 } blow;
 
-/* 0.5 m along x, with a mass at its tip. */
+/* A leaf of 0.5 m along x, with a mass at its tip. */
 static int leaf(scene *s, double damping, const blow *by, int *root)
 {
     section_spec spec = section_spec_rectangle(200e9, 77e9, 0.02, 0.001);
@@ -248,7 +248,7 @@ static void compare(const element_type *type, double damping, const blow *by, do
     }
 }
 
-/* Resultant in the middle at 0.1 s. */
+/* Returns the resultant in the middle at 0.1 s. */
 static double middle(double step)
 {
     const blow swing = {{0, 0, 2}, {0}, "sin(50*t)", "sin(50*t)"};
@@ -257,7 +257,7 @@ static double middle(double step)
     return answer_of(&a, "middle");
 }
 
-/* Largest unbalanced force on coordinates without inertia [N m]. */
+/* Returns the largest unbalanced force on coordinates without inertia [N m]. */
 static double out_of_balance(flying *f)
 {
     const size_t all = (size_t)model_all_coordinates(f->m) + 1;
@@ -272,7 +272,7 @@ static double out_of_balance(flying *f)
     return outcome == STATUS_OK ? most : NAN;
 }
 
-/* Largest change of the rates, relative to the largest rate before. */
+/* Returns the largest change of the rates, relative to the largest rate before. */
 static double changed(const flying *f, const double before[])
 {
     double most = 0, size = 0;
@@ -283,8 +283,8 @@ static double changed(const flying *f, const double before[])
     return most / size;
 }
 
-/* After a moment reverses instantly, the rates balance it and nothing has moved; a moment that
- * continues changes nothing. */
+/* After a moment reverses instantly, the rates are in equilibrium with it, and nothing has
+ * moved. A moment that continues changes nothing. */
 static void launch_there(const char *then, double least, double most)
 {
     const blow back = {{0}, {0.1, 0.3, 0.1}, "1", then};
@@ -302,7 +302,7 @@ static void launch_there(const char *then, double least, double most)
         gsl_test(flying_step(&f, (0.0205 - f.now.time) / (steps - i)) != STATUS_OK, "step %d: %s",
                  i, f.why.text);
     for (int k = 0; k < model_elements(f.m) * model_strains(f.m); k++)
-        f.now.state->e[k] *= 1 + 1e-9; /* as iterations leave them */
+        f.now.state->e[k] *= 1 + 1e-9; /* gaps such as iterations leave */
     kinematics_frame(f.m, f.now.state, 1, r, before);
     double *rates = malloc((size_t)model_unknowns(f.m) * sizeof *rates);
     memcpy(rates, f.now.v, (size_t)model_unknowns(f.m) * sizeof *rates);
@@ -346,8 +346,9 @@ static void damped_kick_tests(void)
              ratio);
 }
 
-/* Strain rates of a beam after a large rotation are the time derivatives of its strains, also those
- * that generalized-alpha carries along; the energy lost in a step is their power. */
+/* Strain rates of a beam after a large rotation are the time derivatives of its strains. This
+ * also holds for the rates that generalized-alpha carries from step to step. The energy lost in
+ * a step is their power. */
 
 #define RATES_SWUNG "harness/time/test/swung.yaml"
 
@@ -360,7 +361,7 @@ static double *strains_in(flying *f, double h)
     return out;
 }
 
-/* Largest difference of a and b relative to the largest value of b. */
+/* Returns the largest difference of a and b relative to the largest value of b. */
 static double apart(int n, const double a[], const double b[])
 {
     double most = 0, size = 0;
@@ -404,14 +405,15 @@ static void damped_rates_tests(void)
 }
 
 /* Initial rates of a motion are those of the requested velocity field about its centre, at all
- * frames. If the first angle of a sequence with oblique axes is driven, the other angles take the
- * remaining components. */
+ * frames. If the first angle of a sequence with oblique axes is prescribed, the other angles
+ * take the remaining components. */
 
 #define LAUNCH_SWUNG "harness/time/test/swung.yaml"
 
 static const double driven_rate = 0.4, none = 1e-10;
 
-/* A beam whose tip rotates by angles about oblique axes. driven: the first angle is driven. */
+/* A beam whose tip rotates by angles about oblique axes. driven 1: the first angle is
+ * prescribed. */
 static void launched(int driven)
 {
     scene s;
@@ -451,7 +453,7 @@ static void launched(int driven)
     scene_free(&s);
 }
 
-/* Axes that rotate about a point where a node is fixed: the state is at rest in these axes. */
+/* A state that is at rest in axes that rotate about a point where a node is fixed. */
 static void turning(double beside)
 {
     scene_rotating_frame frame = {.omega = {0.8, -1.5, 1.1}, .centre = {0.3, 0.5, beside}};

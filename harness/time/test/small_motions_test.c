@@ -1,13 +1,14 @@
 /* K, C + G and M of small motions about a state with rates are the derivatives of all forces, by
- * differences: bodies, sequences of angles, released ends, warping, damped members, dashpots,
- * follower loads, drives; lumped and consistent mass. */
+ * finite differences. The structures have bodies, sequences of angles, released ends, warping,
+ * damped members, dashpots, follower loads and prescribed motions, with lumped and consistent
+ * mass. */
 #include "elements/math/rotation.h"
 #include "elements/test/kit.h"
 #include "harness/model/model.h"
 #include "harness/time/test/masses.h"
 #include "harness/time/time_impl.h"
 
-/* What masses.h does not have. */
+/* Adds parts that masses.h does not have. */
 static void add_more(scene *s)
 {
     double k[36];
@@ -25,7 +26,7 @@ static void add_more(scene *s)
     scene_drive(s, 0, SCENE_UY, d);
 }
 
-/* A state on its way, with equations. */
+/* A state of a motion, with its equations. */
 typedef struct way {
     moving_one o;
     run_state run;
@@ -33,10 +34,10 @@ typedef struct way {
     equations eq;
     instant at;
     outcome_about out;
-    double size; /* of the stresses */
+    double size; /* size of the stresses */
 } way;
 
-/* Strains, stresses and inner unknowns of the places. */
+/* Finds the strains, stresses and inner unknowns for given positions. */
 static void settle_inner(way *w)
 {
     const model *m = w->o.m;
@@ -80,7 +81,7 @@ static void to_rates(const way *w, const double dx[], const double more[], doubl
     }
 }
 
-/* All forces where places, rates and accelerations differ by h times d[3 x all]. */
+/* Computes all forces where positions, rates and accelerations differ by h times d[3 x all]. */
 static void forces(way *w, double h, const double *const d[3], double out[])
 {
     const moving_one *o = &w->o;
@@ -107,7 +108,7 @@ static void forces(way *w, double h, const double *const d[3], double out[])
     inertia_subtract(o->m, &o->masses, w->at.state, v, a, out);
 }
 
-/* Half of what the moments on free rotations do: the exponential chart. */
+/* Adds half of the effect of the moments on free rotations, as in the exponential chart. */
 static void add_chart(way *w, const double dx[], double out[])
 {
     static const double none[MOST];
@@ -185,7 +186,8 @@ static void case_of(const element_type *type, int released, int spread)
         gsl_test(carried_alloc_spread(w.o.m, &w.o.masses, &f) != STATUS_OK, "%s", f.text);
     }
     for (int c = 0; c < w.o.all && type == &element_collocation; c++)
-        w.o.inc[c] *= 0.1; /* strains for which its own equations have a solution */
+        w.o.inc[c] *= 0.1; /* small increments, for which the element's own equations have a
+                              solution */
     increment_apply(w.o.m, w.o.rest, w.o.inc, 0, w.o.now);
     w.o.masses.damping = 0.3;
     gsl_test(run_state_begin(&w.run, w.o.m, 1, &f) != STATUS_OK, "%s", f.text);

@@ -1,6 +1,6 @@
 /* Steady spin of a rod that is stretched by 2 %, bent by 0.8 rad and twisted by 0.6 rad between
- * driven ends. The shape in equilibrium at the rate w = (2/h) tan(turn/2) remains constant, for
- * every formulation, about any axis, up to 3 rad per step. */
+ * prescribed ends. The shape in equilibrium at the rate w = (2/h) tan(turn/2) remains constant
+ * for every formulation, about any axis, up to 3 rad per step. */
 #include <stdio.h>
 
 #include "cases/scene/scene.h"
@@ -23,7 +23,8 @@ static struct {
     double h;             /* rate = (2/h) tan(turn/2) */
 } present;
 
-/* A node at r, whose end is displaced by d at the start, moves around the origin. */
+/* Prescribes the motion of a node at r around the origin; its end is displaced by d at the
+ * start. */
 static void drive(scene *s, int node, const int vector[3], const double r[3], const double d[3])
 {
     const double *n = present.axis, spin = present.turn / present.h;
@@ -74,7 +75,7 @@ static status build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Rates of a steady rotation, and their derivatives. */
+/* Sets the rates of a steady rotation, and their derivatives. */
 static void turn_rates(const flight *f)
 {
     const model *m = f->m;
@@ -104,8 +105,8 @@ static void turn_rates(const flight *f)
     }
 }
 
-/* Finds the state in equilibrium with the inertia forces of that rotation; returns the largest last
- * correction. */
+/* Finds the state in equilibrium with the inertia forces of that rotation. Returns the largest
+ * component of the last correction. */
 static double settle_flight(flight *f)
 {
     model *m = f->m;
@@ -143,7 +144,7 @@ static double settle_flight(flight *f)
     return correction;
 }
 
-/* Moves driven coordinates to their initial values. */
+/* Moves prescribed coordinates to their initial values. */
 static void pull(flight *f)
 {
     model *m = f->m;
@@ -158,7 +159,7 @@ static void pull(flight *f)
     free(dx);
 }
 
-/* Largest change of a strain over the steps, relative to the largest strain. */
+/* Returns the largest change of a strain over the steps, relative to the largest strain. */
 static double spin_change(flight *f, const double begin[], int *iterations)
 {
     const int count = model_elements(f->m) * model_strains(f->m);
@@ -222,15 +223,15 @@ static void spin_tests(void)
                 check(registry_formulations[i]->name, axes[a], turns[t]);
 }
 
-/* Free flights with the conserving scheme: energy and momenta over 40 s for any stiffness of the
- * rod in tension and shear, order 2, time reversal, and results that depend neither on the axes nor
- * on the direction of the member. */
+/* Free flights with the conserving scheme. Energy and momenta are constant over 40 s for any
+ * stiffness of the rod in tension and shear, the order is 2, and steps are reversible. Results
+ * depend neither on the axes nor on the direction of the member. */
 
 static struct {
-    double stiffening, turn[4]; /* axes of the scene, a quaternion */
+    double stiffening, turn[4]; /* turn: axes of the scene, as a quaternion */
 } how = {1, {1, 0, 0, 0}};
 
-static const double flights_h = 0.05, thrown = 5; /* [s] step size; end of the loads */
+static const double flights_h = 0.05, thrown = 5; /* [s] step size, and end of the loads */
 
 /* The rod of free_flight_space. */
 static status flights_build(const double value[], scene *s, fault *f)
@@ -282,7 +283,7 @@ static void fly(flight *f, int steps, double step)
     gsl_test(outcome != STATUS_OK, "EA x %g, steps of %g s: %s", how.stiffening, step, f->why.text);
 }
 
-/* Positions of both ends, in the axes of the scene without rotation. */
+/* Computes the positions of both ends in the axes of the scene without rotation. */
 static void ends_of(const flight *f, double r[6])
 {
     double back[4];
@@ -301,7 +302,7 @@ static double apart(const double a[6], const double b[6])
     return largest;
 }
 
-/* Mean number of iterations per step. */
+/* Returns the mean number of iterations per step. */
 static double long_flight(const char *with)
 {
     flight f;
@@ -419,18 +420,19 @@ static void flights_tests(void)
 }
 
 /* Every formulation flies freely with the conserving scheme: sheets, thin-walled sections with
- * warping and an eccentric shear centre, curved members, members of two sections, spinning and
- * swinging. Energy and both momenta are constant, and steps are reversible. */
+ * warping and an eccentric shear centre, curved members, and members of two sections, spinning
+ * and swinging. Energy and both momenta are constant, and steps are reversible. */
 
 enum { FORMULATIONS_STEPS = 60 };
 
-/* Shape and motion of a rod in the test. */
+/* Shape and motion of a rod. */
 typedef struct look {
     const char *name;
     section_kind kind;
     double curvature[3]; /* [1/m] */
     int tapers;
-    double h, speed, spin; /* [s]; [m/s] velocity of the swing; [rad/s] */
+    double h, speed, spin; /* step size [s]; velocity of the swing [m/s]; angular velocity of the
+                              spin [rad/s] */
 } look;
 
 static const look looks[] = {
@@ -483,7 +485,7 @@ static status formulations_build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Starts bending: transverse velocities, without momentum for a straight rod. */
+/* Starts a bending motion: transverse velocities, which have no momentum for a straight rod. */
 static void swing(flight *f)
 {
     const model *m = f->m;

@@ -1,6 +1,7 @@
-/* Initial states of motions, and quantities read from them: a beam in steady rotation keeps its
- * shape in the motion that follows; reactions are those of the steady rotation; sections carry the
- * inertia beyond them; a state at rest oscillates when its load ends. */
+/* Initial states of motions, and quantities read from them. A beam in steady rotation keeps its
+ * shape in the motion that follows. Reactions are those of the steady rotation. Section forces
+ * balance the inertia of the parts beyond the section. A state at rest oscillates when its load
+ * ends. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -80,8 +81,8 @@ static void start_tests(void)
     release("0", 1);
 }
 
-/* Resultants between nodes in a motion agree with a closed form: for a rod along x that spins about
- * z through its end, r = sin(k X)/(k cos(k L)), N = EA (cos(k X)/cos(k L) - 1), k^2 = m w^2/EA,
+/* Resultants between nodes in a motion agree with a closed form. A rod along x spins about z
+ * through its end: r = sin(k X)/(k cos(k L)), N = EA (cos(k X)/cos(k L) - 1), k^2 = m w^2/EA,
  * which for small strains is m w^2 (L^2 - X^2)/2. The order is 2 at nodes and between them, like
  * that of the lumped masses. */
 
@@ -99,7 +100,7 @@ static double expected(int i)
     return EA * (cos(k * place[i] * length) / cos(k * length) - 1);
 }
 
-/* order: minimum order between the two finest meshes; if 2, also the maximum. */
+/* order: minimum order between the two finest meshes; if it is 2, it is also the maximum. */
 static void spin(const element_type *type, scene_scheme scheme, double order)
 {
     double error[MESHES][PLACES];
@@ -127,12 +128,13 @@ static void between_nodes_tests(void)
 {
     spin(&element_collocation, SCENE_CONSERVING, 2);
     spin(&element_collocation, SCENE_RADAU, 2);
-    spin(&element_geometrically_exact, SCENE_CONSERVING, 3); /* with three nodes, at nodes 4 */
+    spin(&element_geometrically_exact, SCENE_CONSERVING, 3); /* with three nodes; the order at
+                                                                nodes is 4 */
     spin(&element_geometrically_exact, SCENE_RADAU, 3);
 }
 
-/* Two rods that swing on a ball joint in space, with released rotations or shifts between them: the
- * inertia of released ends moves with them; otherwise energy would be gained. */
+/* Two rods swing on a ball joint in space, with released rotations or shifts between them. The
+ * inertia of released ends must move with them; otherwise energy is gained. */
 
 extern const element_type element_geometrically_exact;
 
@@ -175,7 +177,8 @@ static void linked_tests(void)
 }
 
 /* Ends that are released from their nodes have their inertia at their own position, with every
- * integrator: all give the same motion and reaction, with errors of second order or less. */
+ * integrator. All integrators give the same motion and reaction, with errors of second order or
+ * smaller. */
 
 extern const element_type element_geometrically_exact;
 
@@ -185,8 +188,8 @@ enum { COMPONENTS = 3, ASKED = COMPONENTS + 2 };
 
 static const char *const ends_joints[] = {"hinge", "universal", "ball", "slide", "sliding_hinge"};
 
-/* Gives the position of the tip, the reaction of the node that the other rod is released from, and
- * the drift. */
+/* Computes the position of the tip, the reaction of the node from which the other rod is
+ * released, and the energy-balance error. */
 static void ends_solve(const char *of, scene_scheme by, double step, double found[ASKED])
 {
     static const char *const name[] = {"C_ux", "C_uy", "C_uz", "held", "drift"};
@@ -232,14 +235,14 @@ static void ends_tests(void)
     }
 }
 
-/* Stiffness-proportional damping: a slow mode decays at the rate eta w/2, a rigid rotation does not
- * decay, and the lost energy is accounted for. */
+/* Stiffness-proportional damping. A slow mode decays at the rate eta w/2, a rigid rotation does
+ * not decay, and the lost energy is accounted for. */
 
 extern const element_type element_geometrically_exact;
 
 #define DAMPING_RODS "harness/time/test/rods.yaml"
 
-/* Angular frequency of the lowest mode. */
+/* Returns the angular frequency of the lowest mode. */
 static double lowest(void)
 {
     answer a;
@@ -247,7 +250,7 @@ static double lowest(void)
     return 2 * PI * answer_of(&a, "f");
 }
 
-/* h: of a period */
+/* h: step size as a fraction of the period. */
 static void decay(scene_scheme scheme, double h, double drift)
 {
     const double w = lowest(), ratio = 0.03, eta = 2 * ratio / w, period = 2 * PI / w;
@@ -263,7 +266,8 @@ static void decay(scene_scheme scheme, double h, double drift)
              moving_largest(&a, "drift"), moving_largest(&a, "energy"));
 }
 
-/* A free rod rotates, bent only by its inertia: the loss remains small. Returns the drift. */
+/* A free rod rotates and is bent only by its inertia: the energy loss remains small. Returns the
+ * energy-balance error. */
 static double turn(scene_scheme scheme, double eta, double h)
 {
     answer a;

@@ -1,5 +1,5 @@
-/* Stations at any times: values inside steps are as accurate as at their ends, with any number of
- * stations in one step, also at the start; and stations do not affect the motion. */
+/* Stations at any times. Values inside steps are as accurate as at the ends of steps, with any
+ * number of stations in one step and at the start. Stations do not affect the motion. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -22,7 +22,7 @@ static void solve(int scheme, double step, int asked, cell_result *out)
                  scenes_integrator[scheme], step, asked_for[asked]);
 }
 
-/* Largest difference of the curves, each relative to its largest value. */
+/* Returns the largest difference of the curves, each relative to its largest value. */
 static double apart(const cell_result *a, const cell_result *b, int first, int last)
 {
     double largest = 0;
@@ -41,7 +41,7 @@ static double apart(const cell_result *a, const cell_result *b, int first, int l
     return largest;
 }
 
-/* Errors with two step sizes, compared with a much smaller step. */
+/* Computes the errors with two step sizes, by comparison with a much smaller step. */
 static void errors_of(int scheme, double step, int asked, int last, double out[2])
 {
     cell_result exact, r;
@@ -54,8 +54,8 @@ static void errors_of(int scheme, double step, int asked, int last, double out[2
     cell_result_free(&exact);
 }
 
-/* Results inside and at the ends of steps have the order of the scheme, and the errors inside are
- * no larger. Order 8 is an exception: the polynomial of order 6 loses some of it. */
+/* Results inside and at the ends of steps have the order of the scheme, and the errors inside
+ * are not larger. Order 8 is an exception, because the polynomial inside a step has order 6. */
 static void orders(const char *name, int scheme, double step, double order)
 {
     double inside[2], at_ends[2], forces[2];
@@ -107,8 +107,8 @@ static void stations_tests(void)
     undisturbed("explicit", SCENE_EXPLICIT, 0.04);
 }
 
-/* Step sizes: halved when a step fails, and doubled after successful steps up to the requested
- * size; chosen by error estimates if a tolerance is given. */
+/* Step sizes: without a tolerance, they are halved when a step fails, and doubled after
+ * successful steps up to the requested size; with a tolerance, error estimates determine them. */
 
 #define CONTROL_SWUNG "harness/time/test/swung.yaml"
 
@@ -119,8 +119,8 @@ static void turn(scene_scheme by, double step, double tolerance, double spin, ce
                  scenes_integrator[by], step, tolerance, spin);
 }
 
-/* A step rotates by at most one radian: at 3 rad/s, a step of 0.5 s is halved whenever it is
- * tried. */
+/* A step may rotate by at most one radian. At 3 rad/s, a step of 0.5 s is therefore halved
+ * whenever it is tried. */
 static void halve(void)
 {
     cell_result r;
@@ -134,8 +134,8 @@ static void halve(void)
     cell_result_free(&r);
 }
 
-/* Step sizes follow the order of the estimate: a sixteenth of the tolerance takes twice the steps,
- * and hardly any step is rejected. */
+/* Step sizes follow the order of the estimate: a tolerance that is smaller by the factor 2^order
+ * takes twice the steps, and hardly any step is rejected. */
 static void follow(scene_scheme by, double order, double tolerance)
 {
     int steps[2], rejected = 0;
@@ -157,8 +157,8 @@ static void follow(scene_scheme by, double order, double tolerance)
     gsl_test(rejected > steps[1] / 20, "scheme %d: %d longer steps rejected", by, rejected);
 }
 
-/* If errors of steps add up, each step has a share proportional to its size; the total is below the
- * tolerance, but not by more than a factor of ten. */
+/* If errors of steps add up, the allowed error of a step is proportional to its size. The total
+ * error is below the tolerance, but not by more than a factor of ten. */
 static void share(scene_scheme by, double tolerance)
 {
     cell_result r;
@@ -184,13 +184,13 @@ static void control_tests(void)
     follow(SCENE_RADAU, 4, 1e-8);
 }
 
-/* Motions that continue each other equal one motion, bit for bit; if errors are estimated, up to
- * the round-off of a factorisation with new pivots. */
+/* Motions that continue each other equal one motion, bit for bit. If errors are estimated, they
+ * are equal up to the round-off of a factorisation with new pivots. */
 
 #define RESUME_SWUNG "harness/time/test/swung.yaml"
 
-/* A load jumps at 0.5 s; steps end there, whether or not a motion ends there too. joint: of a rod
- * at the tip. */
+/* A load jumps at 0.5 s. Steps end there, whether or not a motion ends there too. joint 1: a rod
+ * at the tip is attached by a joint. */
 static void same_linked(const char *name, int scheme, double tolerance, int parts, int joint)
 {
     cell_result one, more;
@@ -235,8 +235,8 @@ static void resume_tests(void)
     same_linked("conserving with a joint", SCENE_CONSERVING, 0, 3, 1);
 }
 
-/* If a load is not finite for a while, the motion ends there: every accepted step has a finite
- * state. */
+/* If a load is not finite for some time, the motion ends before: every accepted step has a
+ * finite state. */
 
 #define FINITE_SWUNG "harness/time/test/swung.yaml"
 
@@ -269,13 +269,13 @@ static void not_finite_tests(void)
     stop(SCENE_EXPLICIT);
 }
 
-/* Largest and smallest values of quantities that are known at the ends of steps: a peak between
- * stations is found, and between steps with the order of the cubic; in a time window; at a jump of
- * the loads. */
+/* Largest and smallest values of quantities that are known at the ends of steps. A peak is found
+ * between stations and, with the order of the cubic, between steps; in a time window; and at a
+ * jump of the loads. */
 
 #define PEAKS_SWUNG "harness/time/test/swung.yaml"
 
-/* There is one station at the end, so that all earlier extrema are between stations. */
+/* The only station is at the end, so that all earlier extrema are between stations. */
 static void peaks_tests(void)
 {
     static const double step[] = {0.04, 0.02, 0.00125};
@@ -303,9 +303,9 @@ static void peaks_tests(void)
     }
 }
 
-/* Extrema, crossings, periods and means: exact to round-off for a known, driven motion; for a free
- * motion with the order of the scheme, with an estimate of the error of the polynomial inside
- * steps. */
+/* Extrema, crossings, periods and means. For a known, prescribed motion they are exact to
+ * round-off. For a free motion they have the order of the scheme, with an estimate of the error
+ * of the polynomial inside steps. */
 
 #define WATCHES_SWUNG "harness/time/test/swung.yaml"
 
