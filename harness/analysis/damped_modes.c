@@ -75,7 +75,7 @@ static double size_of(const unsymmetric_result *r, int i)
     return hypot(r->growth[i], r->frequency[i]);
 }
 
-/* The shift relative to the slowest mode. */
+/* The shift divided by the magnitude of the slowest mode. */
 static const double small = 1e-3;
 
 /* Returns 1 if the slow pole of an integral hides other modes in round-off. */

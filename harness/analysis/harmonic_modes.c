@@ -33,7 +33,8 @@ void harmonic_modes_free(harmonic_modes *m)
         free(block[i]);
 }
 
-/* Factors K. Refused if K has a singular pivot. */
+/* Factors K, or K + shift M if K is singular. REFUSED: K is unsymmetric, or the state is unstable.
+ */
 static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
 {
     fault why = {""};

@@ -23,7 +23,7 @@ int modal_wanted(const analysis_context *c, int analysis)
     return wanted + others;
 }
 
-/* K of the modes, which consists of the structure, the prestress and the shift. */
+/* The quadratic form of K: the stiffness of the structure, that of the prestress, and the shift. */
 typedef struct modal_forms {
     quadratic_forms of;
     int prestressed;

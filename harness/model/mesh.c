@@ -153,7 +153,8 @@ static status set_inner(const model *m, const element_request *request, mesh_kin
     return STATUS_OK;
 }
 
-/* The unstressed state of an element: its strains from the scene, and `free` of a kind. */
+/* The unstressed state of an element: its strains from the scene, and the stress-free elongation
+ * and curvatures of its kind (`free`). */
 typedef struct unstressed {
     double strain[3], free[3];
 } unstressed;

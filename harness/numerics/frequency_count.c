@@ -228,8 +228,8 @@ static double missed(motion_estimate *e, int i, double complex lambda, double ow
     return 2 * sum;
 }
 
-/* Bound on the rounding of x^H (K + lambda^2 M + lambda G) x. The entries of the matrices are
- * themselves results of a few operations each. */
+/* Returns a bound on the rounding error of x^H (K + lambda^2 M + lambda G) x. The entries of the
+ * matrices are themselves results of a few operations each. */
 static double rounding(const motion_estimate *e, double size, const double re[], const double im[])
 {
     const double operations = 4;

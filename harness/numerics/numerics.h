@@ -299,7 +299,7 @@ static inline const char *phase_name(newton_phase k)
 typedef struct thread_team thread_team;
 typedef void team_work(void *context, int first, int end); /* [first, end) */
 
-/* Computes one piece of work into all members of a slot. */
+/* Computes one piece of the work and stores the results in a slot. */
 typedef void team_fill(void *context, int piece, int slot);
 /* Called in the calling thread to use the content of a slot; returns 0 to stop. */
 typedef int team_take(void *context, int piece, int slot);

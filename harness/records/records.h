@@ -42,8 +42,8 @@ typedef struct assumption {
 const char *assumptions_kind(int kind); /* Returns the name of a kind, such as "not known". */
 /* Sets *out to assumption number `index` of the point; returns 0 if there is none. */
 int assumptions_at(const sweep_point *p, int index, assumption *out);
-/* Writes all assumptions as "kind: text", separated by semicolons. If the text is too small, it
- * ends with the number of the remaining ones. */
+/* Writes all assumptions as "kind: text", separated by semicolons. If `out` is too small, the
+ * text ends with the number of the remaining assumptions. */
 void assumptions_words(const sweep_point *p, size_t size, char out[]);
 
 /* Results of a stored run: errors and work of each cell, and a summary of each series of meshes.
