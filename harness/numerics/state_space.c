@@ -339,8 +339,8 @@ static status find_modes(split *s, fault *f)
     return STATUS_OK;
 }
 
-/* Adds `times` the force in the equation of coordinate r, without inertia, to to[states + inputs]:
- * F - C q' - K q. */
+/* Adds `times` the force in the equation of coordinate r, without inertia, to the row to[states +
+ * inputs]: F - C q' - K q. */
 static void force_on(const split *s, size_t r, double times, const double *slow_rows, double to[])
 {
     const second_order *m = s->of;

@@ -1,4 +1,4 @@
-"""The parameter `omit` of built-in cases: their sources omit physics, omit=none includes all physics, and and stored
+"""The parameter `omit` of built-in cases: their sources omit physics, omit=none includes all physics, and stored
 values of a case do not apply then."""
 import csv
 import io
