@@ -15,11 +15,11 @@ import sys
 HEAD = "# beamwork-import: 1\n# program: {}\n# case: {}\n# model: solid\n"
 COLUMNS = ("quantity", "unit", "elements", "unknowns", "seconds", "x", "value", "uncertainty")
 PROGRAM = "CalculiX C3D20R"
-DIGITS = 5e-7  # relative error of a printed number
+DIGITS = 5e-7  # relative error of a printed number, due to its 7 digits
 
 
 class Incomplete(Exception):
-    """The deck was not solved to its end, or beamwork did not write it."""
+    """The deck was not solved to its end, or was not written by beamwork."""
 
 
 def printed(path):
@@ -54,7 +54,7 @@ def value_of(answer, blocks):
 
 
 def unknowns(lines):
-    """Counts the coordinates of the nodes of the solid, including fixed ones."""
+    """Returns the number of coordinates of the nodes of the solid, including fixed ones."""
     first = next(i for i, line in enumerate(lines) if line.startswith("*NODE,"))
     last = next(i for i in range(first + 1, len(lines)) if lines[i].startswith("*"))
     return 3 * (last - first - 1)
@@ -69,7 +69,7 @@ def said(lines, card):
 
 
 def head_of(lines):
-    """Returns the header of the import of a deck."""
+    """Returns the header for the import of a deck."""
     head = HEAD.format(PROGRAM, said(lines, "**CASE "))
     if any(line.startswith("**CONVENTION ") for line in lines):
         head += f"# convention: {said(lines, '**CONVENTION ')}\n"
@@ -77,7 +77,7 @@ def head_of(lines):
 
 
 def rows(deck):
-    """Returns the header of the import and the rows of one deck."""
+    """Returns the header for the import, and the rows, of one deck."""
     lines = deck.read_text(encoding="utf-8").splitlines()
     head = head_of(lines)
     elements, count = said(lines, "**ELEMENTS "), unknowns(lines)
@@ -93,7 +93,7 @@ def rows(deck):
 
 
 def series(decks):
-    """Returns header and rows of decks of one scene, each with a different mesh."""
+    """Returns header and rows of several decks of one scene, each with a different mesh."""
     heads, out, meshes = set(), [], set()
     for deck in decks:
         head, found = rows(deck)

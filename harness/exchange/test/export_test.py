@@ -15,7 +15,8 @@ from harness.exchange.test.export_case import (CHANNEL, ExportTest, HEIGHT, INER
 from harness.tools.kit.program import ROOT, run
 
 
-# export: decks are meshes that fill their members, unsupported scenes are rejected, and the output of CalculiX is read.
+# export: decks contain meshes that fill their members, unsupported scenes are rejected, and the output of CalculiX is
+# read.
 class Decks(ExportTest):
     def test_bricks_fill_the_member(self):
         """The elements are right-handed, fill the volume of the member and lie between its ends; all nodes are used,
@@ -43,8 +44,8 @@ class Decks(ExportTest):
                                            atol=1e-12)
 
     def test_walls(self):
-        """Bricks share their faces, and none is filled twice. The area is that of the walls, except for ends within
-        another wall; the deck states the difference."""
+        """Bricks share their faces, and no space is filled twice. The area is that of the walls, except where a wall
+        ends inside another one; the deck states the difference."""
         faces = [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
         for section, (area, twice) in WALLS.items():
             deck = self.deck(self.scene(cantilever(1.0).replace(RECTANGLE, section)), "-n", "3")
@@ -66,7 +67,8 @@ class Decks(ExportTest):
             self.assertAlmostEqual(float(off), -100 * twice / area, delta=1e-2, msg=section)
 
     def test_walls_are_where_the_section_says(self):
-        """A channel with its y axis along x and its z axis along z: the web is b^2 tf/A from the centroid."""
+        """For a channel with its y axis along x and its z axis along z, the web is at the distance b^2 tf/A from the
+        centroid."""
         section = next(iter(WALLS))
         scene = self.scene(cantilever(1.0).replace(RECTANGLE, section))
         nodes, elements = mesh_of(self.deck(scene, "-n", "1"))
@@ -88,7 +90,7 @@ class Decks(ExportTest):
         self.assertIn("leaf_spring_guide.yaml; thickness=0.0004\n", deck)
 
     def test_one_turn(self):
-        """A sequence of one rotation about z is prescribed there and fixed about x and y."""
+        """A sequence of one rotation about z is prescribed about z, and fixed about x and y."""
         deck = self.deck(self.scene(hinge()), "-n", "2").read_text(encoding="utf-8")
         moment = re.search(r"^\*\*Q moment\|N m\|forces\|4\|(\d+)\|3\|", deck, re.M)
         states = [step for step in deck.split("*STEP") if step.startswith(",NLGEOM")]
@@ -145,10 +147,10 @@ class Decks(ExportTest):
 
 
 class Answers(ExportTest):
-    """Reads output that CalculiX would have printed, without running CalculiX."""
+    """Tests the reading of output in the form of CalculiX, without running CalculiX."""
 
     def printed(self, *vectors):
-        """Writes a deck with its .dat, in which every step prints the next pair (displacement, force)."""
+        """Writes a deck and its .dat, in which every step prints the next pair (displacement, force)."""
         deck = self.deck(self.scene(cantilever(1.0, PATH)), "-n", "1")
         answers = [line[4:].split("|") for line in deck.read_text(encoding="utf-8").splitlines()
                    if line.startswith("**Q ")]
@@ -221,7 +223,7 @@ class Answers(ExportTest):
 @needs_ccx
 class Solved(ExportTest):
     def test_cantilever(self):
-        """Tip deflection F L^3/(3 E I) + 6 F L/(5 G A), rotation F L^2/(2 E I)."""
+        """Exact values: tip deflection F L^3/(3 E I) + 6 F L/(5 G A), rotation F L^2/(2 E I)."""
         found = self.solved(self.scene(cantilever(2.0)), "-n", "10")
         bent = 2 * LENGTH**3 / (3 * YOUNG * INERTIA)
         sheared = 1.2 * 2 * LENGTH / (YOUNG / 2 * WIDTH * HEIGHT)
@@ -230,7 +232,7 @@ class Solved(ExportTest):
                                delta=1e-3)
 
     def test_elastica(self):
-        """F L^2/(E I) = 2: deflection 0.49346 L, shortening 0.16064 L (Mattiasson 1981)."""
+        """Exact values for F L^2/(E I) = 2: deflection 0.49346 L, shortening 0.16064 L (Mattiasson 1981)."""
         force = 2 * YOUNG * INERTIA / LENGTH**2
         found = self.solved(self.scene(cantilever(force, PATH)), "-n", "16")
         self.assertAlmostEqual(found["deflection"] / (0.49346 * LENGTH), 1, delta=2e-3)
@@ -238,8 +240,8 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["held"] / -force, 1, delta=1e-5)
 
     def test_arc(self):
-        """The end rotates by a: deflection (1 - cos a) L/a, shortening (1 - sin a/a) L. This also holds for an oblique
-        bar, whose rotation axis is not a coordinate axis."""
+        """Exact values for an end rotation a: deflection (1 - cos a) L/a, shortening (1 - sin a/a) L. They also hold
+        for an oblique bar, whose rotation axis is not a coordinate axis."""
         angle, c, s = 1.2, 0.8, 0.6
         text = cantilever(0.0, PATH).replace(
             "tip:  {at: [0.02, 0.1, 0]", "tip:  {at: [0.02, 0.08, 0.06], rotation: {vector: [none, "
@@ -256,7 +258,7 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["turn"], -c * angle, delta=1e-6)
 
     def test_compliance(self):
-        """The compliance of a beam's end, with moments: L/(E I), L^2/(2 E I), L/(E A)."""
+        """Exact compliances of a beam's end, including moments: L/(E I), L^2/(2 E I), L/(E A)."""
         text = cantilever(1.0).replace("run: {linear: {}}", "run: {compliance: {node: tip}}")
         entries = {"turn_turn": ("rz", "rz", "rad/(N m)", LENGTH / (YOUNG * INERTIA)),
                    "turn_move": ("rz", "ux", "rad/N", -LENGTH**2 / (2 * YOUNG * INERTIA)),
@@ -270,8 +272,8 @@ class Solved(ExportTest):
             self.assertAlmostEqual(found[name] / value, 1, delta=2e-3, msg=name)
 
     def test_channel(self):
-        """A channel of 2 m with rigid ends: each compliance of the solid, and the twist due to a force on the centroid,
-        exceeds that of the beam by the given percentage."""
+        """For a channel of 2 m with rigid ends, each compliance of the solid, and the twist due to a force on the
+        centroid, exceeds that of the beam by the given percentage."""
         head = cantilever(1.0).replace(RECTANGLE, CHANNEL).replace("at: [0.02, 0.1, 0]", TIP)
         text = head[:head.index("loads:")] + (
             "analyses:\n  run: {compliance: {node: tip}}\nquantities:\n" + "".join(
@@ -287,8 +289,8 @@ class Solved(ExportTest):
             self.assertAlmostEqual(more[name], percent, delta=0.1, msg=name)
 
     def test_wagner_moments(self):
-        """A channel of 4 m loaded at its centroid twists and moves transversely to its load: 12 % more than beams
-        without int y (y^2 + z^2) dA, 0.6 % less than beams with it."""
+        """A channel of 4 m loaded at its centroid twists and moves transversely to its load. The solid moves 12 %
+        more than beams without int y (y^2 + z^2) dA, and 0.6 % less than beams with this term."""
         text = cantilever(0.0, "{static: {stations: [1]}}").replace(RECTANGLE, CHANNEL).replace(
             "force: [0.0, 0, 0]", "force: [0, 0, -3e3]").replace("[0.02, 0.1, 0]", "[0.02, 4, 0]")
         text = text.replace("shear_modulus: 100e9", "shear_modulus: 80e9")

@@ -1,4 +1,5 @@
-"""import: names, units, parameters, axes; all errors are reported at once; verify compares the imported values."""
+"""import: names, units, parameters and axes are converted; all errors are reported in one run; verify compares the
+imported values."""
 import json
 import pathlib
 import unittest
@@ -114,14 +115,15 @@ class Import(ProgramTest):
         self.assertIn("given again", self.read(HEAD + COLUMNS + ROWS + ROWS, 2).stderr)
 
     def test_axes(self):
-        """The other program's x is our -y: its C_ux_Fx is our C_uy_Fy; an entry with only one such index changes sign."""
+        """If the other program's x axis is beamwork's -y axis, its C_ux_Fx is beamwork's C_uy_Fy. An entry with only
+        one such index changes sign."""
         self.read(HEAD + "# axes: x=-y y=x z=z\n" + COLUMNS +
                   "C_ux_Fx, m/N, 2,,,, 3,\nC_ux_Fy, m/N, 2,,,, 4,\n")
         found = {row["quantity"]: (row["value"], row["factor"]) for row in self.stored()}
         self.assertEqual(found, {b"C_uy_Fy": (3, 1), b"C_uy_Fx": (-4, -1)})
 
     def test_mirrored_axes(self):
-        """In a reflection, a rotation about a normal that does not change has the opposite sign."""
+        """In a reflection, a rotation about an axis that does not change has the opposite sign."""
         self.read(HEAD + "# axes: x=x y=-y z=z\n# convention: spatial\n" + COLUMNS +
                   "C_ux_Mz, 1/N, 2,,,, 3,\nC_uy_Mz, 1/N, 2,,,, 4,\nC_thz_Mz, rad/(N m), 2,,,, 5,\n")
         self.assertEqual({row["quantity"]: row["value"]
@@ -129,7 +131,7 @@ class Import(ProgramTest):
                          {b"C_ux_Mz": -3, b"C_uy_Mz": 4, b"C_thz_Mz": 5})
 
     def test_a_motion_in_other_axes(self):
-        """Rates, momenta, rotations and energies of a motion are converted, and maxima that become minima."""
+        """Rates, momenta, rotations and energies of a motion are converted, and maxima may become minima."""
         (self.folder / "fly.yaml").write_text(FLYING, encoding="utf-8")
         rows = "".join(f"{name}, {unit}, 2,,,, {value},\n" for name, unit, value in (
             ("vx", "mm/s", 3), ("vy", "mm/s", 4), ("Ly", "kg m^2/s", 5), ("pz", "N s", 6),
@@ -187,8 +189,8 @@ class Import(ProgramTest):
                    self.folder / name, *options)
 
     def test_what_is_missing_is_gone(self):
-        """A missing series is reported as gone: after a change of name, without the import, or without a mesh; between two runs, against the
-        short table, and in the run itself."""
+        """A missing series is reported as gone: after a change of its name, without the import, or without a mesh.
+        This holds for a comparison of two runs, with the short table, and in the run itself."""
         values = ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))
         text = "# beamwork-import: 1\n# program: {}\n# version: {}\n# case: elastica\nquantity, unit, elements, value\n"
         rows = [f"w_over_L, 1, {n}, {value}\n" for n, value in values]
@@ -245,7 +247,8 @@ class Import(ProgramTest):
         self.assertIn("finest mesh, n = 8: 0.4615", " ".join(done.stdout.split()))
 
     def test_several_beside(self):
-        """Each file is given once, and each program occurs once at a point; series at other points are counted in a message."""
+        """Each file may be given once, and each program may occur once at a point. A message gives the number of
+        series at other points."""
         self.read(
             HEAD.replace("MBDyn 1.7.3, 3-node", "rival") + COLUMNS + ROWS +
             "# case: elastica\nw_over_L, 1, 2,,,, 1,\n")

@@ -1,4 +1,5 @@
-"""One results file for all experiments, through the program: several at a time, old files, damaged files."""
+"""One results file for all experiments, written by the program: several experiments at a time, old files, damaged
+files."""
 import fcntl
 import shutil
 import subprocess
@@ -24,7 +25,7 @@ SAYS = ("schema", "schema_version", "program_version", "commit", "clock")
 
 
 def content(group):
-    """Returns all contents of a group, as bytes."""
+    """Returns the entire contents of a group as bytes."""
     found = {"": sorted((name, str(value)) for name, value in group.attrs.items())}
 
     def take(name, one):
@@ -106,7 +107,7 @@ class Experiments(ProgramTest):
         self.assertTrue((self.folder / "site" / "stability.html").exists())
 
     def test_times_alone(self):
-        """Results of bench can be compared in a file without results of verify."""
+        """Results of bench can be compared in a file that has no results of verify."""
         path = self.folder / "times.h5"
         self.answered(*ASKED["bench"], "-o", path)
         self.assertIn(SAME, self.answered("compare", path, path).stdout)
@@ -126,7 +127,7 @@ class Experiments(ProgramTest):
         self.assertIn("measured by <code>make bench</code>", page)
 
     def test_what_would_be_lost(self):
-        """If a file would be lost, the run is rejected before the work, and the file does not change."""
+        """If a file would be lost, the run is rejected before it starts, and the file does not change."""
         damaged, other = self.folder / "damaged.h5", self.folder / "other.h5"
         damaged.write_bytes(self.path.read_bytes()[:-100])
         with h5py.File(other, "w") as file:
@@ -138,7 +139,8 @@ class Experiments(ProgramTest):
             self.assertEqual(path.read_bytes(), before)
 
     def test_a_sweep_alone(self):
-        """An old file of a sweep alone can be compared, reported and replaced, and other experiments can be added."""
+        """An old file with only a sweep can be compared, reported and replaced, and other experiments can be added
+        to it."""
         def old(file):
             group = file["experiments/sweep"]
             for name in group:
@@ -164,7 +166,7 @@ class Experiments(ProgramTest):
         self.assertEqual(set(contents(path)), {"verify", "stress", "sweep"})
 
     def test_held(self):
-        """A file in use by another run, or by a program that writes to it, is reported before the work."""
+        """A file in use by another run, or by a program that writes to it, is reported before the run starts."""
         with open(f"{self.path}.lock", "w", encoding="ascii") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             self.refused(2, "another run is using", *ASKED["sweep"], "-o", self.path)
@@ -176,7 +178,7 @@ class Experiments(ProgramTest):
         self.refused(4, "cannot be locked", *ASKED["stress"], "-o", self.path)
 
     def test_text_still(self):
-        """The name of the file selects text output."""
+        """The ending of the file's name selects text output."""
         path = self.folder / "stress.csv"
         self.answered(*ASKED["stress"], "--format", "csv", "-o", path)
         self.assertEqual(path.read_text(encoding="utf-8"),

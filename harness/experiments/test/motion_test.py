@@ -1,4 +1,4 @@
-"""beamwork motion: time-integration errors, orders, energy and momenta, through the program."""
+"""beamwork motion, through the program: time-integration errors, orders, energy and momenta."""
 import csv
 import io
 import json

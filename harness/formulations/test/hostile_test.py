@@ -1,5 +1,5 @@
-"""Malicious or faulty processes: each leads to one line that names the formulation and what happened, in `solve` and in
-every cell of `verify`; no process remains."""
+"""Malicious or faulty processes. Each of them leads to one line that names the formulation and what happened, in
+`solve` and in every cell of `verify`, and no process remains."""
 import json
 import textwrap
 
@@ -8,7 +8,7 @@ from harness.tools.kit.program import ROOT, run
 
 
 class Refused(Speaker):
-    """Errors before the formulation is known: exit status 2."""
+    """Errors before the formulation is known lead to exit status 2."""
 
     def test_no_such_command(self):
         self.refuse("exec:/no/such/command at all", "/no/such/command", "No such file")
@@ -66,7 +66,7 @@ class Refused(Speaker):
 
 
 class Evaluated(Speaker):
-    """Errors during a solution: exit status 1, and a reason in each cell."""
+    """Errors during a solution lead to exit status 1, and to a reason in each cell."""
 
     def one_line(self, words, at, what=2):
         element = self.speaker(at=f"if what == {what}:\n" + textwrap.indent(at, "    "))

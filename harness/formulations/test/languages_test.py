@@ -1,4 +1,4 @@
-"""The element interface in other languages: its headers in C and C++, its module in Fortran."""
+"""The element interface in other languages: the headers in C and C++, and the module in Fortran."""
 import re
 import shutil
 import subprocess
@@ -28,7 +28,7 @@ def public_headers():
 
 
 class Headers(ProgramTest):
-    """Requires that each header compiles alone, also if it is included twice."""
+    """Each header compiles alone, even if it is included twice."""
 
     def compiles(self, compiler, standard, ending):
         if shutil.which(compiler) is None:
@@ -81,7 +81,7 @@ class Headers(ProgramTest):
 
 @unittest.skipIf(shutil.which("gfortran") is None, "needs gfortran")
 class Fortran(ProgramTest):
-    """The module of the example has the constants and the layout of the header."""
+    """The module of the example has the same constants and the same layout as the header."""
 
     @classmethod
     def setUpClass(cls):

@@ -1,5 +1,5 @@
-"""A formulation in another process with its own inertia agrees with the same one in C and satisfies the interface
-requirements."""
+"""A formulation in another process that computes its inertia agrees with the same formulation in C and satisfies the
+interface requirements."""
 import json
 import sys
 
@@ -26,7 +26,7 @@ quantities: {x: {displacement: {analysis: run, node: c, component: ux}},
 class OwnMass(Speaker):
 
     def python(self, before="", after="", name="own_mass.py"):
-        """Returns exec: of the example with that change."""
+        """Returns exec: of the example with the given change."""
         text = (EXAMPLES / name).read_text(encoding="utf-8")
         self.assertIn(before, text)
         path = self.folder / "mine.py"
@@ -63,7 +63,7 @@ class OwnMass(Speaker):
         return f"--scene {path}"
 
     def test_motions(self):
-        """Two leaves swing by about their length."""
+        """The motions of two leaves that swing by about their length are those of the element in C."""
         for how in HOW:
             there = self.in_c(self.swing(how), 1)
             cell, here = self.solved(self.python(), "own_mass_py", self.swing(how), 1)

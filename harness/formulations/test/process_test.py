@@ -11,8 +11,8 @@ from harness.formulations.test.beside_c import BesideC
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, broken, environment, run
 
 
-# Formulations in another process: the example in Python is judged like the built-in ones, and compared with the same
-# one in C.
+# Formulations in another process: the example in Python gets verdicts like the built-in formulations, and is compared
+# with the same formulation in C.
 EXAMPLES = ROOT / "elements" / "examples"
 PYTHON = f"exec:'{sys.executable}' '{EXAMPLES / 'timoshenko.py'}'"
 CASES = ("tapered_cantilever", "deep_beam", "weighted_column", "tip_body", "sprung_beam",
@@ -49,7 +49,7 @@ serve(prepare, force=force, gives="energy", name="chord", family="example", sour
 
 
 class Energy(ProgramTest):
-    """A formulation that gives only an energy, with options."""
+    """A formulation with options that computes only an energy."""
 
     def solve(self, *words, formulation="chord", code=0):
         path = self.folder / "chord.py"
@@ -81,7 +81,7 @@ class Example(BesideC):
         self.assertLessEqual(len((EXAMPLES / "timoshenko.py").read_text("utf-8").splitlines()), 60)
 
     def test_judged_like_the_others(self):
-        """Ten cases have the verdicts of the same beam in C, and its limits."""
+        """In ten cases, the verdicts are those of the same beam in C, and so are the limits."""
         passed = self.like_timoshenko(PYTHON, "timoshenko_py", CASES)
         self.assertEqual(passed - {"shear_elastica"}, set(CASES))
 
@@ -138,7 +138,7 @@ class InPython(ProgramTest):
         self.assertIn("hello", done.stderr)
 
     def told(self, before, after, *words, code=1):
-        """The example with that change fails with a message that contains the words."""
+        """Checks that the example with the given change fails with a message that contains the words."""
         done = self.solve(self.example(before, after))
         self.assertEqual(done.returncode, code, done)
         for word in words:
@@ -202,7 +202,7 @@ class InPython(ProgramTest):
                   "strain is not analytic", "gives='e'")
 
     def test_no_words_of_numpy(self):
-        """States with NaN are evaluated too; they cause no warnings of numpy."""
+        """States with NaN are evaluated too; they cause no numpy warnings."""
         element = self.example("chord = (", "np.float64(0) / np.zeros(1)\n    chord = (")
         done = self.solve(element)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done)
@@ -235,7 +235,7 @@ class InPython(ProgramTest):
         self.assertNotIn("crashed", out)
 
     def test_finds_the_module(self):
-        """The module is found from an empty folder, also if the user's PYTHONPATH has other folders."""
+        """The module is found from an empty folder, even if the user's PYTHONPATH contains other folders."""
         if pathlib.Path(PROGRAM).resolve().parents[1] != ROOT:
             self.skipTest("needs the program of build/, whose examples it is about")
         element = self.example("strains=6", "strains=6")
@@ -246,11 +246,11 @@ class InPython(ProgramTest):
             self.assertEqual(done.returncode, 0, done)
 
 
-# Formulations in Octave, in another process: the example is compared with the same one in C; other functions of its
-# module, and errors of authors, are tested.
+# Formulations in Octave, in another process: the example is compared with the same formulation in C. Other functions of
+# its module, and errors of authors, are tested.
 EXAMPLE = OCTAVE_EXAMPLES / "timoshenko.m"
 NAME = "timoshenko_m"
-# Some of the cases of process_test.py: 4 s of processor time, where all ten take 28 s.
+# Some of the cases of process_test.py: they take 4 s of processor time, and all ten would take 28 s.
 OCTAVE_CASES = ("tapered_cantilever", "deep_beam", "sprung_beam", "bend_45")
 HERE = "addpath(fileparts(mfilename('fullpath')));"
 
@@ -342,7 +342,7 @@ class Module(OctaveTest):
         self.same(element, 1e-10, "tapered_cantilever")  # with several kinds of elements
 
     def test_energy(self):
-        """The energy of whole elements is given, and all derivatives are differences."""
+        """The formulation computes the energy of whole elements, and all derivatives come from finite differences."""
         self.same(self.altered(*KEPT, ("'strain', @strain, 'strains', 6,",
                                        "'force', @force, 'gives', 'energy',")), 1e-5)
 
@@ -415,12 +415,13 @@ class Mistakes(OctaveTest):
         self.assertIn("ended with status 1 before its first line", done.stderr.splitlines()[-1])
 
 
-# `element-test` of a formulation in another process that evaluates many elements at once.
+# `element-test` of a formulation in another process that evaluates many elements in one request.
 CONTRACT_EXAMPLES = ROOT / "elements" / "examples"
 
 
 class ManyAtOnce(ProgramTest):
-    """Using the first element's value for all elements is reported; no error is reported if each has its own value."""
+    """An error is reported if the first element's value is used for all elements, and not if each element has its
+    own value."""
 
     def test_one_value_for_all(self):
         text = (CONTRACT_EXAMPLES / "timoshenko.py").read_text(encoding="utf-8")

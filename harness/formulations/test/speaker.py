@@ -1,4 +1,4 @@
-"""A process that speaks the protocol, with lines inserted by a test in three places."""
+"""A process that follows the protocol, with lines that a test inserts in three places."""
 import pathlib
 import sys
 import textwrap

@@ -9,13 +9,13 @@ from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, read_json, run
 
 LIBRARY = pathlib.Path(PROGRAM).parent / "libbeamwork.so.0"
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# A part of the motion with twelve joints: the whole motion takes as long as many other cases together.
+# A part of the motion with twelve joints, because the whole motion takes as long as many other cases together.
 PART = {"hexapod_motion": "time=0.05"}
 CLOCKS = re.compile(r'"(seconds_\w+|clock)": ("[^"]*"|[^,\n]+)')
 
 
 class Library:
-    """Calls whose last arguments are a document and a reason."""
+    """Calls functions whose last two arguments are a document and a message."""
 
     def __init__(self):
         self.calls = ctypes.CDLL(str(LIBRARY))
@@ -26,7 +26,7 @@ class Library:
         return out
 
     def made(self, name, *arguments):
-        """Returns the object that the call makes, even a result that did not converge."""
+        """Returns the object that the call creates, even a result that did not converge."""
         out, why = ctypes.c_void_p(), ctypes.c_void_p()
         status = getattr(self.calls, name)(*arguments, ctypes.byref(out), ctypes.byref(why))
         line = self.text(why) if why.value is not None else ""
@@ -69,7 +69,7 @@ class Documents(ProgramTest):
         self.assertEqual(CLOCKS.sub("", ours), CLOCKS.sub("", theirs), arguments)
 
     def check(self, name, *words):
-        """Checks the default choice, and two elements with the last formulation that can run it."""
+        """Checks the default choice, and a run with two elements and the last formulation that supports the scene."""
         scene = self.library.scene(name)
         listed = self.library.text(self.library.made("bw_scene_json", scene))
         self.same(listed, "list", *words)
@@ -112,7 +112,8 @@ class Documents(ProgramTest):
                   "w_over_L")
 
     def test_verify(self):
-        """Checks all cases, one case, and a file with its reference values; also results.h5."""
+        """Compares the verdicts on all cases, on one case, and on a file with its own reference values; also
+        results.h5."""
         path = self.folder / "verdicts.json"
         stored = self.folder / "ours.h5"
         file = EXAMPLES[0]

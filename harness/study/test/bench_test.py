@@ -1,5 +1,5 @@
-"""The verb bench: rows, rejected input, comparison of two programs or formulations. Times themselves are not asserted; see
-make lab L=bench-check."""
+"""The verb bench: rows, rejected input, comparison of two programs or formulations. The times themselves are not
+checked; see make lab L=bench-check."""
 import csv
 import io
 import re
@@ -43,7 +43,7 @@ class Bench(ProgramTest):
         self.assertRegex(other, r"(?m)^  collocation +2 +\+0\.189\d* %$")
 
     def test_selection(self):
-        """Selection of quantities and formulations, as in converge, in all formats."""
+        """Quantities and formulations are selected as in converge, in all formats."""
         work = ("bench", "c_column", "-n", "2", "-k", "=frequency_3 and (beamw or collocation)", "--format", "csv")
         rows = list(csv.DictReader(io.StringIO(self.answered(*work).stdout)))
         self.assertEqual({r["quantity"] for r in rows}, {"frequency_3"})
@@ -53,14 +53,15 @@ class Bench(ProgramTest):
         self.refused(2, "selects no quantity of elastica", "bench", "warping_torsion", "elastica", "-k", "warping_torsion")
 
     def test_ranks_as_converge(self):
-        """bench ranks as converge does without a reference value: errors with respect to the agreement, and a formulation
-        that lacks physics without effect."""
+        """Without a reference value, bench ranks like converge: by errors with respect to the agreement, including a
+        formulation that omits physics without effect."""
         text = self.answered("bench", "--scene", LEAF, "--set", "stroke=0.009", "-n", "1,2,4").stdout
         self.assertNotIn("no reference value", text)
         self.assertRegex(text, r"(?m)^  collocation +4 .* %$")
 
     def test_none_that_passes(self):
-        """A formulation within the error may have a different limit; equal lines for several quantities are joined."""
+        """A formulation within the error target may have a different limit. Equal lines for several quantities are
+        joined."""
         done = self.answered("bench", "shear_elastica", "-f", "beamw", "-f", "sheet_third", "-n",
                              "2,4,8,16")
         text = " ".join(done.stdout.split())
@@ -119,7 +120,8 @@ class Bench(ProgramTest):
         self.refused(2, "leaves one formulation", *work, "1%", "-k", "beamw")
 
     def least(self, case, formulation, level):
-        """Returns the number of elements from which every error is within the level, from converge."""
+        """Returns the number of elements of the coarsest mesh such that its error and those of all finer meshes are
+        within the level, from converge."""
         series = self.record("converge", *case, "-f", formulation)["series"][0]
         meshes = [m["elements"] for m in series["quantities"][0]["meshes"]]
         bad = [k for q in series["quantities"] for k, m in enumerate(q["meshes"])
@@ -128,7 +130,7 @@ class Bench(ProgramTest):
         return meshes[first] if first < len(meshes) else None
 
     def test_equal_error(self):
-        """The meshes follow the rule of equal error, and the times belong to these meshes."""
+        """The meshes follow the rule of equal error, and the times are those of these meshes."""
         answer = self.record("bench", "elastica", "-f", "collocation", "--against", "beamw",
                              "--error", "0.15%,0.001%")
         self.assertEqual(answer["quantities"], ["w_over_L", "u_over_L", "theta"])
@@ -155,7 +157,8 @@ class Bench(ProgramTest):
         self.assertRegex(text, r"(?m)^sheet_third, k_pushed: converges to its derived limit")
 
     def test_another_build(self):
-        """Compares a case and a scene with another build, at equal n; formulation and elements are chosen if not given."""
+        """A case and a scene are compared with another build, for equal n. Formulation and elements are chosen if
+        they are not given."""
         answer = self.record("bench", "--scene", LEAF, "-f", "collocation", "-n", "1", "--against",
                              PROGRAM)
         self.assertEqual({w["a"] for w in answer["work"]}, {w["b"] for w in answer["work"]})

@@ -6,7 +6,7 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest
 
-DIGITS = 1e-4  # relative error of a limit: four digits
+DIGITS = 1e-4  # relative error of a limit that is known to four digits
 FINE = "32,64,128,256,512"
 CANCELLED = "warping=0", "trapeze=0", "shear_factor=0.8333333333333334"
 POINTS = (
@@ -24,8 +24,8 @@ POINTS = (
     ("bend_45", "sheet_third", ("force=300", ), "u_tangent", "8,16,32,64,128"),
     ("bend_45", "sheet_third_printed", ("force=300", ), "u_tangent", "8,16,32,64,128"),
 )
-# 64 elements of these sheets are as long as the sheet is thick. They show orders of 3.2 and 3.7, which are not true
-# orders: the limit seems more accurate than it is.
+# 64 elements of these sheets are as long as the thickness of the sheet. They show orders of 3.2 and 3.7, which are not
+# true orders: the limit seems more accurate than it is.
 AS_THICK = (("tip_deflection=0.05", ), ("tip_warping=1", ))
 # undecided or biased on the usual meshes (rules meshes-hexapod, meshes-roll-up); these meshes pass
 PASSES = (
@@ -66,8 +66,8 @@ class Digits(ProgramTest):
                 self.assertGreater(found["order"], 1.9)
 
     def test_orders_that_rise(self):
-        """With 128 elements, two orders agree on a value below the minimum, but the order before them does not: the
-        verdict is not a low order. 1024 elements show second order."""
+        """With 128 elements, two orders agree on a value below the minimum, but the order before them does not, so
+        that the verdict is not a low order. 1024 elements show second order."""
         for quantity, given in SLOW:
             with self.subTest(quantity=quantity, given=given):
                 what = "unsymmetric_column", "beamw", given, quantity
@@ -85,8 +85,8 @@ class Digits(ProgramTest):
             self.assertEqual(fine["verdict"], "wrong limit, as predicted")
 
     def test_shorter_than_the_sheet_is_thick(self):
-        """C_uz_My: orders of 4.5 and 4.7 agree up to 128 elements, although four is the highest possible. The limit has
-        a correspondingly larger uncertainty; 1024 elements meet the prediction."""
+        """C_uz_My: up to 128 elements, orders of 4.5 and 4.7 agree although four is the highest possible order. The
+        limit has a correspondingly larger uncertainty, and 1024 elements agree with the derived limit."""
         what = "sheet_cantilever", "sheet_second", ("tip_warping=1", ), "C_uz_My"
         coarse = self.limit(*what, "1,2,3,4,8,16,32,64,128")
         self.assertGreater(coarse["order"], 4.4)
@@ -96,7 +96,7 @@ class Digits(ProgramTest):
         self.assertLess(abs(fine["limit"] / fine["predicted"] - 1), 1e-7)
 
     def from_prediction(self, case, formulation, given, quantity, meshes):
-        """Returns {elements: relative distance of a stiffness from the predicted limit}."""
+        """Returns {elements: relative distance of a stiffness from the derived limit}."""
         found = self.limit(case, formulation, given, quantity, meshes)
         return {
             mesh["elements"]: abs(mesh["value"] / found["predicted"] - 1)
@@ -104,8 +104,8 @@ class Digits(ProgramTest):
         }
 
     def test_joints(self):
-        """From 32 elements per sheet on, elements are shorter than the sheet is thick: the distance from the prediction
-        decreases with every mesh, at least in proportion."""
+        """From 32 elements per sheet on, elements are shorter than the thickness of the sheet: the distance from the
+        derived limit decreases with every mesh, at least in proportion to the element length."""
         for formulation in PRINTED:
             with self.subTest(formulation=formulation):
                 apart = self.from_prediction("spherical_joint", formulation, JOINT,

@@ -1,4 +1,4 @@
-"""Modes that cross between coarse meshes (rule meshes-high-modes): on the coarse meshes another mode takes the number
+"""Modes that cross between coarse meshes (rule meshes-high-modes). On the coarse meshes another mode has the number
 of a high mode, so that the limit is uncertain; with one more mesh, the verdict is a pass."""
 import unittest
 
@@ -42,8 +42,8 @@ class Modes(ProgramTest):
                 self.assertLess(abs(found["order"] - 2), 0.01)
 
     def test_modes_cross(self):
-        """Extrapolation with order 2 from the finer meshes gives the frequency of the mode on the coarsest mesh: it is
-        that of the other quantity, not of its own."""
+        """Extrapolation with order 2 from the finer meshes gives the frequency of this mode on the coarsest mesh.
+        There it is the value of another quantity."""
         for case, formulation, given, quantity, other, meshes in CROSSINGS:
             with self.subTest(case=case, formulation=formulation, quantity=quantity):
                 found = self.series(case, formulation, given, meshes)

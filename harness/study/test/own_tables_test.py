@@ -7,7 +7,7 @@ import unittest
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT
 
 
-# Known deviations and reference values of a user's project, in addition to the built-in ones: a private repository can
+# Known deviations and reference values of a user's project, in addition to the built-in ones. A private repository can
 # use them in its CI.
 EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
 RULES = "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,cause,proof"
@@ -67,7 +67,7 @@ class Own(ProgramTest):
 
     @staticmethod
     def explained(needed):
-        """Gives each proposed rule a cause and a proof."""
+        """Gives each proposed rule a cause and states how it is known."""
         text = needed.read_text(encoding="utf-8")
         needed.write_text(text.replace('"to be found: why is this not a pass?",', "planted,test"),
                           encoding="utf-8")
@@ -104,8 +104,8 @@ class Findings(Own):
         self.assertIn("of known deviation", self.verified("wrong", "--deviations", small, code=1).stdout)
 
     def test_a_rule_nobody_shows(self):
-        """A rule that is not observed is reported, with its position in the file, if everything that it applies to was
-        run."""
+        """A rule that is not observed is reported with its position in the file, if everything to which it applies
+        was run."""
         rule = "old,collocation,leaf,,*,wrong limit,0.1,,once,paper"
         truths = self.write("t.csv", ROWS, self.dip(1))
         run = ("verify", "-f", "collocation", "--scene", self.scene(), "--truths", truths)
@@ -118,7 +118,7 @@ class Findings(Own):
             self.answered(*run, "--deviations", other)
 
     def test_a_rule_nobody_shows_of_a_selected_case(self):
-        """A case that is selected only by its name is run completely."""
+        """If a case is selected only by its name, it is run completely."""
         path = self.write("f.csv", RULES,
                           "old,timoshenko,tapered_cantilever,,*,undecided,0.1,,once,paper")
         for select, code in (("tapered_cantilever", 1), ("elastica or tapered_cantilever", 1),
@@ -163,7 +163,7 @@ class Findings(Own):
 
 
 class Repository(Own):
-    """The commands of a documentation page, run in the folder of a project."""
+    """The commands of a documentation page work in the folder of a project."""
 
     def test_gate_of_a_repository(self):
         page = (ROOT / "docs" / "tutorials" / "element_in_c.md").read_text(encoding="utf-8")
@@ -186,7 +186,7 @@ class Repository(Own):
         self.assertEqual(codes, [0, 0, 0, 0, 1])
 
     def called(self, words):
-        """Runs a command with the paths of this clone; two cases are enough."""
+        """Runs a command with the paths of this clone, on two cases, which are sufficient."""
         program = [str(ROOT) if w == "beamwork" else w for w in words]
         if program[0].endswith("/beamwork"):
             program = [PROGRAM, *program[1:], "-k", "elastica or tapered_cantilever/default"]
@@ -197,7 +197,7 @@ class Truths(Own):
     row = "elastica,{at},,,,w_over_L,,{value},1,1e-9,independent,same,,my program"
 
     def test_beside(self):
-        """A user-defined point is run and evaluated only with the user's value."""
+        """A point with a user's reference value is run and evaluated only if this value is given."""
         for value, code in ((0.5, 1), (0.1923502802, 0)):
             path = self.write("t.csv", ROWS, self.row.format(at="load=0.6", value=value))
             out = self.answered("verify", "-k", "elastica/load=0.6 and w_over_L", "-f",
@@ -243,8 +243,8 @@ class Truths(Own):
         self.refused(2, "packed reference values", "verify", "--truths", "a.h5", "--truths", "b.h5")
 
 
-# Modes followed over a parameter: numbers that do not change where frequencies cross, exact laws along each curve, and
-# frequencies that avoid each other.
+# Modes followed over a parameter: their numbers do not change where frequencies cross, exact laws hold along each
+# curve, and veering is detected.
 FORMULATIONS = ("beamw", "beamw_vlasov", "beamw_consistent", "sheet_second", "sheet_third",
                 "geometrically_exact", "collocation")
 
@@ -291,8 +291,8 @@ class Follow(ProgramTest):
         self.assertLess(max(curve) / min(curve) - 1, tolerance, what)
 
     def test_crossing(self):
-        """With every formulation, the modes cross at the square section and obey their laws before and after it, also
-        if the crossing itself is one of the values."""
+        """With every formulation, the modes cross at the square section and obey their laws before and after it,
+        even if the crossing itself is one of the values."""
         for formulation in FORMULATIONS:
             for over in ("width=5e-3..12e-3/7", "width=12e-3..4.5e-3/3"):
                 got = self.follow(PLAIN, formulation, over)

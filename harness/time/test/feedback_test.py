@@ -1,4 +1,4 @@
-"""Loads with feedback: two masses and a bar with a controller, compared with the matrix exponential."""
+"""Loads with feedback: two masses and a bar with a controller are compared with the matrix exponential."""
 import json
 import unittest
 
@@ -32,7 +32,7 @@ MOTION = "  last: {motion: {stations: [1.5], step: %g, integrator: %s}}"
 
 
 def exact(kp, kd, ki, damping, place, end, measured=2):
-    """Displacements of tool and cart from the states x1, v1, x2, v2, integral, 1."""
+    """Returns the displacements of tool and cart, from the states x1, v1, x2, v2, integral, 1."""
     A = np.zeros((6, 6))
     A[0, 1] = A[2, 3] = 1
     A[1] = [-K / M1, -damping / M1, K / M1, damping / M1, ki / M1, kp * place / M1]
@@ -55,8 +55,8 @@ class Feedback(ProgramTest):
         return found, [s["iterations"] for s in said["steps"]]
 
     def test_exponential(self):
-        """Proportional, derivative and integral gains, at the cart and across the bar, stable and unstable, take few
-        iterations."""
+        """Proportional, derivative and integral gains, at the cart and across the bar, give the exact motion, stable
+        or unstable, in few iterations."""
         for scheme, step, near in (("radau", 0.01, 1e-6), ("alpha", 1e-3, 2e-3),
                                    ("explicit", 0.02, 1e-9)):
             for kp, kd, ki, node in ((20, 3, 5, 2), (20, 0, 0, 2), (300, -4, 0, 2), (50, 8, 90, 1)):
@@ -92,7 +92,7 @@ class Feedback(ProgramTest):
             self.assertAlmostEqual(centre / (3 * 1.5**2 / 2 / (M1 + M2)), 1, 5)
 
     def test_continued(self):
-        """The integral continues in a motion that continues another one; the reference value jumps."""
+        """The integral continues in a motion that continues another one, even if the reference value jumps."""
         gains = "node: tool, component: ux, proportional: 20, derivative: 3, integral: 40"
         jump = "pieces: [{until: 0.5, is: 0.01}, {is: 0.03 + 0.01*t}],"
         for scheme in ("radau", "alpha", "explicit"):
@@ -163,10 +163,10 @@ omit: [trapeze, wagner_moments, wagner_torque]
 
 
 class Driven(ProgramTest):
-    """A scene with words for its gaps."""
+    """A scene with placeholders for the parts that tests vary."""
 
     def solved(self, *words, code=0):
-        """Returns the values of quantities; with a code, what is printed."""
+        """Returns the values of quantities or, with an exit code, the printed text."""
         path = self.folder / "scene.yaml"
         path.write_text(self.scene % words, encoding="utf-8")
         done = self.answered("solve", "--scene", path, "-f", "collocation", "-n", self.elements, "--format", "json",
@@ -175,7 +175,7 @@ class Driven(ProgramTest):
 
 
 class Elongation(Driven):
-    """A member with prescribed length, stiffness 50 N/m, and a mass of 0.5 kg at its end."""
+    """A member with prescribed length and a stiffness of 50 N/m, with a mass of 0.5 kg at its end."""
 
     scene, elements = BAR, 2
 
@@ -231,7 +231,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
 
 
 class Tension(Driven):
-    """A rigid boom on a spring is pulled towards a fixed point: one degree of freedom."""
+    """A rigid boom on a spring is pulled towards a fixed point; it has one degree of freedom."""
 
     scene, elements = BOOM, 1
 

@@ -19,13 +19,13 @@ def escaped(text):
 
 
 def is_behind(source, start):
-    """Does the comment follow code on its line, or continue such a comment?"""
+    """Returns True if the comment follows code on its line, or continues such a comment."""
     return bool(source[source.rfind("\n", 0, start) + 1:start].strip())
 
 
 def comments(source):
-    """Makes each comment document the following declaration or, if it follows a declaration on its line, that
-    declaration."""
+    """Makes each comment document the following declaration or, if the comment follows a declaration on its line,
+    that declaration."""
     seen = []
 
     def one(found):
@@ -38,7 +38,7 @@ def comments(source):
 
 
 def features(source):
-    """Returns the bits of physics, each with the table row that follows them."""
+    """Returns the bits of physics, each with its row of the table."""
     for bit, name, summary in FEATURE.findall(source):
         source = re.sub(rf"^( +{bit} = [^,\n]+,)$", lambda line, text=f"{name}: {summary}":
                         f"{line[1]} /* {text} */", source, count=1, flags=re.MULTILINE)
@@ -46,7 +46,7 @@ def features(source):
 
 
 def is_alone(code):
-    """Is the following declaration without its own comment?"""
+    """Returns True if the following declaration has no comment of its own."""
     declaration = code[:code.find(";") + 1]
     behind = code[len(declaration):].split("\n", 1)[0]
     return "/*" not in declaration + behind

@@ -1,4 +1,4 @@
-"""Tests the installed files and the pages of the interface."""
+"""Tests the installed files, and the documentation pages of the interfaces."""
 import json
 import os
 import pathlib
@@ -12,16 +12,16 @@ from docs.commands import reader_file
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, run
 
 
-# The installed copy, used from an empty folder: user programs build against it in every way, it finds its data, its
-# examples compile, and nothing is left over.
+# The installed copy, used from an empty folder. User programs build against it in every way, it finds its data, its
+# examples compile, and no files are left over.
 HERE = pathlib.Path(__file__).parent
 BUILD = pathlib.Path(PROGRAM).parent
 SECONDS = re.compile(r'"seconds_\w+": [^,\n]+')
 
 
 def make(*arguments):
-    """Runs make like the make that runs these tests, but without its job slots, which are counted elsewhere. It uses
-    the same file names; otherwise everything would be linked again while other tests run it."""
+    """Runs make with the same program as these tests, but without its job slots, which are counted separately. The
+    file names are the same; otherwise everything would be linked again while other tests run it."""
     given = shlex.split(os.environ.get("MAKEFLAGS", "").partition(" -- ")[2])
     clean = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")
              and not name.startswith("BEAMWORK")}
@@ -55,21 +55,21 @@ class Installed(ProgramTest):
         return done.stdout
 
     def flags(self, *options):
-        """Returns what pkg-config reports for the copy, moved to its location."""
+        """Returns the flags that pkg-config reports for the copy, adapted to its location."""
         text = self.installed("--define-variable=prefix=" + str(self.root).replace(" ", r"\ "),
                               *options, "beamwork", program="pkg-config",
                               PKG_CONFIG_PATH=str(self.root / "lib" / "pkgconfig"))
         return shlex.split(text)
 
     def compiled(self, *command):
-        """Returns the consumer, built by that command."""
+        """Returns the user program, built by that command."""
         source = self.folder / "consumer.c"
         shutil.copy(HERE / "consumer" / "consumer.c", source)
         self.installed("-Wall", "-Wextra", "-Werror", *command[1:], "-o", "consumer",
                        program=command[0])
 
     def check(self, program="./consumer", **changes):
-        """The values and documents equal those of the program, bit for bit."""
+        """Checks that the values and documents equal those of the program, bit for bit."""
         text = self.installed(program=str(self.folder / program), **changes)
         version, *_ = text.splitlines()
         self.assertIn(version.split()[1], self.installed("--version"))
@@ -106,7 +106,7 @@ class Installed(ProgramTest):
         self.check(BEAMWORK_TRUTHS=str(self.data / "truths.h5"))
 
     def test_page(self):
-        """The program in the documentation compiles with the command line given there."""
+        """The program in the documentation compiles with the command given there."""
         text = (ROOT / "docs" / "howto" / "c_and_python.md").read_text(encoding="utf-8")
         self.assertIn("cc column.c $(pkg-config --cflags --libs beamwork) -o column", text)
         (self.folder / "column.c").write_text(reader_file("howto/c_and_python.md", "column.c"),
@@ -150,7 +150,7 @@ class Installed(ProgramTest):
         self.assertIn("PASS", self.installed("verify", "-k", "elastica/default and collocation"))
 
     def test_elements_compile(self):
-        """The example elements compile with the commands they contain, from the user's own folder."""
+        """The example elements compile in a user's folder with the commands that they contain."""
         for source in sorted((self.data / "examples" / "elements").iterdir()):
             shutil.copy(source, self.folder)
         sources = [path for path in sorted(self.folder.iterdir()) if path.suffix in (".c", ".cpp", ".f90")]
@@ -180,7 +180,8 @@ class Installed(ProgramTest):
         self.assertGreater(abs(float(text)), 0)
 
     def test_formulation_in_python(self):
-        """The Python formulation finds its module; the files named in the manual exist; no compiled file is left."""
+        """A formulation in Python finds its module, the files named in the manual exist, and no compiled file is
+        left."""
         shutil.copy(self.data / "examples" / "elements" / "timoshenko.py", self.folder / "mine.py")
         text = self.installed("solve", "elastica", "-f", "timoshenko_py", "-n", "2", "--element",
                               "exec:/usr/bin/python3 mine.py")
@@ -202,7 +203,7 @@ class Installed(ProgramTest):
         self.assertEqual((done.returncode, len(done.stderr.splitlines())), (4, 1), done.stderr)
 
     def test_without_data(self):
-        """Without its data, the program reports in one line what is missing."""
+        """Without its data, the program states in one line what is missing."""
         if pathlib.Path("/usr/local/share/beamwork").exists():
             self.skipTest("a copy is installed in /usr/local, which has its data")
         alone = self.folder / "beamwork"
@@ -229,7 +230,7 @@ class Installed(ProgramTest):
         self.assertEqual(list(self.place.rglob("*.pyc")), [])
 
 
-# Pages of the C interfaces: everything public is documented, and the examples compile.
+# Documentation pages of the C interfaces: everything public is documented, and the examples compile.
 API_HERE = ROOT / "harness" / "library" / "packaging" / "api"
 LIBRARY = ROOT / "harness" / "library" / "beamwork.h"
 

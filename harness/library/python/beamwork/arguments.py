@@ -7,7 +7,7 @@ from .errors import Refused
 
 
 def utf8(value, what):
-    """Returns the bytes of a text or path; None stays None."""
+    """Returns the bytes of a text or path; None if it is None."""
     if value is None:
         return None
     if isinstance(value, os.PathLike):
@@ -21,14 +21,14 @@ def utf8(value, what):
 
 
 def required(value, what):
-    """Returns the bytes of a required text."""
+    """Returns the bytes of a text that is required."""
     if value is None:
         raise TypeError(f"{what}: a text is expected, not None")
     return utf8(value, what)
 
 
 def names(values, what):
-    """Returns formulations separated by blanks; None if there are none."""
+    """Returns the names of formulations, separated by blanks; None if there are none."""
     return b" ".join(required(v, what) for v in values) if values else None
 
 
@@ -44,7 +44,7 @@ def whole(value, what):
 
 
 def whole_list(values, what):
-    """Returns whole numbers separated by commas; None stays None."""
+    """Returns whole numbers, separated by commas; None if the argument is None."""
     if values is None:
         return None
     try:

@@ -1,4 +1,4 @@
-"""Display in notebooks: small HTML tables with escaped text and as many digits as are known."""
+"""Display in notebooks: small HTML tables, with escaped text and numbers with as many digits as are known."""
 import html
 import math
 
@@ -10,14 +10,14 @@ def escape(value):
 
 
 def significant(value, digits):
-    """Returns a number with this number of digits; an empty string if there is none."""
+    """Returns a number with the given number of digits; an empty string if there is no number."""
     if value is None or not math.isfinite(value):
         return ""
     return f"{value:.{max(1, digits)}g}"
 
 
 def known(value, uncertainty):
-    """Returns a value with the digits that its uncertainty allows, 2 to 12; 7 if it is unknown."""
+    """Returns a value with the digits that its uncertainty allows, from 2 to 12; 7 if the uncertainty is unknown."""
     if value is None or not math.isfinite(value):
         return ""
     if value == 0 or uncertainty is None or not math.isfinite(uncertainty):
@@ -36,7 +36,7 @@ def percent(error):
 
 
 def of_unit(unit):
-    """Nothing for plain numbers."""
+    """Returns the unit for display; an empty string for plain numbers."""
     return "" if unit == "1" else unit
 
 
@@ -47,7 +47,8 @@ def plain(value):
 
 
 def table(head, rows, title=""):
-    """Returns a table: title, names of columns, rows of strings; at most 40 rows, the rest is counted."""
+    """Returns an HTML table from a title, names of columns and rows of strings. It shows at most 40 rows and counts
+    the others."""
     rows = list(rows)
     parts = ["<table>"]
     if title:
@@ -65,7 +66,7 @@ def folded(title, content):
 
 
 def scene(about, text):
-    """Returns the HTML of a scene: summary and parameters; quantities and the file unfold."""
+    """Returns the HTML of a scene: summary and parameters; the quantities and the file can be unfolded."""
     parameters = [(p["name"], plain(p["value"]), of_unit(p["unit"]), p["summary"])
                   for p in about["parameters"]]
     quantities = [(q["name"], of_unit(q["unit"]), q["meaning"]) for q in about["quantities"]]
@@ -94,7 +95,7 @@ def result(shown):
 
 
 def convergence(shown):
-    """Returns a row for each limit: the errors over the meshes, and its message."""
+    """Returns an HTML table with a row for each limit: the errors over the meshes, and the message."""
     meshes = sorted({r["elements"] for r in shown})
     errors = {(r["formulation"], r["quantity"], r["elements"]): r for r in shown}
 
@@ -115,7 +116,7 @@ def convergence(shown):
 
 
 def outcome(shown):
-    """Returns PASS, FAIL or the absence of verdicts, and the counts."""
+    """Returns PASS or FAIL, or states that there are no verdicts, with the counts."""
     counted = ", ".join(f"{n} {word}" for word, n in shown.counts.items() if n)
     word = {"pass": "PASS", "fail": "FAIL"}.get(shown.outcome, shown.outcome)
     return f"{word}: {counted}"

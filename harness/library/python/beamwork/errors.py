@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Mistake:
-    """One error of a scene: its position (line and column from 1; 0: none), and its text."""
+    """One error of a scene: its position (line and column start at 1; 0: none) and its text."""
     file: str
     line: int
     column: int
     text: str
-    entry: str = ""  # of a scene built in Python: its entry, such as nodes['tip']
+    entry: str = ""  # for a scene built in Python: the entry with the error, such as nodes['tip']
 
     def __str__(self):
         place = f"{self.file}:{self.line}:{self.column}" if self.line else self.file
@@ -18,17 +18,17 @@ class Mistake:
 
 
 class Error(Exception):
-    """Base of all failures of the library; result: the partial result, or None."""
+    """Base class of all failures of the library. result: the partial result, or None."""
     result = None
-    partial = None  # the library's memory of the partial result
+    partial = None  # partial result in memory of the library
 
-    def __reduce__(self):  # a result stays in its process
+    def __reduce__(self):  # a result is not transferred to another process
         state = {k: v for k, v in vars(self).items() if k not in ("result", "partial")}
         return type(self), self.args, state
 
 
 class Refused(Error, ValueError):
-    """Invalid input; mistakes: the errors of a scene, each a Mistake, in their order."""
+    """Invalid input. mistakes: the errors of a scene in their order, each a Mistake."""
     mistakes = ()
 
 
@@ -41,15 +41,15 @@ class Singular(Error):
 
 
 class Fault(Error):
-    """An error of a file, the disk or memory, or a process that ended."""
+    """An error of a file, the disk or memory, or a process that ended unexpectedly."""
 
 
 class TimeLimit(Error):
-    """Stopped by a time limit."""
+    """The work was stopped by a time limit."""
 
 
 class NoValue(Error):
-    """The requested value does not exist, such as a critical load of a structure that has none."""
+    """The requested value does not exist, for example the critical load of a structure that has none."""
 
 
 _OF_STATUS = {1: NotConverged, 2: Singular, 3: Refused, 4: Fault, 5: TimeLimit, 6: NoValue}

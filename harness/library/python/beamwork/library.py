@@ -103,7 +103,7 @@ version = _functions["version"]().decode()
 
 
 class Owned:
-    """A pointer allocated by the library, freed with this object; lock: one thread at a time."""
+    """A pointer allocated by the library, which is freed with this object. lock: allows one thread at a time."""
     __slots__ = ("pointer", "lock", "_free", "__weakref__")
 
     def __init__(self, kind):
@@ -115,12 +115,12 @@ class Owned:
             self._free(self.pointer)
 
     def text(self):
-        """Returns the text, or '' if there is none."""
+        """Returns the text, or '' for a null pointer."""
         return ctypes.string_at(self.pointer).decode("utf-8", "replace") if self.pointer else ""
 
 
 def call(name, *arguments, entries=()):
-    """Calls bw_NAME; raises the exception of its status. entries: see errors.of_status."""
+    """Calls bw_NAME; raises the exception that belongs to its status. entries: see errors.of_status."""
     why = Owned("text")
     status = _functions[name](*arguments, ctypes.byref(why.pointer))
     if status != 0:
@@ -128,14 +128,14 @@ def call(name, *arguments, entries=()):
 
 
 def text_of(name, *arguments, entries=()):
-    """Returns the text of bw_NAME."""
+    """Returns the text that bw_NAME returns."""
     text = Owned("text")
     call(name, *arguments, ctypes.byref(text.pointer), entries=entries)
     return text.text()
 
 
 def owned_by(kind, name, *arguments, entries=()):
-    """Returns the scene or result of bw_NAME; after a failure, a partial result is error.partial."""
+    """Returns the scene or result that bw_NAME returns. After a failure, a partial result is error.partial."""
     made = Owned(kind)
     try:
         call(name, *arguments, ctypes.byref(made.pointer), entries=entries)
@@ -151,7 +151,7 @@ def stoppable(work, options):
     or in another thread, which receives no Ctrl-C, work(options) runs directly."""
     if "stop" in options or threading.current_thread() is not threading.main_thread():
         return work(options)
-    outcome, done = [], threading.Event()  # Thread.join takes an interrupted thread for an ended one
+    outcome, done = [], threading.Event()  # Thread.join takes an interrupted thread for one that has ended
     readable, writable = os.pipe()
 
     def run():
@@ -166,11 +166,11 @@ def stoppable(work, options):
     try:
         done.wait()
     finally:
-        os.write(writable, b"x")  # the forked processes have it open, so that closing it would not be noticed
+        os.write(writable, b"x")  # the forked processes have this descriptor open, so that closing it would not be noticed
         while not done.is_set():
             try:
                 done.wait()
-            except KeyboardInterrupt:  # repeated Ctrl-C while it ends
+            except KeyboardInterrupt:  # Ctrl-C was pressed again before the end
                 pass
         os.close(readable)
         os.close(writable)
@@ -181,5 +181,5 @@ def stoppable(work, options):
 
 
 def ask(name, *arguments):
-    """Returns the result of a function without a status."""
+    """Returns the result of a function that returns no status."""
     return _functions[name](*arguments)

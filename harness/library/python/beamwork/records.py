@@ -5,7 +5,7 @@ from . import display
 
 
 class Records(list):
-    """A list of records (dicts with the same keys), with its columns as arrays and a frame."""
+    """A list of records (dicts with the same keys), with columns as arrays and a data frame."""
 
     def column(self, key):
         """Returns the array [records] of one key: floats if all values are numbers (None: NaN), otherwise objects."""

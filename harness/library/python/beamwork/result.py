@@ -152,12 +152,12 @@ class Result:
 
     @property
     def steps(self):
-        """Returns {column: [steps] array}: path, increment, iterations, rejected, correction, ..."""
+        """Returns {column: [steps] array} of the load steps: path, increment, iterations, rejected, correction, ..."""
         return self._columns("steps")
 
     @property
     def iterations(self):
-        """Returns {column: [iterations] array}: step, iteration, residual, correction, ..."""
+        """Returns {column: [iterations] array} of the iterations: step, iteration, residual, correction, ..."""
         return self._columns("iterations")
 
     @property

@@ -15,7 +15,7 @@ from .writing import ENTRIES, HEAD, LISTS, number, scene_text
 
 
 def verified(scene, formulations, select, results, options, lines=()):
-    """Returns verdicts by the library; scene: its pointer, or None for all built-in cases."""
+    """Returns the verdicts that the library computes. scene: its pointer, or None for all built-in cases."""
     chosen, words = arguments.names(formulations, "formulation"), utf8(select, "select")
     into = utf8(results, "results")
     return Verdicts(json.loads(stoppable(
@@ -49,7 +49,7 @@ class Scene:
 
     def __init__(self, name="scene", *, summary="", source="", plane=""):
         self._name, self.summary, self.source, self.plane = name, summary, source, plane
-        self._make = None  # for scenes not built from dicts: the function that makes the handle
+        self._make = None  # for scenes not built from dicts: the function that creates the handle
         self._entries = {key: [] if key in LISTS else {} for key in ENTRIES}
         self._values, self._written, self._handle, self._lines = {}, None, None, ()
         self._lock = threading.RLock()
@@ -63,7 +63,7 @@ class Scene:
 
     @classmethod
     def case(cls, name):
-        """A built-in case (beamwork.cases())."""
+        """Makes a scene from a built-in case (see beamwork.cases())."""
         raw = required(name, "case")
         return cls._made(name, lambda: owned_by("scene", "scene_case", raw))
 
@@ -90,7 +90,7 @@ class Scene:
 
     def __setattr__(self, key, value):
         if key in ENTRIES:
-            getattr(self, key)  # AttributeError if there are no entries
+            getattr(self, key)  # raises AttributeError if there are no such entries
             if not isinstance(value, (list, tuple) if key in LISTS else Mapping):
                 raise TypeError(f"{key}: {'a list' if key in LISTS else 'a dict'} is expected")
             self._entries[key] = value
@@ -100,7 +100,7 @@ class Scene:
             raise AttributeError(f"a scene has no {key!r}: {', '.join(ENTRIES)}")
 
     def _ready(self):
-        """Returns the current scene of the library, with all values that were set."""
+        """Returns the library's scene with its present entries and with all values that were set."""
         lines = ()
         if self._make is None:
             head = dict(zip(HEAD, (self._name, self.summary, self.source, self.plane)))

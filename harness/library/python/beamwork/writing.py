@@ -10,7 +10,7 @@ HEAD = ("name", "summary", "source", "plane")
 ENTRIES = ("parameters", "let", "sections", "nodes", "members", "springs", "constraints", "imperfections", "motions", "loads",
            "analyses", "quantities", "truths", "omit", "shear_theory", "needs", "meshes", "parts", "instances")
 LISTS = ("truths", "omit", "shear_theory", "needs", "meshes")
-WORDS = ("omit", "shear_theory")  # one word is enough
+WORDS = ("omit", "shear_theory")  # a single word is sufficient for these keys
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _DEEPEST = 40
 
@@ -23,7 +23,7 @@ def number(value, where):
 
 
 def quoted(text, where):
-    """Returns the text as a word, or in quotation marks."""
+    """Returns the text as a plain word, or in quotation marks."""
     if not text.isprintable():
         raise Refused(f"{where}: {text[:40]!r} contains a non-printing character; write it in "
                       "one line, without tabs")
@@ -34,7 +34,8 @@ def quoted(text, where):
 
 
 def written(value, where, depth=0):
-    """Returns a value on one line: dicts as {key: value}, lists and arrays as [a, b]. A key 'from_' is 'from'."""
+    """Returns a value on one line: dicts as {key: value}, lists and arrays as [a, b]. The key 'from_' is written as
+    'from'."""
     if depth > _DEEPEST:
         raise Refused(f"{where} is nested deeper than {_DEEPEST}")
     if hasattr(value, "tolist"):  # numpy: an array or a numpy number

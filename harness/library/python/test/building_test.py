@@ -1,4 +1,4 @@
-"""Tests scenes built in Python, their motions, and how notebooks display results."""
+"""Tests scenes built in Python, their motions, and the display of results in notebooks."""
 import copy
 import importlib.util
 import math
@@ -13,16 +13,16 @@ import numpy
 from harness.library.python.test.module import ModuleTest, bw, leaf
 
 
-# Scenes built from dicts: their text and bits, and the reports of errors.
+# Scenes built from dicts: their text, equal bits, and reports of errors.
 def written(scene):
-    """Returns the text of the scene without the head."""
+    """Returns the text of the scene without its head."""
     return bw.scene.scene_text({}, scene._entries)[0]  # pylint: disable=protected-access
 
 
 class Building(ModuleTest):
 
     def test_solves_like_its_file(self):
-        """A scene of dicts, its text, and its file in the program give the same bits."""
+        """A scene built from dicts, its text, and its file read by the program give the same bits."""
         scene = leaf()
         result = scene.solve("beamw", 2)
         path = self.folder / "leaf.yaml"
@@ -34,7 +34,8 @@ class Building(ModuleTest):
         self.assertEqual(values, dict(bw.Scene.text(text).solve("beamw", 2).values))
 
     def test_plane(self):
-        """A scene restricted to a plane stays in it, also as a copy; entries that leave the plane are rejected."""
+        """A scene restricted to a plane stays in the plane, also as a copy; entries that leave the plane are
+        rejected."""
         scene = leaf()
         space = scene.solve("beamw", 2)
         scene.plane = "xy"
@@ -47,7 +48,7 @@ class Building(ModuleTest):
             scene.solve("beamw", 2)
 
     def test_bits_of_numbers(self):
-        """The library returns numbers of every size with the same bits."""
+        """The library returns numbers of any size with unchanged bits."""
         draw = random.Random(1)
         numbers = [math.ldexp(draw.uniform(0.5, 1), draw.randint(-30, 30)) for _ in range(60)]
         numbers += [0.1, 1 / 3, 5e-7, 123456789.0, numpy.nextafter(1, 2)]
@@ -70,7 +71,7 @@ class Building(ModuleTest):
                       'f: [1, 2.5], g: 7, from: x, h: "2*pi/3", i: [{is: t}]}', written(scene))
 
     def test_loads_on_parts_of_members(self):
-        """Works as in a scene file; invalid loads are reported at their entry."""
+        """Loads on parts of members work as in a scene file; an invalid load is reported with its entry."""
         scene = leaf()
         scene.loads["row_$i"] = {"for_": {"i": "0..1"}, "force": [0, 1, 0], "on": "leaf",
                                  "where": "1/4 + i/2", "follower": True}
@@ -89,7 +90,8 @@ class Building(ModuleTest):
         self.assertIn("loads['wind']", str(caught.exception))
 
     def test_entries_may_change(self):
-        """Entries changed after a solution take effect in the next one; set values are kept."""
+        """Entries that are changed after a solution take effect in the next solution; parameter values that were set
+        are kept."""
         scene = leaf()
         scene.parameters["push"] = {"value": 1, "unit": "N"}
         scene.loads["push"]["force"] = [0, "push", 0]
@@ -156,9 +158,9 @@ class Building(ModuleTest):
         self.assertEqual((parameters["length"], parameters["thickness"]), (0.1, 0.5e-3))
 
 
-# Motions in time: built from dicts, solved, and read with their steps.
+# Motions built from dicts, solved, and read with their steps.
 def swing():
-    """Returns a tip mass on an arm that a drive rotates by 30 degrees."""
+    """Returns a tip mass on an arm that a driver rotates by 30 degrees."""
     scene = bw.Scene("swing")
     scene.sections["tube"] = {"tube": {"diameter": 20e-3, "thickness": 1e-3}, "young": 70e9,
                               "shear_modulus": 26e9, "density": 2700}
@@ -219,7 +221,7 @@ ESCAPED = "&lt;script&gt;alert(1)&lt;/script&gt;"
 class Shown(ModuleTest):
 
     def shown(self, thing):
-        """Returns the HTML after checking that its tags match."""
+        """Returns the HTML, after checking that its tags match."""
         html = thing._repr_html_()  # pylint: disable=protected-access
         for tag in ("table", "tr", "td", "th", "caption", "details", "pre"):
             self.assertEqual(html.count(f"<{tag}>") + html.count(f"<{tag} "),
@@ -323,7 +325,7 @@ class Tables(ModuleTest):
         self.assertEqual(len(bw.cases().frame()), len(bw.cases()))
 
     def test_frame(self):
-        """Returns a data frame if pandas is installed; otherwise reports this in one line."""
+        """A data frame is returned if pandas is installed; otherwise this is reported in one line."""
         records = bw.Records([{"n": 1, "error": 0.5}, {"n": 2, "error": None}])
         made = mock.MagicMock()
         with mock.patch.dict(sys.modules, pandas=made):

@@ -1,4 +1,4 @@
-"""Tests how Python finds, loads and installs the module, and its documentation."""
+"""Tests how Python finds, loads and installs the module, and the documentation of the module."""
 import importlib.util
 import json
 import os
@@ -14,10 +14,10 @@ from harness.library.python.test.module import (FOLDER, LIBRARY, ModuleTest, ROO
 from harness.tools.kit.program import environment
 
 
-# User-defined formulations in Python, loaded in both ways, give the same bits as the program.
+# User-defined formulations, loaded in both ways, give the same bits as the program.
 EXAMPLES = ROOT / "elements" / "examples"
 CASE = "tapered_cantilever"
-# A formulation is loaded once in the life of a process, so each test has its own Python process.
+# A formulation stays loaded for the life of a process, so that each test needs its own Python process.
 SOLVE = """
 import json, sys
 import beamwork as bw
@@ -70,7 +70,7 @@ class Doors(ModuleTest):
                 self.assertEqual(cell["value"], values[cell["quantity"]])
 
     def test_threads(self):
-        """Four threads can share the element."""
+        """Four threads can use the element at the same time."""
         for kind in ("object", "process"):
             with self.subTest(kind):
                 self.asked(THREADS, self.door(kind))
@@ -86,11 +86,11 @@ class Doors(ModuleTest):
                 self.assertIn(words, done.stdout)
 
 
-# The module finds its library, or reports in one line what to do.
+# The module finds its library, or states in one line what to do.
 class Finding(ModuleTest):
 
     def test_missing(self):
-        """Without a library, one line says what to do."""
+        """Without a library, a one-line error states what to do."""
         settings = {**SETTINGS, "BEAMWORK_LIBRARY": str(self.folder / "none.so")}
         done = python("import beamwork", env=environment(**settings))
         last = done.stderr.strip().splitlines()[-1]
@@ -114,7 +114,7 @@ class Finding(ModuleTest):
         self.assertIn("bw_", done.stderr.strip().splitlines()[-1])
 
     def test_beside_and_installed(self):
-        """Without the variable, the library is found next to the module, and in lib of the installation prefix."""
+        """Without BEAMWORK_LIBRARY, the library is found next to the module, and in lib of the installation prefix."""
         source = os.path.dirname(bw.__file__)
         for module, library in (("here/beamwork", "here"), ("here2/beamwork", "here2/beamwork"),
                                 ("p/lib/python3/dist-packages/beamwork", "p/lib"),
@@ -138,7 +138,7 @@ class Finding(ModuleTest):
 
 # The module can be installed with pip, without a network.
 
-# --no-build-isolation takes them from here.
+# --no-build-isolation takes these packages from the system.
 NEEDS = [name for name in ("pip", "setuptools", "wheel") if importlib.util.find_spec(name) is None]
 
 
@@ -146,7 +146,7 @@ class Installed(ModuleTest):
 
     @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
     def test_pip(self):
-        """Installed offline into a folder and imported from there, the module solves a case."""
+        """After an offline installation into a folder, the imported module solves a case."""
         source, target = self.folder / "source", self.folder / "target"
         shutil.copytree(FOLDER, source, ignore=shutil.ignore_patterns("__pycache__"))
         done = subprocess.run([sys.executable, "-m", "pip", "install", "--no-build-isolation",

@@ -1,4 +1,4 @@
-"""Tests wrong use of the module, and its memory."""
+"""Tests wrong use of the module, and the memory that it uses."""
 import copy
 import ctypes
 import gc
@@ -18,12 +18,12 @@ from harness.library.python.test.module import ModuleTest, SETTINGS, bw, leaf, p
 from harness.tools.kit.program import environment
 
 
-# Every wrong use raises an exception with one line and never crashes.
+# Any wrong use raises an exception with a one-line message and never crashes.
 CASE = "sheet_cantilever"
 
 
 def solved_here(elements):
-    """Solves a case in other processes, which load the module in their own way."""
+    """Solves a case in other processes, each of which loads the module itself."""
     return bw.Scene.case(CASE).solve("sheet_third", elements)["C_zz"]
 
 
@@ -54,7 +54,7 @@ class Arguments(ModuleTest):
                 self.one_line(kind, words, call)
 
     def test_entries(self):
-        """An entry that no scene file can express is reported by its name."""
+        """An entry that a scene file cannot express is reported with its name."""
         endless = {}
         endless["at"] = endless
         for words, entry in (
@@ -166,7 +166,7 @@ class Memory(ModuleTest):
     def test_closed(self):
         with bw.Scene.case(CASE).solve("sheet_third", 1) as result:
             value = result["C_zz"]
-        self.assertEqual(result["C_zz"], value)  # values are Python's own
+        self.assertEqual(result["C_zz"], value)  # the values are Python objects, independent of the result
         for call in (lambda: result.curve("C_zz_curve"), lambda: result.document,
                      lambda: result.shapes, lambda: result.steps):
             self.one_line(ValueError, "closed", call)
@@ -228,7 +228,7 @@ class Processes(ModuleTest):
             waiting.join()
 
     def test_fork_beside_threads(self):
-        """Processes forked while other threads solve do not inherit locked locks."""
+        """Processes that are forked while other threads solve do not inherit locked locks."""
         expected, done = solved_here(2), threading.Event()
 
         def work():
@@ -257,21 +257,21 @@ class Processes(ModuleTest):
                 thread.join()
 
     def test_stop(self):
-        """A readable descriptor ends converge and verify before they finish."""
+        """If the descriptor `stop` becomes readable, converge and verify end before they finish."""
         readable, writable = os.pipe()
         self.addCleanup(os.close, readable)
         self.addCleanup(os.close, writable)
         scene = bw.Scene.case("elastica")
         self.assertTrue(scene.converge("beamw", meshes=[1, 2], stop=readable))
         os.write(writable, b"x")
-        many = bw.Scene.case(CASE)  # so many runs that not all end at once
+        many = bw.Scene.case(CASE)  # so many runs that some remain when the others have ended
         for call in (lambda: many.converge(stop=readable), lambda: many.verify(stop=readable),
                      lambda: bw.verify(select=CASE, stop=readable)):
             self.one_line(bw.TimeLimit, "stopped before", call)
         self.one_line(bw.Refused, "stop", scene.converge, stop=-1)
 
     def test_interrupt(self):
-        """Ctrl-C ends verify and converge with their processes; a solution ends first."""
+        """Ctrl-C ends verify and converge with their processes; a solution runs to its end first."""
         for call in ("bw.verify(refine=3)", "while True: s.solve('collocation', 16)",
                      "bw.Scene.case('hexapod').converge(meshes=[16, 32, 64])"):
             code = ("import beamwork as bw\ns = bw.Scene.case('sheet_cantilever')\n"
@@ -281,7 +281,7 @@ class Processes(ModuleTest):
                     stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
                 process.stdout.readline()
                 threading.Timer(1, process.send_signal, (signal.SIGINT, )).start()
-                _, told = process.communicate(timeout=100)  # otherwise Ctrl-C did not end it
+                _, told = process.communicate(timeout=100)  # the timeout expires only if Ctrl-C did not end the process
                 self.assertIn("KeyboardInterrupt", told)
                 self.assertEqual(process.returncode, -signal.SIGINT)
 
@@ -292,14 +292,14 @@ BOUND = 300 * CYCLES  # bytes: a third of a leak of 1 kB per cycle
 
 
 class Arena(ctypes.Structure):
-    """struct mallinfo2 of the C library: bytes that malloc has allocated and not yet freed."""
+    """struct mallinfo2 of the C library, with the bytes that malloc has allocated and not yet freed."""
     _fields_ = [(name, ctypes.c_size_t) for name in
                 ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks",
                  "fordblks", "keepcost")]
 
 
 def in_use():
-    """Returns the bytes in use by the library and Python."""
+    """Returns the number of bytes in use by the library and by Python."""
     gc.collect()
     ask = ctypes.CDLL(None).mallinfo2
     ask.restype = Arena
@@ -324,7 +324,7 @@ def cycle(built):
 class Leaks(ModuleTest):
 
     def grown(self, work):
-        """Returns the growth of the bytes in use after a thousand repetitions."""
+        """Returns by how many bytes the memory in use grows in a thousand repetitions."""
         for _ in range(50):
             work()
         before = in_use()

@@ -15,7 +15,7 @@ SETTINGS = {"BEAMWORK_LIBRARY": str(LIBRARY), "BEAMWORK_TRUTHS": TRUTHS,
 
 
 def sanitized():
-    """Is the library built with a sanitizer, which Python without a sanitizer cannot load?"""
+    """Returns True if the library is built with a sanitizer, so that Python without a sanitizer cannot load it."""
     return LIBRARY.is_file() and b"__asan_" in LIBRARY.read_bytes()
 
 
@@ -25,7 +25,7 @@ bw = None if sanitized() else importlib.import_module("beamwork")
 
 
 def python(code, **options):
-    """Runs this code in another Python process; returns the finished process with its output."""
+    """Runs this code in another Python process. Returns the finished process with its output."""
     options = {"env": environment(**SETTINGS), **options}
     return subprocess.run([sys.executable, "-c", code], text=True, check=False,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
@@ -48,7 +48,7 @@ class ModuleTest(ProgramTest):
     """A test of the module with its own empty folder."""
 
     def one_line(self, kind, words, call, *arguments, **options):
-        """Checks that the call raises an exception of that kind whose text is one line with all the words."""
+        """Checks that the call raises an exception of that kind whose text is one line and contains all the words."""
         with self.assertRaises(kind) as caught:
             call(*arguments, **options)
         text = str(caught.exception)

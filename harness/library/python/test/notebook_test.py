@@ -35,7 +35,7 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
     def test_in_jupyter(self):
-        """Run headless, the notebook draws its figures and confirms the claims of the paper as written."""
+        """In Jupyter without a display, the notebook draws its figures and confirms the statements of the paper."""
         import nbclient  # pylint: disable=import-outside-toplevel
         import nbformat  # pylint: disable=import-outside-toplevel
         notebook = nbformat.read(NOTEBOOK, as_version=4)
@@ -58,8 +58,8 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
     def test_interrupted(self):
-        """A kernel, which has its own threads, runs verify in processes; an interrupt ends them, and the scene can
-        still be used."""
+        """A kernel, which has its own threads, runs verify in processes. An interrupt ends these processes, and the
+        scene can still be used."""
         from jupyter_client.manager import run_kernel  # pylint: disable=import-outside-toplevel
         with mock.patch.dict(os.environ, self.settings()), run_kernel() as client:
             self.assertEqual(self.asked(client, "import beamwork as bw, numpy, os\n"
@@ -93,7 +93,7 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf("matplotlib" in NEEDS, "needs matplotlib")
     def test_as_a_script(self):
-        """The code of the cells runs as a script, one cell after the other."""
+        """The code of the cells, one after the other, runs as a script."""
         stored = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
         path = self.folder / "sheet_flexures.py"
         path.write_text("\n".join("".join(cell["source"]) for cell in stored["cells"]

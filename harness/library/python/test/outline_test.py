@@ -16,7 +16,7 @@ def rectangle(width, height):
 
 
 def channel(depth, flange, t):
-    """Returns an outline with the mid-lines of `channel`: flanges towards -y."""
+    """Returns the outline of a `channel` given by its mid-lines, with flanges towards -y."""
     out, inner = depth / 2 + t / 2, depth / 2 - t / 2
     return [[t / 2, -out], [t / 2, out], [-flange, out], [-flange, inner], [-t / 2, inner],
             [-t / 2, -inner], [-flange, -inner], [-flange, -out]]
@@ -25,7 +25,7 @@ def channel(depth, flange, t):
 class Outline(ModuleTest):
 
     def ours(self, words):
-        """Returns the constants that the program computes from the dimensions."""
+        """Returns the section constants that the program computes from the dimensions."""
         names = ("A", "Iy", "Iz", "It", "Iw", "ys", "zs")
         text = f"""beamwork: 1
 sections:
@@ -84,7 +84,7 @@ loads:
 
     @unittest.skipUnless(INSTALLED, "needs sectionproperties")
     def test_tube_and_solution(self):
-        """A square tube given by its outline bends and twists like the scene given by constants."""
+        """A square tube given by its outline bends and twists like the same tube given by constants."""
         got, _ = bw.outline(rectangle(0.1, 0.1), [rectangle(0.08, 0.08)], **MATERIAL)
         c = got["constants"]
         self.assertAlmostEqual(c["Iy"] / ((0.1**4 - 0.08**4) / 12), 1, delta=1e-9)

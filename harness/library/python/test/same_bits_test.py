@@ -8,7 +8,7 @@ from harness.library.python.test.module import ROOT, ModuleTest, bw
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
 
 
-# A part of the motion with twelve joints: the whole motion takes as long as many other cases together.
+# A part of the motion with twelve joints, because the whole motion takes as long as many other cases together.
 PART = {"hexapod_motion": {"time": 0.05}}
 
 
@@ -20,7 +20,7 @@ def bits(value):
 class SameBits(ModuleTest):
 
     def same(self, record, result):
-        """Every value, error and curve equals the one that the program wrote with 17 digits."""
+        """Checks that every value, error and curve equals the value that the program wrote with 17 digits."""
         self.assertEqual((record["formulation"], record["elements"]),
                          (result.document["formulation"], result.elements))
         values = [q for q in record["quantities"] if q["quantity"] not in result.curves]
@@ -38,7 +38,7 @@ class SameBits(ModuleTest):
             self.assertEqual(bits(step["path"]), bits(result.steps["path"][step["step"]]))
 
     def test_every_case(self):
-        """Compares every value, error, curve and load step, with the default formulation and mesh."""
+        """Compares every value, error, curve and load step, for the default formulation and mesh."""
         names = [case["case"] for case in bw.cases()]
         self.assertGreater(len(names), 20)
         for name in names:
