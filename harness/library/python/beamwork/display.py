@@ -10,7 +10,7 @@ def escape(value):
 
 
 def significant(value, digits):
-    """Returns a number with the given number of digits; an empty string if there is no number."""
+    """Returns a number with the given number of digits; an empty string if it is None or not finite."""
     if value is None or not math.isfinite(value):
         return ""
     return f"{value:.{max(1, digits)}g}"
