@@ -14,18 +14,18 @@ from matplotlib.colors import to_hex
 from reports.chart import Chart
 from reports.sweep import answers, gather, maps
 
-# The figures of a sweep's page: maps of the required number of elements, maps of the formulation of lowest cost,
-# curves of the error over one axis.
+# Figures of the page: maps of the required number of elements, maps of the formulation of lowest cost, and curves of
+# the error over one axis.
 
-MOST_DOTS = 400  # scattered points that are drawn individually
-SLICES, WORDS = 4, 6  # maps next to each other over a third axis of numbers, of words
-NARROW = 170  # width of a map next to others, pixels
-TOLD = 0.01  # share of the points for which the cheapest formulation is listed first
+MOST_DOTS = 400  # largest number of scattered points that are drawn individually
+SLICES, WORDS = 4, 6  # largest numbers of maps side by side over a third axis with numbers, with words
+NARROW = 170  # width of one of several maps side by side, in pixels
+TOLD = 0.01  # smallest share of the points that a formulation listed first must win
 FLOOR = 1e-12  # smallest drawn error
 
 
 def projected(found, table, axes):
-    """Returns a table [C, ...] summed over all axes except the given ones, which are in the given order."""
+    """Returns a table [C, ...] summed over all axes except the given axes, which are in the given order."""
     count = len(found.parts)
     whole = table.reshape(found.shape + table.shape[1:])
     whole = whole.sum(axis=tuple(a for a in range(count) if a not in axes))
@@ -33,7 +33,7 @@ def projected(found, table, axes):
 
 
 def by_influence(found):
-    """Returns the axes, sorted by the change of the result along them, largest first; those of words come last."""
+    """Returns the axes sorted by the change of the result along them, largest first; axes with words come last."""
     within = found.reach[:, :, -1, :-2].sum(axis=(1, 2))
     score = []
     for a, part in enumerate(found.parts):
@@ -44,7 +44,7 @@ def by_influence(found):
 
 
 def slices_of(part):
-    """Returns [(label, parts)] of a third axis: its parts, grouped."""
+    """Returns [(label, parts)]: the groups of parts of a third axis for which maps are drawn."""
     most = WORDS if part.axis.words else SLICES
     groups = np.array_split(np.arange(len(part)), min(most, len(part)))
     return [(answers.condition(part, list(g)) if len(g) < len(part) else part.axis.name, list(g))
@@ -52,7 +52,7 @@ def slices_of(part):
 
 
 def counted(state, look):
-    """Describes a map for readers who do not see it."""
+    """Returns the alternative text of a map."""
     drawn = state[state != maps.EMPTY]
     said = [f"{look.words[k]}: {answers.percent((drawn == k).sum() / drawn.size)}"
             for k in [*(k for k in look.words if k >= 0), maps.UNKNOWN] if (drawn == k).any()]
@@ -60,7 +60,7 @@ def counted(state, look):
 
 
 class Validity:
-    """Maps of the smallest number of elements. order: of formulations, by key; axes: horizontal, vertical, side by
+    """Maps of the smallest number of elements. order: formulations sorted by key; axes: horizontal, vertical, side by
     side. rows: [(formulation or empty, [(Image, alt)])]; used: states that are drawn."""
 
     def __init__(self, sweep, found, order, q=-1):
@@ -76,7 +76,7 @@ class Validity:
         return self.look.legend(self.used)
 
     def scattered(self):
-        """Returns (points, their states [points, F]) if there are few on two axes; otherwise None."""
+        """Returns (points, their states [points, F]) if there are only a few points on two axes, otherwise None."""
         sweep = self.sweep
         if len(sweep.axes) != 2 or sweep.points > MOST_DOTS or not any(
                 a.scattered for a in sweep.axes):
@@ -96,7 +96,7 @@ class Validity:
             f"{what}: {counted(state, self.look)}")
 
     def strips(self, order):
-        """Draws one axis: a row for each formulation, the first on top."""
+        """Draws a map over one axis with a row for each formulation, the first on top."""
         found, upward = self.found, order[::-1]
         rows = [self.sweep.keys.index(key) for key in upward]
         state = maps.states(found.reach[:, rows, self.q], found.points[:, None], self.look)
@@ -105,7 +105,7 @@ class Validity:
                          f"elements needed over {found.parts[0].axis.name}")
 
     def of(self, f, key):
-        """Returns the maps of a formulation: of two axes, or next to each other over the third axis."""
+        """Returns the maps of a formulation: one map of two axes, or several side by side over the third axis."""
         found, (a, b, *more) = self.found, self.axes
         x, y = found.parts[a], found.parts[b]
         what = f"elements needed by {key} over {x.axis.name} and {y.axis.name}"
@@ -133,8 +133,9 @@ class Validity:
 
 class Winners:
     """The formulations of lowest cost within the tolerance. images: [(Image, alt)]; shares: [(letter, formulation,
-    points won, mean cost there, s)], most first; ahead: the formulations that are listed first; none: points
-    without a winner, and the number with a reference value; unranked: formulations without counted costs."""
+    points won, mean cost at these points [s])], most points first; ahead: the formulations that are listed first;
+    none: number of points without a winner, and number with a reference value; unranked: formulations without counted
+    costs."""
 
     def __init__(self, sweep, found, axes):
         self.sweep, self.found = sweep, found
@@ -176,7 +177,8 @@ class Winners:
 
 
 def curves(site, sweep, found, q=-1):
-    """Draws curves over one axis: the largest error in each of its parts, a panel for each mesh. q: quantity."""
+    """Draws curves over one axis: the largest error in each of its parts, with a panel for each mesh. q: index of the
+    quantity."""
     part = found.parts[0]
     x = np.where(part.low == part.high, part.low, (part.low + part.high) / 2)
     columns = 2 if len(sweep.meshes) > 1 else 1
@@ -196,12 +198,13 @@ def curves(site, sweep, found, q=-1):
     return chart.image(site, f"sweep_errors{q if q >= 0 else ''}")
 
 
-# Data of the runs of a sweep, for maps over axes of the reader's choice: a separate script next to the page, which
-# assets/sweep.js loads when the reader makes a choice.
+# Data of the runs of a sweep for maps over axes that the reader selects. They are in a separate script next to the
+# page, which assets/sweep.js loads when the reader makes a selection.
 #
-# Cells are letters, each with its number of repetitions. The last axis varies fastest.
+# The states of cells are letters, each with its number of repetitions. The last axis varies fastest.
 
-# Upper ends of the classes of errors in percent, in addition to the tolerance; then come larger errors, and no errors.
+# Upper ends of the classes of errors in percent, in addition to the tolerance. Further classes are larger errors and
+# no error.
 LEVELS = [m * 10.0**e for e in range(-3, 2) for m in (1, 2, 5)] + [100.0]
 SPECIAL = {maps.EMPTY: "_", maps.UNKNOWN: "?"}
 
@@ -217,20 +220,20 @@ def written(states):
 
 
 def levels_of(tolerance):
-    """LEVELS, and the tolerance."""
+    """Returns LEVELS together with the tolerance."""
     own = float(f"{100 * tolerance:.6g}")
     return sorted({*LEVELS, own})
 
 
 def classes(worst, points, levels):
-    """Returns the classes of the largest errors in cells [C]."""
+    """Returns the class of the largest error in each cell [C]."""
     found = np.searchsorted(levels, 100 * worst.astype(float) * (1 - 1e-6))  # single precision
     found = np.where(np.isinf(worst), len(levels) + 1, found)
     return np.where(points == 0, maps.EMPTY, np.where(worst < 0, maps.UNKNOWN, found))
 
 
 def looks_of_errors(tolerance):
-    """Returns {class: fill, ink, sign, label}: light colours within the tolerance, dark ones beyond it."""
+    """Returns {class: fill, ink, sign, label}, with light colours within the tolerance and dark colours beyond it."""
     out, levels = {}, levels_of(tolerance)
     inside = [x for x in levels if x <= 100 * tolerance * (1 + 1e-5)]
     for k, x in enumerate([*levels, np.inf]):
@@ -252,8 +255,8 @@ def look(fill, sign, words):
 
 
 def axis_of(part):
-    """Returns the axis of a map: names of its parts, the cuts between them, and possible positions of ticks, in
-    parts."""
+    """Returns the data of an axis for maps: names of its parts, the boundaries between them, and possible positions of
+    ticks in units of parts."""
     low, high = part.low[0], part.high[-1]
     return {"name": part.axis.name, "range": [float(f"{low:.6g}"), float(f"{high:.6g}")],
             "cuts": part.cuts.tolist(), "words": bool(part.axis.words), "title": maps.title_of(part), "names":
@@ -264,7 +267,7 @@ def axis_of(part):
 
 
 def cells_of(sweep, found, order):
-    """Returns the data. order: of formulations, by key."""
+    """Returns the data of the cells. order: formulations sorted by key."""
     elements = maps.Look(sweep.meshes)
     asked = range(len(sweep.quantities) + 1)
     keys, levels = range(len(sweep.keys)), levels_of(sweep.tolerance)
@@ -285,7 +288,7 @@ def cells_of(sweep, found, order):
 
 
 def write_cells(site, name, sweep, found, order):
-    """Writes the file of that name next to the pages."""
+    """Writes the data to the file of this name next to the pages."""
     text = json.dumps(cells_of(sweep, found, order), separators=(",", ":"), ensure_ascii=False)
     path = os.path.join(site.folder, name)
     with open(f"{path}.part", "w", encoding="utf-8") as out:
@@ -294,7 +297,7 @@ def write_cells(site, name, sweep, found, order):
 
 
 NAVIGATION = []  # the files are named after the sweeps
-MOST_WORST, MOST_CURVES = 20, 12  # points that are listed, quantities with their own curves
+MOST_WORST, MOST_CURVES = 20, 12  # largest numbers of listed points and of quantities with separate curves
 
 
 def navigation(site):
@@ -340,7 +343,7 @@ def worst_rows(sweep):
 
 
 def curves_of(site, sweep, found):
-    """Returns [(quantity or empty for all of them, Image)] over the axis of a sweep with a single axis."""
+    """Returns [(quantity, or an empty string for all quantities, Image)] for a sweep with a single axis."""
     if len(found.parts) > 1:
         return []
     single = sweep.quantities[:MOST_CURVES] if len(sweep.quantities) > 1 else []
@@ -349,7 +352,7 @@ def curves_of(site, sweep, found):
 
 
 def glance(site, sweep):
-    """Returns the context of the first sentences, here and on the first page."""
+    """Returns the context of the first sentences, on this page and on the first page."""
     found = gather.of_sweep(sweep)
     made = answers.of_sweep(sweep, found)
     return {"sweep": sweep, "found": found, "answers": made, "groups": answers.together(made),

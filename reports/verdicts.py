@@ -1,4 +1,4 @@
-"""Descriptions of verdicts: sign, style, meaning, additional text of a record."""
+"""Descriptions of verdicts: sign, style, meaning, and additional text for a record."""
 import math
 from dataclasses import dataclass
 
@@ -7,13 +7,13 @@ from reports import data
 
 @dataclass(frozen=True)
 class Kind:
-    name: str  # as in the results
+    name: str  # name in the results
     sign: str  # used if there is no room for the name
     look: str  # class in the style sheet
     meaning: str
 
 
-# From good to bad, then those without a verdict; of several, the last one counts.
+# From good to bad, then kinds without a verdict. The last of several kinds is the worst.
 KINDS = (
     Kind("pass", "✓", "pass", "the limit agrees with the reference value within the uncertainties"),
     Kind("low order", "↓", "other", "the limit is the reference value, approached more slowly than expected"),
@@ -47,7 +47,8 @@ UNJUDGED = ("skip", "no truth", "other model")
 
 
 def worst(verdicts):
-    """Returns the record of the worst kind; of several, the one whose limit is farthest off."""
+    """Returns the record of the worst kind; of several such records, the one whose limit is farthest from the
+    reference value."""
 
     def badness(v):
         return SEVERITY[v.verdict], abs(v.error) if math.isfinite(v.error) else 0
@@ -60,12 +61,12 @@ def percent(value):
 
 
 def met(v):
-    """Returns the relative distance of the limit from the derived one; NaN if none was derived."""
+    """Returns the relative distance of the limit from the derived limit, or NaN if no limit was derived."""
     return abs(v.limit - v.predicted) / abs(v.predicted) if v.predicted else math.nan
 
 
 def of_limit(v):
-    """Describes a limit that differs from the reference value, or may do so."""
+    """Describes a limit that differs, or may differ, from the reference value."""
     if v.verdict == "undecided" and v.truth:
         known = 100 * v.limit_uncertainty / abs(v.truth)
         return [f"{percent(v.error)} from the reference value, known to ± {known:.2g} %"]
@@ -79,8 +80,8 @@ def of_limit(v):
 
 
 def remarks(v, distance=True):
-    """Returns short sentences for a verdict's cell in a table; distance: includes the distance of a limit from the
-    reference value, which is omitted in a table with a column for it."""
+    """Returns short sentences for the cell of a verdict in a table. distance: the text includes the distance of a
+    limit from the reference value; it is omitted if the table has a column for it."""
     words = of_limit(v) if math.isfinite(v.limit) else []
     if not distance and v.verdict in OWN_LIMITS:
         words = words[1:]
@@ -91,11 +92,11 @@ def remarks(v, distance=True):
     return words
 
 
-# Counts every verdict once, and finds those that only repeat another one.
+# Counts every verdict once and finds verdicts that only repeat another verdict.
 #
-# An alias is a second name of the same entry of a matrix. It is recognised from the results: both names have the same
-# bits in every run. A formulation with a misprint shares all but one sign with the corrected form; if both have the
-# same verdict, the misprint adds nothing.
+# An alias is a second name of the same entry of a matrix. Aliases are recognised from the results: the values of both
+# names are equal, bit for bit, in every run. A formulation with a misprint differs from the corrected form in one
+# sign; if both have the same verdict, it is counted only once.
 
 ALIASES = {"C_xx": "C_ux_Fx", "C_zz": "C_uz_Fz"}
 MISPRINTS = {"sheet_third_printed": "sheet_third"}
@@ -118,19 +119,21 @@ def same(a, b):
 
 
 def is_alias(case, name, other):
-    """Do both names have the same value in every run that has one of them, and is there at least one?"""
+    """Returns whether there is a run with one of the two names, and both names have the same value in every such
+    run."""
     values = [m.values for p in case.points for s in p.series for m in s.meshes]
     pairs = [(v.get(name, math.nan), v.get(other, math.nan)) for v in values]
     return all(same(*pair) for pair in pairs) and any(math.isfinite(a) for a, _ in pairs)
 
 
 def aliases(case):
-    """Returns the names of a case that repeat another one."""
+    """Returns the names of a case that are aliases of another name."""
     return {name for name, other in ALIASES.items() if is_alias(case, name, other)}
 
 
 def corrected(key):
-    """Returns the corrected formulation, with its options, if this one contains a misprint; otherwise None."""
+    """Returns the corrected formulation, with the same options, if this formulation contains a misprint, otherwise
+    None."""
     name, colon, options = key.partition(":")
     return MISPRINTS[name] + colon + options if name in MISPRINTS else None
 
@@ -159,7 +162,7 @@ def rows(cases):
 
 
 def counts(found):
-    """Returns {verdict: number} of those that are counted, and {standing: number} of the others."""
+    """Returns {verdict: number} of the counted verdicts, and {standing: number} of the others."""
     by_verdict, left_out = {}, {}
     for row in found:
         own = row.standing == OWN
@@ -169,6 +172,6 @@ def counts(found):
 
 
 def count_verdicts(cases):
-    """Returns {verdict: number} of those that are counted, from good to bad."""
+    """Returns {verdict: number} of the counted verdicts, from good to bad."""
     found = counts(rows(cases))[0]
     return dict(sorted(found.items(), key=lambda item: SEVERITY[item[0]]))

@@ -1,1 +1,1 @@
-"""Sweeps: the range of the parameters over which a formulation is within a tolerance."""
+"""Pages of sweeps: the ranges of the parameters over which formulations are within a tolerance."""

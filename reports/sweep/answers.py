@@ -1,21 +1,21 @@
-"""First statements of the page of a sweep: for every formulation, the ranges in which it is within the tolerance, from
+"""First statements on the page of a sweep: for every formulation, the ranges in which it is within the tolerance, from
 the counts of one pass."""
 from dataclasses import dataclass, field
 
 from reports.sweep import boxes, gather, stored
 from reports.sweep.boxes import Box
 
-ENOUGH = 0.9  # of the largest range: fewer elements that reach this share are listed first
-FEWER = 0.15  # of the first range: a range with fewer elements is listed from this share on
-BEHIND = 0.95  # of the points of the next quantity: below this share, one quantity alone decides
-WIDER = 1.01  # of the first range: a range with more elements is also listed from this factor on
+ENOUGH = 0.9  # share of the largest range that a range with fewer elements must reach to be listed first
+FEWER = 0.15  # share of the first range that a range with fewer elements must reach to be listed
+BEHIND = 0.95  # share of the points of the next quantity below which one quantity alone decides
+WIDER = 1.01  # factor on the first range that a range with more elements must reach to be listed
 
 
 @dataclass
 class Range:
-    """Range in which a formulation with this number of elements is within the tolerance. box: or None; reached: all
-    points within it; known: points with a reference value; whole: all points; exceptions: points of the box that are
-    not within the tolerance."""
+    """Range in which a formulation with this number of elements is within the tolerance. box: a Box or None; reached:
+    number of points within the tolerance, in the box or not; known: points with a reference value; whole: all points;
+    exceptions: points of the box that are not within the tolerance."""
 
     mesh: int
     box: object
@@ -31,9 +31,10 @@ class Range:
 
 @dataclass
 class Answer:
-    """of: ranges in all quantities by mesh; single: {quantity: the same}; first: the range that is listed first, or
-    None; fewer: a range with fewer elements; wider: one with more; absent: it does not support the physics at any
-    point; decided: the quantity that needs the most elements, empty if no single one does."""
+    """Answer for a formulation. of: ranges for all quantities together, by mesh; single: {quantity: its ranges};
+    first: the range that is listed first, or None; fewer: a range with fewer elements; wider: a range with more
+    elements; absent: the formulation does not support the physics at any point; decided: the quantity that needs the
+    most elements, or an empty string."""
 
     key: str
     of: list
@@ -45,8 +46,8 @@ class Answer:
     decided: str = ""
 
     def decide(self):
-        """Determines, for the largest number of elements that is not enough in all quantities, whether a single
-        quantity is the reason."""
+        """Determines whether a single quantity is the reason why the largest insufficient number of elements is not
+        enough for all quantities."""
         short = [i for i, r in enumerate(self.of) if r.reached < r.known]
         if not short or not self.single:
             return
@@ -56,7 +57,8 @@ class Answer:
             self.decided = reached[0][1]
 
     def choose(self):
-        """Chooses the range that is listed first: nearly the widest range with the fewest elements."""
+        """Selects the range that is listed first: of the ranges that are nearly as wide as the widest, the one with
+        the fewest elements."""
         most = max((r.good for r in self.of), default=0)
         if not most:
             return
@@ -71,7 +73,7 @@ class Answer:
         return [r for r in (self.first, self.fewer, self.wider) if r]
 
     def same(self):
-        """Returns the key of answers that are printed together."""
+        """Returns the key that is equal for answers in one sentence."""
         if not self.first:
             return self.absent, self.of[-1].reached
         return self.first.mesh, self.first.box.lattice, self.first.box.chosen
@@ -125,8 +127,9 @@ def of_sweep(sweep, found):
 @dataclass
 class Group:
     """Answers with the same range and number of elements, printed in one sentence. least: the answer with the fewest
-    points within the tolerance; worst: [(formulation, exception)], the worst first; exceptions: their number; fewer,
-    wider: what they have in common, or None; more: some have further ranges that are not printed."""
+    points within the tolerance; worst: [(formulation, exception)], the worst first; exceptions: number of exceptions;
+    fewer, wider: ranges that all answers have in common, or None; more: some answers have other ranges, which are not
+    printed."""
 
     answers: list
 
@@ -136,7 +139,7 @@ class Group:
 
     @property
     def alike(self):
-        """Do all answers have the same number of points within the tolerance?"""
+        """Returns whether all answers have the same number of points within the tolerance."""
         return len({(a.first.good, a.first.box.points) for a in self.answers}) == 1
 
     @property
@@ -176,7 +179,7 @@ def together(made):
 
 
 def unknown(sweep, found, q):
-    """Returns (points, Box or None) without a reference value for a quantity."""
+    """Returns (number of points without a reference value for a quantity, Box of these points or None)."""
     known = found.known[:, q]
     without = found.points - known
     if not without.any():
@@ -186,7 +189,7 @@ def unknown(sweep, found, q):
 
 
 def outcomes(sweep, found):
-    """Returns [(formulation, outcome, runs, total, [(axis, low, high)])] of outcomes without a solution; only axes
+    """Returns [(formulation, outcome, runs, total, [(axis, low, high)])] of outcomes without a solution, with the axes
     that the outcome does not cover completely."""
     out = []
     for f, key in enumerate(sweep.keys):
@@ -203,7 +206,7 @@ def outcomes(sweep, found):
 
 def proven(rows):
     """Returns the quantities that have reference values at some points and only limits at others, and the largest
-    number of their points with reference values. rows: those of references()."""
+    number of their points with reference values. rows: result of references()."""
     mixed = []
     for quantity, kinds, *_ in rows:
         truths = sum(n for kind, n in kinds.items() if kind.startswith("truth"))
@@ -214,7 +217,7 @@ def proven(rows):
 
 def references(sweep, found):
     """Returns [(quantity, {kind: points}, largest uncertainty, uncertain points, points without a reference value, Box
-    of these)]."""
+    of the latter)]."""
     rows = []
     for q, quantity in enumerate(sweep.quantities):
         kinds = {name: int(n) for name, n in zip(sweep.kinds, found.kinds[q])
@@ -230,22 +233,22 @@ SMALL = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "
 
 
 def count(number):
-    """Small numbers as words."""
+    """Returns a count as text, with small numbers as words."""
     return SMALL[number] if number < len(SMALL) else f"{number:,}".replace(",", "\u202f")
 
 
 def plenty(number):
-    """Returns a number with separated thousands."""
+    """Returns a number as text with separated thousands."""
     return f"{number:,}".replace(",", "\u202f")
 
 
 def many(number, noun):
-    """A number of things."""
+    """Returns a count with its noun in the singular or plural."""
     return f"{plenty(number)} {noun}" + ("s" if number != 1 else "")
 
 
 def percent(share):
-    """Returns the percentage of all points; 0 and 100 only if exact."""
+    """Returns a share in percent as text; 0 and 100 occur only if exact."""
     value = 100 * share
     if 0 < value < 1:
         return "less than 1 %"
@@ -271,7 +274,7 @@ def elements(number):
 
 
 def bounds(part, chosen):
-    """Returns [(sign, number)] of an axis with numbers."""
+    """Returns the bounds [(sign, number)] of the selected part of an axis with numbers."""
     low, high, found = chosen[0], chosen[-1], []
     if low > 0:
         found.append(("≥", part.low[low] if part.exact else part.cuts[low - 1]))
@@ -281,7 +284,7 @@ def bounds(part, chosen):
 
 
 def condition(part, chosen):
-    """Describes the chosen part of an axis."""
+    """Describes the selected part of an axis."""
     axis = part.axis
     if axis.words:
         given, left = (axis.words[i] for i in chosen), set(range(len(part))) - set(chosen)
@@ -297,7 +300,7 @@ def condition(part, chosen):
 
 
 def conditions(box: Box):
-    """Describes a box; empty if it covers everything."""
+    """Describes a box; returns an empty string if the box covers all points."""
     return " and ".join(condition(p, c) for p, c in zip(box.lattice.parts, box.chosen)
                         if c is not None)
 
@@ -309,7 +312,7 @@ def where(box):
 
 
 def held(box):
-    """Returns the counts on which a statement is based."""
+    """Returns the counts of points on which a statement about a box is based."""
     there = " there" if box.conditions else ""
     if box.bad:
         said = f"{plenty(box.good)} of {many(box.points, 'point')}{there}"

@@ -1,8 +1,8 @@
 """Finds the largest box of a lattice in which nearly all points are within the tolerance; simple boxes take precedence
-over large ones.
+over large boxes.
 
-A box has for each axis no condition, one bound, two bounds, or a set of words. Each bound is a condition, and so is a
-set of words. A box with more conditions is preferred only if it contains many more points."""
+For each axis, a box has no condition, one bound, two bounds, or a set of words. Each bound counts as one condition,
+and so does a set of words. A box with more conditions is preferred only if it contains many more points."""
 import functools
 import itertools
 from dataclasses import dataclass, field
@@ -11,19 +11,20 @@ import numpy as np
 
 ALLOWED = 0.03  # maximum share of exceptions among the points of a box
 LEAST = 0.05  # share of all points below which a box is not printed
-FEWEST = 3  # points
+FEWEST = 3  # number of points below which a box is not printed
 GAIN = 1.2  # minimum factor on the number of points that justifies another condition
-WEIGHT = 3  # of an exception relative to a point within the tolerance, so that a box ends before mixed regions
+WEIGHT = 3  # weight of an exception relative to a point within the tolerance, so that a box ends before mixed regions
 CLIMBS = (1, 3, 10, 30)  # weights of exceptions while a box grows
-ROUNDS = 20  # over all axes
+ROUNDS = 20  # largest number of passes over all axes
 FINE = 8  # number of parts of an axis above which three axes are first tried at every second part
 WORDS = 6  # number of words up to which all choices of words are tried
 
 
 @dataclass(frozen=True)
 class Box:
-    """lattice: for each of its columns, chosen is None or the indices of the parts; good, bad: points inside and
-    outside the tolerance; whole: all points; asked: those with a reference value; conditions: their number."""
+    """A box of a lattice. chosen: for each column of the lattice, None or the indices of the selected parts; good,
+    bad: points in the box within and outside the tolerance; whole: all points; asked: points with a reference value;
+    conditions: number of conditions."""
 
     lattice: object = field(repr=False)
     chosen: tuple
@@ -39,11 +40,11 @@ class Box:
 
     @property
     def share(self):
-        """Returns the share of all points."""
+        """Returns the share of all points that are in the box and within the tolerance."""
         return self.points / self.whole if self.whole else 0.0
 
     def holds(self, at):
-        """Returns a mask of the points that lie in the box; at: [points, axes]."""
+        """Returns a mask of the points in the box. at: [points, axes]."""
         inside = np.ones(len(at), bool)
         for chosen, index in zip(self.chosen, self.lattice.index(at).T):
             if chosen is not None:
@@ -53,8 +54,8 @@ class Box:
 
 @dataclass(frozen=True)
 class Choices:
-    """All choices on an axis, simple ones first. member: [choices, parts]; cost: conditions of each; coarse: rows of
-    those that end only at every second part, if there are many."""
+    """All choices on an axis, simple choices first. member: [choices, parts]; cost: number of conditions of each
+    choice; coarse: rows of the choices that end only at every second part, if there are many parts."""
 
     member: np.ndarray
     cost: np.ndarray
@@ -102,20 +103,20 @@ def choices_of(parts):
 
 
 def fewest(whole):
-    """Returns the number of points from which a box is printed."""
+    """Returns the smallest number of points of a printed box."""
     return max(min(FEWEST, whole), LEAST * whole)
 
 
 def scored(good, bad, whole):
-    """Returns the good points minus the weighted exceptions; -infinite if a box is not allowed."""
+    """Returns the good points minus the weighted exceptions, or -infinity if a box is not allowed."""
     points = good + bad
     fine = (bad <= ALLOWED * points) & (points >= fewest(whole))
     return np.where(fine, good - WEIGHT * bad, -np.inf)
 
 
 class Search:
-    """good, bad: points of each cell of a lattice [cells]; whole: all points, including those that are neither; None:
-    there are no others."""
+    """Search for the best boxes. good, bad: numbers of points in each cell of a lattice [cells]; whole: number of all
+    points, including those that are neither; None: there are no others."""
 
     def __init__(self, lattice, good, bad, whole=None):
         self.lattice = lattice
@@ -126,7 +127,8 @@ class Search:
         self.best = {}  # conditions: (score, {axis: row of its choices})
 
     def reduced(self, table, axes, fixed):
-        """Returns a table over some axes; fixed: {axis: row} chosen on other axes; the rest are summed."""
+        """Returns a table over some axes. fixed: {axis: row} of the choices on other axes; the table is summed over
+        the remaining axes."""
         for axis in reversed(range(table.ndim)):
             if axis not in axes:
                 of = self.choices[axis].member
@@ -148,7 +150,7 @@ class Search:
                 self.best[cost] = float(of[at]), fixed | chosen
 
     def one(self, axis, fixed):
-        """Tries all choices on an axis with the others fixed; uses their (good, bad) points."""
+        """Tries all choices on an axis with the choices on the other axes fixed."""
         of = self.choices[axis]
         good, bad = (of.member @ self.reduced(t, (axis,), fixed) for t in (self.good, self.bad))
         other = {a: row for a, row in fixed.items() if a != axis}
@@ -179,8 +181,8 @@ class Search:
         self.keep(score, {c: rows[c], a: rows[a], b: rows[b]}, {})
 
     def climb(self, weight):
-        """Restricts one axis after the other, starting without conditions, with this weight of exceptions. It finds
-        boxes with many conditions if those with few are not allowed."""
+        """Restricts one axis after the other, starting without conditions, with this weight of exceptions. This finds
+        boxes with many conditions if boxes with few conditions are not allowed."""
         fixed, before = {}, None
         for _ in range(ROUNDS):
             if fixed == before:
@@ -192,7 +194,8 @@ class Search:
                 fixed[axis] = int(value.argmax())
 
     def ascend(self):
-        """Changes one axis after the other, starting from the best box, until nothing improves."""
+        """Changes the choice on one axis after the other, starting from the best box, until the score no longer
+        improves."""
         before = None
         while self.best and before != self.best:
             before = dict(self.best)
@@ -201,7 +204,7 @@ class Search:
                     self.one(axis, fixed)
 
     def enough(self):
-        """Is there a box to which no further condition would add enough points?"""
+        """Returns whether there is a box for which no additional condition could add enough points."""
         most = max((score for score, _ in self.best.values()), default=0)
         return most >= self.good.sum() / GAIN
 
@@ -238,7 +241,7 @@ class Search:
 
 
 def candidates(lattice, good, bad, whole):
-    """Returns [Box], the best for each number of conditions."""
+    """Returns [Box] with the best box for each number of conditions."""
     search = Search(lattice, good, bad, whole)
     if search.asked:
         search.run()

@@ -8,21 +8,22 @@ import numpy as np
 
 from reports.sweep import stored
 
-# Points of a sweep in cells. Every axis is cut into a few parts, so that any number of points takes the same memory.
-# Parts contain whole values of a grid; those of scattered points end at short numbers.
+# Points of a sweep in cells. Every axis is divided into a few parts, so that any number of points takes the same
+# memory.
+# The parts of a grid contain its values; the parts of scattered points end at round numbers.
 
-MOST = 20  # parts of an axis
+MOST = 20  # largest number of parts of an axis
 CELLS = 1_500_000  # maximum number of values stored for all cells together
-RATIOS = 6  # of two axes that are tried
+RATIOS = 6  # largest number of ratios of two axes that are tried
 EACH = 4  # average number of scattered points in a cell of two axes
-AXES = 8  # that are cut; beyond this number, an axis is a single part
-LEVELS = 4096  # number of different values up to which an axis counts as a grid
+AXES = 8  # largest number of axes that are divided; further axes have a single part
+LEVELS = 4096  # largest number of different values of an axis of a grid
 
 
 @dataclass
 class Parts:
-    """An axis in parts. cuts: between the parts, len - 1; low, high: smallest and largest value in each; exact: the
-    values are those of a grid, so that low and high were actually run."""
+    """An axis in parts. cuts: the boundaries between parts (one fewer than parts); low, high: smallest and largest
+    value in each part; exact: the values are those of a grid, so that low and high were actually run."""
 
     axis: object  # stored.Axis
     low: np.ndarray
@@ -49,7 +50,8 @@ class Parts:
 
 @dataclass(frozen=True, eq=False)
 class Lattice:
-    """Cells of some columns. columns: an axis (i,), or the ratio of two (i, j); parts: of each column."""
+    """The cells formed by some columns. columns: an axis (i,) or the ratio of two axes (i, j); parts: Parts of each
+    column."""
 
     columns: tuple
     parts: tuple
@@ -81,7 +83,7 @@ def values_of(column, at):
 
 @dataclass
 class Extent:
-    """Range of an axis: its different values if they are few, its smallest and its largest value."""
+    """Range of an axis: its smallest and largest value, and its different values if there are few."""
 
     levels: np.ndarray
     low: float = math.inf
@@ -94,7 +96,7 @@ class Extent:
 
 
 def shortened(edges, width):
-    """Rounds numbers to as few digits as a tenth of a width allows."""
+    """Rounds numbers to as few digits as possible, with changes below a tenth of the width."""
     return np.array([round(e, max(0, 1 - math.floor(math.log10(w)))) if w < 1 else
                      round(e, 1 - math.floor(math.log10(w))) for e, w in zip(edges, width)])
 
@@ -130,7 +132,8 @@ def most_parts(sweep):
 
 
 def ratios_of(sweep, extents):
-    """Returns pairs of columns whose ratio may be more informative than the axes: same unit, all values positive."""
+    """Returns pairs of axes whose ratio may be more informative than the axes: they have the same unit, and all values
+    are positive."""
     pairs = []
     for i, j in itertools.combinations(range(min(AXES, len(sweep.axes))), 2):
         a, b = sweep.axes[i], sweep.axes[j]
@@ -141,7 +144,7 @@ def ratios_of(sweep, extents):
 
 
 def with_ratio(sweep, parts, pair, extent):
-    """Returns the lattice of a ratio and the axes that are not in it."""
+    """Returns the lattice of the ratio of a pair of axes and of all other axes."""
     names = "/".join(sweep.axes[k].name for k in pair)
     axis = stored.Axis(names, "1", "ratio", 0, True)
     rest = [k for k in range(len(parts)) if k not in pair]
@@ -171,27 +174,27 @@ def lattice_of(sweep):
             *(with_ratio(sweep, parts, pair, extent) for pair, extent in zip(pairs, found))]
 
 
-NAMED = 3  # stored exceptions of a box, the worst ones
+NAMED = 3  # number of exceptions of a box that are stored, the worst ones
 
 
 @dataclass
 class Gathered:
     """Counts of F formulations, M meshes, Q quantities (and all of them together) in the C cells of the first lattice.
 
-    reaches: for each lattice, points by the first mesh at and above which all are within the tolerance
+    reaches: for each lattice, number of points by the first mesh from which all meshes are within the tolerance
     [C, F, Q+1, M+2]; M: none, M+1: none, and the finest mesh has no solution. It contains only points at which the
     formulation is compared; reach is that of the first lattice.
     known: points with a reference value [C, Q+1].
     worst: largest error [C, F, Q+1, M], infinite without a solution, -1 if nothing is compared.
-    wins, winner_cost: points where a formulation is the cheapest within the tolerance in all quantities, or ties within
-    the uncertainty of the cost model, and the sum of its costs there, s [C, F].
+    wins, winner_cost: number of points at which a formulation is the cheapest within the tolerance for all quantities,
+    or ties within the uncertainty of the cost model, and the sum of its costs at these points [s]; [C, F].
     unwon: points with a reference value but without a winner.
     kinds: reference values by kind [Q, kinds].
     `doubt`: largest relative uncertainty [Q]; doubtful: reference values whose uncertainty exceeds the tolerance [Q].
     status: runs by outcome [F, M, S].
     failed: smallest and largest value of each axis where an outcome occurs [F, S, 2, A].
     points: all [C].
-    ranked: has a formulation counted costs at any point? [F]"""
+    ranked: whether a formulation has counted costs at any point [F]."""
 
     lattices: list
     reaches: list
@@ -219,7 +222,7 @@ class Gathered:
 
     @property
     def judged(self):
-        """Points with a reference."""
+        """Returns the number of points with a reference value."""
         return int(self.known[:, -1].sum())
 
     @property
@@ -241,16 +244,17 @@ def empty(sweep, lattices):
 
 
 def known_in(sweep, piece):
-    """Is there a reference value? [points, Q+1]; last: for at least one quantity."""
+    """Returns whether a reference value exists [points, Q+1]; the last entry is True if at least one quantity has
+    one."""
     own = ~np.isin(piece.kind, sweep.without)
     return np.concatenate([own, own.any(axis=1, keepdims=True)], axis=1)
 
 
 def asked_in(sweep, piece):
-    """Is a formulation compared with the reference value? [points, F, Q+1]. It is not if it does not support the
-    physics, nor if the reference value belongs to another theory (then there is a value but no error). All
-    quantities together are not compared if one has a value but no error, unless another is never within the
-    tolerance."""
+    """Returns whether a formulation is compared with the reference value [points, F, Q+1]. It is not compared if it
+    does not support the physics, or if the reference value belongs to another theory (there is then a value but no
+    error). All quantities together are not compared if a quantity has a value but no error, unless another quantity is
+    never within the tolerance."""
     own = np.repeat(known_in(sweep, piece)[:, None, :-1], len(sweep.keys), axis=1)
     own &= ~np.isin(piece.status, sweep.outcomes(stored.ABSENT)).any(axis=2)[..., None]
     open_ = (np.isfinite(piece.value) & np.isnan(piece.error)).any(axis=2)
@@ -261,7 +265,7 @@ def asked_in(sweep, piece):
 
 
 def errors_in(piece, asked):
-    """Returns [points, F, Q+1, M]: -1 if nothing is compared, infinite without a solution."""
+    """Returns the errors [points, F, Q+1, M]: -1 if there is no comparison, infinite without a solution."""
     own = np.where(np.isnan(piece.error), np.inf, np.abs(piece.error)).transpose(0, 1, 3, 2)
     own = np.where(asked[:, :, :-1, None], own, -1)
     whole = np.where(asked[:, :, -1:, None], own.max(axis=2, initial=-1, keepdims=True), -1)
@@ -269,7 +273,7 @@ def errors_in(piece, asked):
 
 
 def reached_in(sweep, piece, asked):
-    """Returns the first mesh at and above which all are within the tolerance, as in Gathered.reach; [points, F,
+    """Returns the first mesh from which all meshes are within the tolerance, numbered as in Gathered.reach [points, F,
     Q+1]."""
     count = len(sweep.meshes)
     own = np.searchsorted(sweep.meshes, piece.least)
@@ -281,7 +285,7 @@ def reached_in(sweep, piece, asked):
 
 
 def take_winners(into, sweep, piece, cell, asked, reached):
-    """Counts the formulations of lowest cost within the tolerance in all quantities."""
+    """Counts the formulations of lowest cost within the tolerance for all quantities."""
     into.ranked |= np.isfinite(piece.cost).any(axis=(0, 2))
     count = len(sweep.meshes)
     mesh = np.minimum(reached[:, :, -1], count - 1)
@@ -323,7 +327,7 @@ def count(reach, cell, asked, reached):
 
 
 def take(into, sweep, piece):
-    """Adds some points."""
+    """Adds the points of a piece to all counts."""
     asked, cells = asked_in(sweep, piece), [each.cell_of(piece.at) for each in into.lattices]
     reached, cell = reached_in(sweep, piece, asked), cells[0]
     np.add.at(into.points, cell, 1)
@@ -349,7 +353,7 @@ def of_sweep(sweep):
 
 @dataclass
 class Outlier:
-    """A point in a box that is not within the tolerance. error: that of the mesh of the box."""
+    """A point in a box that is not within the tolerance. error: error of the mesh to which the box belongs."""
 
     point: int
     at: np.ndarray
@@ -357,7 +361,7 @@ class Outlier:
 
 
 def exceptions(sweep, boxes):
-    """Returns the worst exceptions of boxes: [[Outlier]] for [(box, f, q, m)]."""
+    """Returns the worst exceptions [[Outlier]] of the boxes [(box, f, q, m)]."""
     found = [[] for _ in boxes]
     wanted = [i for i, (box, *_) in enumerate(boxes) if box.bad]
     for piece in sweep.pieces() if wanted else ():

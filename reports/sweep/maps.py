@@ -1,6 +1,6 @@
-"""Maps of a sweep as separate SVG images: a field for each cell of two axes, with a colour and a sign of the same
-meaning. Equal adjacent fields of a row are joined, so that maps are short. assets/sweep.js draws the same maps over
-other axes; change both together."""
+"""Maps of a sweep as separate SVG images, with a field for each cell of two axes. The colour and the sign of a field
+have the same meaning. Equal adjacent fields in a row are joined, so that files are small. assets/sweep.js draws the
+same maps over other axes and must be changed together with this module."""
 import numpy as np
 from markupsafe import escape
 from matplotlib import colormaps
@@ -10,7 +10,7 @@ from reports import style
 from reports.chart import linear_ticks, log_ticks
 from reports.figures import FONT, Image, number
 
-EMPTY, UNKNOWN = -2, -1  # no point; no reference
+EMPTY, UNKNOWN = -2, -1  # no point; no reference value
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 WIDE, LEAST_FIELD, MOST_FIELD = 230, 11.5, 40  # width of a map, smallest and largest size of a field, in pixels
 LEFT, TOP, BELOW, RIGHT = 52, 36, 38, 12
@@ -30,13 +30,13 @@ def ink(fill):
 
 
 def steps(count):
-    """Returns colours from light to dark, for few to many elements."""
+    """Returns colours from light (few elements) to dark (many elements)."""
     at = np.linspace(0.95, 0.25, count) if count > 1 else [0.8]
     return [to_hex(colormaps["viridis"](x)) for x in at]
 
 
 class Look:
-    """Colour, sign and label of every state: first the meshes, then the states that no mesh reaches."""
+    """Colour, sign and label of every state: first the meshes, then the states without a mesh within the tolerance."""
 
     def __init__(self, meshes):
         count = len(meshes)
@@ -58,8 +58,8 @@ class Look:
 
 
 def states(reach, points, look):
-    """Returns the states of fields. reach: points by the first mesh within the tolerance [..., M + 2]; points: number
-    in each field."""
+    """Returns the states of fields. reach: number of points by the first mesh within the tolerance [..., M + 2];
+    points: number of points in each field."""
     count = look.none
     total, out = reach.sum(axis=-1), reach[..., count:].sum(axis=-1)
     top = count - 1 - np.argmax(reach[..., count - 1::-1] > 0, axis=-1)
@@ -79,7 +79,7 @@ def text(x, y, words, more=""):
 
 
 def bounds(part):
-    """Returns where the parts of an axis with numbers begin and end."""
+    """Returns the values at which the parts of an axis with numbers begin and end."""
     if part.exact and len(part) > 1:
         first, last = 2 * part.cuts[0] - part.cuts[1:2], part.cuts[-2:-1]
         single = (part.low == part.high).all() and len(part) > 2
@@ -90,7 +90,7 @@ def bounds(part):
 
 
 def place_of(part, values):
-    """Returns the positions of values along an axis, in parts."""
+    """Returns the positions of values along an axis, in units of parts."""
     return np.interp(values, bounds(part), np.arange(len(part) + 1.0))
 
 
@@ -121,7 +121,7 @@ def title_of(part):
 
 
 class Map:
-    """One map. x, y: gather.Parts, or names instead of y; table: states [x, y]."""
+    """A map of two axes. x, y: gather.Parts; y may also be a list of names."""
 
     def __init__(self, x, y, wide=WIDE):
         self.x, self.y = x, y
@@ -133,7 +133,7 @@ class Map:
         self.size = self.field * len(x), self.high * len(y)
 
     def fields(self, table, fill, sign):
-        """Draws fields by state: one path, and the signs on it."""
+        """Draws the fields of each state as one path, with their signs. table: states [x, y]."""
         paths, signs = {}, {}
         for j, row in enumerate(table.T):
             y = TOP + self.size[1] - (j + 1) * self.high
@@ -168,7 +168,7 @@ class Map:
         return out
 
     def frame(self, title):
-        """Edges, ticks and titles."""
+        """Draws edges, ticks and titles."""
         (width, height), left = self.size, self.left
         bottom = TOP + height
         room = max(34, 1.1 * LETTER * max(len(w) for _, w in marks(self.x)))
@@ -201,8 +201,8 @@ class Map:
 
 
 def winners(wins, known, keys):
-    """Returns (states, fill, sign) of the formulation of lowest cost in fields; 2 k: formulation k at every point, 2 k
-    + 1: at most of them. wins: [..., F]; known: points with a reference value."""
+    """Returns (states, fill, sign) of the formulation of lowest cost in each field. The state is 2 k if formulation k
+    is the cheapest at every point, 2 k + 1 if at most points. wins: [..., F]; known: points with a reference value."""
     count = len(keys)
     best, most = wins.argmax(axis=-1), wins.max(axis=-1)
     state = np.where(most == 0, 2 * count, 2 * best + (most < known))

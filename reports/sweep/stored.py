@@ -9,7 +9,7 @@ from reports.data import Unreadable, text
 
 MARK, VERSION = "beamwork_sweep", 1
 GROUP = "experiments/sweep"  # in older files, the root
-PIECE = 1_000_000  # number of values of one table that are read at once
+PIECE = 1_000_000  # largest number of values of a table that are read at once
 SCATTERED = ("sobol", "halton", "random")
 NONE = "none"  # prefix of kinds of missing references
 OTHER = "other_model"  # the outcome of a formulation that omits relevant physics
@@ -18,8 +18,8 @@ ABSENT = ("not_offered", "no_scene", OTHER)  # outcomes of runs that were not re
 
 @dataclass(frozen=True)
 class Axis:
-    """A parameter that was varied. log: its range is divided by equal factors; words: its strings, by index; empty if
-    it has numbers."""
+    """A parameter that was varied. log: its range is divided by equal factors; words: its strings by index, empty for
+    an axis of numbers."""
 
     name: str
     unit: str
@@ -33,7 +33,7 @@ class Axis:
         return self.kind in SCATTERED
 
     def value(self, number):
-        """Returns the value at a point as text for readers."""
+        """Returns the value at a point as text."""
         if self.words:
             return self.words[int(number)]
         return f"{number:.4g}" + (f" {self.unit}" if self.unit not in ("", "1") else "")
@@ -47,8 +47,8 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Worst:
-    """A worst point of a formulation. quantity: empty if there is no solution (see status); error: relative; scene:
-    name of the stored scene file, or empty."""
+    """One of the worst points of a formulation. quantity: empty if there is no solution (see status); error: relative;
+    scene: name of the stored scene file, or empty."""
 
     point: int
     formulation: str
@@ -61,10 +61,10 @@ class Worst:
 
 @dataclass
 class Piece:
-    """Some consecutive points. at: [points, axes]; reference value, its uncertainty `doubt`, its kind: [points,
-    quantities]; value, error: [points, formulations, meshes, quantities], NaN if there is none; error is relative;
-    status, cost [s]: [points, formulations, meshes]; least: number of elements at and above which every mesh is within
-    the tolerance, 0 for none [points, formulations, quantities]."""
+    """Consecutive points of a sweep. at: [points, axes]; truth (reference value), `doubt` (its uncertainty), kind:
+    [points, quantities]; value, error (relative): [points, formulations, meshes, quantities], NaN if there is none;
+    status, cost [s]: [points, formulations, meshes]; least: number of elements from which all meshes are within the
+    tolerance, or 0 if there is none [points, formulations, quantities]."""
 
     first: int
     at: np.ndarray
@@ -82,7 +82,7 @@ class Sweep:
     """Header of a file; pieces() reads its tables.
 
     subject: the scene file or the case; fixed: values of all parameters that do not vary; noise: cost ratio below
-    which costs tie; points: their number; statuses, kinds: names by number."""
+    which costs tie; points: number of points; statuses, kinds: names by number."""
 
     path: str
     subject: str
@@ -110,7 +110,7 @@ class Sweep:
 
     @property
     def name(self):
-        """Returns the name of its subject, without folders."""
+        """Returns the name of the subject without folders."""
         return pathlib.PurePath(self.subject).name
 
     def scene_of(self, worst):
@@ -163,7 +163,7 @@ def home(file):
 
 
 def is_there(path):
-    """Does the file contain a sweep? False for files that cannot be read."""
+    """Returns whether the file contains a sweep; False for files that cannot be read."""
     try:
         with h5py.File(path) as file:
             return home(file) is not None
@@ -172,7 +172,7 @@ def is_there(path):
 
 
 def is_alone(path):
-    """Does the file contain a sweep, but no results of verify?"""
+    """Returns whether the file contains a sweep but no results of verify."""
     if not is_there(path):
         return False
     with h5py.File(path) as file:
@@ -185,7 +185,7 @@ def program_of(told):
 
 
 def listed(value):
-    """Returns the strings of an attribute: a list, or one string with a line for each."""
+    """Returns the strings of an attribute, which is a list or one string with a line for each."""
     if isinstance(value, (str, bytes)):
         return [line for line in text(value).split("\n") if line]
     return [text(each) for each in np.asarray(value).ravel().tolist()]

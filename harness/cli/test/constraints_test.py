@@ -176,8 +176,8 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
         self.same(one, two.replace("CONSTRAINTS", "constraints: {s: {equal: [p, q], components: ux}}"))
 
     def test_gear(self):
-        """A gear has the stiffness k1 + i^2 k2 and the inertia I1 + i^2 I2, even at large rotations, in either order of
-        the constraint, and in rotated axes."""
+        """A gear has the stiffness k1 + i^2 k2 and the inertia I1 + i^2 I2, even at large rotations, in either order
+        of the constraint, and in rotated axes."""
         k1 = 80e9 * math.pi * 0.01**4 / 2
         k2 = k1 / 2
         stiff, inertia = k1 + 4 * k2, 0.3 + 4 * 0.05

@@ -388,8 +388,8 @@ class Answers(ProgramTest):
                      silent=False, env=environment(BEAMWORK_REFERENCE="/nowhere"))
 
     def test_truth_has_the_digits_of_its_uncertainty(self):
-        """The value has no digits of rounding noise, the shear theory is stated, a thickness without stored values has a
-        value, and a remedy is given if no program can derive the value."""
+        """The value has no digits of rounding noise, the shear theory is stated, a thickness without stored values has
+        a value, and a remedy is given if no program can derive the value."""
         text = self.answered("truth", "spherical_joint").stdout
         self.assertNotRegex(text, r"\d\.\d*(9{6}|0{6}\d)")
         self.assertRegex(text, r"support_stiffness_max +\S+ \+- .* exact +same, haringx\n")
@@ -408,8 +408,8 @@ class Answers(ProgramTest):
         return {name: (float(value), float(plus)) for name, value, plus in found}, lines
 
     def test_truth_of_a_scene(self):
-        """A user's scene is solved as a network of members. The values agree with those of the file and of the built-in
-        case."""
+        """A user's scene is solved as a network of members. The values agree with those of the file and of the
+        built-in case."""
         for case in ("bend_45", "shear_elastica", "roll_up"):
             scene = self.folder / f"{case}.yaml"
             self.answered("scene", case, "-o", scene)

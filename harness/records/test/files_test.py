@@ -43,7 +43,8 @@ class Folder(ProgramTest):
 
 class Complete(Folder):
     def test_full_disk(self):
-        """On a full disk, each kind of file leads to one line and exit status 4, and the previous file is unchanged."""
+        """On a full disk, each kind of file leads to one line and exit status 4, and the previous file is
+        unchanged."""
         wanted = {"-o": "r.h5", "--json": "v.json", "--junit": "j.xml"}
         for option, name in wanted.items():
             pathlib.Path(self.path(name)).write_bytes(b"before")
@@ -124,7 +125,8 @@ class Interrupted(Folder):
             os.remove(self.path(name))
 
     def check_content(self, summary):
-        """Checks that values agree with those of an uninterrupted run; limits lack the noise, which is measured last."""
+        """Checks that values agree with those of an uninterrupted run; limits lack the noise, which is measured
+        last."""
         self.assertGreater(summary["unfinished_cells"], 0)
         self.assertGreater(len(summary["verdicts"]), 0)
         with h5py.File(self.path("r.partial.h5")) as file:

@@ -107,8 +107,8 @@ class Sweeps(ProgramTest):
         self.refused(2, "nothing was compared", "compare", self.old, one, silent=False)
 
     def test_formulations_and_meshes(self):
-        """There is one line for each formulation or mesh, whatever the number of points; the references come from other
-        formulations."""
+        """There is one line for each formulation or mesh, whatever the number of points; the references come from
+        other formulations."""
         new = sweep(self.new, "elastica", "--vary", "load=0.5..2/3", "-f", "sheet_third", "-f", "collocation", "-n", "1,4,8")
         lines, _ = self.compared(1, new)
         self.assertEqual(sorted(line for line in lines if "gone" in line or "new" in line),
