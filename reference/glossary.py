@@ -7,12 +7,12 @@ GLOSSARY_COLUMNS = "term,also,group,meaning,see".split(",")
 
 
 def looked_up(word):
-    """Normalises a word like `beamwork explain`."""
+    """Returns a word in the normalised form that `beamwork explain` uses."""
     return " ".join(re.split(r"[ _-]+", word.lower()))
 
 
 def read_glossary(path):
-    """Reads the entries; checks that names are unique and that references exist."""
+    """Returns the entries, after checking that names are unique and that references exist."""
     rows, names = [], {}
     for number, row in read_csv(path, GLOSSARY_COLUMNS):
         where = f"{path.name}:{number}"

@@ -16,7 +16,7 @@ from reference.accepted import ACCEPTED_COLUMNS, read_accepted  # noqa: E402
 from reference.glossary import GLOSSARY_COLUMNS, read_glossary  # noqa: E402
 from reference.table import Refused, read_csv  # noqa: E402
 
-VERSION = 3  # of the packed file; TRUTHS_VERSION of harness/study/study.h
+VERSION = 3  # version of the packed file, equal to TRUTHS_VERSION of harness/study/study.h
 HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS = "case,parameters,formulation,theory,elements,quantity,at,value,unit,uncertainty,kind,model,convention,source".split(",")
 FINDING_COLUMNS = "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,cause,proof".split(",")
@@ -50,7 +50,8 @@ def read_defaults(path):
 
 
 def parameter_hash(table, parameters, where):
-    """Returns FNV-1a of "name=%.17g;" over all parameters, with choices by index, and "name=*;" for any value."""
+    """Returns the FNV-1a hash of "name=%.17g;" over all parameters, with the indices of choices and with "name=*;" for
+    any value."""
     given = {}
     everything = parameters == "*"
     for item in ([] if everything else filter(None, parameters.split(";"))):
@@ -116,8 +117,8 @@ def check_truth(row, where, defaults):
 
 
 def check_words(row, where, names):
-    """Checks that theory and convention are words of the closed lists, and that the row's parameters do not contradict
-    them."""
+    """Checks that theory and convention are among the allowed words, and that the parameters of the row do not
+    contradict them."""
     given = dict(item.split("=", 1) for item in row["parameters"].split(";") if "=" in item)
     if row["theory"] not in THEORIES:
         raise Refused(f"{where}: theory '{row['theory']}' is none of {'|'.join(THEORIES[1:])}")
@@ -133,14 +134,14 @@ def check_words(row, where, names):
 
 
 def truth_key(row):
-    """Returns the key that distinguishes a reference value from all others; two programs must not derive the same
+    """Returns the key that distinguishes a reference value from all others. Two programs must not derive the same
     exact value."""
     return tuple("" if name == "source" and row["kind"] == "exact" else repr(row[name]) if name == "at" else row[name]
                  for name in ("case", "hash", "formulation", "theory", "elements", "quantity", "at", "kind", "model", "convention", "source"))
 
 
 def read_truths(folders, defaults):
-    """Returns {case: rows} of every table in the folders; a table that does not exist is empty."""
+    """Returns {case: rows} from the tables in the folders. A table that does not exist counts as empty."""
     cases, seen, units = {}, {}, {}
     for path in [path for folder in folders for path in sorted(folder.glob("*.csv"))]:
         for number, row in read_csv(path, COLUMNS):
@@ -163,7 +164,7 @@ def scene_names():
 
 
 def read_findings(path, defaults):
-    """Returns the list of known deviations: one entry for each cause, each on one line."""
+    """Returns the entries of the list of known deviations, one for each cause."""
     rows, seen = [], {}
     for number, row in read_csv(path, FINDING_COLUMNS):
         where = f"{path.name}:{number}"

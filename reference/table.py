@@ -3,7 +3,7 @@ import csv
 
 
 class Refused(Exception):
-    """Raised for an invalid row; the text names it."""
+    """Raised for an invalid row, which the text names."""
 
 
 def read_csv(path, columns):

@@ -24,7 +24,8 @@ def stiffness(k, warping):
 
 
 def work(k, force, y, z, polar):
-    """Returns the work of stresses with resultants `force`, first moments y and z, and second moment `polar` about the centroid."""
+    """Returns the work of stresses with the resultant `force`, the first moments y and z, and the second moment
+    `polar` about the centroid."""
     m = matrix(3, 3)
     m[0, 0] = m[1, 1] = force
     m[0, 2] = m[2, 0] = -z
@@ -52,7 +53,7 @@ def stress_of(load):
 
 
 def least_factors(warping, stress):
-    """Returns the LOADS smallest positive factors of all half-waves."""
+    """Returns the LOADS smallest positive factors over all half-waves."""
     return sorted(
         v for n in range(1, HALF_WAVES + 1) for v in factors(n * pi / L, warping, stress))[:LOADS]
 

@@ -14,7 +14,7 @@ SIZES = ("height", "width", "web_thickness", "flange_thickness")  # of the C-sha
 
 
 class NotDerivable(Exception):
-    """Raised with the line for the user."""
+    """Raised with a line for the user if no program derives the values."""
 
 
 def numbers(given):
@@ -99,7 +99,7 @@ def sheet_case(case, function):
 
 
 def cantilever(family, *names):
-    """Returns the solver of a family of cantilevers.py, for a case of that name: one tuple of values for each
+    """Returns the solver for a case that is a family of cantilevers.py: the family gives one tuple of values for each
     parameter."""
 
     def solve(given):
@@ -154,7 +154,7 @@ CHANNEL = ("length", "height", "width", "web_thickness", "flange_thickness", "yo
 HEXAPOD = ("length", "width", "thickness", "young", "poisson", "fold_angle", "radius",
            "fold_warping", "wagner", "base_radius", "crank_length", "crank_azimuth",
            "platform_radius", "platform_azimuth", "height", "stroke", "steps")
-# For each case: the parameters that may differ from the defaults, the solver, and the program that it uses.
+# For each case: the parameters that may differ from the defaults, the solver, and the program on which it is based.
 SOLVERS = {
     "c_column": (CHANNEL + ("rotary_inertia", ), c_column, "column"),
     "moment_buckling": (CHANNEL + ("wagner_moments", ), moment_buckling, "column"),

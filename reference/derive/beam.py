@@ -57,7 +57,7 @@ class Beam:
 
 class Scaled:
     """Dimensionless beam; lengths are in units of the network's length."""
-    carries = False  # does the beam carry loads along it, with states for them?
+    carries = False  # True for a beam with loads along it, which have additional states
 
     @property
     def states(self):
@@ -80,7 +80,7 @@ class Scaled:
         return k
 
     def slope(self, y, p):
-        """Returns dy/ds, s in [0, 1]; y [states, many], p [6, many] = (F, m0)."""
+        """Returns dy/ds for s in [0, 1]. y: [states, many]; p = (F, m0): [6, many]."""
         R, F = rotation(y[3:7]), p[:3]
         ys, zs = self.centre
         m = p[3:] - np.cross(y[:3], F, axis=0)
@@ -105,7 +105,8 @@ class Scaled:
         return self.length * np.concatenate(out)
 
     def slope_and_derivatives(self, y, p):
-        """Returns f [states, many], df/dy [many, states, states], df/dp [many, states, 6]."""
+        """Returns the slope f [states, many] and its derivatives df/dy [many, states, states] and df/dp [many, states,
+        6]."""
         n, many = y.shape
         columns = n + 6
         z = np.repeat(np.concatenate([y, p]).astype(complex)[:, :, None], columns, axis=2)
@@ -174,8 +175,8 @@ def cross_matrix(v):
 
 
 def chebyshev(n):
-    """Returns n + 1 points in [0, 1] and W [n + 1, n + 1]: sum_k W_jk f(x_k) = int from 0 to x_j of the
-    interpolant."""
+    """Returns n + 1 Chebyshev points in [0, 1] and W [n + 1, n + 1], where sum_k W_jk f(x_k) is the integral of the
+    interpolant from 0 to x_j."""
     from numpy.polynomial import chebyshev as c
     x = -np.cos(np.pi * np.arange(n + 1) / n)
     to_series = np.linalg.inv(c.chebvander(x, n))

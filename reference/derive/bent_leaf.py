@@ -13,7 +13,7 @@ EI, EA = E * WIDTH * THICK ** 3 / 12, E * WIDTH * THICK
 
 
 def curvature(F, e, u):
-    """Returns t' where sin t = sin e - u^2."""
+    """Returns t' at the point where sin t = sin e - u^2."""
     return u * sqrt(2 * F / EI * (1 + F / EA * (sin(e) - u ** 2 / 2)))
 
 
@@ -28,7 +28,7 @@ def integral(F, e, low, f):
 
 
 def solved(travel):
-    """Returns the force, and the angle at the inflection."""
+    """Returns the force and the angle at the inflection for a displacement of the stage."""
 
     def missing(F, e):
         root = sqrt(sin(e))

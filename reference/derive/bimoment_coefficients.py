@@ -1,8 +1,9 @@
-"""Computes the torsional coefficients of the third-order sheet element's potential (N Eqs. 44-51, App. B) to 120 digits.
+"""Computes the torsional coefficients of the potential of the third-order sheet element (N Eqs. 44-51, App. B) to 120
+digits.
 
 They follow directly from the definitions, with L = GJ = 1, EIw = 1/lambda^2: the bimoment is the hyperbolic function of App. B
 (its factor 1/lambda^4 restored), and every integrand is a sum of polynomials times exp(k lambda x), which is integrated term
-by term. Nothing is integrated by parts, so that the results can check a form that is.
+by term. There is no integration by parts, so that the results can verify the form that uses it.
 
 usage: bimoment_coefficients.py > elements/test/bimoment_values.h
 """
@@ -11,7 +12,7 @@ from mpmath import exp, mp, mpf, nstr
 mp.dps = 120
 LAMBDAS = ("0.001", "0.03", "0.5", "2.385", "5.9", "6.1", "27.3", "1000", "10000")
 TWIST = {"PX": (0, 6, -6), "WP": (1, -4, 3), "WQ": (0, -2, 3)}  # phi_x' of N Eq. 19
-# f = M_x' and the end values m0, m1 of M_x for the stresses M~yp, M~yq and the angles zp, zq
+# f = M_x' and the end values m0 and m1 of M_x, for the stresses M~yp and M~yq and the angles zp and zq
 LOADS = {
     "corrected": {
         "PP": ((4, -10, 6), -1, 0), "PQ": ((2, -8, 6), 0, 0), "QP": ((0, -4, 6), 0, 0),
@@ -25,7 +26,7 @@ LOADS = {
 
 
 class Sum:
-    """Sum over k of p_k(x) exp(k lambda x); p_k: coefficients in ascending powers."""
+    """A sum over k of p_k(x) exp(k lambda x). p_k: coefficients in ascending powers of x."""
 
     def __init__(self, lam, parts):
         self.lam, self.parts = lam, {k: [mpf(c) for c in p] for k, p in parts.items()}
@@ -79,7 +80,7 @@ def polynomial(lam, coefficients):
 
 
 def bimoments(lam, loads):
-    """Returns B per unit stress (and angle), and per unit twist rate at the ends."""
+    """Returns the bimoments B per unit stress (and angle), and per unit twist rate at the ends."""
     sine, half = (exp(lam) - exp(-lam)) / 2, (exp(lam / 2) + exp(-lam / 2)) / 2
     c1 = Sum(lam, {1: [1 / (2 * sine)], -1: [1 / (2 * sine)]})
     c2 = Sum(lam, {-1: [exp(lam) / (2 * sine)], 1: [exp(-lam) / (2 * sine)]})
@@ -96,8 +97,8 @@ def bimoments(lam, loads):
 
 
 def coefficients(lam, loads):
-    """Returns named values: A of pairs of unit stresses, b of a stress with a twist variable, P0 of the ends' twist
-    rates."""
+    """Returns named values: A for pairs of unit stresses, b for a stress and a twist variable, and P0 for the twist
+    rates of the ends."""
     B, ends = bimoments(lam, loads)
     T = {}
     for name in B:

@@ -19,7 +19,7 @@ RELATIVE = 1e-9
 
 
 def channel_beam(sizes, shear, wagner_moments):
-    """Returns (beam, half the height, y of the web) for flanges of 16 mm and a web of 10 mm thickness."""
+    """Returns (beam, half the height, y of the web) for a flange thickness of 16 mm and a web thickness of 10 mm."""
     s = channel(*SIZES[sizes], "0.016", "0.010")
     ys, zs = float(s.ys), float(s.zs)
     beam = Beam(LENGTH,
@@ -36,8 +36,8 @@ def channel_beam(sizes, shear, wagner_moments):
 
 
 def path(deflections, intervals=6, nodes=11, form=lambda beam: beam, **given):
-    """Returns (force [N], displacement of the loaded point along y [m]) at each deflection [m], in steps small enough
-    that no branch is skipped."""
+    """Returns (force [N], displacement of the loaded point along y [m]) at each deflection [m], in steps so small that
+    the branch does not change."""
     value = {**defaults.values("c_cantilever"), **given}
     beam, half, web = channel_beam(value["sizes"], value["shear"], value["wagner_moments"])
     beam = form(beam)

@@ -14,12 +14,13 @@ from reference.derive.beam import STEP, chebyshev, rotation
 from reference.derive.channel_cantilever import LENGTH, channel_beam
 
 DENSITY, INTERVALS, NODES = 7800.0, 6, 12
-STATES = 15  # of the beam (9), F, m0
+STATES = 15  # number of states: those of the beam (9), F and m0
 RELATIVE = 1e-8
 
 
 class Turning:
-    """Unknowns: the states at all points, one after the other, and the force on the tip."""
+    """The boundary-value problem. Its unknowns are the states at all points, one after the other, and the force on the
+    tip."""
 
     def __init__(self, omega, rotary, form):
         value = defaults.values("c_cantilever")
@@ -29,7 +30,8 @@ class Turning:
         self.beam = form(beam).scaled(LENGTH, self.force)
         area = beam.EA / 210e9
         self.pull = DENSITY * area * omega ** 2 * LENGTH ** 2 / self.force
-        turning = rotary * DENSITY * omega ** 2 / self.force  # times the moments of area: dimensionless
+        turning = rotary * DENSITY * omega ** 2 / self.force  # dimensionless after multiplication by the moments of
+                                                              # area
         self.moments, self.bimoments = turning * np.array(
             [beam.EIz, beam.EIy]) / 210e9, turning * beam.EIw / 210e9 / LENGTH ** 2
         self.arm = np.array([0, self.web, self.half]) / LENGTH
@@ -50,8 +52,8 @@ class Turning:
         return np.concatenate([y, -outward, -np.cross(z[:3], outward, axis=0) - moment])
 
     def ends(self, z0, z1, load, deflection):
-        """Returns sixteen conditions: root clamped with warping restrained; force, moment, bimoment and deflection of
-        the tip."""
+        """Returns the residuals of sixteen conditions: the root is clamped with warping restrained; force, moment,
+        bimoment and deflection of the tip."""
         r, R, F = z1[:3], rotation(z1[3:7]), z1[9:12]
         arm, pull = R @ self.arm, np.array([0 * load, 0 * load, -load])
         return np.concatenate([
@@ -103,7 +105,8 @@ class Turning:
 
 
 def advance(t, at, w):
-    """Solves at the next deflection from `at` towards w [m] and returns it; steps that do not converge are halved."""
+    """Solves at the next deflection between `at` and w [m] and returns this deflection. Steps that do not converge are
+    halved."""
     step, before = 0.025 if at < 0.4 else 0.05, (t.z.copy(), t.load)
     while step > 1e-3:
         to = min(at + step, w)

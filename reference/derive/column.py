@@ -22,7 +22,7 @@ PRINTED = {
 
 
 def channel_data(**given):
-    """Returns the section of c_column and moment_buckling; given: parameters that differ from the defaults."""
+    """Returns the section of c_column and moment_buckling. given: parameters that differ from the defaults."""
     at = defaults.decimals("c_column", given)
     s = channel(at["height"], at["width"], at["flange_thickness"], at["web_thickness"])
     s.E, s.G, s.RHO = at["young"], at["shear_modulus"], at["density"]
@@ -110,9 +110,9 @@ def buckling_load(s, length, shear, haringx):
 
 
 def frequencies(s, length, shear, rotary, count, load=0, haringx=False, prestress=_prestress):
-    """Returns frequencies about the undeformed state, under an axial compression `load`."""
+    """Returns the lowest frequencies under the axial compression `load`, neglecting its deformation."""
     found = []
-    if shear and rotary:  # no half-wave at all: sections rotate and warp in pure shear
+    if shear and rotary:  # n = 0: sections rotate and warp in pure shear
         inertia = [s.RHO * i for i in (s.Iz, s.Iy, s.Iw)]
         mass = matrix(3, 3)
         for i in range(3):
@@ -129,7 +129,8 @@ def frequencies(s, length, shear, rotary, count, load=0, haringx=False, prestres
 
 
 def buckling_moments(s, length, shear, haringx, wagner):
-    """Solves W (1 - (1-c) F_zw M/G)^2 + G It - M (b_z - 2 ys) = M^2 [1/(EIy k^2) + (1-c) F_zz/G], n = 1."""
+    """Returns the critical moments, the solutions of W (1 - (1-c) F_zw M/G)^2 + G It - M (b_z - 2 ys) = M^2 [1/(EIy
+    k^2) + (1-c) F_zz/G], n = 1."""
     k = pi / length
     c = 1 if haringx or not shear else 0
     fww = s.F[2, 2] if shear else mpf(0)
@@ -152,7 +153,7 @@ def length_of(case, given):
 
 
 def other_sizes():
-    """Yields a deep channel, and one with a thin web."""
+    """Yields a deep channel and a channel with a thin web."""
     for given in ({"length": 4, "height": "0.9", "width": "0.3"}, {"web_thickness": "0.01"}):
         s, l = channel_data(**given), length_of("c_column", given)
         yield "c_column", _text(**given), "buckling_load", buckling_load(s, l, True, False), "N"
@@ -168,7 +169,7 @@ def other_sizes():
 
 
 def branched():
-    """Returns the unsymmetric section of four walls, in SI."""
+    """Returns the unsymmetric, branched section of four walls, in SI units."""
     mm = mpf(10) ** -3
     points = [(0, 0), (50, 0), (50, 80), (20, 80), (50, 100)]
     s = section([(y * mm, z * mm) for y, z in points], [(0, 1, 2 * mm), (1, 2, 3 * mm),

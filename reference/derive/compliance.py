@@ -1,4 +1,4 @@
-"""Names of the entries of a tip's compliance matrix: displacements (ux .. thz) over loads (Fx .. Mz)."""
+"""Names of the entries of the compliance matrix of a tip: displacements (ux .. thz) due to loads (Fx .. Mz)."""
 MOTIONS, LOADS = ("ux", "uy", "uz", "thx", "thy", "thz"), ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 
 
@@ -7,7 +7,7 @@ def name_of(i, j):
 
 
 def entry_of(name):
-    """Returns (row, column) of C_MOTION_LOAD; C_xx and C_zz are those of the forces along x and z."""
+    """Returns (row, column) of the entry C_MOTION_LOAD; C_xx and C_zz are the compliances for forces along x and z."""
     if name in ("C_xx", "C_zz"):
         return (i := "xyz".index(name[-1])), i
     motion, load = name.split("_")[1:]

@@ -32,7 +32,8 @@ def stiffness(coupling, helix):
 
 
 def mass(coupling):
-    """Returns int rho [1, -x~; x~, -x~ x~] dA of a slice with its moments about the centre."""
+    """Returns the mass matrix int rho [1, -x~; x~, -x~ x~] dA of a slice from its moments of inertia about the
+    centre."""
     y, z = (coupling * c for c in CENTRE)
     x = matrix([[0, -z, y], [z, 0, 0], [-y, 0, 0]])
     out, turned = matrix(6, 6), -MASS * x * x
@@ -89,8 +90,8 @@ def cross_matrix(a):
 
 
 def free_end(F, M, squared, force):
-    """Returns the forces at the free end due to the unknowns at the clamped end, of arbitrary magnitude; (u, theta, N,
-    M)' = A (...)."""
+    """Returns the forces at the free end due to unit unknowns at the clamped end, with an arbitrary common factor,
+    from (u, theta, N, M)' = A (u, theta, N, M)."""
     axis, n = cross_matrix((1, 0, 0)), cross_matrix((-force, 0, 0))
     S, A, scale = matrix(6, 12), matrix(12, 12), sqrt(STIFF[4])
     for i in range(6):

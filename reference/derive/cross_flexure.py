@@ -15,10 +15,10 @@ from reference.derive import defaults
 from reference.derive.network import Network, clamped
 from reference.derive.sheets import parameters, sheet
 
-# of a position, in lengths of a leaf; eight networks (4 to 10 intervals, 12 to 20 nodes) give positions at angle=0.01
-# that differ by 6e-18 m, half of this value
+# Uncertainty of a position, in lengths of a leaf. Eight networks (4 to 10 intervals, 12 to 20 nodes) give positions at
+# angle=0.01 that differ by 6e-18 m, half of this value.
 ROUND_OFF = 2.2e-16
-RELATIVE = 1e-9  # stiffness of a leaf along itself relative to the forces that bend it
+RELATIVE = 1e-9  # uncertainty due to the ratio of the axial stiffness of a leaf to the forces that bend it
 DEFAULTS = defaults.values("cross_flexure")
 SIZES = ("length", "width", "thickness", "young", "poisson")
 TILTS_FREE = ("first", "last", "between")
@@ -46,7 +46,8 @@ def hinge(given, intervals=4, nodes=14, form=lambda beam: beam):
 
 
 def compliance(net, arm, turned, tilts_free, convention):
-    """Returns [5, 5] of (ux, uy, uz, thx, thy) with the tilts free, otherwise [3, 3], in SI."""
+    """Returns the compliance for (ux, uy, uz, thx, thy) [5, 5] if the tilts are free, otherwise for the translations
+    [3, 3], in SI units."""
 
     def tilting(level, x, R, force, moment, numbers):
         return np.concatenate([force, moment[:2], turned(level, x, R, force, moment, numbers)[5:]])
@@ -69,7 +70,7 @@ def quantities(given, form=lambda beam: beam):
     value = {**DEFAULTS, **given}
     convention, rotation = value["moment_convention"], value["rotation"]
     net, arm, turned = hinge(given, form=form)
-    net.solve((0.5, 1.0), tolerance=1e-10)  # round-off left by the axial stiffness of the leaves
+    net.solve((0.5, 1.0), tolerance=1e-10)  # tolerance for the round-off due to the axial stiffness of the leaves
     C = compliance(net, arm, turned, rotation in TILTS_FREE, convention)
     yield "moment", net.force * net.length * arm.load[5], "N m", RELATIVE
     for i, name in enumerate(("shift_x", "shift_y")):

@@ -22,7 +22,7 @@ def bending(n, shear, rotary):
     if not shear:
         return [E * I * k ** 4 / (RHO * (A + (I * k ** 2 if rotary else 0)))]
     s = SHEAR_FACTOR * G * A
-    if not rotary:  # t follows: t = s k/(EI k^2 + s) w
+    if not rotary:  # t follows from w: t = s k/(EI k^2 + s) w
         return [E * I * k ** 4 * s / (E * I * k ** 2 + s) / (RHO * A)]
     # RHO A RHO I x^2 - (s k^2 RHO I + (EI k^2 + s) RHO A) x + s EI k^4 = 0
     a, b, c = RHO * A * RHO * I, s * k ** 2 * RHO * I + (E * I * k ** 2 +
@@ -42,7 +42,7 @@ def frequencies(exact_torsion, shear, rotary):
         sqrt(x) / (2 * pi) for n in range(1, HALF_WAVES) for x in bending(n, shear, rotary)
         for _ in "yz"
     ]
-    if shear and rotary:  # no half-wave at all: the sections rotate in pure shear
+    if shear and rotary:  # n = 0: the sections rotate in pure shear
         found += [sqrt(SHEAR_FACTOR * G * A / (RHO * I)) / (2 * pi)] * 2
     twist = sqrt(G * torsion_constant(exact_torsion) / (RHO * 2 * I))
     for n in range(1, HALF_WAVES):

@@ -1,4 +1,4 @@
-"""Defaults of a case's parameters, as given in reference/defaults.csv; no program repeats them."""
+"""Defaults of the parameters of cases, from reference/defaults.csv, so that no program repeats them."""
 import functools
 import pathlib
 
@@ -17,12 +17,13 @@ def _table():
 
 
 def texts(case):
-    """Returns {parameter: text}: a number as written, or the word of a choice; {}: no such case."""
+    """Returns {parameter: text}, where the text is a number as written or the word of a choice; returns {} if there is
+    no such case."""
     return dict(_table().get(case, {}))
 
 
 def value(text):
-    """Returns a number (a whole number as int) or a word."""
+    """Converts text to a number (a whole number to int) or returns it as a word."""
     try:
         return float(text) if not text.lstrip("-").isdigit() else int(text)
     except ValueError:
@@ -30,12 +31,13 @@ def value(text):
 
 
 def values(case, *names):
-    """Returns {parameter: number (a whole number as int) or word} of the given parameters or of all."""
+    """Returns {parameter: number (whole numbers as int) or word} for the named parameters, or for all parameters."""
     return {k: value(v) for k, v in _table()[case].items() if not names or k in names}
 
 
 def decimals(case, given):
-    """Returns the same as mpmath numbers made from the decimal text; given: values that differ, as text or numbers."""
+    """Returns the values of `values` as mpmath numbers made from the decimal text. given: values that differ from the
+    defaults, as text or numbers."""
     from mpmath import mpf
     at = {**texts(case), **given}
     return {k: v if isinstance(value(str(v)), str) else mpf(v) for k, v in at.items()}

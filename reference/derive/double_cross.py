@@ -18,7 +18,7 @@ HIGHEST, STEP = 60, mpf("0.5")  # [Hz]
 
 
 def from_pin(f):
-    """Returns [4, 2]: (w, t, M, Q) at the hub due to unit (t, Q) at the pinned end."""
+    """Returns (w, t, M, Q) at the hub due to unit (t, Q) at the pinned end [4, 2]."""
     t = bending(LENGTH, 2 * pi * f, E * I, RHO * A)
     return [[t[i, 1], t[i, 3]] for i in range(4)]
 
@@ -36,13 +36,13 @@ def at_rest(f):
 
 
 def moving(f):
-    """Returns the forces per displacement of an arm: Q/w across it, with t = 0, and EA k cot(k L) along it; their sum
-    times w and sin(k L)."""
+    """Returns the sum of the forces per displacement of an arm, times w and sin(k L). The forces are Q/w across the
+    arm, with t = 0, and EA k cot(k L) along it."""
     rows, k = from_pin(f), 2 * pi * f / sqrt(E / RHO)
     return E * A * k * cos(k * LENGTH) * minor(rows, 0, 1) + sin(k * LENGTH) * minor(rows, 3, 1)
 
 
-FAMILIES = ((turning, 1), (moving, 2), (at_rest, 5))  # number of equal modes
+FAMILIES = ((turning, 1), (moving, 2), (at_rest, 5))  # conditions, each with the number of equal modes
 
 
 def frequencies():

@@ -8,8 +8,9 @@ Vibration: with y = (r, q, a, B) and p = (F, m0) of the equilibrium, and small u
 (m = m0 - r x F is the moment in fixed axes), integrated spectrally as in network.py: an eigenvalue problem L z = omega^2 M z.
 
 interpolated: a consistent mass derives the warping amplitude along an element from its twist, psi = kx - w (1 - 6 x (1 - x)), w = kx - a,
-so that kx^2 + w^2/5 has the inertia of a^2 (J section 3.2 without flexible warping; J Eq. 66 makes w = -(n_y ky + n_z kz)).  Its momentum
-rho Iw (kx + w/5) adds to Mx, -rho Iw w/5 to B'; Mx changes kx in turn, which is neglected: 1e-11 of a frequency.
+so that kx^2 + w^2/5 has the inertia of a^2 (J section 3.2 without flexible warping; with J Eq. 66, w = -(n_y ky + n_z
+kz)). This inertia adds the momentum rho Iw (kx + w/5) to Mx and -rho Iw w/5 to B'. Mx changes kx in turn; this is
+neglected (1e-11 of a frequency).
 """
 import math
 
@@ -26,7 +27,7 @@ RELATIVE = 2e-10
 
 
 def singular_load(net, start, end):
-    """Returns the level between start and end at which the linearised equilibrium is singular."""
+    """Returns the load level between start and end at which the linearised equilibrium is singular."""
     net.solve(np.linspace(start / 4, start, 4))
     size = np.linalg.slogdet(net.system(start)[0].toarray())[1]
     level = [start]
@@ -61,8 +62,8 @@ def buckling():
 
 
 class Vibration:
-    """Generalised eigenvalue problem of one member with its ends at bodies' reference points, in the network's
-    units."""
+    """Generalised eigenvalue problem of one member whose ends are at the reference points of bodies, in the units of
+    the network."""
 
     def __init__(self, member, inertia, interpolated=False):
         self.m, self.n, self.interpolated = member, member.beam.states, interpolated
@@ -72,7 +73,7 @@ class Vibration:
         self.size = self.intervals * self.points * self.fields
 
     def slopes(self, y):
-        """Returns the terms of dz/ds = A z - omega^2 G z at one point; z = (dy, dp)."""
+        """Returns the matrices A and G of dz/ds = A z - omega^2 G z at one point, where z = (dy, dp)."""
         n, L = self.n, self.m.beam.length
         slope, fy, fp = self.m.beam.slope_and_derivatives(y[:, None], self.m.p[:, None])
         A, G = np.zeros((self.fields, self.fields)), np.zeros((self.fields, self.fields))
@@ -92,7 +93,7 @@ class Vibration:
         return A, G
 
     def matrices(self, start, end):
-        """Returns L, M of L z = omega^2 M z; start, end: rows of conditions on z at the ends."""
+        """Returns L and M of L z = omega^2 M z. start, end: rows of the conditions on z at the ends."""
         N, f, W = self.points, self.fields, self.m.h * self.m.W
         left, mass = np.zeros((self.size, self.size)), np.zeros((self.size, self.size))
         row = 0
@@ -118,7 +119,7 @@ class Vibration:
         return left, mass
 
     def frequencies(self, start, end, count):
-        """Returns omega^2, ascending, in the network's units."""
+        """Returns the smallest values of omega^2 in ascending order, in the units of the network."""
         left, mass = self.matrices(start, end)
         inverse = np.linalg.solve(left, mass)
         values = eig(inverse, right=False)
@@ -127,7 +128,8 @@ class Vibration:
 
 
 def twist_rate(q, slope, by, fields):
-    """Returns the change [fields] of the x component of 2 vec(q* o q'); by: of q' [4, fields], q' = slope."""
+    """Returns the change [fields] of the x component of 2 vec(q* o q'), where q' = slope. by: change of q' [4,
+    fields]."""
     conjugate = np.array([1, -1, -1, -1])
     rate = 2 * product(q * conjugate, by)[1]
     rate[3:7] += [2 * product(e * conjugate, slope)[1] for e in np.eye(4)]
@@ -135,14 +137,14 @@ def twist_rate(q, slope, by, fields):
 
 
 def turn_of(q):
-    """Returns theta [3, 4] of a change of the quaternion q: 2 vec(dq o q*)."""
+    """Returns the matrix [3, 4] that converts a change dq of the quaternion q to theta = 2 vec(dq o q*)."""
     back = np.asarray(q) * np.array([1, -1, -1, -1])
     return np.array([2 * product(e, back)[1:] for e in np.eye(4)]).T
 
 
 def held_tip(vibration, y, p, free_warping):
-    """Returns the conditions: u_y and the rotation about the fixed axis z are fixed; no force along x and z, no moment
-    about the fixed axes x and y."""
+    """Returns the conditions at the tip: u_y and the rotation about the fixed axis z are fixed; the forces along x and
+    z and the moments about the fixed axes x and y are zero."""
     n, f = vibration.n, vibration.fields
     rows = np.zeros((f // 2, f))
     theta, F = turn_of(y[3:7]), p[:3]
@@ -166,7 +168,7 @@ def sheet_frequencies(count, given, form=lambda beam: beam, interpolated=False):
     width, thickness, length = value["width"], value["thickness"], value["length"]
     beam = sheet(**value)
     A, Iy, Iz = width * thickness, thickness * width ** 3 / 12, width * thickness ** 3 / 12
-    mass = value["density"] / net.force  # times area and length^2: dimensionless, per 1/s^2
+    mass = value["density"] / net.force  # dimensionless after multiplication by area and length^2, per 1/s^2
     inertia = (mass * A * length ** 2, mass * np.array([Iy + Iz, Iy, Iz]),
                mass * beam.EIw / value["young"] / length ** 2)
     member = net.members[0]

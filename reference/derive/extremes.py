@@ -12,11 +12,11 @@ from reference.derive.beam import Beam
 TABLES = "extremes"
 mp.dps = 40
 EQUAL_WIDTH = mpf("0.223203587801597"
-                  )  # of the C-shaped column whose lowest bending and torsion frequencies are equal
+                  )  # dimensions of the C-shaped column whose lowest bending and torsion frequencies are equal
 
 
 def decimal(value):
-    """Rounds to 15 digits, as the program does with its parameters."""
+    """Rounds to 15 digits, like the parameters in the program."""
     return "%.15g" % float(value)
 
 
@@ -89,8 +89,8 @@ def torsion():
 
 
 def lateral():
-    """Yields the lateral buckling loads. Guesses: gamma^2 = c K at small K (warping alone: phi'''' = c x^2 phi), and
-    gamma = 4.0126 (1 + a/sqrt K) at large K."""
+    """Yields the lateral buckling loads. The initial guesses are gamma^2 = c K at small K (warping alone: phi'''' = c
+    x^2 phi) and gamma = 4.0126 (1 + a/sqrt K) at large K."""
     guess = linear_buckling.lateral_load("tip", 1, "15.7")
     for K in ("1e-2", "1e-4", "1e-6"):
         guess *= 10
@@ -111,8 +111,8 @@ def lateral():
 
 
 def twisted():
-    """Yields fixed ends without axial force: GJ phi/L over 1 - tanh(kL/2)/(kL/2), k^2 = GJ/EIw; and the strip with the
-    Wagner torque."""
+    """Yields the torque with fixed ends and no axial force, GJ phi/L divided by 1 - tanh(kL/2)/(kL/2), k^2 = GJ/EIw;
+    and that of the strip with the Wagner torque."""
     beam = sheets.sheet(**{**defaults.values("sheet_wagner"), "wagner": 0})
     half = math.sqrt(beam.GJ / beam.EIw) * beam.length / 2
     for angle in (0.1, 0.5, 1, 1.3, 1.4, 1.5):
@@ -131,7 +131,8 @@ def turns():
 
 
 def released():
-    """Yields Bernoulli's cantilever released from rest, for any axial stiffness, and with a body at its tip."""
+    """Yields the Euler-Bernoulli cantilever released from rest, for several axial stiffnesses, and with a body at its
+    tip."""
     tip = release.bernoulli("0.25", release.bernoulli_modes())
     for axial in ("1e9", "1e12", "1200", "120000", "12000000"):
         at = f"axial={decimal(mpf(axial))};time=0.25;{release.ANY}"
@@ -144,7 +145,7 @@ def released():
 
 
 def steady():
-    """Yields a body that keeps rotating about a principal axis: 2 rad/s, 3 kg m^2."""
+    """Yields values for a body that rotates steadily about a principal axis: 2 rad/s, 3 kg m^2."""
     at = f"spin=steady;time={{}};{rigid_body.ANY}"
     yield "rigid_body", at.format("*"), "w_z", mpf(2), "rad/s"
     yield "rigid_body", at.format("*"), "energy", mpf(6), "J"

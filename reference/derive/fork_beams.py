@@ -24,8 +24,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 RELATIVE = 2e-10
-EA = 1e6  # of the case; weak EI = GJ = 1, length 1
-THETA, MY, FIRST = 0, 1, 2  # followed by v, phi, chi, m_x, m_z, a, B of every solution
+EA = 1e6  # axial stiffness of the case; weak EI = GJ = 1, length 1
+THETA, MY, FIRST = 0, 1, 2  # positions of theta, My and the first field; the fields v, phi, chi, m_x, m_z, a, B of
+                            # every solution follow
 FIELDS = 7
 
 
@@ -46,7 +47,7 @@ def _slopes(s, y, P, q, ratio, K):
 
 
 def _start(theta, K):
-    """Returns solutions that satisfy the conditions at the fork: chi = 1, a moment along nX, a = 1."""
+    """Returns the three solutions that satisfy the conditions at the fork: chi = 1, a moment along nX, and a = 1."""
     count = 3 if K else 2
     fields = np.zeros((FIELDS, count))
     fields[2, 0] = 1
@@ -57,7 +58,7 @@ def _start(theta, K):
 
 
 def _middle(theta, P, q, ratio, K, tolerance=1e-13):
-    """Returns theta in the middle, and the fields there [FIELDS, solutions]."""
+    """Returns theta and the fields [FIELDS, solutions] in the middle."""
     path = solve_ivp(_slopes, (0, 0.5),
                      _start(theta, K),
                      method="DOP853",
@@ -69,7 +70,7 @@ def _middle(theta, P, q, ratio, K, tolerance=1e-13):
 
 
 def _rotation_at_fork(P, distributed, ratio, K, near):
-    """Returns theta(0) of the plane state, by secant steps from the value for a neighbouring load."""
+    """Returns theta(0) of the plane state by the secant method, starting from the value for a neighbouring load."""
 
     def turn(theta):
         return _middle(theta, P, P if distributed else 0.0, ratio, K)[0]
@@ -85,7 +86,7 @@ def _rotation_at_fork(P, distributed, ratio, K, near):
 
 
 def critical_load(distributed, ratio, K, bracket, steps=12):
-    """Returns P L^2/sqrt(EI GJ); the determinant changes its sign in the bracket and nowhere below it."""
+    """Returns P L^2/sqrt(EI GJ). The determinant changes its sign in the bracket, but not below it."""
     slope = (1 / 24 if distributed else 1 / 16) / ratio
     turns = {0.0: 0.0}
 

@@ -17,7 +17,8 @@ LEVELS, RELATIVE = 20, 1e-11
 
 
 def stage_weights():
-    """Returns int_0^c of the polynomials through Gauss's points, and these points, on [0, 1]."""
+    """Returns the integrals from 0 to c of the Lagrange polynomials through the Gauss points, and these points, on [0,
+    1]."""
     c = (POINTS + 1) / 2
     V = np.vander(c, increasing=True)
     return np.array([[x ** (k + 1) / (k + 1) for k in range(len(c))] for x in c]) @ np.linalg.inv(V)
@@ -31,7 +32,7 @@ def along(angle):
 
 
 def tip(clamp, M0, F, intervals):
-    """Returns the crank's end, and the moment there."""
+    """Returns the position of the end of the crank and the moment there."""
 
     def slope(Y):
         e = np.array([np.cos(Y[:, 0]), np.sin(Y[:, 0])])
@@ -61,7 +62,8 @@ def residual(u, part, intervals):
 
 
 def at_rest():
-    """Returns the directions of coupler and rocker, with the joint above the line of the ground."""
+    """Returns the directions of coupler and rocker in the undeformed state, with the joint above the line of the
+    ground."""
     end = CRANK * along(BEGIN)
     d = [GROUND, 0] - end
     a = (COUPLER ** 2 - ROCKER ** 2 + d @ d) / (2 * np.hypot(*d))

@@ -2,19 +2,19 @@
 from mpmath import mpf
 
 ANY = "integrator=*;step=*;tolerance=*"
-ROUND_OFF = 1e-12  # relative, after hundreds of steps
+ROUND_OFF = 1e-12  # relative round-off after hundreds of steps
 PLANE_TIMES = {"": ("2.5", "5", "10"), "load=step;": ("2.5", "5", "7.5", "10")}
 SPACE_TIMES = ("5", "7", "7.5", "9", "10")
 
 
 def plane():
-    """Returns the momentum from 8 N for 2.5 s, constant or as a squared sine of twice the amplitude, whose mean is one
-    [kg m/s]."""
+    """Returns the momentum [kg m/s] due to 8 N for 2.5 s, either constant or as a squared sine with twice the
+    amplitude and therefore the same mean."""
     return 8 * mpf("2.5")
 
 
 def space():
-    """Returns the momentum from a triangle of 5 s with a peak of a tenth of 200 N [kg m/s]."""
+    """Returns the momentum [kg m/s] due to a triangular force of 5 s with a peak of a tenth of 200 N."""
     return mpf(5) * 20 / 2
 
 

@@ -25,7 +25,7 @@ def sheet_of(given):
 
 
 def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
-    """Adds two sheets and the body where they meet; axes: columns are the joint's x, y, z."""
+    """Adds two sheets and the body where they meet. axes: columns are x, y, z of the joint."""
     value = {**DEFAULTS, **given}
     up = np.diag([1, 1, -1.0 if mirrored else 1.0])
     turn = np.array([[math.cos(azimuth), -math.sin(azimuth), 0],
@@ -49,7 +49,7 @@ def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
 
 
 def add_joint(net, beam, given, centre, axes, base, effector, name):
-    """Adds one joint between two bodies; returns its intermediate body."""
+    """Adds one joint between two bodies. Returns its intermediate body."""
     middle = net.body(centre)
     first = {**DEFAULTS, **given}["azimuth"]
     for k in range(3):
@@ -66,7 +66,8 @@ def turned(given):
     tilt, steps = value["tilt"], value["steps"]
 
     def vector(level):
-        """Returns the rotation vector; levels below 1 lead to the first azimuth."""
+        """Returns the rotation vector at a level. Levels below 1 lead from the undeformed state to the first
+        azimuth."""
         azimuth = 2 * math.pi * max(level - 1, 0) / steps
         return min(level, 1.0) * tilt * np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
 
@@ -74,7 +75,7 @@ def turned(given):
 
 
 def stiffness_curve(intervals=4, nodes=10, form=lambda beam: beam, **given):
-    """Returns (undeformed, [at every azimuth]) in N/m."""
+    """Returns (stiffness of the undeformed joint, [stiffness at every azimuth]) in N/m."""
     beam = form(sheet_of(given))
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)
     vector = turned(given)

@@ -18,7 +18,7 @@ RELATIVE, STEP = 1e-9, 0.05
 
 
 class Frame:
-    """plane: too stiff to buckle out of the plane."""
+    """A state of the frame. plane: the frame is too stiff to buckle out of its plane."""
 
     def __init__(self, plane):
         across = (2e6 * 720, 2e6 * G) if plane else (EI, 2.6 * G)
@@ -52,7 +52,7 @@ class Frame:
         return self.coordinates(b.x, b.R, self.net.numbers)
 
     def advanced(self, arc):
-        """Returns another frame, this far along the arc."""
+        """Returns the state of the frame at this distance along the arc."""
         one = copy.deepcopy(self)
         way, origin = self.way, self.origin
         one.net.extra = [(one.net.bodies[self.node], lambda level, x, R, force, moment, numbers:
@@ -61,7 +61,7 @@ class Frame:
         return one
 
     def turned(self, before):
-        """Continues the arc from here along the secant."""
+        """Sets the direction of the arc from this state to that of the secant from the state `before`."""
         self.way = self.place() - before.place()
         self.way, self.origin = self.way / np.linalg.norm(self.way), self.place()
         return self
@@ -75,13 +75,13 @@ class Frame:
         return (1 - self.net.bodies[self.node].x[1]) * LENGTH
 
     def determinant(self, size):
-        """Divided by exp(size)."""
+        """Returns the determinant divided by exp(size)."""
         sign, logarithm = np.linalg.slogdet(self.net.system(0.0)[0].toarray())
         return sign * np.exp(logarithm - size)
 
 
 def path(frame, least):
-    """Returns points of the path until the force rises again from below to `least` [N]."""
+    """Returns states along the path until the force increases again from below to `least` [N]."""
     points = [frame, frame.advanced(STEP)]
     points[1].turned(frame)
     while len(points) < 400 and not (points[-1].force > points[-2].force > least and
@@ -91,7 +91,7 @@ def path(frame, least):
 
 
 def extremum(before, width):
-    """Returns (force, deflection) at the extremum of the force between two points of the path."""
+    """Returns (force, deflection) at the extremum of the force on an interval of the path."""
     nodes = (1 - np.cos(np.pi * (np.arange(11) + 0.5) / 11)) / 2 * width
     found = [before.advanced(s) for s in nodes]
     series = [

@@ -12,7 +12,8 @@ mp.dps = 40
 TERMS = 160
 LEG_TERMS = 64  # 7^64/64! = 1e-35
 
-# m(x) as coefficients of powers of x, measured from the end with zero moment; where the half beam ends
+# m(x) as coefficients of powers of x, where x is measured from the end with zero moment; and x at the other end of the
+# beam or half beam
 LOADS = {
     "tip": ([0, 1], 1), "distributed": ([0, 0, mpf(1) / 2], 1),
     "mid": ([0, mpf(1) / 2], mpf(1) / 2), "mid_distributed": ([0, mpf(1) / 2,
@@ -70,8 +71,8 @@ def _condition(load, K, gamma, terms):
 
 
 def lateral_load(load, K, guess, terms=TERMS):
-    """Returns the critical load. terms: several times exp(1) sqrt K. The determinant grows with exp(sqrt K): its size
-    near the root is its unit."""
+    """Returns the critical load. terms: several times exp(1) sqrt K. The determinant, which grows with exp(sqrt K), is
+    divided by its size near the root."""
     K, guess = mpf(K), mpf(guess)
     unit = abs(_condition(load, K, guess * mpf("1.01"), terms))
     return findroot(lambda g: _condition(load, K, g, terms) / unit, guess, tol=mpf(10) ** -30)
@@ -119,8 +120,8 @@ def column_rows():
 
 
 def _leg(x, M, EI, GJ):
-    """Returns [3, 6]: (w, t_x, t_y) at x as linear functions of their values at the corner and (m_x, m_y, f); power
-    series."""
+    """Returns (w, t_x, t_y) at x as linear functions of their values at the corner and of (m_x, m_y, f) [3, 6], from
+    power series."""
     out = zeros(3, 6)
     for column in range(6):
         unit = [mpf(1) if column == k else mpf(0) for k in range(6)]
@@ -136,11 +137,11 @@ def _leg(x, M, EI, GJ):
 
 
 def frame_determinant(M, EI, GJ, length, angle):
-    """Returns the determinant for two legs from the corner with `angle` between them; their ends stay in the plane and
-    rotate only about its normal.
+    """Returns the determinant for two legs that start at the corner with `angle` between them. Their ends remain in
+    the plane and rotate only about its normal.
 
-    The first leg's axes are (x, y, z), the second's are rotated about z; it carries the opposite of the first leg's
-    load.
+    The axes of the first leg are (x, y, z); those of the second leg are rotated about z. The load of the second leg is
+    opposite to that of the first.
     """
     first, second = _leg(length, M, EI, GJ), _leg(length, -M, EI, GJ)
     c, s = cos(angle), sin(angle)
@@ -166,7 +167,7 @@ def frame_rows():
         E, nu, b, t, length, angle = (value[k] for k in ("young", "poisson", "depth", "thickness",
                                                          "leg", "angle"))
         EI, GJ = E * b * t ** 3 / 12, E / (2 * (1 + nu)) * b * t ** 3 / 3
-        # with lengths relative to a leg and forces relative to sqrt(EI GJ)/leg^2, one number is left, EI/GJ
+        # With lengths relative to a leg and forces relative to sqrt(EI GJ)/leg^2, the result depends only on EI/GJ.
         root = sqrt(EI / GJ)
         at = ";".join(f"{k}={v}" for k, v in given.items())
         for name, bracket in (("critical_moment", ("3.0", "3.3")), ("critical_moment_2", ("4.4",

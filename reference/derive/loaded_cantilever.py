@@ -1,8 +1,9 @@
 """A plane cantilever under follower or dead loads: the equations of the extensible elastica, integrated from its tip.
 
 x' = (1 + N/EA) cos t, y' = (1 + N/EA) sin t, EI t' = M, F' = -q, M' = y' F_x - x' F_y - m, N = F_x cos t + F_y sin t, with the load
-q, m per initial length; F, M: action of the outer part on the inner part. A Runge-Kutta method of order 8 starts from the tip, whose
-angle is determined such that the root does not rotate. Follower loads need no search, because everything rotates with the tip.
+q, m per initial length; F, M: action of the outer part on the inner part. A Runge-Kutta method of order 8 starts at
+the tip, whose angle is determined such that the root does not rotate. Follower loads need no search, because the whole
+solution rotates with the tip.
 """
 from math import cos, sin
 
@@ -19,7 +20,7 @@ POINTS = ({}, {"size": 1}, {"arm": "0.2"}, {"load": "dead", "arm": "0.2"}, {"loa
 
 
 def from_tip(at, angle):
-    """Returns (x, y, t) of the root if the tip is at the origin, rotated by `angle`."""
+    """Returns (x, y, t) of the root for a tip at the origin that is rotated by `angle`."""
     load, size, axial = at["load"], at["size"], at["axial"]
     transverse = (-sin(angle), cos(angle)) if load == "follower" else (0.0, 1.0)
     tip = size if load in ("follower", "dead") else 0.0
@@ -28,7 +29,7 @@ def from_tip(at, angle):
     couple = size if load == "couples" else 0.0
 
     def slope(s, y):
-        """Returns the derivatives; s runs from the tip inwards."""
+        """Returns the derivatives with respect to s, which runs from the tip to the root."""
         _, _, t, fx, fy, moment = y
         along = 1 + (fx * cos(t) + fy * sin(t)) / axial
         dx, dy = along * cos(t), along * sin(t)
@@ -44,7 +45,7 @@ def from_tip(at, angle):
 
 
 def tip(given):
-    """Returns (x, y, angle) of the tip, L = EI = 1."""
+    """Returns (x, y, angle) of the tip for L = EI = 1."""
     at = {
         **defaults.values("loaded_cantilever"),
         **{k: defaults.value(str(v))

@@ -3,8 +3,8 @@ about it.
 
 Unknowns: for each body, its position x, its rotation and the load (f, mu) on its reference point; for each beam, F, m0
 (moment about the origin, constant along the beam), its states at the ends of the intervals; additional numbers of the problem.
-Equations: for each body, equilibrium of forces and moments and six conditions; for each beam, its intervals, the
-closure at its end, and one warping condition at each end.
+Equations: for each body, equilibrium of forces and moments and six conditions; for each beam, the equations of its
+intervals, the closure at its end, and one warping condition at each end.
 """
 import numpy as np
 from scipy.sparse import coo_matrix
@@ -22,10 +22,9 @@ from reference.derive.beam import (STEP, Scaled, chebyshev, cross_matrix, expone
 
 
 class LineLoad:
-    """force [N/m], moment [N] at each length, in fixed axes, or in those of the section, with which they rotate; at
-    [m]: position of the force, in the
-    section's axes; factor(level); more: increase of force and moment from the start to the end, linear in between,
-    or None."""
+    """A load along a beam. force [N/m], moment [N]: per length, in fixed axes or in the axes of the section, with
+    which they rotate; at [m]: position of the force in the axes of the section; factor(level): factor of the load;
+    more: linear increase of force and moment from the start to the end, or None."""
 
     def __init__(self, force, moment, at, turns, factor, more=None):
         self.force, self.moment, self.at, self.turns, self.factor = (*(np.array(
@@ -38,15 +37,15 @@ class LineLoad:
                         self.turns, self.factor, more)
 
     def at_place(self, s):
-        """Returns force and moment [3, many]."""
+        """Returns force and moment [3, many] at s."""
         more = (0.0, 0.0) if self.more is None else (v[:, None] * s for v in self.more)
         return [v[:, None] + m for v, m in zip((self.force, self.moment), more)]
 
 
 class Loaded(Scaled):
-    """A scaled beam with such loads; the level is that of the network."""
+    """A scaled beam with loads along it; the level is that of the network."""
     carries = True
-    stays = False  # do its loads keep their undeformed positions? They do in linear analysis
+    stays = False  # True in linear analysis, where the loads remain at their undeformed positions
 
     def __init__(self, beam, loads):
         self.__dict__.update(beam.__dict__)
@@ -82,7 +81,7 @@ class Loaded(Scaled):
 class Body:
 
     def __init__(self, x, conditions, on=None):
-        """on: the body to which a joint belongs."""
+        """A rigid body. on: the body to which a joint belongs."""
         self.on = on
         self.x, self.q, self.load, self.conditions = np.array(x, dtype=float), np.array(
             [1.0, 0, 0, 0]), np.zeros(6), conditions
@@ -97,7 +96,7 @@ class Member:
 
     def __init__(self, beam, bodies, ends, q0, warp, intervals, nodes):
         self.beam, self.bodies, self.warp = beam, bodies, warp
-        self.ends, self.q_end = ends, [q0, None]  # offsets and triads in the bodies' axes
+        self.ends, self.q_end = ends, [q0, None]  # offsets and triads of the ends in the axes of the bodies
         self.p = np.zeros(6)
         self.s, self.W = chebyshev(nodes)
         grid = (np.arange(intervals)[:, None] + self.s[None, :]) / intervals
@@ -119,8 +118,8 @@ class Member:
         return y
 
     def linearise(self):
-        """Computes for each interval: Y = base + A y_start + B p for changes, with the residual of the current values
-        included in base."""
+        """Computes Y = base + A y_start + B p for the changes in each interval; base includes the residual of the
+        current values."""
         m, n1, n = self.y.shape
         columns = self.y.reshape(-1, n).T
         f, fy, fp = self.beam.slope_and_derivatives(
@@ -145,7 +144,8 @@ def free(level, x, R, force, moment, numbers):
 
 
 def clamped(at, turned=None):
-    """Returns the conditions of a body fixed at a position, with its rotation vector; both may depend on the level."""
+    """Returns the conditions of a body fixed at a position and with a rotation vector, both of which may depend on the
+    level."""
     place = at if callable(at) else lambda level: at
     turn = turned or (lambda level: (0.0, 0.0, 0.0))
 
@@ -168,19 +168,19 @@ class Network:
         ]  # conditions that determine the numbers: (body, function(level, x, R, force, moment, numbers))
 
     def body(self, position, conditions=free):
-        """Adds a body. position [m]; conditions receive dimensionless values."""
+        """Adds a body. position: [m]; conditions: a function that receives dimensionless values."""
         self.bodies.append(Body(np.array(position) / self.length, conditions))
         return self.bodies[-1]
 
     def joint(self, body, position, conditions):
-        """Adds a massless body at position [m] whose load acts back on another body; its conditions receive the
-        position and rotation of that body last."""
+        """Adds a massless body at position [m] whose load is transmitted to another body. The last arguments of its
+        conditions are the position and rotation of that body."""
         self.bodies.append(Body(np.array(position) / self.length, conditions, body))
         return self.bodies[-1]
 
     def member(self, beam, first, second, start, axes, warp=("fixed", "fixed"), loads=()):
-        """Adds a beam. start [m]: its start, fixed to the first body; axes: columns are its x, y, z; loads: LineLoad
-        along it."""
+        """Adds a beam. start: position [m] of its start, fixed to the first body; axes: columns are x, y, z of the
+        beam; loads: LineLoads along it."""
         offset = np.array(start) / self.length - first.x
         scaled = beam.scaled(self.length, self.force)
         if loads:
@@ -221,8 +221,8 @@ class Network:
         return values
 
     def _equilibrium(self, b, put, right):
-        """Adds rows b.at .. b.at + 5: the external load, to which the members add theirs; the load of a joint acts
-        back."""
+        """Adds the external load in rows b.at .. b.at + 5, to which the members add their loads; the load of a joint
+        is transmitted to its body."""
         for owner, sign in ((b, 1.0), (b.on, -1.0)):
             if owner is None:
                 continue
@@ -265,7 +265,8 @@ class Network:
 
     @staticmethod
     def _closure(m, last, row, put, right):
-        """Adds the position and rotation of the end; 2 vec(q o q_target*) = 0."""
+        """Adds the closure of position and rotation at the end of a member; for the rotation, 2 vec(q o q_target*) =
+        0."""
         b, y = m.bodies[1], m.y[-1, -1]
         arm = b.R @ m.ends[1]
         _block(put, row, last, np.eye(3))
@@ -281,8 +282,8 @@ class Network:
         m.warp_row = row + 6
 
     def _warp_rows(self, put, right):
-        """Adds one condition per end; ends that share a coordinate have equal kx, and their bimoments are in
-        balance."""
+        """Adds one warping condition for each end. Ends that share a coordinate have equal kx, and their bimoments are
+        in equilibrium."""
         groups = {}
         for m in (m for m in self.members if m.beam.warps):
             for end in range(2):
@@ -304,7 +305,7 @@ class Network:
                 right[ends[0][0]] -= sign * state[1]
 
     def system(self, level, override=None):
-        """Returns the sparse matrix and the right-hand side of Newton's method; override: other conditions for some
+        """Returns the sparse matrix and the right-hand side of Newton's method. override: other conditions for some
         bodies."""
         first_number, total = self._places()
         self._places_of_numbers = list(range(first_number, total))
@@ -353,7 +354,7 @@ class Network:
         self.numbers = self.numbers + step[len(step) - len(self.numbers):]
 
     def iterate(self, level):
-        """Makes one step of Newton's method; returns its largest change relative to the values."""
+        """Makes one step of Newton's method. Returns its largest change relative to the values."""
         matrix, right = self.system(level)
         step = splu(matrix).solve(right)
         self._advance(step)
@@ -363,7 +364,7 @@ class Network:
         return size
 
     def solve(self, path=(1.0, ), tolerance=1e-12):
-        """Solves for equilibrium at each level in turn; the last steps to round-off."""
+        """Solves for equilibrium at each level in turn, at the last level to round-off."""
         for level in path:
             for _ in range(30):
                 if self.iterate(level) <= tolerance:
@@ -384,11 +385,11 @@ class Network:
         return out
 
     def response(self, level, body, override):
-        """Returns [6, 6] in SI: change of (u, theta) of the body due to unit dead (f, mu) on it, with other conditions in
-        force.
+        """Returns the compliance [6, 6] in SI units: the change of (u, theta) of the body due to unit dead (f, mu) on
+        it, with other conditions for some bodies.
 
-        The loads act on the body itself: its overriding conditions must be those of free bodies where a load is
-        requested.
+        The loads act on the body itself: in the components of a load, its overriding conditions must be those of a
+        free body.
         """
         matrix, _ = self.system(level, override)
         right = np.zeros((matrix.shape[0], 6))
@@ -401,7 +402,7 @@ class Network:
 
 
 def _spin(q):
-    """Returns dq/dtheta [4, 3] of a spatial rotation increment."""
+    """Returns dq/dtheta [4, 3] for a spatial rotation increment theta."""
     return np.array([product(np.concatenate([[0.0], e]), q) / 2 for e in np.eye(3)]).T
 
 

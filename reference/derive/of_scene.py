@@ -27,8 +27,9 @@ from reference.derive.scene_text import Refused, number, only  # noqa: E402
 
 TABLES = "examples"
 SOURCE = "reference/derive/of_scene.py"
-GRIDS = ((4, 13), (6, 14), (10, 15), (16, 16))  # intervals, nodes of each
-AGREEMENT, ROUND_OFF, NOTHING = 1e-10, 1e-11, 1e-13  # of grids; of a value; of its scale
+GRIDS = ((4, 13), (6, 14), (10, 15), (16, 16))  # (number of intervals, nodes of each)
+AGREEMENT, ROUND_OFF, NOTHING = 1e-10, 1e-11, 1e-13  # relative difference of grids; round-off relative to a value;
+                                                     # round-off relative to the scale of a value
 KINDS = ("displacement", "reaction", "stiffness", "compliance", "motion", "internal", "frequency")
 RESULTANTS = ("N", "Qy", "Qz", "Mx", "My", "Mz")
 
@@ -57,7 +58,7 @@ class Question:
             raise Refused(f"{name}: a curve is not supported by the deriving program")
 
     def _end(self):
-        """0, 1; None: inside."""
+        """Returns the end of the member, 0 or 1, or None for a position inside it."""
         return {"from": 0, "to": 1, "0": 0, "1": 1}.get(self.of.get("end", self.of.get("where")))
 
     def of_resultants(self, rows):
@@ -86,7 +87,7 @@ class Question:
         return scene.motion[self.of["motion"]](level, scene.net.numbers)
 
     def scale(self, scene):
-        """Returns the scale of displacements and reactions in the network, for round-off."""
+        """Returns the scale of displacements and reactions in the network, which determines their round-off."""
         turns = self.of.get("component", "ux")[0] == "r" or self.of.get("resultant", "N")[0] == "M"
         if self.kind == "displacement":
             return 1.0 if turns else scene.length
@@ -104,7 +105,8 @@ class Question:
 
 
 def analyses(scene, questions, grid, scales=None):
-    """Returns {quantity: value, or Refused with the reason} on one grid; scales: filled with {quantity: its scale}."""
+    """Returns {quantity: value, or Refused with the reason} on one grid. scales: a dictionary that receives {quantity:
+    its scale}."""
     out, scales = {}, {} if scales is None else scales
 
     def answer(asked, stations, states):
@@ -184,7 +186,7 @@ def analyses(scene, questions, grid, scales=None):
 
 def solve(scene, form=lambda beam: beam):
     """Yields (quantity, value, unit, uncertainty, convention), or (quantity, Refused) if the program does not support
-    it; form: of the beams."""
+    the quantity. form: replaces each beam by another beam."""
     questions, scene = [], cut(scene)
     for name, entry in scene["quantities"].items():
         try:
@@ -224,13 +226,13 @@ def moments_of(scene, question):
 EXAMPLES = ("cross_flexure_hinge", "folded_leaf_stage", "leaf_spring_guide", "channel_portal")
 PROGRAM = os.environ.get("BEAMWORK",
                          str(pathlib.Path(__file__).resolve().parents[2] / "build" / "beamwork"))
-PREDICTED = EXAMPLES[:3]  # their limits of sheet_third, which is rigid in shear along y, are predicted
-LIMIT = 1e-9  # relative, of these
-KNOWN = {"leaf_spring_guide": ("k_drive", "k_support")}  # in closed form
+PREDICTED = EXAMPLES[:3]  # examples with derived limits of sheet_third, which is rigid in shear along y
+LIMIT = 1e-9  # relative uncertainty of these limits
+KNOWN = {"leaf_spring_guide": ("k_drive", "k_support")}  # quantities with closed forms
 
 
 def rows():
-    """Returns the rows of examples, which the built program writes."""
+    """Returns the rows of the examples, whose scenes the built program writes."""
     if not os.access(PROGRAM, os.X_OK):
         raise SystemExit(f"of_scene.py: {PROGRAM} is not there; run make all first")
     for name in EXAMPLES:

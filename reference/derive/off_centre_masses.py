@@ -19,13 +19,13 @@ COUNT, HIGHEST, STEP = 6, 60, mpf("0.5")  # [Hz]
 
 
 def body(arm):
-    """(m, y, J)"""
+    """Returns (m, y, J) of both masses together."""
     m = HEAVY + LIGHT
     return m, arm * (HEAVY - LIGHT) / m, HEAVY * LIGHT / m * (2 * arm) ** 2
 
 
 def end(o, flexibility):
-    """Returns the columns due to unit (M, Q) at the root: rows (w, t, M, Q) at the end."""
+    """Returns (w, t, M, Q) at the end (rows) due to unit (M, Q) at the root (columns)."""
     return bending(LENGTH, o, E * I, RHO * A, RHO * I, flexibility)[:, 2:]
 
 

@@ -13,14 +13,15 @@ from numpy.polynomial import legendre
 from scipy.integrate import solve_ivp
 
 ANY = "integrator=*;step=*;tolerance=*"
-MESHES = ((8, 10), (6, 10))  # elements, degree
+MESHES = ((8, 10), (6, 10))  # number of elements, degree
 FLIGHT_TIMES, SWING_TIMES = ("1", "2.5"), ("0.25", )
-LEAST = 1e-9  # [m] of an uncertainty
+LEAST = 1e-9  # smallest uncertainty [m]
 
 
 @dataclass(frozen=True)
 class Rod:
-    """A rod from (x0, y0) along (cos, sin) of angle; stiffnesses [N, N, N m^2], mass [kg/m], rotary inertia [kg m]."""
+    """A rod from (x0, y0) in the direction (cos, sin) of an angle. Stiffnesses [N, N, N m^2], mass [kg/m], rotary
+    inertia [kg m]."""
     start: tuple
     angle: float
     length: float
@@ -32,7 +33,8 @@ class Rod:
 
 
 def lobatto(degree):
-    """Returns points and weights on [-1, 1], and the derivatives there of the polynomials through the points."""
+    """Returns Lobatto points and weights on [-1, 1], and the derivatives at these points of the Lagrange
+    polynomials."""
     p = legendre.Legendre.basis(degree)
     x = np.concatenate([[-1.0], np.sort(p.deriv().roots().real), [1.0]])
     D = np.zeros((degree + 1, degree + 1))
@@ -45,8 +47,8 @@ def lobatto(degree):
 
 
 class Mesh:
-    """Rod in elements: G maps nodal values to derivatives at points, V to values there; weight [points], lumped
-    [nodes]."""
+    """A rod divided into elements. G maps nodal values to derivatives at the points, V to values at the points;
+    weight: [points]; lumped: [nodes]."""
 
     def __init__(self, rod, elements, degree):
         x, w, D = lobatto(degree)
@@ -63,8 +65,7 @@ class Mesh:
 
 
 def forces(rod, mesh, q):
-    """Returns the nodal forces due to the strains [3, nodes], from q [3, nodes]: x, y and the rotation from the x
-    axis."""
+    """Returns the nodal forces [3, nodes] due to the strains. q [3, nodes]: x, y and the rotation from the x axis."""
     (dx, dy, curvature), turn = q @ mesh.G.T, mesh.V @ q[2]
     c, s = np.cos(turn), np.sin(turn)
     stretch, shear = c * dx + s * dy - 1, c * dy - s * dx
@@ -77,7 +78,7 @@ def forces(rod, mesh, q):
 
 
 def move(rod, mesh, load, held, times):
-    """Returns (q, v) at the times, both [times, 3, nodes]; load(t, out) adds forces to out[3, nodes]."""
+    """Returns (q, v) at the times, both [times, 3, nodes]. load(t, out): adds forces to out[3, nodes]."""
     n = len(mesh.S)
     q = np.stack([
         rod.start[0] + mesh.S * np.cos(rod.angle), rod.start[1] + mesh.S * np.sin(rod.angle),
@@ -115,7 +116,7 @@ THROWN = Rod((0, 8), float(np.arctan2(-8, 6)), 10, 1e4, 1e4, 100, 1, 10)
 
 @cache
 def flight(times=FLIGHT_TIMES):
-    """Returns rows (A_x, A_y, B_x, B_y) under the smooth load, and the difference between the meshes."""
+    """Returns rows (A_x, A_y, B_x, B_y) for the smooth load, and the difference between the meshes."""
     fine, coarse = (ends(
         move(THROWN, Mesh(THROWN, *mesh), _thrown, (), [float(t) for t in times]))
                     for mesh in MESHES)

@@ -22,14 +22,16 @@ from reference.derive.predicted_column import (  # noqa: E402
 from reference.derive.predicted_rows import (  # noqa: E402
     differences, exact_values, row_of, write)
 
-# of beams and of closed forms; for sheets, that of the exact value (all verified in predicted_test.py)
+# Relative uncertainties of values from beams and from closed forms. For sheets, it is that of the exact value.
+# predicted_test.py verifies all of them.
 RELATIVE, CLOSED = 1e-9, 1e-12
-# A value within this number of uncertainties of the exact one is not a prediction: one where the stated uncertainty is
-# hundreds of times the change due to other intervals and nodes, otherwise ten
+# A value within this number of uncertainties of the exact value is not a prediction. The number is one if the stated
+# uncertainty is hundreds of times the change due to other intervals and nodes, otherwise ten.
 SAME = {True: 1, False: 10}
 JONKER = ("beamw", "beamw_first")
 SHEETS = ("sheet_second", "sheet_third", "sheet_second_consistent")
-ALIASES = {"sheet_third": ("sheet_third_printed",)}  # the sign of u_y in N Eq. 49 has only an effect of higher order
+ALIASES = {"sheet_third": ("sheet_third_printed",)}  # because the sign of u_y in N Eq. 49 has only an effect of higher
+                                                     # order
 
 
 def as_printed(name):
@@ -37,8 +39,8 @@ def as_printed(name):
 
 
 def shear_elastica():
-    """Yields predictions for shear_elastica. GA = 10: J's beams end before the last point; sheet_second_consistent:
-    see right_angle."""
+    """Yields predictions for shear_elastica. For GA = 10, the path of J's beams ends before the last point; for
+    sheet_second_consistent, see right_angle."""
     for name in JONKER + SHEETS:
         stiffnesses = (500, 50, 10) if name in ("sheet_second", "sheet_third") else (500, 50)
         for row in cantilevers.shear_elastica(stiffnesses, form=as_printed(name)):
@@ -46,7 +48,7 @@ def shear_elastica():
 
 
 def right_angle():
-    """shear_elastica with GA = F = 10: all sections shear to z = pi/2 and none rotates.
+    """Yields predictions for shear_elastica with GA = F = 10, where all sections shear to z = pi/2 and none rotates.
 
     z = z sin z + (1 + z^2/2) cos z (ERRATA); the load then has no lever arm, so that no bending moment occurs.
     """
@@ -62,7 +64,7 @@ def geradin_cardona():
 
 
 def bend_45():
-    """Yields predictions for arcs, which the sheet elements support."""
+    """Yields predictions for arcs, which only the sheet elements support."""
     for name in SHEETS:
         for row in cantilevers.bend_45(form=as_printed(name)):
             yield name, *row[:5], RELATIVE
@@ -93,8 +95,7 @@ def bent_sheets():
 
 
 def vibrating_sheets():
-    """Yields frequencies with the consistent mass (the default of J's elements); the sheet elements have lumped
-    mass."""
+    """Yields frequencies with consistent mass, the default of J's elements. The sheet elements have lumped mass."""
     for name in JONKER + SHEETS:
         for given in VIBRATING:
             at = sheets.parameters({"modes": 3, **given})
@@ -104,7 +105,7 @@ def vibrating_sheets():
 
 
 def twisted_sheets():
-    """Yields predictions for twisted sheets; J's elements have no Wagner torque."""
+    """Yields predictions for twisted sheets. J's elements do not include the Wagner torque."""
     for name in JONKER + SHEETS:
         for given in WITHOUT_TORQUE + (WITH_TORQUE if name in SHEETS else ()):
             for row in sheets.twisted(form=as_printed(name), **given):
@@ -124,7 +125,7 @@ JOINTS = (({}, SHEETS), ({"wagner": 0}, ("beamw", "beamw_first", "sheet_third"))
 
 
 def joints():
-    """Twenty seconds apiece."""
+    """Yields predictions for joints; each takes twenty seconds."""
     for given, names in JOINTS:
         at = sheets.parameters(given)
         for name in names:
@@ -230,7 +231,7 @@ def unsymmetric_columns():
 
 
 def angle_columns():
-    """Yields rows of angle columns. beamw_first: twist causes no shortening; the moment of the load on a leg is
+    """Yields rows of angle columns. In beamw_first, twist causes no shortening, but the moment of the load on a leg is
     coupled correctly."""
     for load in ("centroid", "leg"):
         force, y, z, _ = angle_column.stress_of(load)
@@ -270,7 +271,7 @@ def predictions(cases=CASES):
 
 
 def derived_rows(cases=CASES):
-    """Returns the rows of points and quantities that have exact values and differ from all of them."""
+    """Returns the rows at points and for quantities with exact values that differ from all of these values."""
     exact = exact_values()
     for given in predictions(cases):
         point = rederive.canonical(given[2].replace("shear_stability=*", ""))

@@ -37,7 +37,7 @@ MEASURES = 7
 
 
 class Jet:
-    """Value [many], gradient [VARIABLES, many], Hessian [VARIABLES, VARIABLES, many]."""
+    """A value [many] with its gradient [VARIABLES, many] and Hessian [VARIABLES, VARIABLES, many]."""
 
     def __init__(self, value, gradient, hessian):
         self.value, self.gradient, self.hessian = value, gradient, hessian
@@ -49,7 +49,7 @@ class Jet:
         return [Jet(v, np.eye(VARIABLES)[i][:, None] + zero[0], zero) for i, v in enumerate(values)]
 
     def _of(self, value, first, second):
-        """Returns f(self) from f, f', f''."""
+        """Returns the Jet of f(self) from the values of f, f' and f''."""
         g = self.gradient
         return Jet(value, first * g, first * self.hessian + second * g[:, None] * g[None])
 
@@ -94,7 +94,7 @@ class Jet:
 
 
 def chord(gamma):
-    """lambda and n."""
+    """Returns lambda and n."""
     x = gamma[0] + 1.0
     stretch = (x * x + gamma[1] * gamma[1] + gamma[2] * gamma[2]).sqrt()
     return stretch, [x / stretch, gamma[1] / stretch, gamma[2] / stretch]
@@ -123,7 +123,7 @@ def jonker(gamma, kappa, a, centre, polar):
 
 
 def _angles(gamma, kappa):
-    """Returns lambda, y, z, p, y' of N's local coordinates."""
+    """Returns lambda and the angles y, z, p, y' of N's local coordinates."""
     stretch, n = chord(gamma)
     slope = -(n[1] / n[0])  # tan z
     rate = kappa[1] * (slope * slope + 1.0).sqrt()
@@ -139,7 +139,7 @@ def nijenhuis(gamma, kappa, a, centre, polar):
 
 
 def nijenhuis_sheared(gamma, kappa, a, centre, polar):
-    """Returns the measures of N Eq. 7 over N Eqs. 14-19 with Phi (sheet_second_consistent)."""
+    """Returns the measures of N Eq. 7 integrated over N Eqs. 14-19 with Phi (sheet_second_consistent)."""
     stretch, y, z, p, dy = _angles(gamma, kappa)
     eps = stretch + -1.0 - (y * y + z * z) * 0.5 + p * p * (polar / 2)
     return [eps, -z, y, None if a is None else p - a, p + z * dy, dy, kappa[2]]
@@ -157,7 +157,7 @@ OF = {"beamw": jonker, "beamw_vlasov": jonker, "beamw_first": jonker_first,
       "sheet_second_consistent": nijenhuis_sheared}
 
 
-WARPING, TORSION = 3, 4  # among the measures
+WARPING, TORSION = 3, 4  # positions among the measures
 NEWTON_STEPS, SETTLED = 40, 1e-12
 
 
@@ -182,7 +182,7 @@ class Printed(Beam):
 class ScaledPrinted(Scaled):
     @property
     def kept(self):
-        """The measures that count."""
+        """Returns the positions of the measures that are used."""
         return [i for i in range(MEASURES) if self.warps or i != WARPING]
 
     def _measures(self, x, a):
@@ -202,7 +202,7 @@ class ScaledPrinted(Scaled):
         return self.gj + 12 * self.c * twist ** 2
 
     def _constitutive(self, E, s):
-        """Returns E - compliance s [kept, many], and its derivatives with respect to (gamma, kappa, a) and s."""
+        """Returns E - compliance s [kept, many] and its derivatives with respect to (gamma, kappa, a) and s."""
         C, t = self._compliance(), self.kept.index(TORSION)
         right = np.array([e.value for e in E]) - C @ s
         by_v = np.array([e.gradient for e in E])
@@ -251,7 +251,8 @@ class ScaledPrinted(Scaled):
         return np.concatenate([by[:, :6], rate[:, None]], axis=1), np.einsum("im,im->m", s, pull)
 
     def _local(self, given):
-        """Returns gamma, kappa, B' [7, many] for (N, M, a); imaginary parts use the derivatives."""
+        """Returns gamma, kappa and B' [7, many] for (N, M, a). Imaginary parts (complex steps) are computed from the
+        derivatives."""
         points, place = np.unique(given.real, axis=1, return_inverse=True)
         x = self._settled(points)
         by, rate = self._derivatives(x, points)
@@ -261,7 +262,7 @@ class ScaledPrinted(Scaled):
         return value + 1j * np.einsum("mij,jm->im", by[place], given.imag)
 
     def slope(self, y, p):
-        """As in beam.py."""
+        """Returns dy/ds as in beam.py."""
         R, F = rotation(y[3:7]), p[:3]
         m = p[3:] - np.cross(y[:3], F, axis=0)
         N, M = np.einsum("ijk,ik->jk", R, F), np.einsum("ijk,ik->jk", R, m)

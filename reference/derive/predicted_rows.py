@@ -55,7 +55,7 @@ def write(derived):
 
 
 def difference(row, known):
-    """Returns one line, or None if both agree."""
+    """Returns one line that describes the difference of two rows, or None if they agree."""
     if known is None:
         return f"derived {row['value']} {row['unit']}, not stored"
     gap = abs(float(row["value"]) - float(known["value"]))

@@ -28,8 +28,8 @@ def read_table(path):
 
 
 def programs(names):
-    """Returns every module here that has a function rows(); those of solids, which need another program, as
-    solids.NAME."""
+    """Returns every module in this folder with a function rows(). Modules of solids, which need another program, are
+    returned as solids.NAME."""
     here = ROOT / "reference" / "derive"
     found = sorted(".".join(p.relative_to(here).with_suffix("").parts) for p in here.rglob("*.py")
                    if "\ndef rows(" in p.read_text(encoding="utf-8"))
@@ -45,7 +45,7 @@ def folder_of(name):
 
 
 def as_text(value, relative):
-    """Returns the value with the digits that its relative uncertainty supports."""
+    """Returns the value as text with the digits that its relative uncertainty justifies."""
     from mpmath import mpf, nstr
     digits = DIGITS
     while digits > 4 and 10.0 ** (1 - digits) < relative / 5:
@@ -58,7 +58,8 @@ def is_solid(name):
 
 
 def kind_of(name):
-    """Returns the kind of a program's rows: its KIND; default: `independent` for solids, else `exact`."""
+    """Returns the kind of the rows of a program: its KIND or, by default, `independent` for solids and `exact` for
+    others."""
     module = importlib.import_module(f"reference.derive.{name}")
     return getattr(module, "KIND", "independent" if is_solid(name) else "exact")
 
@@ -70,7 +71,7 @@ def confirms(name):
 
 def derived_rows(name, everything):
     """Returns the rows of a program, which yields (case, parameters, quantity, value, unit[, relative uncertainty[,
-    convention[, at[, formulation]]]]); with a formulation: the limit that it must have."""
+    convention[, at[, formulation]]]]); with a formulation, the value is the limit that this formulation must have."""
     module = importlib.import_module(f"reference.derive.{name}")
     kind, model = kind_of(name), "other" if is_solid(name) else "same"
     for given in module.rows(everything) if is_solid(name) else module.rows():
@@ -126,7 +127,7 @@ def write(names):
 
 def differences(name, stored, seen, cases, everything):
     """Returns (rows that agree, lines that describe differences, rows of cases that do not exist yet, largest
-    difference over the uncertainty) of one program."""
+    difference divided by the uncertainty) for one program."""
     agree, lines, waiting, largest = 0, [], 0, 0.0
     for row, value in derived_rows(name, everything):
         folder = folder_of(name)
@@ -156,7 +157,7 @@ def differences(name, stored, seen, cases, everything):
 
 
 def read_stored():
-    """Returns {key: row} of every row that a program derives or confirms."""
+    """Returns {key: row} of all stored rows that a program derives or confirms."""
     stored = {}
     for path in sorted(
             p for folder in FOLDERS for p in (ROOT / "reference" / folder).glob("*.csv")):
@@ -169,7 +170,7 @@ def read_stored():
 
 
 def compare(names, whole, everything):
-    """Returns the exit status; whole: every program is run, so that a row that no program derives is detected."""
+    """Returns the exit status. whole: all programs are run, so that a row which no program derives is detected."""
     stored, seen, agree, differ, cases = read_stored(), set(), 0, 0, read_defaults(
         ROOT / "reference" / "defaults.csv")
     for name in names:

@@ -21,7 +21,8 @@ from scipy.optimize import brentq
 
 mp.dps = 30
 ANY = "integrator=*;step=*;tolerance=*"
-STATIC = 1e-9  # relative: an amplitude of 1e-5 of the length changes the geometry by 1e-10
+STATIC = 1e-9  # relative uncertainty of linear theory: an amplitude of 1e-5 of the length changes the geometry by
+               # 1e-10
 BERNOULLI_TIMES = ("0.25", "0.5", "1", "1.5", "1.75", "2", "5", "10")
 TIMOSHENKO_TIMES = ("0.001", "0.002", "0.005", "0.01", "0.02")
 JUDGED, JUDGED_AT = "0.001", "model=timoshenko;step=1e-5;time=0.001"  # a point that is used in verify
@@ -44,8 +45,8 @@ def bernoulli(t, modes):
 
 
 def with_body_modes(body, count):
-    """Returns (root l, share of the initial deflection) of the first modes: each root lies between those of the beam
-    with a fixed tip and those of the beam without a body."""
+    """Returns (root l, share of the initial deflection) of the first modes. Each root lies between a root of the beam
+    with a fixed tip and a root of the beam without a body."""
 
     def both(x):
         return sin(x) * cosh(x) - cos(x) * sinh(x), 1 + cos(x) * cosh(x)
@@ -76,7 +77,7 @@ def _system(square):
 
 
 def _transfer(square):
-    """Returns exp(A L) and its derivative with respect to omega^2, with the values at the ends scaled alike."""
+    """Returns exp(A L) and its derivative with respect to omega^2, with equal scales of the values at both ends."""
     A, dA = _system(square), _system(1.0) - _system(0.0)
     scale = np.array([1, 1, EI, EI])
     both = np.block([[A, dA], [np.zeros((4, 4)), A]])
@@ -100,7 +101,7 @@ def _answer(square):
 
 
 def flexibility():
-    """Returns w/F of the static beam [m/N]."""
+    """Returns the static compliance w/F of the beam [m/N]."""
     return 1 / (3 * EI) + 1 / GA
 
 

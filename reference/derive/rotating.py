@@ -22,8 +22,8 @@ RELATIVE = 5e-12
 
 
 def _basis(times):
-    """Returns values and derivatives at Gauss points of polynomials that vanish at 0 with their first `times` - 1
-    derivatives."""
+    """Returns the values and derivatives at Gauss points of polynomials that vanish at 0, as do their first `times` -
+    1 derivatives."""
     points, weights = legendre.leggauss(2 * SIZE)
     fields = []
     for n in range(SIZE):
@@ -44,9 +44,9 @@ def matrices(omega, s, R=0):
     _, _, u = _basis(1)
     k = omega / s
     strain = (2 * np.sin(k * (1 - X) / 2) * np.sin(k * (1 + X) / 2) +
-              k * R * np.sin(k * (1 - X))) / np.cos(k)  # without cancellation
+              k * R * np.sin(k * (1 - X))) / np.cos(k)  # form without cancellation
     stretch, force = 1 + strain, s * s * strain
-    slope = -k * (np.sin(k * X) + k * R * np.cos(k * (1 - X))) / np.cos(k)  # of the stretch
+    slope = -k * (np.sin(k * X) + k * R * np.cos(k * (1 - X))) / np.cos(k)  # derivative of the stretch
     curvature = w[:, 2] / stretch - w[:, 1] * slope / stretch ** 2
     K = (curvature * weight) @ curvature.T + (w[:, 1] * (weight * force / stretch)) @ w[:, 1].T
     M = (w[:, 0] * weight) @ w[:, 0].T
@@ -57,11 +57,12 @@ def matrices(omega, s, R=0):
 def flap(omega, s, count=3, R=0):
     K, M, _, _, _ = matrices(omega, s, R)
     return 1 / np.sqrt(eigh(
-        M, K, eigvals_only=True)[::-1][:count])  # in this form the lowest ones are best conditioned
+        M, K, eigvals_only=True)[::-1][:count])  # in this form, the lowest frequencies are best conditioned
 
 
 def lag(omega, s, count=3, R=0):
-    """Solves u'' - 2 Omega v' + (K_u - Omega^2) u = 0, v'' + 2 Omega u' + (K - Omega^2) v = 0 (primes: time)."""
+    """Returns the lowest frequencies of u'' - 2 Omega v' + (K_u - Omega^2) u = 0, v'' + 2 Omega u' + (K - Omega^2) v =
+    0 (primes: time)."""
     K, M, Ku, Mu, C = matrices(omega, s, R)
     n = SIZE
     mass = np.block([[Mu, np.zeros((n, n))], [np.zeros((n, n)), M]])

@@ -22,15 +22,16 @@ LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on",
 
 
 class Place:
-    """A node: its body, its support if it is that of the body, and its position relative to the body's point [m]."""
+    """A node: its body, its support (if this is the support of the body), and its position [m] relative to the
+    reference point of the body."""
 
     def __init__(self, body, support, offset):
         self.body, self.support, self.offset = body, support, np.array(offset)
 
 
 class Frame:
-    """Undeformed axis of a member, straight or an arc about the section's z axis: length, curvature, triad at its
-    start (described, principal)."""
+    """Undeformed axis of a member, which is straight or an arc about the z axis of the section: length, curvature, and
+    triads at its start (described and principal axes)."""
 
     def __init__(self, first, last, y, curvature, where):
         if curvature[0] or curvature[1]:
@@ -58,7 +59,7 @@ class Frame:
 
 
 def physics_of(scene):
-    """Returns the physics of a scene: everything that it does not omit; Haringx's shear theory in stability."""
+    """Returns the physics that a scene does not omit. The shear theory in stability must be Haringx's."""
     if scene.get("shear_theory", "haringx") == "engesser":
         raise Refused("shear_theory: 'engesser' is not supported by the deriving program")
     omitted = scene.get("omit", [])
@@ -71,10 +72,11 @@ def physics_of(scene):
 
 
 class SceneNetwork:
-    """net; places {name: Place}; motion {name: function(level, numbers)} in SI; unknown {motion: its number}."""
+    """The network of a scene. net: the Network; places: {name: Place}; motion: {name: function(level, numbers)} in SI
+    units; unknown: {motion: its number}."""
 
     def __init__(self, scene, intervals, nodes, form=lambda beam: beam):
-        """form: turns a beam into another one, as in predicted.py."""
+        """form: replaces a beam by another beam, as in predicted.py."""
         only(scene, "the scene", SCENE)
         self.scene, self.physics, self.form = scene, physics_of(scene), form
         self.places, self.numbers, self.extra, self.unknown, self.conditions_of = {}, 0, [], {}, []
@@ -130,7 +132,7 @@ class SceneNetwork:
                 self.motion[name] = lambda level, numbers, known=known: known(level)
 
     def _unknown(self, name, what):
-        """Adds an unknown determined by a translation of a node."""
+        """Adds an unknown that a translation of a node determines."""
         i = WORDS.index(what["component"])
         if i > 2:
             raise Refused(
@@ -212,7 +214,7 @@ class SceneNetwork:
         return table(numbers(entry["path"], where), numbers(entry["factor"], where))
 
     def weight(self, entry, where):
-        """Returns the weight of a body: the force at its centre."""
+        """Returns the weight of a body, a force at its centre."""
         if entry["on"] not in self.scene["nodes"]:
             raise Refused(f"{where}: no node or member '{entry['on']}' in the deriving program")
         body = self.scene["nodes"][entry["on"]]
@@ -297,7 +299,7 @@ class SceneNetwork:
                                                 rotation(quaternion(principal)), warp, loads)
 
     def _end(self, name, entry, end, place, frame):
-        """Returns the body at an end of a member: that of its node, or that of a joint on the node."""
+        """Returns the body at an end of a member: the body of its node, or a joint on this node."""
         words = entry.get("release", {}).get(end, [])
         if not words:
             return place.body
@@ -311,7 +313,7 @@ class SceneNetwork:
         return joint
 
     def displacement(self, name, component):
-        """Returns a displacement or rotation [m, rad] of a node."""
+        """Returns a displacement [m] or rotation [rad] of a node."""
         place = self.places[name]
         if component > 2:
             return rotation_vector(place.body.R)[component - 3]
@@ -319,14 +321,14 @@ class SceneNetwork:
         return (self.length * place.body.x + place.body.R @ place.offset - start)[component]
 
 
-# Members of a scene cut where loads start, end or act: loads then act on whole members and on nodes.
+# Members of a scene are cut where loads start, end or act, so that loads act only on whole members and on nodes.
 
 SPREAD = ("distributed", "distributed_moment")
 OF_PART = ("where", "from", "to", "lumped")
 
 
 class Pieces:
-    """A straight member cut at positions along its length, 0 < position < 1, ascending."""
+    """A straight member that is cut at ascending positions along its length, 0 < position < 1."""
 
     def __init__(self, scene, name, places):
         self.name, self.entry = name, scene["members"][name]
@@ -340,7 +342,7 @@ class Pieces:
         self.axes = None if any(curvature) else Frame(*ends, numbers(self.entry["y"], name, 3), curvature, name).described
 
     def node(self, place):
-        """Returns the name of the node at a bound."""
+        """Returns the name of the node at a position where the member is cut or ends."""
         if place in (0.0, 1.0):
             return self.entry["from" if place == 0.0 else "to"]
         return f"{self.name} at {place!r}"
@@ -368,7 +370,7 @@ class Pieces:
             yield self.piece(i), one
 
     def at_place(self, name, entry):
-        """Moves a force or a moment within the member to a node, in fixed axes."""
+        """Transfers a force or a moment within the member to a node, in fixed axes."""
         place = number(entry["where"], name)
         end = {0.0: "from", 1.0: "to"}.get(place)
         if end in self.entry.get("release", {}):
@@ -410,7 +412,7 @@ def places_of(scene):
 
 
 def asked(name, entry, pieces):
-    """Moves a quantity of a member's end to the end of the last piece."""
+    """Transfers a quantity at the end of a member to the end of its last piece."""
     what = entry.get("internal")
     if what is None or what["member"] not in pieces or what.get("end", what.get("where")) not in ("to", "1"):
         return name, entry
@@ -419,13 +421,13 @@ def asked(name, entry, pieces):
 
 
 def whole(piece, members):
-    """Returns the pieces of a cut scene that were one member with this one."""
+    """Returns the pieces of a cut scene that belonged to the same member as this piece."""
     name = piece.partition(" from ")[0]
     return [one for one in members if one.partition(" from ")[0] == name]
 
 
 def cut(scene):
-    """Returns the same scene with loads on whole members; the scene itself if all loads already are."""
+    """Returns an equivalent scene whose loads act on whole members; the scene itself if this is already the case."""
     loads = scene.get("loads", {})
     if not any(key in entry for entry in loads.values() for key in OF_PART):
         return scene

@@ -1,5 +1,5 @@
-"""States of a scene's network (scene_network.py) and the results read from them: along a static path, in one linear step,
-and the response to small loads on a node.
+"""States of the network of a scene (scene_network.py) and results: along a static path, in one linear step, and the
+response to small loads on a node.
 
 The path is followed from the undeformed state, in steps that are halved if Newton's method fails.
 """
@@ -30,7 +30,7 @@ class Path:
         self.values = {}
 
     def walk(self, ask):
-        """Calls ask(scene network, level) at every station; returns the results."""
+        """Calls ask(scene network, level) at every station. Returns the results."""
         level, out = 0.0, []
         for station in self.stations:
             steps = self.steps if station > level else 1
@@ -77,7 +77,7 @@ def restore(net, state):
 
 
 def settle(net, level):
-    """Iterates Newton's method until round-off prevents its steps from decreasing."""
+    """Iterates Newton's method until its steps no longer decrease because of round-off."""
     size = net.iterate(level)
     for _ in range(30):
         before, size = size, net.iterate(level)
@@ -96,8 +96,8 @@ def reaction(scene, name, component, level):
 
 
 def compliance(scene, level, entry, name):
-    """Returns C [6, 6] in SI for dead forces and moments on a node whose released components are free and keep their
-    load."""
+    """Returns the compliance C [6, 6] in SI units for dead forces and moments on a node. Released components of the
+    node are free, and their loads remain."""
     net, place = scene.net, scene.places[entry["node"]]
     if place.support is None:
         raise Refused(
@@ -154,8 +154,8 @@ def under(C, moment, convention, name):
 
 
 def linear(scene):
-    """Returns ({node: [6]}: displacements and rotations, {member: [2, 6]}: resultants at its ends) of one linear step,
-    with loads and motions at 1."""
+    """Returns ({node: displacements and rotations [6]}, {member: resultants at its ends [2, 6]}) of one linear step
+    with all loads and motions at level 1."""
     supports = [place.support for place in scene.places.values() if place.support]
     for support in supports:
         if support.sequence or support.vector or any(callable(kind) for kind in support.kinds[3:]):
@@ -186,8 +186,8 @@ def linear_resultants(scene, m, step):
 
 
 def resultants(scene, name):
-    """Returns [2, 6] (N, Qy, Qz, Mx, My, Mz) at the ends of a member, the action of the part beyond, in the axes of
-    the rotated section [N, N m]."""
+    """Returns the resultants (N, Qy, Qz, Mx, My, Mz) [2, 6] at the ends of a member: the action of the part towards
+    its end on the part towards its start, in the axes of the rotated section [N, N m]."""
     m, rows = scene.member[name], []
     for y in (m.y[0, 0], m.y[-1, -1]):
         p = m.p + (y[-6:] if m.beam.carries else 0.0)
@@ -204,13 +204,13 @@ def in_units(scene, load):
 # Frequencies of a scene about its undeformed state: L z = omega^2 M z for the bodies and for all members at their
 # Chebyshev points.
 #
-# Fields of a member are those of equilibrium.Vibration, z = (dy, dp); its inertia rho A, rho (Ip, Iy, Iz), rho Iw, of
-# which Iy, Iz and Iw count only with `rotary_inertia`. For a body, the external load, the loads of the members' ends
-# and omega^2 (m (u + theta x c), J theta) are in equilibrium.
+# The fields of a member are those of equilibrium.Vibration, z = (dy, dp). Its inertia is rho A, rho (Ip, Iy, Iz) and
+# rho Iw, of which Iy, Iz and Iw are included only with `rotary_inertia`. For a body, the external load, the loads of
+# the members' ends and omega^2 (m (u + theta x c), J theta) are in equilibrium.
 
 
 def inertia_of(scene, name):
-    """Returns (rho A, diag rho (Ip, Iy, Iz), rho Iw) of a member in the network's units."""
+    """Returns (rho A, diag rho (Ip, Iy, Iz), rho Iw) of a member in the units of the network."""
     section, where = scene.section_of(scene.scene["members"][name])
     s, rho = constants_of(section, where), number(section.get("density", "0"), where) / scene.force
     rotary = float("rotary_inertia" in scene.physics)
@@ -219,7 +219,7 @@ def inertia_of(scene, name):
 
 
 def body_masses(scene, size):
-    """Returns -M of the bodies, in their rows of equilibrium, for nodes that have a mass; about the origin."""
+    """Returns -M of the bodies in their rows of equilibrium, for nodes with a mass; moments are about the origin."""
     out = np.zeros((size, size))
     for name, entry in scene.scene["nodes"].items():
         m = number(entry.get("mass", "0"), name) * scene.length / scene.force
@@ -240,7 +240,7 @@ def body_masses(scene, size):
 
 
 class Assembly:
-    """Triplets of L and M."""
+    """Triplets (row, column, value) of L and M."""
 
     def __init__(self):
         self.parts = ([], []), ([], [])
@@ -260,7 +260,7 @@ class Assembly:
 
 
 def add_inside(out, v, at):
-    """Adds collocation and continuity of a member whose fields start at column and row `at`; returns the next row."""
+    """Adds collocation and continuity of a member whose fields start at column and row `at`. Returns the next row."""
     f, N, m = v.fields, v.points, v.m
     row, W = at, m.h * m.W
     for i in range(v.intervals):
@@ -281,8 +281,8 @@ def add_inside(out, v, at):
 
 
 def add_ends(out, v, at, row, shared):
-    """Adds the ends: both follow their bodies, which take their loads into equilibrium; one warping condition at each
-    end."""
+    """Adds the ends of a member: both follow their bodies, whose equilibrium includes the loads of the ends, and each
+    has a warping condition."""
     m, f, n = v.m, v.fields, v.n
     for end, (body, sign) in enumerate(zip(m.bodies, (1.0, -1.0))):
         y, column = (m.y[0, 0], at) if end == 0 else (m.y[-1, -1], at + v.size - f)
@@ -293,7 +293,7 @@ def add_ends(out, v, at, row, shared):
         out.add(0, row + 3, column + 3, turn_of(y[3:7]))
         out.add(0, row + 3, body.at + 3, -np.eye(3))
         row += 6
-        if end == 0:  # a quaternion has four numbers: the additional condition is the length of dq
+        if end == 0:  # the additional condition for the four numbers of a quaternion is the length of dq
             out.add(0, row, column + 3, y[3:7])
             row += 1
     if m.beam.warps:
@@ -308,7 +308,7 @@ def add_ends(out, v, at, row, shared):
 
 
 def frequencies(scene, count):
-    """The lowest [Hz]."""
+    """Returns the lowest frequencies [Hz]."""
     matrix, _ = scene.net.system(0.0)
     size, total = BODY * len(scene.net.bodies), matrix.shape[0]
     kept = np.r_[np.arange(size), np.arange(total - len(scene.net.numbers), total)]

@@ -1,9 +1,10 @@
 """Supports, drivers and loads of a body of a scene, as conditions of network.py.
 
-Six conditions on the position x, the rotation R and the load of the members (f, mu about the body's point): if a component is free, f or mu
+There are six conditions on the position x, the rotation R and the load of the members (f, and mu about the point of
+the body). If a component is free, f or mu
 is the applied load. Rotations are increments about fixed axes, each free or fixed; a rotation vector; or a sequence R = exp(a_1 t_1)
-exp(a_2 t_2) ..., whose free angles are numbers of the problem with mu . (axis of the rotation) = 0. A fork is the sequence (guides' normal,
-web), both free.
+exp(a_2 t_2) ..., whose free angles are numbers of the problem with mu . (axis of the rotation) = 0. A fork is the
+sequence (normal of the guides, web) with both angles free.
 """
 import numpy as np
 
@@ -31,8 +32,9 @@ def rotation_vector(R):
 
 
 class Applied:
-    """A load on a body: a force or a moment, in fixed axes or rotating with the body; arm: position of a force from
-    the body's point; factor(level). stays: the load does not follow the body, as in linear analysis."""
+    """A force or a moment on a body, in fixed axes or rotating with the body. arm: position of a force relative to the
+    point of the body; factor(level): factor of the load; stays: the load does not follow the body, as in linear
+    analysis."""
     stays = False
 
     def __init__(self, force, moment, arm, turns, factor):
@@ -48,8 +50,9 @@ class Applied:
 
 
 class Support:
-    """kinds: FREE, HELD or a motion(level, numbers) for each of the six components (dimensionless). sequence: [(axis,
-    FREE, HELD or a motion)]; vector: three motions. Either replaces the last three kinds, which are then HELD."""
+    """A support. kinds: FREE, HELD or a motion(level, numbers) for each of the six components (dimensionless);
+    sequence: [(axis, FREE, HELD or a motion)]; vector: three motions. A sequence or a vector replaces the last three
+    kinds, which are then HELD."""
 
     def __init__(self, place):
         self.place, self.kinds, self.sequence, self.vector = np.array(
@@ -69,7 +72,7 @@ class Support:
         ]
 
     def _sequence(self, level, numbers):
-        """Returns [(present axis, number)] of the free rotations, and R."""
+        """Returns [(present axis, number)] of the free rotations, and the rotation R."""
         R, free, angles = np.eye(3), [], iter(self.angles)
         for axis, kind in self.sequence:
             if kind == FREE:
@@ -81,7 +84,8 @@ class Support:
         return free, R
 
     def prescribed(self, level, numbers):
-        """Returns the rotation matrix if the rotation is fully prescribed (possibly by numbers), otherwise None."""
+        """Returns the rotation matrix if the rotation is fully prescribed (possibly by numbers of the problem),
+        otherwise None."""
         if self.sequence is not None:
             return self._sequence(level, numbers)[1]
         if self.vector is not None:
@@ -97,7 +101,7 @@ class Support:
     def _turns(self, level, R, moment, numbers, kinds):
         if FREE not in kinds:
             return skew(R @ self.prescribed(level, numbers).T)
-        now = skew(R @ R.real.T)  # an increment has no value, only a derivative
+        now = skew(R @ R.real.T)  # an increment is zero and has only a derivative
         out = []
         for i, kind in enumerate(kinds):
             j, k = (i + 1) % 3, (i + 2) % 3
@@ -111,8 +115,8 @@ class Support:
         return np.array([axis for axis, _ in self._sequence(level, numbers)[0]])
 
     def conditions(self, kept=None, axes=None):
-        """Returns the conditions. kept: {component: present load} of released components; axes: of free rotations,
-        which stay where they are, so that no moment rotates with them."""
+        """Returns the conditions. kept: {component: present load} of released components; axes: axes of the free
+        rotations, which remain fixed so that no moment rotates with them."""
         kept = kept or {}
         across = None if axes is None else np.linalg.svd(axes)[2][len(axes):]
         kinds = [FREE if i in kept else kind for i, kind in enumerate(self.kinds)]
@@ -133,14 +137,14 @@ class Support:
         return of
 
     def kept_angles(self):
-        """Returns the conditions of the free angles if other conditions replace them."""
+        """Returns conditions that keep the free angles constant, for use with other conditions of the body."""
         return [
             lambda level, x, R, force, moment, numbers, k=k: [numbers[k] - numbers[k].real]
             for k in self.angles
         ]
 
     def extra(self):
-        """Returns the conditions of the free angles, one for each."""
+        """Returns one condition for each free angle."""
 
         def of(which):
 
@@ -153,8 +157,8 @@ class Support:
         return [of(i) for i in range(len(self.angles))]
 
     def path_dependent(self, R):
-        """Returns the word of a component whose increments are fixed or driven although the node rotates about several
-        axes, or None."""
+        """Returns the name of a rotation component whose increments are fixed or prescribed although the node rotates
+        about several axes, or None."""
         kinds = self.kinds[3:]
         if FREE not in kinds or kinds == [FREE] * 3:
             return None
@@ -166,7 +170,7 @@ class Support:
         return None
 
 
-# End release of a member: a joint (network.py) between them.
+# End release of a member: a joint (network.py) between the end and its node.
 #
 # The end is at r + R rho + R_end s, R_end = R exp(a_1 t_1) exp(a_2 t_2) with the node's body r, R; three rotations
 # have no order, and R_end is free. s: translations along the rotated end. No load does work on the released motions:
@@ -175,9 +179,9 @@ class Support:
 
 
 class Release:
-    """words: components in their order; axes: columns are those of the end; at: position of the node from its body's
-    point (dimensionless); new_number(): adds a number to the problem, one for each component except for three
-    rotations."""
+    """A release. words: components in their order; axes: columns are the axes of the end; at: position of the node
+    relative to the point of its body (dimensionless); new_number(): adds a number to the problem, one for each
+    component except for three rotations."""
 
     def __init__(self, words, axes, at, new_number):
         components = [WORDS.index(word) for word in words]
@@ -187,7 +191,7 @@ class Release:
         self.slides = [(axes[:, i], new_number()) for i in components if i < 3]
 
     def _axes(self, R, numbers):
-        """Returns the present axes of the rotations, and the rotation after them; R: of the node."""
+        """Returns the present axes of the rotations, and the rotation of the end. R: rotation of the node."""
         out = []
         for axis, k in self.turns:
             out.append(R @ axis)
@@ -204,7 +208,7 @@ class Release:
         return np.concatenate([x - on[0] - on[1] @ self.at - apart, turned])
 
     def extra(self):
-        """Returns the conditions of the numbers, in their order."""
+        """Returns the conditions of the numbers, in the order of the numbers."""
 
         def turns(which):
             return lambda level, x, R, force, moment, numbers, on: [

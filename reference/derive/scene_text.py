@@ -13,7 +13,7 @@ from reference.derive.torsion import rectangle_constant
 
 
 class Refused(Exception):
-    """Raised with the line for the user: the part of the scene that the deriving program does not support."""
+    """Raised with a line for the user if the program does not support a part of the scene."""
 
 
 def read(text):
@@ -28,7 +28,7 @@ def read(text):
 
 
 def only(entry, where, known):
-    """Rejects an entry with an unknown key."""
+    """Raises Refused if an entry has an unknown key."""
     for key in entry:
         if key not in known:
             raise Refused(f"{where}: '{key}' is not supported by the deriving program")
@@ -87,8 +87,8 @@ PLACES = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
 class Constants:
-    """A, Iy, ... in SI; F [3, 3]: shear flexibilities times G; turned: angle from the y axis of the description to the
-    principal y axis [rad]."""
+    """Constants of a section. A, Iy, ...: in SI units; F [3, 3]: shear flexibilities times G; turned: angle [rad] from
+    the y axis of the description to the principal y axis."""
 
     def __init__(self, **values):
         for name in NAMES:
@@ -109,7 +109,7 @@ def warping_constant(wide, thin):
         tanh = mp.tanh(k * b)
         first, second = 2 * (-1)**n / k**2, 2 * (b / k - tanh / k**2)
         total += 2 * c * first * second + c**2 * a * (tanh / k - b / mp.cosh(k * b)**2)
-    k = (2*len(ks) + 1) * mp.pi / 2 / a  # remaining terms, where tanh = 1
+    k = (2*len(ks) + 1) * mp.pi / 2 / a  # remaining terms, for which tanh = 1
     tail = (mp.zeta(6, len(ks) + mp.mpf(1)/2)) * (a / mp.pi)**6
     total += -32 * b / a * tail + 48 / a * mp.zeta(7, len(ks) + mp.mpf(1)/2) * (a / mp.pi)**7
     return float(total)
@@ -184,7 +184,7 @@ def constants(entry, where):
 
 
 def inverse(matrix):
-    """Inverts the nonzero part; zero (rigid) stays zero."""
+    """Returns the inverse of the nonzero part; rows and columns that are zero (rigid) remain zero."""
     out, some = np.zeros((3, 3)), [i for i in range(3) if matrix[i, i] != 0]
     out[np.ix_(some, some)] = np.linalg.inv(matrix[np.ix_(some, some)])
     return out
@@ -213,7 +213,8 @@ def constants_of(entry, where):
 
 
 def beam(entry, physics, length, curvature, where):
-    """Returns (Beam, constants) of a member of this length [m] and curvature [1/m] about the section's z axis."""
+    """Returns (Beam, constants) of a member with this length [m] and curvature [1/m] about the z axis of the
+    section."""
     s = constants_of(entry, where)
     E, G = number(entry["young"], where), number(entry["shear_modulus"], where)
     if s.It == 0 and s.Iw == 0:

@@ -1,5 +1,5 @@
-"""Reference values of scenes in cases/examples that a program here derives; one per line, as the program writes
-them."""
+"""Reference values of scenes in cases/examples that a program in this folder derives, one per line in the form of
+scene files."""
 import pathlib
 import re
 
@@ -25,7 +25,7 @@ def line_of(row):
 
 
 def stored():
-    """Yields the rows of all scenes whose source is a program."""
+    """Yields the rows of all scenes whose source is a program in this folder."""
     for path in sorted(PATH.glob("*.yaml")):
         for line in path.read_text(encoding="utf-8").splitlines():
             found = ROW.match(line)

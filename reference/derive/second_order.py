@@ -26,7 +26,7 @@ def axial(M):
 
 
 class Series:
-    """c0 + c1 t + c2 t^2, with numbers, vectors or matrices as coefficients."""
+    """A series c0 + c1 t + c2 t^2 with numbers, vectors or matrices as coefficients."""
 
     def __init__(self, *c):
         self.c = list(c) + [0 * c[0]] * (3 - len(c))
@@ -104,8 +104,8 @@ POINTS = newton_cotes()
 
 
 def simo_reissner(e, hg, g, tw, c, centre=(Q(0), Q(0)), trapeze=Q(0)):
-    """Returns the quadratic parts of e1bar .. e6bar for the screw's e; hg, g: antisymmetric deformation in bending and
-    shear (y, z)."""
+    """Returns the quadratic parts of e1bar .. e6bar for e of the screw. hg, g: antisymmetric deformation in bending
+    and in shear (y, z)."""
     ys, zs = centre
     A = (e[6] - e[7]) / 2
     mean = [e[1] / L, (e[2] + e[3]) / L, (e[4] + e[5]) / L]
@@ -136,8 +136,8 @@ def simo_reissner(e, hg, g, tw, c, centre=(Q(0), Q(0)), trapeze=Q(0)):
 
 
 def nijenhuis(q, Phi):
-    """Returns the second-order parts of the generalized strains from N Eq. 7 over N Eqs. 14-19 with Phi, and int
-    phi_y' phi_z."""
+    """Returns the second-order parts of the generalized strains of N Eq. 7 over N Eqs. 14-19 with Phi, and int phi_y'
+    phi_z."""
     total = [Q(0)] * 7
     for x, weight in POINTS:
         fields = []
@@ -168,8 +168,8 @@ def eq66(e):
 
 
 def all_modes(e, hg, g, tw, c, centre, trapeze=Q(0)):
-    """Returns J Eq. 66 corrected, for J's own e: any shear flexibility and shear centre; c = 0: Engesser, J; c = 1:
-    Haringx, Simo-Reissner."""
+    """Returns the corrected J Eq. 66 for the strains e of J, for any shear flexibility and shear centre. c = 0:
+    Engesser, as in J; c = 1: Haringx (Simo-Reissner)."""
     ys, zs = centre
     e1, e2, e3, e4, e5, e6, e7, e8 = e
     A = (e7 - e8) / 2
@@ -185,7 +185,7 @@ def all_modes(e, hg, g, tw, c, centre, trapeze=Q(0)):
 
 
 def directions(names=NAMES):
-    """Yields every e_i and e_i + e_j with magnitudes other than one."""
+    """Yields every e_i and e_i + e_j, with magnitudes other than one."""
     size = dict(zip(NAMES, (Q(3, 7), Q(5, 3), Q(-7, 5), Q(2, 11), Q(9, 4), Q(-4, 9), Q(6, 13), Q(11, 6))))
     for pair in itertools.combinations_with_replacement(names, 2):
         yield {n: size[n] if n in pair else Q(0) for n in NAMES}
@@ -200,8 +200,8 @@ def strains(q):
 
 
 def against_sheet():
-    """Returns the differences (e1 .. e6 of N with shear minus those derived here) for u = 0 and, with u, those due to
-    the factor l/l0 in the shear strain."""
+    """Returns the differences of e1 .. e6 of N with shear from those derived here, for u = 0, and the differences with
+    u, which are due to the factor l/l0 in the shear strain."""
     Phi = (Q(7, 5), Q(3, 8))
     inner, outer = [], []
     for q in directions():
@@ -212,7 +212,7 @@ def against_sheet():
         theirs = nijenhuis(q, Phi)
         gap = [s.c[2] + o - n for s, o, n in zip(screw(q), ours, theirs)]
         (inner if q["u"] == 0 else outer).append((q, gap, [q["u"] * (a - b) for a, b in zip(h, hg)]))
-    # the shear strains here have the factor 1 + u/L, those of N do not
+    # The shear strains derived here have the factor 1 + u/L; those of N do not.
     stretched = [[x - y for x, y in zip(gap, (0, 0, -g[1], g[1], g[0], -g[0]))] for _, gap, g in outer]
     return [gap for _, gap, _ in inner], stretched
 
@@ -228,8 +228,8 @@ def against_eq66():
 
 
 def against_all_modes():
-    """Compares with arbitrary shear shares, shear centre and trapeze term: hg, g and tw are varied as independent
-    variables."""
+    """Returns the differences from all_modes for arbitrary shear, shear centre and trapeze term; hg, g and tw are
+    varied as independent variables."""
     centre, trapeze, gaps = (Q(2, 7), Q(-5, 9)), Q(4, 17), []
     extra = (("hy", Q(3, 5)), ("hz", Q(-2, 3)), ("gy", Q(5, 8)), ("gz", Q(-7, 9)), ("tw", Q(8, 5)))
     for pair, c in itertools.product(itertools.combinations_with_replacement(("px", "bend_y", "bend_z", "Wp", "Wq") + tuple(n for n, _ in extra), 2), (0, 1)):
@@ -252,7 +252,7 @@ def largest(gaps):
 
 
 def warping_of_sheet():
-    """Returns the largest int phi_y' phi_z of N: the terms of its e7 and e8 in addition to L^2 Wp and L^2 Wq."""
+    """Returns the largest int phi_y' phi_z of N, the term of e7 and e8 in addition to L^2 Wp and L^2 Wq."""
     return max(abs(nijenhuis(q, (Q(7, 5), Q(3, 8)))[6]) for q in directions())
 
 

@@ -19,7 +19,7 @@ def _integrate(f):
 
 
 def _leaf_first(walls, points):
-    """Returns the walls ordered from the free ends to the root, each as (outer, inner, thickness)."""
+    """Returns the walls ordered from the free ends to the root, each as (outer point, inner point, thickness)."""
     left, order = list(walls), []
     degree = [sum(p in w[:2] for w in walls) for p in range(points)]
     while left:
@@ -89,7 +89,8 @@ def section(points, walls):
                                  (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
     out.wagner_z = area_integral(lambda i, j, s: at(z, i, j, s) *
                                  (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
-    # energy E c kx^4 per length of a twist with free shortening and bending: a fibre elongates by r^2 kx^2/2
+    # Energy E c kx^4 per length due to twist with free shortening and bending; the elongation of a fibre is r^2
+    # kx^2/2.
     quartic = area_integral(lambda i, j, s: (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2) ** 2)
     out.wagner_torque = (quartic - out.Ip ** 2 / out.A - out.wagner_y ** 2 / out.Iz -
                          out.wagner_z ** 2 / out.Iy) / 8

@@ -15,7 +15,7 @@ from reference.derive.network import Network, clamped, free
 from reference.derive.torsion import rectangle_constant
 
 RELATIVE = 5e-12
-ROUNDING = 1e-15  # of a coordinate, in lengths of the sheet
+ROUNDING = 1e-15  # round-off of a coordinate, in lengths of the sheet
 PLANAR = [(0, 0), (0, 1), (0, 5), (1, 0), (1, 1), (1, 5), (5, 0), (5, 1), (5, 5), (2, 2), (2, 3),
           (2, 4), (3, 2), (3, 3), (3, 4), (4, 2), (4, 3), (4, 4)]
 
@@ -51,7 +51,8 @@ def parameters(given):
 
 
 def clamped_sheet(value, conditions, form=lambda beam: beam):
-    """Returns the network of one sheet whose tip satisfies conditions; value: all parameters; form: see deflected."""
+    """Returns the network of one sheet whose tip satisfies the conditions. value: all parameters; form: see
+    deflected."""
     beam = form(sheet(**value))
     net = Network(beam.length,
                   beam.EIz / beam.length ** 2,
@@ -65,7 +66,8 @@ def clamped_sheet(value, conditions, form=lambda beam: beam):
 
 
 def under_convention(C, moment, convention):
-    """Returns the compliance [6, 6] under another convention, from the spatial one; moment [3] in N m."""
+    """Returns the compliance [6, 6] under another convention, from the compliance for spatial moments. moment: [3] in
+    N m."""
     K = np.linalg.inv(C)
     if convention == "semitangential":
         K[3:, 3:] += cross_matrix(moment) / 2
@@ -75,7 +77,7 @@ def under_convention(C, moment, convention):
 
 
 def quantities(case, given, net, tip, entries):
-    """Yields the compliance for dead forces and for moments under the case's convention, displacements and
+    """Yields the compliance for dead forces and for moments under the convention of the case, then displacements and
     reactions."""
     convention = {**defaults.values(case), **given}["moment_convention"]
     turned = "RyRzRx" if case == "sheet_wagner" else ""
@@ -101,8 +103,8 @@ def quantities(case, given, net, tip, entries):
 
 
 def deflected(given, form=lambda beam: beam):
-    """Returns (network, tip) of sheet_cantilever: u_y prescribed, no rotation about z, all else free; form turns the
-    beam into another one, as in predicted.py."""
+    """Returns (network, tip) of sheet_cantilever, with u_y of the tip prescribed, no rotation about z, and all other
+    components free. form: replaces the beam by another beam, as in predicted.py."""
     value = {**defaults.values("sheet_cantilever"), **given}
     deflection = value["tip_deflection"] / value["length"]
 
@@ -120,7 +122,8 @@ def cantilever(form=lambda beam: beam, **given):
 
 
 def twisted(form=lambda beam: beam, **given):
-    """Returns sheet_wagner: R = Ry Rz Rx, phi_y free with zero moment about the fixed y axis."""
+    """Returns (network, tip) of sheet_wagner, with R = Ry Rz Rx and phi_y free, so that the moment about the fixed y
+    axis is zero."""
     value = {**defaults.values("sheet_wagner"), **given}
     phi_x, phi_z, deflection = value["tip_phi_x"], value[
         "tip_phi_z"], value["tip_deflection"] / value["length"]

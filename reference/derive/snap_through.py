@@ -7,7 +7,7 @@ mp.dps = 30
 
 
 def force(start, angle):
-    """Returns 2 N sin(angle), l/L = cos(start)/cos(angle)."""
+    """Returns the force 2 N sin(angle), with l/L = cos(start)/cos(angle)."""
     return 2 * (1 - cos(start) / cos(angle)) * sin(angle)
 
 

@@ -21,18 +21,18 @@ from scipy.integrate import solve_ivp
 
 from reference.derive.plane_motion import ANY, LEAST, lobatto
 
-KIND = "consensus"  # of the stored rows with which these values are compared
-MESHES = ((10, 10), (8, 8))  # elements of a leg, degree
+KIND = "consensus"  # kind of the stored rows with which these values are compared
+MESHES = ((10, 10), (8, 8))  # number of elements of a leg, degree
 TIMES = ("1", "2", "2.5", "4", "5", "7", "7.5", "9", "10")
 ELBOW_MESHES = ((4, 10), (3, 8))
-ELBOW_TIMES = ("1", "2")  # the first ones that are stored: axial waves are ten times as fast
+ELBOW_TIMES = ("1", "2")  # only the first of the stored times, because axial waves are ten times as fast
 
 
 @dataclass(frozen=True)
 class Rod:
-    """A rod from `start` along legs of equal length; EA = GA = force, EI = GJ = moment; mass [kg/m], inertia about an
-    axis across and along [kg m]; a load in space axes, with force and moment as functions of time with kinks, at the
-    end of a leg."""
+    """A rod from `start` along legs of equal length; EA = GA = force, EI = GJ = moment; mass [kg/m], rotary inertia
+    about axes across and along the rod [kg m]; a load at the end of a leg in space axes, whose force and moment are
+    functions of time with kinks."""
     start: tuple
     legs: tuple
     force: float
@@ -40,7 +40,7 @@ class Rod:
     mass: float
     rotary: float
     polar: float
-    held: bool  # at the start
+    held: bool  # True if the start is fixed
     loaded: int
     load: Callable
     kinks: tuple
@@ -78,7 +78,8 @@ def turned(q, v):
 
 
 def _between(x, points):
-    """Returns values at points of the polynomials through values at x; likewise for derivatives."""
+    """Returns the matrices that map values at x to values, and to derivatives, of their interpolating polynomials at
+    points."""
     V = legendre.legvander(x, len(x) - 1)
     to = np.linalg.inv(V)
     basis = map(legendre.Legendre.basis, range(len(x)))
@@ -92,7 +93,7 @@ def _each(tensors, vectors):
 
 
 class Mesh:
-    """Rod in elements on each leg: U [6, nodes] are velocities, S [6, points] strains."""
+    """A rod with elements on each leg. U [6, nodes]: velocities; S [6, points]: strains."""
 
     def __init__(self, rod, elements, degree):
         self.rod, legs = rod, np.array(rod.legs, float)
@@ -142,7 +143,7 @@ class Mesh:
         return rate, strain
 
     def energy(self, U, S):
-        """Kinetic and elastic [J]."""
+        """Returns the sum of kinetic and elastic energy [J]."""
         moving = self.rod.mass * self.lumped @ (U[:3]**2).sum(0)
         turning = (U[3:] * _each(self.inertia, U[3:])).sum()
         return (moving + turning + self.weight @ (S * self.forces(S)).sum(0)) / 2
@@ -178,8 +179,7 @@ def move(mesh, times, method="DOP853", tolerance=1e-9):
 
 
 def run(rod, elements, degree, times):
-    """Returns at each time the positions of the start and of the ends of legs, x, y, z one after the other, and the
-    energy."""
+    """Returns, at each time, the positions x, y, z of the start and of the ends of the legs, and the energy."""
     mesh = Mesh(rod, elements, degree)
     return np.array([[*r.T.ravel(), mesh.energy(U, S)]
                      for U, S, r, _ in move(mesh, [float(t) for t in times])])

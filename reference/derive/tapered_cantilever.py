@@ -2,7 +2,7 @@
 
 Statics: at x, the forces at the tip cause N, Q, M in the principal axes of the section there; the displacement along a load P_i is int sum
 of (stress resultant) (the same of P_i = 1) (flexibility) dx, torsion about the shear centre, Mx - ys Qz + zs Qy.  The I-section warps: (EIw
-a')' - GIt a + T = 0 with a(0) = 0, a'(1) = 0 and twist int a dx, by collocation at Chebyshev's points.
+a')' - GIt a + T = 0 with a(0) = 0, a'(1) = 0 and twist int a dx, by collocation at the Chebyshev points.
 Waves of the wedge, at the distance s from where its thickness vanishes, of the section I1 s^3, A1 s:
     buckling    E I1 s^3 w'' + P w = 0            w = sqrt(s) Z1(2 q/sqrt(s)),           q^2 = P/(E I1)
     bending     E I1 (s^3 w'')'' = omega^2 rho A1 s w     w = Z1(2 b sqrt(s))/sqrt(s), I1 and K1 too (Kirchhoff 1879), b^4 = omega^2 rho
@@ -31,7 +31,8 @@ def rectangle_torsion(a, b):
 
 
 class At:
-    """Constants at x: A, It, Iw, flexibilities and shear centre in principal axes, which are rotated by beta."""
+    """Constants of the section at x: A, It, Iw, and flexibilities and shear centre in principal axes, which are
+    rotated by beta."""
 
     def __init__(self, form, ratio, x):
         size = 1 + x * (ratio - 1)
@@ -106,14 +107,14 @@ def twist_of_i(ratio, n=30):
         A[0, j], A[n, j] = mpf(j == 0), D[n, j]
     T[0] = T[n] = 0
     a = lu_solve(A, T)
-    a[0] = 0  # its value, and the twist there
+    a[0] = 0  # boundary value; also the twist at this end
     for j in range(n + 1):
         D[0, j] = mpf(j == 0)
     return lu_solve(D, a)[n]
 
 
 def ends(ratio):
-    """Returns the distances of tip and root from where the wedge vanishes, and the sign of s along x."""
+    """Returns the distances of tip and root from the point where the thickness vanishes, and the sign of s along x."""
     return ratio / abs(1 - ratio), 1 / abs(1 - ratio), (1 if ratio > 1 else -1)
 
 
@@ -133,8 +134,8 @@ def buckling_load(ratio):
     unit = E * WIDTH * THICKNESS ** 3 / 12 / root ** 3
 
     def condition(q):
-        """Returns the conditions w(tip) = 0, relative to the tip, and w'(root) = 0; with z = 2 q/sqrt(s): w ~ Z1(z)/z,
-        w' ~ z^2 Z2(z)."""
+        """Returns the determinant of the two conditions w(tip) = 0 (w measured from the tip) and w'(root) = 0. With z
+        = 2 q/sqrt(s): w ~ Z1(z)/z, w' ~ z^2 Z2(z)."""
         here, there = 2 * q / sqrt(tip), 2 * q / sqrt(root)
         return besselj(1, here) * bessely(2, there) - bessely(1, here) * besselj(2, there)
 
@@ -147,8 +148,8 @@ def bending(ratio, wanted):
     speed = sqrt(E * THICKNESS ** 2 / (12 * RHO)) / root  # b^4 = (omega/speed)^2
 
     def condition(b):
-        """Returns the determinant. With z = 2 b sqrt(s), w ~ Z1(z)/z: every derivative is a function of the next
-        order, d/ds Zn/z^n ~ Zn+1/z^(n+1)."""
+        """Returns the determinant of the four end conditions. With z = 2 b sqrt(s), w ~ Z1(z)/z, and every derivative
+        is a function of the next order, d/ds Zn/z^n ~ Zn+1/z^(n+1)."""
         rows = []
         for Z, sign in ((besselj, -1), (bessely, -1), (besseli, 1), (besselk, -1)):
             row = [

@@ -1,9 +1,8 @@
 """Determines which shear theory in stability a reference value of a case's own model follows.
 
-Engesser: the axial force does work on the slope of the centroidal axis; Haringx: on the section's rotation, as in the
-geometrically exact beam (column.py gives both energies).  Without shear deformation, or without stress, both agree.
-Sources: the programs that derive the reference values.
-"""
+Engesser: the axial force does work on the slope of the centroidal axis. Haringx: it does work on the rotation of the
+section, as in the geometrically exact beam (column.py states both energies).  Without shear deformation, or without
+stress, both agree. Sources: the programs that derive the reference values. """
 from reference.derive import defaults
 
 LARGE_DISPLACEMENT = (
@@ -13,11 +12,11 @@ LARGE_DISPLACEMENT = (
     "hexapod",
     "shear_elastica",
     "spherical_joint",
-)  # always flexible in shear
+)  # cases that are always flexible in shear
 
 
 def of(case, parameters, quantity):
-    """Returns 'engesser', 'haringx', or '' if the value depends on neither.
+    """Returns 'engesser', 'haringx', or '' if the value does not depend on the theory.
 
     parameters: `name=value;...` that differ from the defaults.
     """

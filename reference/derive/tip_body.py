@@ -46,7 +46,7 @@ def at_rest(m, c, g, count=COUNT):
 
 
 def equilibrium(omega, m, c, s=S):
-    """Returns (B of x = B sin kX, k) in extended precision."""
+    """Returns (B, k) of the equilibrium x = B sin kX, in extended precision."""
     k = mpf(omega) / s
     return (1 + mpf(m) * k ** 2 * mpf(c)) / (k * cos(k) - mpf(m) * k ** 2 * sin(k)), k
 
@@ -65,8 +65,8 @@ def _ends(times):
 
 
 def matrices(omega, m, c, g, s=S):
-    """Returns, for beam and body: (K, M) of flap, (K, M) of lag, (K, M) of stretching, and the coupling; K of lag and
-    stretching include their softening."""
+    """Returns, for beam and body, (K, M) of flap, (K, M) of lag, (K, M) of stretching, and the coupling. K of lag and
+    of stretching include centrifugal softening."""
     X, weight, w = rotating._basis(2)
     _, _, u = rotating._basis(1)
     J = m * g * g
@@ -99,7 +99,7 @@ def flap(omega, m, c, g, s=S, count=COUNT):
 
 
 def lag(omega, m, c, g, s=S, count=COUNT):
-    """As rotating.lag."""
+    """Returns the lowest lag frequencies, like rotating.lag."""
     _, (K, M), (Ku, Mu), C = matrices(omega, m, c, g, s)
     n = rotating.SIZE
     none = np.zeros((n, n))

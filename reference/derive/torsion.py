@@ -20,7 +20,8 @@ def rectangle_constant(w, t):
 
 
 def twist_ratio(kl, ends):
-    """Returns 1 - tanh(x)/x; x: kL of a cantilever; with warping restrained at both ends, each half is one."""
+    """Returns 1 - tanh(x)/x, where x is kL of a cantilever. With warping restrained at both ends, each half of the
+    beam is such a cantilever."""
     x = mpf(kl) / (2 if ends == "fixed" else 1)
     return 1 - tanh(x) / x
 

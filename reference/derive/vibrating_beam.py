@@ -8,8 +8,8 @@ from mpmath import cos, expm, findroot, matrix, mpf, sin
 
 
 def bending(length, o, EI, mass, rotary=0, flexibility=0):
-    """Returns [4, 4]: (w, t, M, Q) at the end due to unit values at the start; mass: rho A, rotary: rho I,
-    flexibility: 1/S."""
+    """Returns (w, t, M, Q) at the end due to unit values at the start [4, 4]. mass: rho A; rotary: rho I; flexibility:
+    1/S."""
     a = matrix(4, 4)
     a[0, 1], a[0, 3], a[1, 2], a[2, 3] = 1, flexibility, 1 / EI, -1
     a[2, 1], a[3, 0] = -rotary * o ** 2, -mass * o ** 2
@@ -23,7 +23,7 @@ def along(length, o, stiffness, speed):
 
 
 def zeros(function, end, step):
-    """Returns all zeros below `end` that are farther apart than the step, in order."""
+    """Returns the zeros below `end` in ascending order; zeros closer together than the step may be missed."""
     found, x, before = [], mpf(step), function(mpf(step))
     while x < end:
         after = function(x + step)

@@ -13,7 +13,7 @@ POINTS = ({}, {"staying": 4}, {"staying": -20}, {"grows": "weight",
 
 
 def slope_at_foot(P, q):
-    """Returns the slope at the base of the solution with slope 1 and no moment at the top."""
+    """Returns the slope at the base for the solution with slope 1 and zero moment at the top."""
     c = [mpf(1), mpf(0)]
     while len(c) < TERMS:
         n = len(c) - 2
@@ -22,8 +22,8 @@ def slope_at_foot(P, q):
 
 
 def load_factor(given):
-    """Returns the smallest load factor: the slope at the base decreases from 1 as the loads increase; bracketed from
-    below."""
+    """Returns the smallest load factor. The slope at the base decreases from 1 as the loads increase, so that the
+    first zero is bracketed from below."""
     at = defaults.decimals("weighted_column", given)
 
     def value(factor):

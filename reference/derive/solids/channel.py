@@ -18,7 +18,7 @@ MESHES = (14, 2, 3), (
     20,
     2,
     4,
-)  # elements along the beam, of a flange next to the web, of the web between the flanges
+)  # numbers of elements along the beam, of a flange next to the web, and of the web between the flanges
 STATIONS = {
     "D": np.concatenate([np.arange(1, 10) * 0.02, 0.2 + 0.06 * np.arange(41)]),
     "E": np.concatenate([np.arange(1, 10) * 0.02, 0.2 + 0.042 * np.arange(24), [1.2]]),
@@ -27,7 +27,7 @@ POINTS = {"D": (0.1, 0.2, 0.5, 1.04, 2.6), "E": (0.1, 0.2, 0.494, 1.04, 1.2)}
 WAGNER = (
     [],
     ["wagner_moments=*"],
-)  # the case's default, and any of the beam's choices, which a solid does not have
+)  # default of the case, and any choice of beam physics, which a solid does not have
 
 
 def channel(along, flange, web):
@@ -70,8 +70,8 @@ def path(point, stations, mesh):
 def rows(everything=True):
     """Yields (case, parameters, quantity, value, unit, relative uncertainty, convention, at).
 
-    These are curves, and points with their own parameters. The uncertainty is the change by the last refinement plus
-    1e-4 of the value. everything False: only the first 0.2 m of the curve of D.
+    The rows are those of curves and of points with other parameters. The uncertainty is the change due to the last
+    refinement plus 1e-4 of the value. If `everything` is False, only the first 0.2 m of the curve of D is computed.
     """
     for point in "DE" if everything else "D":
         stations = STATIONS[point] if everything else STATIONS[point][:10]

@@ -1,4 +1,4 @@
-"""Input decks of CalculiX: writes and runs them, and reads their results."""
+"""Writes and runs input decks of CalculiX, and reads their results."""
 import os
 import pathlib
 import shutil
@@ -12,8 +12,8 @@ from reference.derive.beam import cross_matrix, exponential, rotation
 
 # Structured meshes of bricks with 20 nodes, from boxes of a common lattice.
 
-# Corners, then middles of the edges of the lower face, of the upper face and between them, in half steps of the
-# lattice.
+# Positions of the nodes in half steps of the lattice: corners, then middles of the edges of the lower face, of the
+# upper face, and between the faces.
 BRICK = (
     (0, 0, 0),
     (2, 0, 0),
@@ -44,12 +44,12 @@ def graded(elements):
 
 
 def halved(stations):
-    """Returns the stations with the middles between them."""
+    """Returns the stations together with the middles between them."""
     return np.sort(np.concatenate([stations, (stations[1:] + stations[:-1]) / 2]))
 
 
 class Grid:
-    """nodes [count, 3] m, elements [count, 20]; both are counted from zero."""
+    """A mesh. nodes: [count, 3] in m; elements: [count, 20]; both are counted from zero."""
 
     def __init__(self, xs, ys, zs, wanted=lambda i, j, k: True):
         """xs, ys, zs: stations of corners along each axis [m]; wanted: which cells are filled."""
@@ -68,14 +68,14 @@ class Grid:
         self.nodes = np.array(nodes)
 
     def at(self, axis, value):
-        """Returns the indices of the nodes in a plane."""
+        """Returns the indices of the nodes in the plane at this value of a coordinate."""
         return np.flatnonzero(np.abs(self.nodes[:, axis] - value) < 1e-9)
 
 
 # Rigid end of a solid: the motion of its face, the resultant on it, and their tangent.
 #
-# A shell's edge: the face moves as a rigid body, but its thickness is free to change; the directions of the face
-# rotate with it.
+# The face moves like the edge of a shell: as a rigid body, except that its thickness can change. The directions of the
+# face rotate with it.
 
 
 def turned(vector):
@@ -84,7 +84,7 @@ def turned(vector):
 
 
 def spin(vector):
-    """Returns T [3, 3] with spin = T d(vector) in fixed axes."""
+    """Returns T [3, 3] for which the spin in fixed axes is T d(vector)."""
     phi, x = np.linalg.norm(vector), cross_matrix(np.asarray(vector, dtype=float))
     if phi < 1e-8:
         return np.eye(3) + x / 2
@@ -110,7 +110,7 @@ class Tip:
         return (0, 1, 2) if node in self.middle else (0, 2)
 
     def boundary(self, translation, R):
-        """Returns cards with the directions of the face and the motion along them."""
+        """Returns the cards for the directions of the face and the motion along these directions."""
         cards = (
             "*TRANSFORM,NSET=TIP,TYPE=R\n"
             + ",".join("%.12e" % a for a in np.concatenate([R[:, 0], R[:, 1]]))
@@ -130,8 +130,8 @@ class Tip:
         )
 
     def displaced(self, displacements, translation, R):
-        """Returns the arms: rigid except along the thickness, where they follow the printed displacements (7
-        digits)."""
+        """Returns the arms of the nodes, which are rigid except along the thickness, where they follow the printed
+        displacements (7 digits)."""
         out = {n: R @ self.arms[n] for n in self.nodes}
         for n in set(self.nodes) - self.middle:
             moved = displacements[n] - np.asarray(translation) + self.arms[n] - out[n]
@@ -139,10 +139,10 @@ class Tip:
         return out
 
     def stiffness(self, tangent, displacements, forces, translation, R):
-        """Returns d(force, spatial moment)/d(translation, spin) [6, 6]; tangent: from deck.tangent.
+        """Returns d(force, spatial moment)/d(translation, spin) [6, 6]. tangent: result of deck.tangent.
 
-        Along the thickness a node is free: its force there stays zero as the direction rotates, so that it changes in
-        fixed axes.
+        Along the thickness, a node is free, and its force remains zero as this direction rotates. The force in fixed
+        axes therefore changes.
         """
         K, places = tangent
         index = {p: i for i, p in enumerate(places)}
@@ -162,7 +162,8 @@ class Tip:
         return self.change(index, R, arms, forces, motion, load)
 
     def change(self, index, R, arms, forces, motion, load):
-        """Returns the change of the resultant [6, 6]: that of the forces, and that of the arms of existing forces."""
+        """Returns the change of the resultant [6, 6] due to the change of the forces and of the arms of existing
+        forces."""
         out = np.zeros((6, 6))
         for n in self.nodes:
             rows = [index[n, d] for d in range(3)]
@@ -184,12 +185,12 @@ class Tip:
 
 
 PROGRAM = "ccx"
-# Newton's iterations stop at 1e-7 of the mean force and of the largest displacement (the defaults are 5e-3 and 1e-2).
+# Newton's iterations end at 1e-7 of the mean force and of the largest displacement (the defaults are 5e-3 and 1e-2).
 CONTROLS = "*CONTROLS,PARAMETERS=FIELD\n1e-7,1e-7\n"
 
 
 class Failed(Exception):
-    """Raised if CalculiX found no solution; the text is its last message."""
+    """Raised if CalculiX found no solution; contains its last message."""
 
 
 def available():
@@ -197,7 +198,7 @@ def available():
 
 
 def mesh(grid, kind, material):
-    """Returns nodes, elements and the one section; material: cards after *MATERIAL."""
+    """Returns the cards for nodes, elements and the only section. material: cards after *MATERIAL."""
     lines = (
         ["*NODE"]
         + ["%d,%.12e,%.12e,%.12e" % (i + 1, *p) for i, p in enumerate(grid.nodes)]
@@ -240,7 +241,7 @@ def run(folder, name, text):
 
 
 def printed(path, what):
-    """Returns [{node: vector [3]}] of every printed increment; what: 'displacements' or 'forces'."""
+    """Returns [{node: vector [3]}] with an entry for every printed increment. what: 'displacements' or 'forces'."""
     blocks, current = [], None
     for line in path.with_suffix(".dat").read_text(encoding="utf-8").splitlines():
         words = line.split()

@@ -20,7 +20,7 @@ LENGTH, WIDTH, THICKNESS, YOUNG, POISSON = (
 )
 MESHES = (8, 2), (8, 1), (12, 2)  # elements along each edge, layers: coarse, thin, fine
 DEFLECTIONS, TWISTS = (0.001, 0.005, 0.01, 0.015), (0.05, 0.1, 0.15)
-# A plate has none of the beam's choices.
+# A plate has no choices of beam physics.
 ANY = "tip_warping=*;warping=*;shear=*;trapeze=*;wagner=*;shear_factor=*"
 BENT = (
     ("C_ux_Fx", "C_xx", "C_uy_Fy", "C_uy_Mz", "C_thz_Fy")
@@ -77,9 +77,10 @@ class Sheet:
 
 
 def solve(sheet, motion, free, steps=8):
-    """Returns (motion, force, moment, compliance [6, 6]) at which the loads of the free components do no work.
+    """Returns (motion, force, moment, compliance [6, 6]) of the state in which the loads of the free components do no
+    work.
 
-    motion [6] is the start.
+    motion [6]: initial guess.
     """
     motion = np.array(motion, dtype=float)
     for _ in range(steps):
@@ -96,7 +97,7 @@ def solve(sheet, motion, free, steps=8):
 
 
 def compared(run):
-    """Returns {name: (value, relative uncertainty)} of run(elements, layers).
+    """Returns {name: (value, relative uncertainty)} from the results of run(elements, layers) on all meshes.
 
     The uncertainty is the sum of the changes by both refinements.
     """
@@ -118,7 +119,7 @@ def bent(deflection, mesh):
 
 
 def twisted(angle, mesh):
-    """Returns the values of sheet_wagner at a twist [rad]; the start is near the beam's solution."""
+    """Returns the values of sheet_wagner at a twist [rad]; the initial guess is near the solution of the beam."""
     start = [
         -1.29e-3 - 4.7e-3 * angle**2,
         0.015,
@@ -140,7 +141,7 @@ def unit(name):
 def rows(everything=True):
     """Yields (case, parameters, quantity, value, unit, relative uncertainty, convention).
 
-    everything False: only the defaults of both cases.
+    If `everything` is False, only the defaults of both cases are computed.
     """
     for deflection in DEFLECTIONS if everything else DEFLECTIONS[-1:]:
         at = ";".join([f"tip_deflection={deflection:g}"] * (deflection != 0.015) + [ANY])
@@ -156,9 +157,10 @@ def rows(everything=True):
 
 
 def anticlastic(mesh=MESHES[0]):
-    """Returns the relative difference of compliance between beam and plate in F_y/u_y, F_y/phi_z and M_z/phi_z at rest (N 4.1).
+    """Returns the relative difference between the compliances of beam and plate in F_y/u_y, F_y/phi_z and M_z/phi_z in
+    the undeformed state (N 4.1).
 
-    Relative to the plate.
+    The difference is relative to the plate.
     """
     with tempfile.TemporaryDirectory() as folder:
         plate = Sheet(*mesh, folder).state(np.zeros(6))[2][np.ix_((1, 5), (1, 5))]
