@@ -437,7 +437,8 @@ static status refine(analysis_context *c, linear_system *s, system_workspace *w,
     return state == REFINEMENT_ENDS ? STATUS_OK : refinement_refuse(&r, "the linear solution", f);
 }
 
-/* The caller, linear_system_solve, frees *w, also after a failure. */
+/* Solves for x with iterative refinement. The caller, linear_system_solve, frees *w, also after
+ * a failure. */
 static status solve(analysis_context *c, linear_system *s, double path, system_workspace *w,
                     double x[], fault *f)
 {

@@ -126,7 +126,8 @@ static int stop(script *s)
     return how;
 }
 
-/* The caller, derive_asked, stops the script and frees memory, also after a failure. */
+/* Runs the script and reads its values. The caller, derive_asked, stops the script and frees
+ * memory, also after a failure. */
 static status derive(const derive_question *q, script *s, derived_value **out, int *count, fault *f)
 {
     char complaint[LINE] = "", more[LINE];

@@ -79,8 +79,8 @@ typedef struct value_change {
 void change_between(const scene *s, const cell_result *before, const cell_result *now,
                     value_change *out);
 
-/* Avoids that several processes solve the same problem: the first process solves it, the others
- * use its results. */
+/* Prevents several processes from solving the same problem: the first process solves it, and the
+ * others use its results. */
 
 /* Allocates `count` claims, shared with all processes that are started later; NULL: out of memory.
  */

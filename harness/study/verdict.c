@@ -331,7 +331,8 @@ static int same_rule(const sweep *s, const verdict *a, const verdict *b)
            strcmp(series_of(s, a)->formulation.key, series_of(s, b)->formulation.key) == 0;
 }
 
-/* Returns the index of the first verdict with the same rule and, if given, the same quantity. */
+/* Returns the index of the first verdict with the same rule and, if quantity is 1, with the same
+ * quantity. */
 static int first_of(const sweep *s, const judgement *j, int index, int quantity)
 {
     const verdict *v = &j->verdict[index];

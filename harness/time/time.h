@@ -86,8 +86,8 @@ status carried_alloc(const model *, carried_masses *, fault *);
 /* As carried_alloc, but with rigid bodies only, for elements with consistent masses. */
 status carried_alloc_spread(const model *, carried_masses *, fault *);
 void carried_free(carried_masses *);
-/* Adds one node's share of the mass of an element, about the node, and the mass of its warping
- * amplitude [kg m^4]. */
+/* Computes one node's share of the mass of an element, about the node, and the mass of its
+ * warping amplitude [kg m^4]. */
 struct mesh_element;
 void carried_share(const model *, const struct mesh_element *, int node, carried_mass *,
                    double *warping);

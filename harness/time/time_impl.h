@@ -411,7 +411,8 @@ void carried_step_of(const conserving *, const instant *from, const model_state 
 /* carried.c: frames for which some translations are fixed and others are free. */
 /* Computes v1 of the fixed translations, and the moment `late` of their forces. */
 void carried_step_follow(const carried_mass *, carried_step *);
-/* Computes sway[9] = -h/2 dv1/dc. swept: minus d(centre)/dc; T: see cayley_tangent. */
+/* Computes sway[9]: `swept`, with the rows along fixed translations replaced by those of -h/2
+ * dv1/dc. swept: minus d(centre)/dc; T: see cayley_tangent. */
 void carried_step_sway(const carried_step *, double h, const double T[9], const double swept[9],
                        double sway[9]);
 /* K[6 x 6] += derivative of `late`. */
@@ -645,8 +646,8 @@ void integrator_free(motion_scheme *);
 
 /* Returns the time of the first discontinuity after `time` [s]; INFINITY: none. */
 double kinks_next(const model *, double time);
-/* Returns a time just before a discontinuity. A step that ends at the discontinuity evaluates
- * its loads at this time. */
+/* Returns a time just before `time` if there is a discontinuity at `time`, else `time`. A step
+ * that ends at a discontinuity evaluates its loads there. */
 double kinks_before(const model *, double time);
 
 /* One instant of a motion by mixed Newton iteration (Nijenhuis et al., section 4), starting from
