@@ -20,8 +20,8 @@ static status read_either(const verb_option *o, void *member, const char *value,
         return option_take(&table, &t->own, value, f);
     if (t->packed != NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "--truths names two files of packed reference values; give one; tables "
-                         "(.csv) may be added");
+                         "--truths is given twice with packed reference values; give it once; "
+                         "tables (.csv) may be added");
     t->packed = value;
     return STATUS_OK;
 }

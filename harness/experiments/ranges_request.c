@@ -198,8 +198,9 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
     text[0] = '\0';
     for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
         if (part[i].count > 0)
-            used += (size_t)snprintf(text + used, RANGES_TABLE_LINE - used, "%s%ld points by %s",
-                                     parts++ > 0 ? "; " : "", part[i].count, part[i].words);
+            used += (size_t)snprintf(text + used, RANGES_TABLE_LINE - used, "%s%ld point%s by %s",
+                                     parts++ > 0 ? "; " : "", part[i].count,
+                                     part[i].count == 1 ? "" : "s", part[i].words);
         if (i == LAST_KNOWN && parts > 0)
             used +=
                 (size_t)snprintf(text + used, RANGES_TABLE_LINE - used,
@@ -242,8 +243,10 @@ static void write_without_scene(FILE *to, const tally *t)
     ranges_points_text(r, at, where, sizeof where);
     cell_scene(r->request.type, value, NULL, &s, &why);
     scene_free(&s);
-    paragraph_say(to, fprintf(to, "  no scene can be built at %ld points", t->without_scene), 6,
-                  ", the first at %s: %s", where, why.text);
+    paragraph_say(to,
+                  fprintf(to, "  no scene can be built at %ld point%s", t->without_scene,
+                          t->without_scene == 1 ? "" : "s"),
+                  6, ", the first at %s: %s", where, why.text);
 }
 
 void ranges_table_known(FILE *to, const tally *t)

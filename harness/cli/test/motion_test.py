@@ -409,7 +409,7 @@ class RestartTest(SceneCase):
         cut.write_bytes(ends.read_bytes()[:-100])
         again = ("solve", "--scene", path, "--restart", ends)
         for code, words, options in (
-                (2, "is at 1 s: give it a later one", (*again, "--set", "end=1")),
+                (2, "is at 1 s: add a later station", (*again, "--set", "end=1")),
                 (2, "the elements that it began with", (*again, "-n", 4)),
                 (2, "the formulation and the elements", (*again, "-f", "collocation")),
                 (2, "without --all-dofs", (*again, "--all-dofs")),

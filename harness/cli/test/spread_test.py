@@ -263,5 +263,5 @@ class Others(SpreadTest):
             self.refused(2, ["--into"], verb, "--into", parts)
         self.refused(2, ["which folders"], "merge")
         self.refused(4, ["nowhere", "cannot be read"], "merge", self.folder / "nowhere")
-        self.refused(2, ["no batches in it"], "merge", self.folder)
+        self.refused(2, ["contains no batches"], "merge", self.folder)
         self.assertFalse(parts.exists())

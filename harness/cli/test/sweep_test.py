@@ -182,7 +182,7 @@ class References(ProgramTest):
         done = self.answered("sweep", "c_column", "--vary", "section_data=shear_flow,printed",
                              "--set", "height=0.5", "-f", "beamw", "-n", "1,2", "-k",
                              "buckling_load", "-o", self.folder / "c.h5")
-        self.assertIn("1 points have no scene, the first at section_data=printed", done.stdout)
+        self.assertIn("no scene can be built at 1 point, the first at section_data=printed", done.stdout)
         with group_of(self.folder / "c.h5") as file:
             names = file["status"].attrs["names"].decode().split("\n")
             self.assertEqual([names[s] for s in file["status"][:, 0, 0]], ["ok", "no_scene"])

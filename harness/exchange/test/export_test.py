@@ -140,7 +140,7 @@ class Decks(ExportTest):
         scene = self.scene(cantilever(1.0))
         self.refused(2, "--to calculix", "export", "--scene", scene)
         self.refused(2, "--to calculix", "export", "--scene", scene, "--to", "abaqus")
-        self.refused(2, "one number", "export", "--scene", scene, "--to", "calculix", "-n", "2,4")
+        self.refused(2, "a single number", "export", "--scene", scene, "--to", "calculix", "-n", "2,4")
         self.refused(2, "give 1 to", "export", "--scene", scene, "--to", "calculix", "-n", "401")
         self.refused(2, "curved", "export", "bend_45", "--to", "calculix")
         self.refused(2, "springs", "export", "sprung_beam", "--to", "calculix")

@@ -365,7 +365,7 @@ class StateSpace(Matrices):
         self.assertIn("without mass and damping eliminated: ", text)
         (self.folder/"scene.yaml").write_text(scene % (*holds, responses(
             "node: mid, component: uz, of: velocity, force: mid, along: uz")), encoding="utf-8")
-        self.refused(1, ["quantity real_0", "follows an input at once"], "solve", "--scene", self.folder/"scene.yaml",
+        self.refused(1, ["quantity real_0", "no mass separates it from an input"], "solve", "--scene", self.folder/"scene.yaml",
                      "-f", "beamw", "-n", 2, "--matrices", self.folder/"none", "--state-space", silent=False)
 
     def test_turning(self):
@@ -542,7 +542,7 @@ class Places(Matrices):
         (there / "mine").write_text("mine", encoding="utf-8")
         self.refused(2, "not empty", *self.WORK, there)
         self.refused(2, "is not a folder", *self.WORK, there / "mine")
-        self.refused(2, "without a name", *self.WORK, "")
+        self.refused(2, "the name of an output is empty", *self.WORK, "")
         self.refused(4, "cannot be written", *self.WORK, self.folder / "none" / "new")
         self.refused(4, "cannot be written", *self.WORK, self.folder / ("x" * 300))
         self.refused(2, "the same file", *self.WORK, self.folder / "a", "-o", self.folder / "a")

@@ -114,7 +114,7 @@ class Bench(ProgramTest):
         work = ("bench", "elastica", "-f", "collocation", "--against", "beamw", "--error")
         for error in ("0", "1", "100%", "1%,", ",1%", "-1%", "nan", "1%%", "1 %", ""):
             self.refused(2, "--error", *work, error)
-        self.refused(2, "another model", "bench", "c_column", "-f", "beamw", "--against",
+        self.refused(2, "a different model", "bench", "c_column", "-f", "beamw", "--against",
                      "beamw_vlasov", "--error", "1%")
         self.refused(2, "did you mean 'theta'", *work, "1%", "-k", "thetta")
         self.refused(2, "leaves one formulation", *work, "1%", "-k", "beamw")

@@ -80,7 +80,7 @@ class ProgramTest(unittest.TestCase):
     def answered(self, *arguments, code=0, **options):
         """Returns the process, which must end with that code."""
         done = run(*arguments, **options)
-        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout[-4000:]}\n{done.stderr}")
+        self.assertEqual(done.returncode, code, f"{arguments}\n{(done.stdout or '')[-4000:]}\n{done.stderr}")
         return done
 
     def record(self, *arguments, **options):
