@@ -1,5 +1,5 @@
-# The C library: a shared one whose only symbols are the functions of beamwork.h, and a static one
-# whose other symbols are local, so that they clash with those of no other code.
+# The C library: a shared one that exports only the functions of beamwork.h, and a static one whose
+# other symbols are local, so that they do not clash with other code.
 SHARED := $(BUILD)/libbeamwork.so.0
 STATIC := $(BUILD)/static/libbeamwork.a
 LIBRARY_DOORS := $(patsubst %.c,$(BUILD)/%.o,$(sort $(wildcard harness/library/*.c)))
@@ -19,11 +19,11 @@ $(STATIC): $(LIBRARY_DOORS) $(LIBRARY)
 	@rm -f $@ && $(AR) rcs $@ $(@D)/beamwork.o
 
 .PHONY: abi
-# Is the C interface still the committed one? ACCEPT=1: it is the new one.
+# Checks that the C interface is still the committed one. ACCEPT=1: commits the present interface as the new one.
 abi: $(SHARED)
 	@harness/library/abi.sh $(SHARED) $(if $(ACCEPT),accept)
 
-# Made and freed a thousand times, for valgrind.
+# Makes and frees objects a thousand times, for valgrind.
 CYCLES := $(BUILD)/harness/library/test/cycles
 lab-valgrind: $(CYCLES)
 $(CYCLES): $(CYCLES).o $(LIBRARY)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Builds the Debian packages in a copy of the source; they are in FOLDER then.  Nothing is fetched from the network.
+# Builds the Debian packages in a copy of the source and writes them to FOLDER. Nothing is fetched from the network.
 # usage: deb.sh VERSION RELEASED FOLDER
 set -eu
 version=$1 released=$2 folder=$3
@@ -12,7 +12,7 @@ cd "$here/../../.."
 rm -rf "$folder"
 copy=$folder/beamwork-$version
 mkdir -p "$copy"
-# What belongs to the source: of a clone what git knows, else all but what was built.
+# Files of the source: in a clone the files tracked by git, otherwise all files except built ones.
 if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
     git ls-files -z
 else

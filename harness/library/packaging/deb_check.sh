@@ -1,5 +1,5 @@
 #!/bin/sh
-# The Debian packages in FOLDER: lintian finds no error and no warning, and what is in them works from an empty tree:
+# Checks the Debian packages in FOLDER: lintian reports no error and no warning, and their contents work from an empty tree:
 # the program with its reference values, an element and a program of a third party, Python, manual, completion.
 # usage: deb_check.sh FOLDER
 set -eu

@@ -5,10 +5,10 @@ LIBDIR ?= $(PREFIX)/lib
 INCLUDEDIR ?= $(PREFIX)/include
 SHAREDIR ?= $(PREFIX)/share
 DATADIR := $(SHAREDIR)/beamwork
-# Where Debian's Python looks for modules of that prefix; below one's home it looks elsewhere.
+# Folder in which Debian's Python searches for modules of that prefix; for a prefix in a home folder it searches elsewhere.
 PYTHONDIR ?= $(PREFIX)/lib/python$(if $(filter /usr,$(PREFIX)),3,$(shell $(PYTHON) -I -c 'import sys; print("%d.%d" % sys.version_info[:2])'))/$(if $(filter $(HOME)/.local,$(PREFIX)),site,dist)-packages
 
-# Programs that are not beside their data look there.
+# Programs that are not next to their data search in this folder.
 $(BUILD)/prefix: FORCE
 	@mkdir -p $(@D); echo '$(DATADIR)' | cmp -s - $@ || echo '$(DATADIR)' >$@
 $(BUILD)/harness/study/derive.o: $(BUILD)/prefix
@@ -19,7 +19,7 @@ install: all library man $(BUILD)/peers.h5 ## install into DESTDIR= PREFIX=/usr/
 	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" PYTHONDIR="$(PYTHONDIR)" \
 		VERSION="$(VERSION)" LIBS="$(DEP_LIBS)" harness/library/packaging/install.sh "$(BUILD)"
 
-# Remove what install wrote, with the same DESTDIR and PREFIX.
+# Removes the installed files; requires the same DESTDIR and PREFIX.
 uninstall:
 	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" PYTHONDIR="$(PYTHONDIR)" \
 		harness/library/packaging/uninstall.sh

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs what is in BUILD; called by 'make install', which says where to (DESTDIR, PREFIX, BINDIR, LIBDIR, INCLUDEDIR,
-# SHAREDIR, PYTHONDIR), VERSION, and LIBS of the static library.  What it wrote stands in SHAREDIR/beamwork/installed, for 'make uninstall'.
+# Installs the contents of BUILD. Called by 'make install', which sets the destination (DESTDIR, PREFIX, BINDIR, LIBDIR, INCLUDEDIR,
+# SHAREDIR, PYTHONDIR), VERSION, and LIBS of the static library. SHAREDIR/beamwork/installed lists the written files for 'make uninstall'.
 # usage: install.sh BUILD
 set -eu
 build=$1
@@ -21,13 +21,13 @@ ln -sf libbeamwork.so.0 "$DESTDIR$LIBDIR/libbeamwork.so"
 echo "$LIBDIR/libbeamwork.so" >>"$list"
 put 644 "$build/static/libbeamwork.a" "$LIBDIR/libbeamwork.a"
 
-# beamwork.h, and the element interface with all that it includes.
+# beamwork.h, and the element interface with all headers that it includes.
 put 644 harness/library/beamwork.h "$INCLUDEDIR/beamwork/beamwork.h"
 for header in $(printf '#include "elements/element.h"\n' | ${CC:-cc} -I. -E -M -xc - | tr ' \\' '\n\n' | grep '^elements/'); do
     put 644 "$header" "$INCLUDEDIR/beamwork/$header"
 done
 
-# fill SOURCE TARGET: @NAME@ becomes its value; @prefix/LIBDIR@ one that moves with ${prefix} of pkg-config.
+# fill SOURCE TARGET: replaces @NAME@ by its value, and @prefix/LIBDIR@ by a path relative to ${prefix} of pkg-config.
 fill() {
     sed -e "s|@prefix/LIBDIR@|$(echo "$LIBDIR" | sed "s|^$PREFIX/|\${prefix}/|")|; s|@prefix/INCLUDEDIR@|$(echo "$INCLUDEDIR" | sed "s|^$PREFIX/|\${prefix}/|")|" \
         -e "s|@PREFIX@|$PREFIX|; s|@LIBDIR@|$LIBDIR|; s|@INCLUDEDIR@|$INCLUDEDIR|; s|@VERSION@|$VERSION|; s|@LIBS@|$LIBS|" "$1" >"$list.filled"
@@ -48,7 +48,7 @@ for file in elements/examples/*.*; do put 644 "$file" "$data/examples/elements/$
 
 for file in harness/library/python/*.ipynb; do put 644 "$file" "$data/examples/python/${file##*/}"; done
 
-# What draws reports and what derives truths, with what they read.
+# The programs that draw reports and that derive reference values, with the files that they read.
 for file in $(find reports reference -name test -prune -o -name __pycache__ -prune -o -type f -print | sort) elements/*.md; do
     put 644 "$file" "$data/$file"
 done
@@ -58,12 +58,12 @@ put 644 harness/cli/beamwork.bash "$SHAREDIR/bash-completion/completions/beamwor
 put 644 harness/cli/_beamwork "$SHAREDIR/zsh/site-functions/_beamwork"
 put 644 README.md "$SHAREDIR/doc/beamwork/README.md"
 put 644 LICENSE "$SHAREDIR/doc/beamwork/LICENSE"
-# Where README.md and the manual send authors of formulations.
+# Pages to which README.md and the manual refer authors of formulations.
 for file in CONTRIBUTING.md harness/formulations/protocol.md; do put 644 "$file" "$SHAREDIR/doc/beamwork/$file"; done
 
 install -D -m 644 "$list" "$DESTDIR$data/installed"
 echo "installed $(wc -l <"$list") files below ${DESTDIR:-}$PREFIX"
-# What a system folder needs no word for.
+# Folders that are not system folders require settings, which are printed.
 case $PREFIX in /usr | /usr/local) exit ;; esac
 [ -z "${DESTDIR:-}" ] || exit 0
 echo "  programs and pkg-config find it after: export PATH=$BINDIR:\$PATH LD_LIBRARY_PATH=$LIBDIR PKG_CONFIG_PATH=$LIBDIR/pkgconfig"

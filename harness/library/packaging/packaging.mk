@@ -1,20 +1,20 @@
-# What stands around an installed copy: manual pages, pages of the C interfaces.
+# Additions to an installed copy: manual pages, and pages of the C interfaces.
 .PHONY: man api
-# Write the manual pages: build/man; 'man -l build/man/beamwork.1' shows one.
+# Writes the manual pages to build/man; 'man -l build/man/beamwork.1' shows one.
 man: all
 	@mkdir -p $(BUILD)/man
 	@for page in $$($(PROGRAM) help --man); do $(PROGRAM) help --man $$page >$(BUILD)/man/$$page || exit 1; done
 	@for page in $(notdir $(wildcard harness/library/packaging/*.[0-9])); do harness/library/packaging/page.sh $$page $(VERSION) $(RELEASED) >$(BUILD)/man/$$page || exit 1; done
 
-# Draw the pages of beamwork.h and element.h: build/api/index.html; needs doxygen.
+# Writes the pages of beamwork.h and element.h, build/api/index.html; requires doxygen.
 api:
 	@harness/library/packaging/api/pages.sh $(VERSION) $(BUILD)/api
 
 .PHONY: deb deb-check
-# Build Debian packages: build/deb/*.deb; needs debhelper.
+# Builds the Debian packages, build/deb/*.deb; requires debhelper.
 deb:
 	@harness/library/packaging/deb.sh $(VERSION) $(RELEASED) $(BUILD)/deb
 
-# Lintian on them, and what is in them used from an empty tree.
+# Checks the packages with lintian, and uses their contents from an empty tree.
 deb-check: deb
 	@if ls $(BUILD)/deb/*.deb >/dev/null 2>&1; then harness/library/packaging/deb_check.sh $(BUILD)/deb; fi

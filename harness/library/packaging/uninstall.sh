@@ -1,5 +1,5 @@
 #!/bin/sh
-# Removes the files that 'make install' wrote, by its list, and folders of its own that are empty then.
+# Removes the files in the list that 'make install' wrote, and its own folders if they are then empty.
 set -eu
 list=$DESTDIR$SHAREDIR/beamwork/installed
 [ -f "$list" ] || { echo "nothing is installed there: no $list"; exit 1; }
