@@ -16,7 +16,7 @@ import tempfile
 DOCS = pathlib.Path(__file__).resolve().parent
 ROOT = DOCS.parent
 BLOCK = re.compile(r"^```(?:\{code-block\} *)?(\w+)\n((?:.*\n)*?)```$", re.M)
-# Solution times and corrections of iterations, which `...` replaces when a page is written.
+# Text with solution times and corrections of iterations, which is replaced by `...` when a page is written.
 VARYING = re.compile(r"^(?:ok; (?:.*\n)*?.*solution|step +path(?:.*\n)*?.*(?=\Z|\n\S))$", re.M)
 CAPTION = re.compile(r"\A(?::caption:|#) (\S+\.\w+)\n+")
 
@@ -40,12 +40,12 @@ def commands(body):
 
 
 def fits(line, printed):
-    """Does a printed line match that of the page?"""
+    """Returns whether a printed line matches a line of the page."""
     return re.fullmatch(".*".join(map(re.escape, line.rstrip().split("..."))), printed.rstrip()) is not None
 
 
 def match(expected, printed):
-    """Do these lines match those of the page?"""
+    """Returns whether the printed lines match those of the page."""
     if not expected:
         return not printed
     if expected[0].strip() == "...":
@@ -91,7 +91,7 @@ def differences(text, program):
 
 
 def differences_in(folder, text):
-    """Returns the same, in that folder."""
+    """Returns the differences on a page whose commands run in this folder."""
     wrong = []
     for kind, body in BLOCK.findall(text):
         caption = CAPTION.match(body)
@@ -105,12 +105,12 @@ def differences_in(folder, text):
 
 
 def shown(command, lines):
-    """Returns a command and its lines as written in a block."""
+    """Returns a command and its output as lines of a console block."""
     return "\n".join(["$ " + command.replace("\n", "\n> "), *lines]) + "\n"
 
 
 def main(names):
-    """Writes outputs into pages; lines that match the pattern on the page do not change."""
+    """Writes the outputs of commands into pages. Lines that already match the printed ones do not change."""
     program = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
     for name in map(pathlib.Path, names):
         text = name.read_text(encoding="utf-8")

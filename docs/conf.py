@@ -16,7 +16,7 @@ copyright = "The beamwork developers, GPL-3.0-or-later"  # pylint: disable=redef
 extensions = ["myst_parser"]
 myst_enable_extensions = ["deflist", "dollarmath"]
 myst_heading_anchors = 3
-exclude_patterns = ["sources"]  # what pages include
+exclude_patterns = ["sources"]  # files that other pages include
 highlight_language = "none"
 html_theme = "furo"
 html_title = f"beamwork {version}"
@@ -41,5 +41,5 @@ def displayed_equation(translator, node):
 
 
 def setup(app):
-    """Called by Sphinx."""
+    """Registers the rendering of equations; called by Sphinx."""
     app.add_html_math_renderer("mathml", (inline_equation, None), (displayed_equation, None))

@@ -56,12 +56,12 @@ def table(head, rows):
 
 
 def toctree(names):
-    """Returns the list of pages below this one."""
+    """Returns a Markdown list of the pages below a page."""
     return "```{toctree}\n:maxdepth: 1\n\n" + "\n".join(names) + "\n```"
 
 
 def write_commands(site):
-    """Writes the reference of the command line: help of every verb."""
+    """Writes the reference of the command line: the help of every verb."""
     overview = site.ask("help")
     verbs = VERB.findall(overview.partition("\nlook")[2].partition("to begin with")[0])
     parts = [f"# Command line\n\n{literal(overview)}"]
@@ -70,7 +70,7 @@ def write_commands(site):
 
 
 def write_sections(site, name, title, text, heading):
-    """Writes a text of the program, with a section for each line that matches `heading`."""
+    """Writes a page with text printed by the program, with a section for each line that matches `heading`."""
     starts = [m.start() for m in heading.finditer(text)]
     parts = [f"# {title}\n\n{literal(text[:starts[0]])}"]
     for start, end in zip(starts, starts[1:] + [len(text)]):
@@ -83,7 +83,7 @@ HEADERS = {"c_interface": ("C interface of the library", "harness/library/beamwo
 
 
 def write_interfaces(site):
-    """Writes the headers that users include, and the documentation of the Python module."""
+    """Writes the pages of the headers that users include and of the Python module."""
     for page, (title, header) in HEADERS.items():
         text = (ROOT / header).read_text("utf-8").strip()
         site.write(f"reference/{page}.md", f"# {title}\n\n`{header}`, whole:\n\n```c\n{text}\n```")
@@ -104,7 +104,7 @@ def write_interfaces(site):
 
 
 def arguments(value):
-    """Returns the arguments as written in a call; '' for an object that is not called."""
+    """Returns the arguments of a callable as written in a call, or '' for any other object."""
     member = value.__func__ if isinstance(value, (classmethod, staticmethod)) else value
     if not callable(member) or inspect.isclass(member) and issubclass(member, Exception):
         return ""
@@ -114,7 +114,7 @@ def arguments(value):
 
 
 def write_terms(site):
-    """Writes verdicts and terms: the output of `explain` for each."""
+    """Writes the page of verdicts and terms, from the output of `explain` for each."""
     groups = re.findall(r"^(\w[^\n]*)\n((?:  [^\n]*\n)+)", site.ask("explain").partition("\n")[2], re.M)
     parts = ["# Verdicts and terms\n\nThe same as `beamwork explain TERM`."]
     for group, terms in groups:
@@ -140,12 +140,12 @@ def write_formulations(site, formulations):
 
 
 def numbers(value):
-    """Returns the number as text for readers."""
+    """Returns a value as text for readers."""
     return value if isinstance(value, str) else f"{value:.10g}"
 
 
 def problem(site, case):
-    """Returns the problem of a case, from the program's tables."""
+    """Returns the description of the problem of a case, from the tables of the program."""
     told = json.loads(site.ask("list", case, "--format", "json"))
     structure = scene.read(site.ask("scene", case))
     results.save(draw.draw(structure), site.folder / "verification" / f"{case}_structure.svg")
@@ -162,7 +162,7 @@ def problem(site, case):
 
 
 def verdicts(site, case):
-    """Returns verdicts at the default parameters, and a figure, if there are results."""
+    """Returns the verdicts at the default parameters and a figure, if there are results."""
     point = results.read(site.results, case).points[0]
     rows = [[s.key, v.quantity, f"{v.limit:.9g}", results.percent(v), v.verdict]
             for s in point.series for v in s.verdicts if v.verdict not in ("skip", "no truth")]
@@ -205,7 +205,7 @@ def collect(folder):
 
 
 def main(program, folder, stored=None):
-    """Writes the source of the site."""
+    """Writes the source files of the site."""
     site = Site(program, pathlib.Path(folder), stored)
     collect(site.folder)
     known = json.loads(site.ask("list", "--format", "json"))

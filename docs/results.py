@@ -36,13 +36,13 @@ def percent(verdict):
 
 
 def curve(series, quantity):
-    """Returns [(cost [ms], |error|)] of the meshes that have both."""
+    """Returns [(cost [ms], |error|)] of the meshes with a cost and an error."""
     return [(1e3 * m.cost, abs(m.errors[quantity])) for m in series.meshes
             if math.isfinite(m.cost) and abs(m.errors.get(quantity, math.nan)) > 0]
 
 
 def draw(point, path, quantity=None, only=None):
-    """Draws error against the cost of the counted work; None if no mesh has an error."""
+    """Returns a figure of the error against the cost of the counted work, or None if no mesh has an error."""
     judged = [v.quantity for s in point.series for v in s.verdicts if math.isfinite(v.error)]
     quantity = quantity or (judged[0] if judged else None)
     shown = [(s.key, curve(s, quantity)) for s in point.series
@@ -62,7 +62,7 @@ def draw(point, path, quantity=None, only=None):
 
 
 def save(figure, path):
-    """Saves the figure as SVG; equal figures give equal text."""
+    """Saves the figure as SVG. Equal figures give equal text."""
     figure.savefig(path, metadata={"Date": None})
     plt.close(figure)
     text = re.sub(r"[ \t]+$", "", path.read_text("utf-8"), flags=re.M)
@@ -70,7 +70,7 @@ def save(figure, path):
 
 
 def main(results, image):
-    """Draws the picture of the README from results of `make verify`."""
+    """Draws the figure of the README from the results of `make verify`."""
     point = read(results, "sheet_cantilever").points[0]
     draw(point, pathlib.Path(image), "C_zz", ("sheet_second", "sheet_second_consistent",
                                               "sheet_third", "collocation", "geometrically_exact",

@@ -30,7 +30,7 @@ class Pages(unittest.TestCase):
 
 
     def test_readme_counts_the_examples(self):
-        """The README gives the number of scenes in cases/examples."""
+        """The README states the number of scenes in cases/examples."""
         there = len(list((commands.ROOT / "cases" / "examples").glob("*.yaml")))
         self.assertIn(f" {there} example structures ", (commands.ROOT / "README.md").read_text(encoding="utf-8"))
 
@@ -47,7 +47,7 @@ class Marks(unittest.TestCase):
                 self.assertEqual(commands.match(shown.split("\n"), printed.split("\n")), same)
 
     def test_page_fails(self):
-        """A page that shows another number than the command prints is detected."""
+        """A page with a number that differs from the output of its command is detected."""
         page = "```{code-block} text\n:caption: a.txt\n\n17\n```\n\n```console\n$ cat a.txt\n18\n```\n"
         self.assertEqual(commands.differences(page, PROGRAM), [("cat a.txt", ["18"], ["17"])])
         self.assertEqual(commands.differences(page.replace("18", "17"), PROGRAM), [])

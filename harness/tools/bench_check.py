@@ -20,7 +20,7 @@ import tempfile
 CELLS = (("c_column", "beamw", 8), ("sheet_cantilever", "sheet_third", 2),
          ("elastica", "collocation", 2), ("moment_buckling", "beamw_consistent", 8))
 
-KEPT = ("shear_column", "beamw", 8)  # warping coordinates are eliminated
+KEPT = ("shear_column", "beamw", 8)  # a run in which warping coordinates are eliminated
 
 
 def against(program, cell, other, *more):

@@ -28,12 +28,12 @@ CONSTANTS = (
     "EA", "EIy", "EIz", "GIt", "EIw", "GAy", "GAz", "GAw", "wagner_torque", "mass", "rotary", "body",
     "body_inertia", "spring", "force", "moment", "distributed", "weight"
 )  # yapf: disable
-SIZE = 1e-3  # of the injected faults
+SIZE = 1e-3  # size of the injected faults
 WANTED = 1e-3  # larger faults must not remain undetected without a reason
 LEAST = 1e-9  # smallest difference between two faults
-SURELY, KNOWN, MOVED = 3, 1e-9, 1e-5  # from study/verdict.c; of a prediction; from experiments/verification.c
-CHANGED = 1e-7  # of a value: smaller changes count as round-off or as effects of the steps of a motion
-NEAR = 1e-2  # of a limit: values on coarse meshes with larger errors predict it poorly
+SURELY, KNOWN, MOVED = 3, 1e-9, 1e-5  # constants of study/verdict.c, of predictions, and of experiments/verification.c
+CHANGED = 1e-7  # smaller relative changes of a value are round-off or effects of the steps of a motion
+NEAR = 1e-2  # largest relative error, on coarse meshes, of values that predict the change of a limit well enough
 SOUND = 1e-3  # tolerance of a limit, cases/scene/scene.h
 UNJUDGED = ("skip", "other model", "refused", "diverged")
 CLOSELY = ("pass", "biased, as predicted", "wrong limit, as predicted")
@@ -49,7 +49,8 @@ def key_of(verdict):
 
 
 def planted_values(program, folder, constant):
-    """Returns {(case, point, formulation, quantity): value} with the fault in a constant; None: without a fault."""
+    """Returns {(case, point, formulation, quantity): value} of a run with a fault in a constant (None: without a
+    fault)."""
     path = os.path.join(folder, "verify.json")
     environment = dict(os.environ, BEAMWORK_PLANT_MESHES="2")
     if constant is not None:
@@ -71,8 +72,8 @@ def scale_of(v):
 
 
 def band_of(v, rules):
-    """Returns (largest distance of the limit from its expected value before the verdict changes, actual distance);
-    infinite if it never changes."""
+    """Returns (largest distance of the limit from its expected value for which the verdict does not change, actual
+    distance). The former is infinite if the verdict never changes."""
     if v["truth"] is None or v["limit"] is None or v["verdict"] in UNJUDGED:
         return math.inf, 0
     scale, doubt = scale_of(v), v["limit_uncertainty"] or 0
@@ -95,8 +96,8 @@ def band_of(v, rules):
 
 
 def moved_of(v):
-    """Returns by how much the limit may differ from the committed one; infinite if an exact reference value checks
-    it."""
+    """Returns the allowed difference of the limit from the committed limit; infinite if an exact reference value
+    checks the limit."""
     if v["point"] != "default" or v["limit"] is None or v["verdict"] in UNJUDGED:
         return math.inf
     slack = MOVED * max(abs(v["limit"]), scale_of(v))
@@ -107,8 +108,9 @@ def moved_of(v):
 
 
 def relative(v, values):
-    """Returns ({constant: derivative of its value with respect to the size of a fault}, error of that value) of a
-    verdict on the coarse meshes, both relative to its size; None if these have no value."""
+    """Returns ({constant: derivative of the value with respect to the size of a fault}, error of the value) for a
+    verdict, from its coarse meshes. Both are relative to the value. Returns None if the coarse meshes have no
+    value."""
     key, size = key_of(v), max(abs(v["limit"]), scale_of(v))
     whole, changes = values[0].get(key), {}
     if whole is None or size == 0:
@@ -121,8 +123,8 @@ def relative(v, values):
 
 
 def derivatives(verdicts, values):
-    """Returns (verdict, {constant: |derivative| of the limit}) of each, from the values on its coarse meshes; if these
-    have none or large errors, from those of the nearest formulation."""
+    """Returns [(verdict, {constant: |derivative| of the limit})] from the values on the coarse meshes. If these values
+    are missing or have large errors, those of the nearest formulation are used."""
     own, best = [(v, relative(v, values)) for v in verdicts], {}
     for v, known in own:
         if known is not None and known[1] < best.get(v["point"], ({}, math.inf))[1]:
@@ -138,7 +140,7 @@ def derivatives(verdicts, values):
 
 @dataclass(frozen=True)
 class Notice:
-    """The smallest detected fault of a constant, in one of the two ways, in a verdict; inf if none is detected."""
+    """The smallest fault in a constant that one of the two ways detects in a verdict; inf if it detects none."""
 
     size: float
     slope: float  # derivative of the limit with respect to the fault
@@ -151,7 +153,7 @@ class Notice:
 
 
 def notices(v, slopes, rules):
-    """Returns [Notice] in both ways, for all constants that change the limit of a verdict."""
+    """Returns [Notice] of a verdict for both ways and for all constants that change the limit."""
     band, away = band_of(v, rules)
     slack, found = moved_of(v), []
     for constant, slope in slopes.items():
@@ -161,7 +163,8 @@ def notices(v, slopes, rules):
 
 
 def weakest(found, formulations):
-    """Returns the formulation that detects the least, with its best quantity; None if nothing is detected."""
+    """Returns the formulation whose smallest detected fault is largest, with its best quantity, or None if no fault is
+    detected."""
     best = {key: None for key in formulations}
     for one in found:
         key = one.verdict["formulation"]
@@ -173,7 +176,7 @@ def weakest(found, formulations):
 
 
 def digits(size):
-    """Rounds up to two digits, and to at least LEAST."""
+    """Returns a size rounded up to two digits, at least LEAST."""
     if size is None or not math.isfinite(size):
         return ""
     power = math.floor(math.log10(max(size, LEAST))) - 1
@@ -181,7 +184,7 @@ def digits(size):
 
 
 def passes(text):
-    """Does a fault of 0.1 % remain undetected?"""
+    """Returns whether a fault of 0.1 % remains undetected."""
     return not text or float(text) > WANTED
 
 
@@ -214,7 +217,7 @@ def row_of(pair, verdicts, found):
 
 
 def fault_of(formulation, constant, found):
-    """Returns the row of a constant of a formulation, from verdicts only; found: its notices."""
+    """Returns the row of a constant of a formulation, from verdicts only. found: the Notices of the constant."""
     by_verdicts = [one for one in found if one.door == "verdict" and math.isfinite(one.size)]
     best = min(by_verdicts, default=None)
     size, reason = digits(best and best.size), ""
@@ -260,7 +263,7 @@ def write(path, columns, rows):
 
 
 def read_verdicts(path, results):
-    """Returns the verdicts of a run, each with near_zero of its quantity (results: the same run as HDF5)."""
+    """Returns the verdicts of a run, each with near_zero of its quantity. results: the HDF5 file of the same run."""
     sizes = {}
     with open(path, encoding="utf-8") as file, h5py.File(results) as stored:
         verdicts = json.load(file)["verdicts"]

@@ -23,7 +23,7 @@ LOOSE, FINE_LOOSE = 10, 1.5  # multiples of the observed error
 
 
 def bound_of(seen, steps=STEPS):
-    """Returns the smallest of the steps times a power of ten that is not below the value, as written in the list of
+    """Returns the smallest product of a step and a power of ten that is not below the value, as text for the list of
     known deviations."""
     if seen is None:
         return ""
@@ -38,8 +38,8 @@ def apart(verdict):
 
 
 def departure(verdict):
-    """Returns the distance of a limit from the derived limit, or otherwise from the reference value, relative to the
-    latter; None if there is no limit."""
+    """Returns the distance of a limit from the derived limit or, if there is none, from the reference value. The
+    distance is relative to the reference value. Returns None if there is no limit."""
     if verdict["predicted"] is None or not verdict["error"]:
         return verdict["error"] and abs(verdict["error"])
     size = (verdict["limit"] - verdict["truth"]) / verdict["error"]
@@ -47,14 +47,14 @@ def departure(verdict):
 
 
 def digits(verdicts):
-    """Returns the number of digits on which the worst of the met predictions agrees with its limit; None if there is
-    none."""
+    """Returns the smallest number of digits to which a confirmed prediction agrees with its limit, or None if no
+    prediction is confirmed."""
     met = [apart(v) for v in verdicts if v["verdict"] == PREDICTED and v["predicted"]]
     return -math.log10(max(max(met), 1e-16)) if met else None
 
 
 def line(rule, verdicts):
-    """Returns the line of an entry: its verdicts, errors and predictions, and whether its bound is right."""
+    """Returns the line of an entry with its verdicts, errors and predictions, and whether its bound is correct."""
     derived, others = (
         max((departure(v) for v in verdicts if v["error"] is not None and (v["predicted"] is None) == free),
             default=None) for free in (False, True)
@@ -85,8 +85,8 @@ def lines(rules, verdicts):
 
 
 def covered(verdicts):
-    """Returns (limits within the uncertainties of themselves and their predictions, all limits with a prediction), for
-    any verdict. This justifies calling a limit predicted by its uncertainty alone."""
+    """Returns (number of limits that agree with their predictions within both uncertainties, number of limits with a
+    prediction), for all verdicts. This justifies deciding agreement by the uncertainties alone."""
     told = [v for v in verdicts if v["predicted"] is not None and v["limit"] is not None]
     near = [
         abs(v["limit"] - v["predicted"]) <= SURELY *

@@ -25,11 +25,11 @@ MESHES = (8, 16, 32, 64, 128, 256)
 OF_MECHANISMS = {"spherical_joint": (4, 8, 16, 32, 64), "hexapod": (1, 2, 4, 8)}
 FEATURES = ("shear", "trapeze", "wagner", "warping")
 EXACT, EXACT_MESHES = "collocation:stages=8", (2, 4, 8, 16)
-SECONDS = 60  # for one series
-LEFT = 0.1  # of the error: at or below this fraction, it has vanished
+SECONDS = 60  # time limit of one series
+LEFT = 0.1  # fraction of the error at or below which the error has vanished
 RIGHT = 1e-3  # largest relative error if there was no value before
 
-# (formulation, formulation, the one feature in which they differ); causes_test.py reads the code
+# (formulation, formulation, the only feature in which they differ); causes_test.py checks the code
 SIBLINGS = (
     ("beamw", "beamw_first", "second-order terms of the modes (J Eq. 66)"),
     ("sheet_second", "sheet_second_consistent", "shear in the generalized strains (N Eq. 37)"),
@@ -51,7 +51,8 @@ OF_VIBRATION = (
 
 
 def siblings(formulation, vibrates):
-    """Returns [(other formulation, the one feature)]; for a formulation with an option: the formulation without it."""
+    """Returns [(other formulation, the only feature in which it differs)]; for a formulation with an option, this
+    includes the formulation without the option."""
     pairs = SIBLINGS + (OF_VIBRATION if vibrates else ())
     found = [(b, what) for a, b, what in pairs if a == formulation]
     return found + [(a, what) for a, b, what in pairs if b == formulation]
@@ -64,7 +65,7 @@ def newton_of(formulation):
 
 
 def error_of(limit, exact):
-    """Returns the error relative to the exact value, unless the latter is zero."""
+    """Returns the error relative to the exact value, or the absolute error if the exact value is zero."""
     return (limit - exact) / (abs(exact) or 1)
 
 
@@ -87,7 +88,7 @@ class Laboratory:
             )
         except subprocess.TimeoutExpired:
             return None, f"no answer within {min(SECONDS, left):.0f} s"
-        if done.returncode not in (0, 1, 3) or not done.stdout:  # 3: it was rejected, with a reason
+        if done.returncode not in (0, 1, 3) or not done.stdout:  # 3: the run was rejected, with a reason
             return None, done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "failed"
         series = json.loads(done.stdout)["series"][0]
         if series["missing"]:
@@ -140,7 +141,7 @@ class Laboratory:
 
 
 def worst_of(verdicts):
-    """Returns {(entry, case): verdict} with the largest error; if none has an error, a verdict without a value."""
+    """Returns {(entry, case): verdict with the largest error, or a verdict without a value if there are no errors}."""
     found = {}
     for v in verdicts:
         key = v["finding"], v["case"]
@@ -152,7 +153,8 @@ def worst_of(verdicts):
 
 
 def rounds(found):
-    """Sorts one case of every entry first, then the second cases, so that every entry has one."""
+    """Returns the verdicts sorted so that the first case of every entry comes before the second cases. Every entry is
+    then examined within the time limit."""
     of_rule = {}
     for rule, case in sorted(found, key=lambda key: -abs(found[key]["error"] or 0)):
         of_rule.setdefault(rule, []).append((rule, case))
@@ -168,7 +170,7 @@ def switches(program, case, given):
 
 
 def experiments(laboratory, v):
-    """Returns [change, result] for one verdict; the first has only finer meshes."""
+    """Returns [(change, result)] for one verdict; the first change is only finer meshes."""
     case, quantity, key = v["case"], v["quantity"], v["formulation"]
     given = tuple(p for p in v["parameters"].split(";") if p)
     vibrates = v["unit"] == "Hz" or "omega" in v["parameters"]
@@ -193,7 +195,7 @@ def is_gone(error, before):
 
 
 def study(laboratory, v):
-    """Returns a verdict with its experiments, each with the remaining error."""
+    """Returns the record of a verdict with its experiments, each with the remaining error."""
     done = experiments(laboratory, v)
     before = done[0]["error"] if done[0]["error"] is not None else v["error"]
     for e in done:

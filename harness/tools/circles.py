@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+"([^"]+)"', re.M)
-SHOWN = 3  # reasons of each step of a circle
+SHOWN = 3  # number of printed reasons for each step of a circle
 
 
 def symbols(objects):
@@ -28,7 +28,7 @@ def symbols(objects):
 
 
 def circles(calls):
-    """Returns strongly connected groups of two files or more (Tarjan), each in alphabetical order."""
+    """Returns the strongly connected groups of two or more files (Tarjan's algorithm), each in alphabetical order."""
     index, low, stack, found = {}, {}, [], []
 
     def visit(node):
@@ -92,7 +92,7 @@ def between_folders(steps):
 
 
 def tell(what, steps):
-    """Prints the circles formed by steps {(from, to): why}, and returns their number."""
+    """Prints the circles formed by steps {(from, to): reason}. Returns the number of circles."""
     ways = collections.defaultdict(set)
     for one, other in steps:
         ways[one].add(other)

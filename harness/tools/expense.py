@@ -16,18 +16,19 @@ import numpy as np
 import yaml
 from scipy.optimize import nnls
 
-# As harness/study/study_impl.h counts them.
+# Kinds of work, as counted by harness/study/study_impl.h.
 WORK = ("cell", "linear", "buckling", "loaded_buckling", "modal", "load_step", "compliance",
         "continuation", "rotation_step", "rotation_station", "alpha_step", "conserving_step",
         "radau_step", "explicit_step")
 FOLDS = 5
 ROUNDS = 15
-DEAR = 0.75  # relative errors are weighted by cost^0.25: expensive runs count more, but cheap ones count too
-LARGE = 0.3  # of the logarithm: larger errors count less
+DEAR = 0.75  # relative errors are weighted by cost^0.25, so that expensive runs have more weight, but cheap runs still
+             # matter
+LARGE = 0.3  # error of the logarithm above which errors have less weight
 
 
 def stations_of(analyses, body):
-    """Returns the number of stations of the path of an analysis, or of its base analysis."""
+    """Returns the number of stations of the path of an analysis, or of the analysis that it follows."""
     while "stations" not in body and "about" in body:
         ((_, body),) = analyses[body["about"]].items()
         body = body or {}
@@ -35,7 +36,7 @@ def stations_of(analyses, body):
 
 
 def motion_steps(body):
-    """As harness/study/expense.c counts them."""
+    """Returns the number of steps of a motion as harness/study/expense.c counts them."""
     tolerance, integrator = body.get("tolerance", 0), body["integrator"]
     if tolerance > 0 and integrator != "explicit":
         steps, power = (40, 0.3) if integrator == "radau" else (80, 0.45)
@@ -44,7 +45,7 @@ def motion_steps(body):
 
 
 def work_of(scene):
-    """Returns {kind: times} of a scene, and its members."""
+    """Returns {kind of work: times} of a scene, and the number of its members."""
     analyses, times = scene.get("analyses") or {}, collections.Counter(cell=1)
     for analysis in analyses.values():
         ((kind, body),) = analysis.items()
@@ -121,7 +122,8 @@ def fit(cells):
 
 
 def spread(predicted, cost):
-    """Returns the factors between the two, the median and for nine of ten, without the common factor."""
+    """Returns the factors between prediction and cost, the median and that for nine of ten runs, without the common
+    factor."""
     off = np.log(np.maximum(predicted, 1e-12) / cost)
     off = np.abs(off - np.median(off))
     return math.exp(np.quantile(off, 0.5)), math.exp(np.quantile(off, 0.9))

@@ -27,7 +27,7 @@ CELLS = (("spherical_joint", "sheet_third", 1), ("hexapod", "sheet_third", 1),
          ("c_cantilever", "geometrically_exact", 8), ("c_column", "beamw", 64))
 # name, file of the called function, the function, the count by which the instructions are divided
 PARTS = (
-    # strains, stresses and J^T C J of several elements
+    # strains, stresses and J^T C J of several elements together
     ("all in lanes", "elements/", r"_equations", "strain_evaluations"),
     ("strain", "elements/", r"strain", "strain_evaluations"),
     ("stress", "elements/", r"stress", "stress_evaluations"),
@@ -52,7 +52,8 @@ COST = re.compile(r"[+\-*\d][^=]* (\d+)$")
 
 
 class Profile:
-    """own: {(file, function): instructions}; calls: {(caller, callee): instructions including all that it calls}."""
+    """A callgrind profile. own: {(file, function): instructions}; calls: {(caller, callee): instructions of the
+    callee, including its calls}."""
 
     def __init__(self, path):
         self.own, self.calls = collections.Counter(), collections.Counter()
@@ -61,7 +62,7 @@ class Profile:
             self.read(lines)
 
     def name(self, kind, number, text):
-        """Resolves a name, which occurs once with a number that replaces it afterwards."""
+        """Returns a name. A name is written once, with a number that replaces it afterwards."""
         if number is None:
             return text
         if text:
@@ -98,7 +99,7 @@ class Profile:
 
 
 def place(function):
-    """Returns the path of a function's file inside the project; builds elsewhere write the full path."""
+    """Returns the path of the file of a function inside the project. Builds elsewhere write the full path."""
     found = re.search(r"(?:^|/)((?:harness|elements|cases)/.*)", function[0] or "")
     return found[1] if found else ""
 
@@ -111,8 +112,8 @@ def part_of(function):
 
 
 def frames(profile):
-    """Returns the functions that are reached without a part: their callees are counted, and nothing is counted
-    twice."""
+    """Returns the functions that are reached without passing through a part. Only their callees are counted, so that
+    no instruction is counted twice."""
     callees = collections.defaultdict(set)
     for caller, callee in profile.calls:
         callees[caller].add(callee)
@@ -128,7 +129,7 @@ def frames(profile):
 
 
 def parts_of(profile):
-    """Returns {part: instructions}, which together are those of the profile."""
+    """Returns {part: instructions}, whose sum is that of the profile."""
     out, outside = collections.Counter(), frames(profile)
     for (caller, callee), cost in profile.calls.items():
         part = part_of(callee)
@@ -147,7 +148,7 @@ def run(program, *arguments):
 
 
 def profiled(program, cell, inside, read=Profile, *more):
-    """Returns the counts in functions of the program, as `read` obtains them from the file."""
+    """Runs the program under callgrind and returns the counts that `read` obtains from the file."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "profile")
         run("valgrind", "-q", "--tool=callgrind", f"--callgrind-out-file={path}", *more,
@@ -168,7 +169,7 @@ def arithmetic(program):
 
 
 def operations(path, program, numbers):
-    """Returns the operations on doubles in a profile with addresses, in the program itself."""
+    """Returns the number of operations on doubles in the program itself, from a profile with addresses."""
     total = at = 0
     called = inside = False
     objects = {}

@@ -24,7 +24,7 @@ FORMULATION = "geometrically_exact"
 HOW = ("integrator", "step", "tolerance")
 COLUMNS = ("case,parameters,time,quantity,unit,kind,truth,truth_uncertainty,elements,finest,limit,"
            "limit_uncertainty,off,within").split(",")
-# meshes, and the tolerance relative to the motion; for named cases only: with these parameters
+# Meshes, and the tolerance relative to the motion; for some cases, also parameters.
 CASES = {
     "rigid_body": {"": ((1, 2, 4), 1e-11)},
     "spin_up": {"": ((2, 4, 8), 1e-8)},
@@ -48,7 +48,7 @@ LOOSE = 0.01
 
 
 def stored(case):
-    """Returns {structure parameters: [(time or None, row)]} of a case's table, without rows of other models."""
+    """Returns {structure parameters: [(time or None, row)]} from the table of a case, without rows of other models."""
     found = {}
     with open(ROOT / "reference" / "tables" / f"{case}.csv", newline="", encoding="utf-8") as table:
         for row in csv.DictReader(table):
@@ -73,8 +73,8 @@ def _run(program, *words):
 
 
 def asked_at(scene, times):
-    """Returns the scene with its motion evaluated at all the times, with a quantity NAME_0, NAME_1, ... for each time;
-    the others do not change."""
+    """Returns the scene with quantities NAME_0, NAME_1, ... at each of the times, in place of those at a single time.
+    Other quantities do not change."""
     motions = [name for name, a in scene["analyses"].items() if "motion" in a]
     scene["analyses"][motions[0]]["motion"]["stations"] = times
     quantities = {}
@@ -138,7 +138,7 @@ def table(program, case, chosen=None):
 
 
 def tables(program, cases, chosen):
-    """Runs several cases at a time; the last ones, which take longest, start first."""
+    """Runs several cases at a time. The last cases, which take longest, start first."""
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as some:
         asked = [some.submit(lambda one: list(table(program, one, chosen)), case)
                  for case in reversed(cases)]
@@ -146,7 +146,7 @@ def tables(program, cases, chosen):
 
 
 def is_loose(row, rows):
-    """Does the error of the meshes exceed a hundredth of the largest value of that unit?"""
+    """Returns whether the error of the meshes exceeds a hundredth of the largest value with the same unit."""
     size = max(abs(float(other["truth"])) for other in rows if other["unit"] == row["unit"])
     return row["limit_uncertainty"] is not None and row["limit_uncertainty"] > LOOSE * size
 

@@ -39,7 +39,7 @@ NO_TYPES = {"return", "else", "case", "goto", "sizeof", "do"}
 NO_CALLS = NO_TYPES | {"if", "for", "while", "switch"}
 # Calls with a memory size, and assertions.
 UNSEEN = re.compile(r"(\w*alloc|sizeof|assert|_Static_assert|memset|memcpy|memmove)$")
-# Calls that release memory or give hints: only sanitizers notice a missing one.
+# Calls that release memory or give hints; only sanitizers detect if such a call is missing.
 RELEASED = re.compile(r"(\w*(free|alloc|close|end)|assert|_Static_assert)$")
 
 
@@ -58,7 +58,7 @@ def tokens(source):
 
 
 def constant(text, index):
-    """Returns another constant; None if there is no useful one."""
+    """Returns a different constant, or None if there is no useful one."""
     value = re.sub(r"[uUlLfF]+$", "", text)
     if value.isdigit():
         other = int(value) - 1 if index and int(value) > 0 else int(value) + 1
@@ -75,9 +75,9 @@ class Reader:
         self.lines = source.split("\n")
         self.tokens = list(tokens(source))
         self.edits = []
-        self.open = []  # enclosing brackets, each with whether edits inside count
-        self.statement = 0  # its first token
-        self.begin = 0  # how many brackets were open at the start
+        self.open = []  # enclosing brackets, each with a flag for whether edits inside it are listed
+        self.statement = 0  # first token of the statement
+        self.begin = 0  # number of open brackets at the start of the statement
         self.name = ""  # name of the function or table
         for at, (kind, text, _, _) in enumerate(self.tokens):
             if not self.open and text in ("(", "[", "=") and self.tokens[at - 1][0] == "word":
@@ -95,7 +95,7 @@ class Reader:
         return self.tokens[at][1] if 0 <= at < len(self.tokens) else ""
 
     def ends(self, at):
-        """Does a statement start after a token?"""
+        """Returns whether a statement starts after a token."""
         text = self.word(at)
         if not self.open or text == ";":
             return not (self.open and self.open[-1][0] == "(")
@@ -104,7 +104,7 @@ class Reader:
         return self.word(at + 1) not in (",", ";", "}", ")")
 
     def declares(self):
-        """Does the statement start with a type and a name?"""
+        """Returns whether the statement starts with a type and a name."""
         first = self.statement
         while self.word(first) in ("static", "const", "struct", "unsigned"):
             first += 1
@@ -115,7 +115,7 @@ class Reader:
             self.tokens[first][0] == self.tokens[after][0] == "word"
 
     def is_size(self, at):
-        """Is a bracket the size of a declared array?"""
+        """Returns whether a bracket contains the size of a declared array."""
         if len(self.open) != self.begin or not self.declares():
             return False
         depth = 0
@@ -130,7 +130,7 @@ class Reader:
         return True
 
     def inside(self, at):
-        """Do edits inside the bracket at a token count?"""
+        """Returns whether edits inside the bracket at a token are listed."""
         text, before = self.word(at), self.word(at - 1)
         if not self.open:  # bodies of functions, values of tables
             return text == "{" and before in (")", "=")
@@ -141,13 +141,13 @@ class Reader:
         return not (text == "[" and self.is_size(at))
 
     def operand(self, at):
-        """Does an operand end at a token?"""
+        """Returns whether an operand ends at a token."""
         kind, text = self.tokens[at][:2]
         return kind in ("number", "text") or (kind == "word" and text not in NO_TYPES) or \
             text in (")", "]")
 
     def condition(self, at):
-        """Returns where the bracket after an "if" closes on its line; None if it does not."""
+        """Returns the position at which the bracket after an "if" closes on the same line, or None."""
         depth, close = 0, at + 1
         while close < len(self.tokens) and self.tokens[close][2] == self.tokens[at][2]:
             depth += (self.word(close) == "(") - (self.word(close) == ")")
@@ -157,7 +157,7 @@ class Reader:
         return None
 
     def call(self, at):
-        """Returns a statement that is only a call, if it ends on its line; otherwise None."""
+        """Returns a statement that is only a call and ends on the same line, or None."""
         _, name, line, column = self.tokens[at]
         if at != self.statement or self.word(at + 1) != "(" or name in NO_CALLS or \
                 RELEASED.match(name):
@@ -178,7 +178,7 @@ class Reader:
         kind, text, line, column = self.tokens[at]
         index = self.open[-1][0] == "["
         alone = index and self.word(at - 1) == "[" and self.word(at + 1) == "]"
-        # The layout has blanks around products, but none after the star of a pointer.
+        # In the layout of the sources, blanks surround the star of a product, but do not follow the star of a pointer.
         spaced = self.lines[line - 1][column + len(text):][:1] in (" ", "")
         if kind == "number" and (alone or not index):
             if new := constant(text, index):
@@ -238,7 +238,8 @@ def equivalent():
 
 
 def chosen(count, span=None):
-    """Returns sorted (file, line, function, text, edit, edited line), and how many more are equivalent."""
+    """Returns the sorted list of (file, line, function, text, edit, edited line), and the number of omitted equivalent
+    edits."""
     files, commits = sources(), set()
     if span:
         commits = set(listed("rev-list", span))
@@ -257,7 +258,7 @@ def chosen(count, span=None):
     return left, len(taken) - len(left)
 
 
-# Python tests of other folders that test the behaviour of a folder.
+# Python tests in other folders that test the behaviour of a folder.
 BESIDE = {
     "harness/(cli|formulations|experiments|study|library|model|records)/|cases/format/":
         "harness/cli/(cli|outputs|asked|choice|list|converge|options|screen|defaults|help|examples"
@@ -280,7 +281,7 @@ BESIDE = {
     "cases/textbook/": "cases/format/closed",
     "harness/cli/": "harness/study/bench|harness/experiments/|harness/exchange/",
 }
-# Related C tests: those of the folder, or related ones of others.
+# Related C tests: those of the folder and some of other folders.
 NEAR = {
     "elements": "elements/test/|harness/experiments/test/contract_|harness/analysis/test/(frequency"
                 "|critical|along_eq)|harness/time/test/consistent_test",
@@ -300,7 +301,7 @@ UNJUDGED = tuple(f"harness/{name}" for name in (
 
 
 def tests():
-    """The texts of tests."""
+    """Returns the texts of all tests."""
     files = set(listed("ls-files", "*/test/*_test.c", "cases/*_test.py", "harness/*_test.py"))
     return {file: (ROOT / file).read_text(encoding="utf-8") for file in sorted(files)}
 
@@ -329,7 +330,8 @@ def checks(file, texts):
 
 
 def physics(path):
-    """Reads a table: name, file, search pattern and replacement for sed, and the check."""
+    """Returns the rows of a table of physical faults: name, file, search pattern and replacement for sed, and the
+    check."""
     with open(path, encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
             change = f"s|{row['pattern']}|{row['replacement']}|"

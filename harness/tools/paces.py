@@ -19,8 +19,8 @@ import sys
 import time
 
 TABLE = pathlib.Path(__file__).resolve().parents[1] / "experiments" / "paces.csv"
-EXPLICIT = "1e-11,1e-13"  # tolerances of its steps
-CELL, CHECK = "60", "60"  # time limits of a motion [s]: all integrators, explicit ones
+EXPLICIT = "1e-11,1e-13"  # tolerances of the steps of `explicit`
+CELL, CHECK = "60", "60"  # time limits of a motion [s]: for all integrators, and for checks with `explicit`
 LEVEL = 1e-4  # error level of the printed lines
 
 
@@ -39,7 +39,7 @@ TABLES = ("references", "runs", "orders", "reached")
 
 
 def refused(record):
-    """Returns {formulation: reason} of those that do not support the motion."""
+    """Returns {formulation: reason} of the formulations that do not support the motion."""
     offered = {r["formulation"] for r in record["runs"] if r["status"] != "refused"}
     return {r["formulation"]: r["reason"] for r in reversed(record["runs"])
             if r["formulation"] not in offered}
@@ -68,7 +68,7 @@ def checked(program, row):
 
 
 def word_of(check):
-    """Returns the outcome."""
+    """Returns the outcome of a check in words."""
     if None in check["distances"]:
         return f"not checked: {check['reason']}"
     coarse, fine = check["distances"]
@@ -77,7 +77,8 @@ def word_of(check):
 
 
 def soonest(tables):
-    """Returns `radau 7, alpha 2`: the number of formulations with which a scheme has the lowest cost within LEVEL."""
+    """Returns text such as `radau 7, alpha 2`: the numbers of formulations for which each scheme has the lowest cost
+    within LEVEL."""
     count = {}
     for name in {r["formulation"] for r in tables["runs"]}:
         ways = [w for w in tables["reached"]

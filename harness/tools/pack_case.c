@@ -7,7 +7,7 @@
 
 #include "cases/format/format.h"
 
-/* The tree in the order of scene_packed, with its strings one after the other. */
+/* The nodes of the tree in the order of scene_packed. */
 typedef struct packing {
     const document_node **node; /* [nodes] */
     int *first;
@@ -87,7 +87,7 @@ static void write_parameters(const parameter_type *p)
     puts("{0}};\n");
 }
 
-/* Writes the case. If its file specifies how mass is modelled, the case gets a parameter for it. */
+/* Writes the case. If its file specifies the mass model, the case has a parameter for it. */
 static void write_case(const scene_file *file, int nodes)
 {
     const char *shared = scene_file_states(file, "mass") ? "case_mass_omit" : "case_omit";

@@ -48,10 +48,11 @@ static void scale_shear(section *c, int at, double by)
     scale(c->F, 3, at, 1 / by);
 }
 
-/* Returns the section with changed stiffness or mass; neither affects the other. */
+/* Return the section with changed stiffness or with changed mass. Neither change affects the other
+ * property. */
 static section stiff(const section *given)
 {
-    /* order of the rows of a section given by matrices: N, Qy, Qz, Mx, My, Mz */
+    /* in the order of the rows of a section given by matrices: N, Qy, Qz, Mx, My, Mz */
     static const char *const names[] = {"EA", "GAy", "GAz", "GIt", "EIy", "EIz"};
     section c = *given;
     for (int i = 0; c.matrices && i < 6; i++)
@@ -80,7 +81,7 @@ static section heavy(const section *given)
     for (int i = 0; c.matrices && i < 6; i++)
         scale(c.mass, 6, i, grown(i < 3 ? "mass" : "rotary"));
     c.density *= mass;
-    c.young /= rotary; /* the displacements that the mass follows do not change */
+    c.young /= rotary; /* the displacement field on which the mass depends does not change */
     c.Iy *= rotary;
     c.Iz *= rotary;
     c.Ip *= rotary;
@@ -88,7 +89,8 @@ static section heavy(const section *given)
     return c;
 }
 
-/* The data of the same element with the fault in its mass follow the data of the element. */
+/* Room for the data of an element. The data of the same element with the fault in its mass
+ * follow. */
 enum { ROOM = 1 << 16 };
 
 typedef struct second {
@@ -144,7 +146,7 @@ status __wrap_adapters_complete(const element_type *given, const double options[
     return STATUS_OK;
 }
 
-/* Masses at nodes; elements get theirs in `prepare`. */
+/* Changes masses that are lumped at nodes. The masses of elements are changed in `prepare`. */
 lumped_mass __wrap_lumped_of(const section *given, unsigned features, double length)
 {
     const section c = heavy(given);

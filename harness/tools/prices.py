@@ -17,7 +17,7 @@ import h5py
 import numpy as np
 from scipy.optimize import nnls
 
-# General coefficients, and those of each formulation: products of columns of the table `cells`.
+# General coefficients, then coefficients for each formulation. They multiply products of columns of the table `cells`.
 SHARED = ("one", "free", "load_steps", "load_steps*elements_total", "factorisations*free",
           "factor_flops", "solutions", "solutions*free", "solutions*factor_entries",
           "dense_operations")
@@ -33,18 +33,18 @@ VARIANTS = ("collocation:stages=3", "collocation:stages=4", "collocation:stages=
             "beamw_consistent:inside=linear")
 FOLDS = 5
 NEAR = 3  # runs of a case are compared if their times are within this factor
-STEP = 1.05  # between the ratios at which the fraction of correct orders is determined
+STEP = 1.05  # factor between the ratios at which the fraction of correct orders is determined
 
 
 def name_of(key):
-    """Returns the formulation with the options that have their own cost coefficients."""
+    """Returns the formulation with only those options that have separate cost coefficients."""
     name, _, options = key.partition(":")
     kept = [o for o in options.split(",") if o.partition("=")[0] in OPTIONS]
     return name + (":" + ",".join(kept) if kept else "")
 
 
 def measure(program, folder, runs, selection):
-    """Returns the files of `runs` runs of the selection, with all formulations and the variants alternating."""
+    """Returns the files of `runs` runs of the selection, with all formulations and variants alternating."""
     variants = [a for v in VARIANTS for a in ("-f", v)]
     for i in range(runs):
         for kind, chosen in (("all", []), ("variants", variants)):
@@ -56,7 +56,7 @@ def measure(program, folder, runs, selection):
 
 
 def read(paths):
-    """Returns the runs that have a solution: [{column: value}] with the shortest of their times."""
+    """Returns the runs with a solution as [{column: value}], each with its shortest time."""
     least = {}
     for path in paths:
         with h5py.File(path) as file:
@@ -80,7 +80,7 @@ def product(cells, count):
 
 
 def columns_of(cells, names):
-    """Returns {(formulation, count): values}; without a name, those of any formulation."""
+    """Returns {(formulation, count): values}. An empty name stands for all formulations."""
     own = np.array([c["name"] for c in cells])
     out = {("", count): product(cells, count) for count in SHARED}
     if not names:
@@ -92,7 +92,7 @@ def columns_of(cells, names):
 
 
 def fit(cells, names, fixed=None):
-    """Returns {(formulation, count): seconds}; `fixed` coefficients are kept."""
+    """Returns {(formulation, count): seconds}; `fixed` coefficients do not change."""
     found = columns_of(cells, names)
     fixed = fixed or {}
     known = sum((price * found.pop(k) for k, price in fixed.items() if k in found),
@@ -119,7 +119,8 @@ def quantile(values, part):
 
 
 def pairs(cells, predicted):
-    """Returns (predicted, measured) ratios of two formulations of a case as logarithms, the first not below 0."""
+    """Returns the logarithms of the (predicted, measured) ratios of the times of two formulations in a case; the
+    predicted ones are not below 0."""
     groups, out = collections.defaultdict(list), []
     for i, cell in enumerate(cells):
         groups[cell["case"]].append(i)
@@ -134,7 +135,8 @@ def pairs(cells, predicted):
 
 
 def noise_of(predicted, measured):
-    """Returns the smallest ratio from which nine of ten pairs are measured in the order of their costs."""
+    """Returns the smallest cost ratio from which the measured times of nine of ten pairs are in the order of their
+    costs."""
     edge = math.log(STEP)
     for k in range(int(math.log(NEAR) / edge), 0, -1):
         here = (predicted >= (k - 1) * edge) & (predicted < k * edge)
@@ -144,8 +146,8 @@ def noise_of(predicted, measured):
 
 
 def validate(cells, names):
-    """Returns predictions of every run by cost coefficients fitted without its case, and the same for a formulation
-    without its own coefficients."""
+    """Returns predictions of every run from cost coefficients that were fitted without its case, first with and then
+    without the coefficients of its formulation."""
     cases = sorted({c["case"] for c in cells})
     own, generic = np.zeros(len(cells)), np.zeros(len(cells))
     for fold in range(FOLDS):

@@ -72,13 +72,14 @@ WORDS = (
 ANY = re.compile("|".join(pattern for pattern, _ in WORDS), re.I)
 NAME = re.compile(r"`[^`]*`")
 EXEMPT = "words: ok ("
-# Files that are not checked: this table, patterns of the fault programs, logs of experiments.
+# Files that are not checked: tests, this file, and the table of faults.
 SKIPPED = re.compile(r"(^|/)(test|tests)/|^harness/tools/(words\.py|faults\.csv)$")
 C_TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
 
 
 def c_texts(text):
-    """Yields (kind, [(line, text)]) of strings and comments; adjacent strings and line comments are joined."""
+    """Yields (kind, [(line, text)]) of strings and comments in C. Adjacent strings and adjacent line comments are
+    joined."""
     parts, end = [], 0
     for match in C_TOKEN.finditer(text):
         token = match.group()
@@ -100,7 +101,7 @@ def c_texts(text):
 
 
 def python_texts(text):
-    """Like c_texts; a string that is a statement is a comment."""
+    """Like c_texts, for Python. A string that is a statement is a comment."""
     previous = tokenize.NEWLINE
     pieces, kind = [], "shown"
     starts = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENCODING, tokenize.NL)
@@ -121,7 +122,8 @@ def python_texts(text):
 
 
 def hash_texts(kind):
-    """Returns a reader for lines of scripts: only comments. For the Makefile and scene files, `kind` is shown."""
+    """Returns a reader for lines of scripts that yields only comments. For the Makefile and scene files, `kind` is
+    "shown"."""
     def texts(text):
         for number, line in enumerate(text.split("\n"), 1):
             found = re.search(r"(^|\s)#+\s?(.*)", line)
@@ -134,7 +136,7 @@ def hash_texts(kind):
 
 
 def line_texts(kind):
-    """Returns a reader for every line, without code and file names; for code in templates, only the strings."""
+    """Returns a reader for all lines, without code and file names. Of code in templates, only the strings are read."""
     code = re.compile(r'`[^`]*`|^ *also called:.*|<code>.*?</code>|\b(href|id|class|name)="[^"]*"')
     strings = re.compile(r'"[^"]*\s[^"]*"')
 
@@ -159,7 +161,7 @@ READERS = {".c": c_texts, ".h": c_texts, ".py": python_texts, ".md": line_texts(
 
 
 def hits(name, text):
-    """Yields (kind, pattern, line, word, context, remedy) of every hit in a text named `name`."""
+    """Yields (kind, pattern, line, word, context, remedy) of every hit in a text. name: its file name."""
     reader = READERS.get(pathlib.PurePath(name).suffix)
     if reader is None:
         return
@@ -171,7 +173,7 @@ def hits(name, text):
         if not ANY.search(whole):
             continue
         if kind == "shown" and not re.search(r"\s", whole.strip()):
-            continue  # names of options, keys, files
+            continue  # names of options, keys and files
         for pattern, remedy in WORDS:
             for match in re.finditer(pattern, whole, re.I):
                 line, length = pieces[0][0], 0

@@ -1,5 +1,5 @@
-/* Functions shared by the fuzzing programs. Each program has libFuzzer's LLVMFuzzerTestOneInput and
- * is run by harness/tools/fuzz.sh. */
+/* Functions shared by the fuzzing programs. Each program defines LLVMFuzzerTestOneInput of
+ * libFuzzer and is run by harness/tools/fuzz.sh. */
 #ifndef BEAMWORK_FUZZ_H
 #define BEAMWORK_FUZZ_H
 
@@ -18,8 +18,8 @@ static inline void fuzz_must(int holds, const char *what)
     }
 }
 
-/* Returns the bytes as text, up to the first zero; allocated by malloc, so that reading past the
- * end is detected. */
+/* Returns the bytes up to the first zero as text. It is allocated by malloc, so that reads past its
+ * end are detected. */
 static inline char *fuzz_text(const uint8_t *data, size_t size)
 {
     char *text = malloc(size + 1);

@@ -1,7 +1,7 @@
 /* Alters a valid HDF5 file as the input bytes specify: deletes or renames links and attributes,
- * replaces them by others of another kind, type or shape, or makes cycles. The result is a proper
- * file with a valid checksum and unexpected contents. (Damaged files are rejected by their
- * checksum.) */
+ * replaces them by objects of another kind, type or shape, or makes cycles. The result is a
+ * well-formed file with a valid checksum and unexpected contents. (Damaged files are rejected by
+ * their checksum.) */
 #ifndef BEAMWORK_FUZZ_ALTER_H
 #define BEAMWORK_FUZZ_ALTER_H
 
@@ -86,7 +86,7 @@ static void alter_data(hid_t file, const char *name, unsigned what, unsigned siz
     H5Tclose(type);
 }
 
-/* Makes one column of a table in memory: numbers, or texts of eight bytes. */
+/* Makes the type of a table column in memory: numbers, or strings of eight bytes. */
 static hid_t alter_column(hid_t set, unsigned what)
 {
     const hid_t stored = H5Dget_type(set);

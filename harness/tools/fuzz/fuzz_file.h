@@ -1,4 +1,4 @@
-/* A file in memory with given bytes, for libraries that open by name. */
+/* A file in memory with given bytes, for libraries that open files by name. */
 #ifndef BEAMWORK_FUZZ_FILE_H
 #define BEAMWORK_FUZZ_FILE_H
 
@@ -14,7 +14,8 @@ static inline void fuzz_unlink(void)
     unlink(fuzz_path);
 }
 
-/* Returns the path; the next call overwrites the file, and the end of the program removes it. */
+/* Writes the bytes and returns the path of the file. The next call overwrites the file, which is
+ * removed when the program ends. */
 static inline const char *fuzz_file(const uint8_t *data, size_t size)
 {
     static int file = -1;

@@ -24,7 +24,7 @@ static void check_read(const char *text, const formula *f)
     expression_mistake mistake;
     fuzz_must(wrapped != NULL, "there is memory");
     sprintf(wrapped, "(%s)", text);
-    /* one more parenthesis may exceed the limit */
+    /* the additional parentheses may exceed the limit */
     if (formula_parse(wrapped, &again, &mistake) == STATUS_OK)
         for (int i = 0; i < INSTANTS; i++) {
             double one[3], two[3];

@@ -1,4 +1,4 @@
-/* Uses the input as texts passed to the library: the number of the call, then one or two texts
+/* Uses the input as strings passed to the library: the number of the call, then one or two strings
  * separated by a line. A rejection must have a one-line reason or a list of errors in JSON. A
  * result must be JSON or a scene that can be read back. Both must be UTF-8. */
 #include <jansson.h>

@@ -14,13 +14,15 @@ typedef enum ask_outcome {
     ASK_ANSWERED,    /* solved */
     ASK_NOT_OFFERED, /* the scene requires features that the type does not declare (missing_words)
                       */
-    ASK_NOT_POSED,   /* the change of the scene is not defined for it, for any formulation */
-    ASK_REFUSED,     /* supported, but rejected by name */
+    ASK_NOT_POSED,   /* the edit of the question is not defined for this scene, whatever the
+                      * formulation */
+    ASK_REFUSED,     /* supported according to the declaration, but rejected */
     ASK_FAILED,      /* supported, but without a value */
     ASK_OUTCOMES
 } ask_outcome;
 
-/* Values in the order of the scene's quantities; after a failure, those that were found. */
+/* Answer to a question. Values are in the order of the quantities of the scene; after a failure,
+ * they are those that were found. */
 typedef struct answer {
     ask_outcome outcome;
     status status;
@@ -52,7 +54,7 @@ int ask_offered(const scene *, const element_type *);
 void ask(const question *, answer *);
 /* Asks with a scene of the test and given options (NULL: the defaults). */
 void ask_scene(const scene *, const element_type *, const double option[], int elements, answer *);
-/* Returns NAN if there is no quantity of that name. */
+/* Returns the value of a quantity, or NAN if there is no quantity of this name. */
 double answer_of(const answer *, const char *quantity);
 
 /* Outcomes of the questions of one test for one formulation. */
@@ -64,12 +66,12 @@ typedef struct ask_tally {
     char refusal[FAULT_TEXT]; /* last rejection, with its question */
 } ask_tally;
 
-/* Counts the answer; returns 1 if there is one, otherwise 0. `what` (printf format) names the
- * question in failures. */
+/* Counts the answer. Returns 1 if the question was answered, otherwise 0. what (a printf format):
+ * name of the question in failures. */
 int ask_count(ask_tally *, const answer *, const char *what, ...)
     __attribute__((format(printf, 3, 4)));
-/* Fails if an answer failed, if more were rejected than allowed, or if no value was found although
- * the physics is supported; prints the counts. */
+/* Prints the counts. Fails the test if an answer failed, if more answers were rejected than
+ * allowed, or if no value was found although the physics is supported. */
 void ask_conclude(const ask_tally *, const element_type *, const char *test);
 
 #endif

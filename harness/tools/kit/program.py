@@ -1,6 +1,5 @@
-"""Calls of the program, and files, that all Python tests share. reference/test does not use it, because programs that
-derive reference values share nothing with the program under test.
-"""
+"""Functions for calls of the program and for files, shared by all Python tests. reference/test does not use it,
+because programs that derive reference values share nothing with the program under test. """
 import json
 import os
 import pathlib
@@ -12,17 +11,17 @@ import unittest
 
 PROGRAM = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
 TRUTHS = os.path.abspath(os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5"))
-if "BEAMWORK_TRUTHS" in os.environ:  # also for programs that run in another folder
+if "BEAMWORK_TRUTHS" in os.environ:  # absolute, for programs that run in another folder
     os.environ["BEAMWORK_TRUTHS"] = TRUTHS
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
-# Background jobs of a shell ignore SIGINT, and the program keeps ignored signals ignored.
+# Background jobs of a shell ignore SIGINT, and the program does not change ignored signals.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def run(*arguments, program=PROGRAM, **options):
-    """Returns the finished process with its text; options are those of subprocess.run. Never raises because of a
-    status."""
+    """Returns the finished process with its output as text. options: those of subprocess.run. A nonzero status does
+    not raise an exception."""
     return subprocess.run([program, *map(str, arguments)], text=True, check=False,
                           **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
 
@@ -33,13 +32,14 @@ def environment(**changes):
 
 
 def report(results, folder, *options):
-    """Draws results into folder, as `make report` does."""
+    """Writes the report of results into the folder, as `make report` does."""
     return run("-B", "-m", "reports", results, TRUTHS, *options, "-o", folder,
                program=sys.executable, cwd=ROOT)
 
 
 def drawn(folder, *selection, options=()):
-    """Returns the report of a run of verify, drawn with those options; the run is folder/results.h5."""
+    """Returns the report of a run of verify, written with these options. The results of the run are in
+    folder/results.h5."""
     results, site = folder / "results.h5", folder / "site"
     run("verify", *selection, "-o", results)
     done = report(results, site, *options)
@@ -58,12 +58,12 @@ def read_json(path):
 
 
 def values(record):
-    """Returns quantity -> value as written, with every bit."""
+    """Returns {quantity: value as written}, so that values can be compared bit for bit."""
     return {q["quantity"]: q["value"] for q in record["quantities"]}
 
 
 class ProgramTest(unittest.TestCase):
-    """A test with its own folder, which is empty before the test and removed after it."""
+    """A test with a temporary folder, which is empty before the test and removed after it."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -78,23 +78,24 @@ class ProgramTest(unittest.TestCase):
         return pathlib.Path(folder.name)
 
     def answered(self, *arguments, code=0, **options):
-        """Returns the process, which must end with that code."""
+        """Returns the finished process, whose exit status must be `code`."""
         done = run(*arguments, **options)
         self.assertEqual(done.returncode, code, f"{arguments}\n{(done.stdout or '')[-4000:]}\n{done.stderr}")
         return done
 
     def record(self, *arguments, **options):
-        """Returns the output of --format json."""
+        """Returns the output of a command with --format json."""
         return json.loads(self.answered(*arguments, "--format", "json", **options).stdout)
 
     def values_of(self, scene, *options):
-        """Returns the values of the quantities of a scene, given as a text."""
+        """Returns the values of the quantities of a scene, which is given as text."""
         path = self.folder / "scene.yaml"
         path.write_text(scene, encoding="utf-8")
         return values(self.record("solve", "--scene", path, *options))
 
     def refused(self, code, words, *arguments, silent=True, **options):
-        """Requires a one-line error that contains all the words, the given status, and no computation."""
+        """Checks that a command fails with the given status, without computation and with a one-line error that
+        contains all the words."""
         done = run(*arguments, **options)
         self.assertEqual(done.returncode, code, (arguments, done))
         self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)

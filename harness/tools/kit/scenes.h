@@ -9,10 +9,10 @@
 /* Reads a scene file by its path from the root of the sources; valid until the test ends. An error
  * in the file ends the test with its message. */
 const case_type *scenes_case(const char *path);
-/* Sets parameter values; values: "name=value;...", a printf format. */
+/* Sets parameter values. values: "name=value;...", a printf format. */
 void scenes_at(const case_type *, double value[], const char *values, ...)
     __attribute__((format(printf, 3, 4)));
-/* Reads the scene at these values; the caller frees it. */
+/* Reads the scene at these values. The caller frees it. */
 void scenes_read(scene *s, const char *path, const char *values, ...)
     __attribute__((format(printf, 3, 4)));
 /* Solves the scene with the default options and fills the answer. */
@@ -23,7 +23,7 @@ void scenes_solve(const char *path, const char *formulation, int elements, cell_
                   const char *values, ...) __attribute__((format(printf, 5, 6)));
 /* Returns the index of the entry with this name in the file. */
 int scenes_find(const scene *, scene_list, const char *name);
-/* "alpha", ...: names as in scene files. */
+/* Names of the integrators as in scene files: "alpha", ... */
 extern const char *const scenes_integrator[SCENE_SCHEMES];
 
 /* A straight section given by its stiffnesses [N, N, N m^2, N m^2] and masses [kg/m, kg m]. */
@@ -35,9 +35,10 @@ section_spec timed_profile(const timed_section *);
 /* Adds a bar of 1 m along x, clamped at the origin; the y axis of its section is that of the scene.
  * Returns its free tip; the root is the previous node. */
 int scenes_cantilever(scene *, const section_spec *);
-/* Adds quantities NAME_0, NAME_1, ...: the first frequencies [Hz] of an analysis. */
+/* Adds quantities NAME_0, NAME_1, ... for the first frequencies [Hz] of an analysis. */
 void scenes_ask_frequencies(scene *, const char *name, int analysis, int count);
-/* Adds NAME_0 to NAME_2: displacements [m] of a node at the end of an analysis. */
+/* Adds quantities NAME_0 to NAME_2 for the displacements [m] of a node at the end of an
+ * analysis. */
 void scenes_ask_motion(scene *, const char *name, int analysis, int node);
 
 #endif

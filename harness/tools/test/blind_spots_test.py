@@ -1,5 +1,5 @@
-"""Tests the faults that `make verify` detects: the tables are complete and within the required bounds, and samples of
-them hold."""
+"""Tests the faults that `make verify` detects: the tables are complete and within the required bounds, and samples are
+confirmed by runs."""
 import csv
 import json
 import pathlib
@@ -40,8 +40,8 @@ class BlindSpots(unittest.TestCase):
             self.assertEqual(bool(row["reason"]), row in passing, row)
 
     def test_every_constant_of_every_formulation(self):
-        """A verdict detects a fault of 0.1 % in every constant on which anything depends; for an option, in the cases
-        that it affects."""
+        """A verdict detects a fault of 0.1 % in every constant that affects a result; for an option, in the cases that
+        it affects."""
         keys = {(f["formulation"], f["constant"]) for f in self.faults}
         for name in (f["formulation"] for f in listed()["formulations"]):
             for constant in blind_spots.CONSTANTS:
@@ -52,8 +52,8 @@ class BlindSpots(unittest.TestCase):
                 self.assertEqual(fault["noticed"], "", fault)
 
     def seen(self, row, constant, size, *options):
-        """Does the run fail with a fault of that size? A formulation given by name would also be checked against the
-        interface requirements, which detect faults in masses."""
+        """Returns whether a run with a fault of this size fails. The run is selected by -k, because a formulation
+        given by -f would also be checked against the interface requirements, which detect faults in masses."""
         select = f"={row['case']} and =default and ={row['formulation']} and ={row['quantity']}"
         done = run("verify", "-k", select, "-j", 1, *options, program=PLANTED,
                    env=environment(BEAMWORK_PLANT=f"{constant}={size}"))
@@ -67,7 +67,7 @@ class BlindSpots(unittest.TestCase):
         return quick[::max(1, len(quick) // 6)]
 
     def test_quantities_measured(self):
-        """Twice the fault is detected, whatever its sign; a third of it is not."""
+        """Twice the smallest detected fault is detected for both signs, and a third of it is not."""
         former = ("--not-worse-than", ROOT / "harness" / "baseline.csv")
         rows = self.sample(self.rows)
         self.assertEqual({row["by"] for row in rows}, {"verdict", "baseline"})
@@ -82,7 +82,7 @@ class BlindSpots(unittest.TestCase):
                     self.assertIn(False, small)
 
     def test_constants_measured(self):
-        """A verdict alone detects the fault, without the committed table."""
+        """A verdict detects the fault without the committed table."""
         for fault in self.sample([f for f in self.faults if f["noticed"]]):
             with self.subTest(fault=fault):
                 self.assertFalse(self.seen(fault, fault["constant"], 0))

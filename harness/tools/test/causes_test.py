@@ -7,7 +7,7 @@ from unittest import mock
 from harness.tools import bounds, causes
 
 
-# Experiments on causes: the code of paired formulations differs in one feature; the choice of experiments and their
+# Experiments on causes: the code of paired formulations differs in one feature. The selection of experiments and their
 # conclusions are tested.
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 ABOUT = {
@@ -40,9 +40,9 @@ def shared():
 
 
 def members(formulation):
-    """Returns {member: value} of the declarations of a formulation, its own and those of its family."""
+    """Returns {member: value} of the declarations of a formulation, including those of its family."""
     body, macros = source(formulation).split(f"element_{formulation} = {{")[1], shared()
-    for _ in range(3):  # they refer to each other
+    for _ in range(3):  # because declarations refer to each other
         body = re.sub(r"(?<![.\w])([A-Z]\w+)(?=,)", lambda m: macros.get(m[1], m[1]), body)
     return dict(re.findall(r"\.(\w+) =\s*(.*?),\s*(?=\.|\};)", body, re.S))
 
@@ -180,7 +180,7 @@ class Outcome(unittest.TestCase):
         self.assertEqual(causes.newton_of("a:b=c")[0], "a:b=c,newton=displacement")
 
     def test_time_is_bounded(self):
-        """No experiment starts after the time limit, and this is recorded."""
+        """No experiment starts after the time limit; those that did not start are recorded."""
         found = causes.Laboratory("/nowhere/program", 0).limit("x", "beamw", (), "load", 1.0)
         self.assertIn("not run", found["why"])
 
@@ -189,7 +189,7 @@ class Outcome(unittest.TestCase):
         self.assertNotIn("findings.csv", text)
 
 
-# Bounds of the list of known deviations: the rule that sets them, and the message if they differ.
+# Bounds in the list of known deviations: the rule that determines them, and the message if they differ from it.
 def verdict_of_bounds(error, limit=1.0, predicted=None, kind="biased", rule="a"):
     truth = None if limit is None or error is None else limit / (1 + error)
     return {"finding": rule, "error": error, "limit": limit, "predicted": predicted,
@@ -239,7 +239,7 @@ class Bounds(unittest.TestCase):
         self.assertFalse(self.said("1e-3", given)["stands"])
 
     def test_covered(self):
-        """Limits are counted whatever the verdict, within 3 U and the uncertainty of the prediction."""
+        """Limits within 3 U and the uncertainty of the prediction are counted for any verdict."""
         given = [{**verdict_of_bounds(0.1, limit, 2.0), "limit_uncertainty": 1e-6}
                  for limit in (2.0, 2.0000029, 2.0000031, None)]
         self.assertEqual(bounds.covered(given + [verdict_of_bounds(0.1)]), (2, 3))

@@ -17,11 +17,11 @@ from harness.tools.instructions import Profile, operations, parts_of
 from harness.tools.kit.program import ProgramTest, ROOT
 
 
-# Expected costs: injected cost coefficients and factors are recovered; the work of the analyses of a scene is counted;
-# the committed table has a row for each kind of work.
+# Predicted costs: known cost coefficients and factors are recovered, the work of the analyses of a scene is counted,
+# and the committed table has a row for each kind of work.
 def planted():
-    """Returns runs with made-up costs: modal 1 us and 20 us per element, a load step 5 us and 3 us per element; one
-    formulation is three times as expensive per element."""
+    """Returns runs with artificial costs: a modal analysis costs 1 us and 20 us per element, a load step 5 us and 3 us
+    per element. One formulation is three times as expensive per element."""
     dice, out = random.Random(7), []
     for case in range(12):
         modal, steps = dice.randrange(2), dice.randrange(12)
@@ -57,7 +57,8 @@ class Fit(unittest.TestCase):
                                        "loaded_buckling": 1, "buckling": 1})
 
     def test_steps_of_motions(self):
-        """Equal steps are counted by the time span; adaptive steps are estimated from their tolerance."""
+        """The number of equal steps follows from the time span; the number of adaptive steps is estimated from their
+        tolerance."""
         swing = {"stations": [1, 3], "integrator": "alpha", "step": 0.7}
         for more, kind, count in (({}, "alpha_step", 5),
                                   ({"step": 0.75}, "alpha_step", 4),
@@ -85,13 +86,13 @@ class Table(unittest.TestCase):
         self.assertTrue(all(float(row["element"]) >= 0 for row in rows))
 
 
-# Cost coefficients of counted work: injected ones are recovered from times with noise and outliers; the stated
-# accuracy holds; the committed table is the output of the tool.
+# Cost coefficients of counted work: known coefficients are recovered from times with noise and outliers, the stated
+# accuracy is correct, and the committed table is the output of the tool.
 NAMES = ("red", "blue", "green")
 
 
 def planted_of_prices(noise):
-    """Returns runs of made-up cases: 20 us per run, 1 ns per flop, 2, 4 and 8 us per evaluation."""
+    """Returns runs of artificial cases with 20 us per run, 1 ns per flop, and 2, 4 and 8 us per evaluation."""
     dice, out = random.Random(11), []
     for case in range(10):
         for name, price in zip(NAMES, (2e-6, 4e-6, 8e-6)):
@@ -140,7 +141,7 @@ class PricesFit(unittest.TestCase):
         cost = dice.uniform(0, math.log(prices.NEAR), 20000)
         sure = prices.noise_of(cost, cost)
         self.assertEqual(sure, 1)
-        # an error of 20 % in the ratio: nine of ten are in order beyond 1.28 sigma
+        # with an error of 20 % in the ratio, nine of ten pairs are in order beyond 1.28 sigma
         doubtful = prices.noise_of(cost, cost + dice.normal(0, 0.2, cost.size))
         self.assertAlmostEqual(math.log(doubtful), 1.28 * 0.2, delta=0.05)
 
@@ -162,8 +163,8 @@ class PricesTable(unittest.TestCase):
 
 # Parts of a profile: each instruction belongs to one part, whatever the calls; operations are counted by address.
 
-# Newton's loop calls strain twice and a factor once; strain has its own product; the set-up also evaluates a strain,
-# as its own work.
+# Newton's loop calls strain twice and a factorisation once. strain calls a product. The set-up also evaluates a
+# strain, which belongs to the set-up.
 PROFILE = """# callgrind format
 positions: instr line
 events: Ir
@@ -235,7 +236,8 @@ class Parts(ProgramTest):
         self.assertEqual(dict(parts), {"strain": 60, "factorisation": 20, "set-up": 33, "rest": 12})
 
     def test_operations(self):
-        """Two addresses belong to the program; the library has instructions at one of the same addresses."""
+        """Two addresses belong to the program. The library has instructions at one of these addresses, which are not
+        counted."""
         numbers = {0x200: 4, 0x204: 1, 0x104: 2, 0x3fc: 1}
         self.assertEqual(operations(self.path, "/there/build/beamwork", numbers),
                          4 * 50 + 16 + 2 * 7)

@@ -1,4 +1,4 @@
-"""Tests the generated faults: which code is edited and which never is; the faults are always the same."""
+"""Tests the generated faults: the code that is edited, the code that is never edited, and reproducibility."""
 import pathlib
 import subprocess
 import sys
@@ -118,7 +118,7 @@ class Sample(unittest.TestCase):
 
 class Touched(unittest.TestCase):
     def test_lines_of_commits(self):
-        """For a range of commits, only lines that still exist as these commits wrote them are edited."""
+        """For a range of commits, only lines that these commits wrote and that have not changed since are edited."""
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             commits = []

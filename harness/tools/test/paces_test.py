@@ -1,4 +1,4 @@
-"""Tests paces.py: every case of motion is in its table; a row is run and its reference checked."""
+"""Tests paces.py: every case with a motion is in its table; a row is run, and its reference is checked."""
 import csv
 import json
 import sys
@@ -58,7 +58,7 @@ class Words(unittest.TestCase):
         self.assertEqual(paces.soonest(tables), "quick 2, none 1")
 
     def test_refused(self):
-        """Formulations without any supported run are listed with the first reason."""
+        """Formulations that support no run are listed with the first reason."""
         runs = [{"formulation": name, "status": status, "reason": reason}
                 for name, status, reason in (("a", "refused", "no inertia"), ("a", "refused", "no"),
                                              ("b", "refused", "implicit"), ("b", "ok", ""))]

@@ -10,7 +10,8 @@ from harness.tools import words
 from harness.tools.kit.program import ROOT
 
 
-# Statements of READMEs about files and folders are true, and names that only one file may use occur in no other.
+# Statements in READMEs about files and folders are true, and names that only one file may use do not occur in other
+# files.
 
 # Names to be filled in, and a table inside results.h5.
 PATTERNS = ("NAME", "my_beam", "*", "cases/elastica/quantities")
@@ -22,7 +23,7 @@ TREES = ("cases", "docs", "elements", "harness", "reference", "reports")
 
 
 def files(*endings):
-    """Files of the repository; build products and files of the reader's own do not count."""
+    """Returns the files of the repository, without build products and files of the user."""
     top = [path for path in ROOT.iterdir() if path.is_file()]
     below = [path for tree in TREES for path in (ROOT / tree).rglob("*")]
     return [path for path in top + below if path.suffix in endings]
@@ -35,7 +36,7 @@ class Readme(unittest.TestCase):
             if readme.match("docs/index.md"):  # generated pages; Sphinx checks them
                 continue
             text = readme.read_text(encoding="utf-8")
-            if readme.name == "CHANGELOG.md":  # a release names the folders that it had
+            if readme.name == "CHANGELOG.md":  # because releases name folders of their time
                 text = "## ".join(text.split("\n## ")[:2])
             for name in PATH.findall(text):
                 if any(part in name for part in PATTERNS):
@@ -46,7 +47,7 @@ class Readme(unittest.TestCase):
         self.assertGreater(found, 50)
 
     def test_walk_goes_down(self):
-        """No file on the walk includes a header of a folder listed below its own."""
+        """No file includes a header of a folder that is listed after its own folder."""
         text = (ROOT / "docs" / "project" / "source.md").read_text(encoding="utf-8")
         walked = [name for _, name in WALK.findall(text)]
         self.assertGreater(len(walked), 8)
@@ -58,7 +59,7 @@ class Readme(unittest.TestCase):
                 self.assertFalse(below & set(included))
 
 
-# Each file of `quantities` belongs to one kind; the builder checks the kind first.
+# Files that may use the unions: each file of `quantities` belongs to one kind, and the builder checks the kind first.
 THEIRS = (ROOT / "cases" / "scene", ROOT / "cases" / "quantities",
           ROOT / "cases" / "format" / "builder_members.c")
 
@@ -75,7 +76,7 @@ class Unions(unittest.TestCase):
                                             path.read_text(encoding="utf-8")))
 
 
-# The check of words finds a word to avoid in each kind of text, at its line; it ignores names.
+# The check of words finds a word to avoid in each kind of text, with its line, and ignores names.
 TEXTS = {
     "shown.c": ('#include "ledger of.h"\nint a;\nconst char *b = "it is "\n    "told here";\n', 4, "told"),
     "comment.c": ("int a; /* Sums.\n * A cell is told. */\n", 2, "told"),

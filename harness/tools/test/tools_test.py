@@ -1,5 +1,5 @@
-"""Tests the requirements of each command on a machine that has nothing installed, and the counts of the test runner
-with made-up tests."""
+"""Tests the requirements of each command on a machine without installed packages, and the counts of the test runner
+with artificial tests."""
 import json
 import os
 import pathlib
@@ -12,7 +12,7 @@ from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, run
 
 TOOLS = ROOT / "harness" / "tools"
 COMMANDS = ("build", "verify", "report", "test", "truths")
-OPTIONAL = ("chromium", "vtk")  # of single tests: no command installs them
+OPTIONAL = ("chromium", "vtk")  # packages of single tests, which no command installs
 
 
 class Folder(ProgramTest):
@@ -26,8 +26,8 @@ class Folder(ProgramTest):
 class Loading(unittest.TestCase):
 
     def test_few_libraries(self):
-        """If HDF5 exists as an archive, the program loads none of the thirty libraries on which the shared library
-        depends."""
+        """If HDF5 exists as a static archive, the program loads none of the thirty libraries on which the shared
+        library depends."""
         places = run("--libs-only-L", "hdf5", program="pkg-config").stdout.split()
         archive = next((path for path in (pathlib.Path(place[2:], "libhdf5.a") for place in places)
                         if path.exists()), None)
@@ -45,7 +45,8 @@ class Loading(unittest.TestCase):
 
 
 class Dependencies(Folder):
-    """Every program that searches for packages finds none; apt-get records the packages it is asked to install."""
+    """All programs that search for packages find none, and apt-get records the packages that it is requested to
+    install."""
 
     def setUp(self):
         super().setUp()
@@ -199,7 +200,7 @@ class Runner(Folder):
 
 
 class Circles(Folder):
-    """Circles among made-up objects that call each other."""
+    """Circles among artificial objects that call each other."""
 
     def objects(self, **sources):
         paths = []
@@ -235,7 +236,7 @@ class Circles(Folder):
         self.assertIn("three.o: three", said.stdout)
 
     def test_folders_that_call_each_other(self):
-        """No two files do."""
+        """Folders that call each other form a circle even if no two files call each other."""
         said = self.objects(**{
             "harness/low/one": "int one(void) { return 1; }",
             "harness/low/two": "int three(void); int two(void) { return three(); }",
@@ -263,7 +264,7 @@ class Circles(Folder):
 
 
 class Mutants(Folder):
-    """Physical faults without injecting them: DRY=1 only checks whether the location of each still exists."""
+    """Physical faults without injection: DRY=1 only checks that the location of each fault still exists."""
 
     def dry(self, root, table=()):
         faults = self.folder / "faults.list"
@@ -297,7 +298,7 @@ class Mutants(Folder):
         self.assertIn("SURVIVED  nowhere", done.stdout)
 
     def test_faults_that_are_made(self):
-        """A fault counts as detected by any of several checks; faults that do not compile or change nothing are
+        """A fault is detected if any of several checks fails. Faults that do not compile or do not change the code are
         reported."""
         root = self.folder / "clone"
         root.mkdir()
@@ -341,7 +342,7 @@ class Mutants(Folder):
 
 
 class Make(Folder):
-    """The Makefile itself, with additional targets of the test."""
+    """The Makefile with additional targets of the test."""
 
     def make(self, *arguments):
         goals = self.folder / "goals.mk"
@@ -374,7 +375,7 @@ class Make(Folder):
                          ["quick", "slow"])
 
     def test_clean_before_all_else(self):
-        """`clean` runs before all other targets, which then still find what the compiler needs."""
+        """`clean` runs before all other targets, which then still find all files that they need."""
         told = self.make("-n", "V=1", "QUIET=", f"BUILD={self.folder}/b", "clean", "all")
         compiled = [line for line in told if line.endswith("-c harness/cli/main.c -o "
                                                            f"{self.folder}/b/harness/cli/main.o")]
@@ -387,7 +388,7 @@ class Make(Folder):
             "truths", "install", "clean", "help", "lab", "words"})
 
     def test_laboratory(self):
-        """Experiments are listed and run in the requested order; unknown ones are rejected."""
+        """Experiments are listed and run in the requested order, and unknown experiments are rejected."""
         listed = [line.split(maxsplit=3)[2:] for line in self.make("lab") if line]
         names = [name.removeprefix("L=") for name, _ in listed]
         self.assertIn("motions", names)
