@@ -1,5 +1,5 @@
-"""Compares the boundary-value solver of the deriving programs with an adaptive Runge-Kutta method, closed forms, and
-itself on finer grids."""
+"""Compares the boundary-value solver of the deriving programs with an adaptive Runge-Kutta method, with closed forms,
+and with its results on finer grids."""
 import math
 import pathlib
 import sys
@@ -73,8 +73,8 @@ class Sheet(unittest.TestCase):
         self.assertLess(np.max(np.abs(C - D) / np.sqrt(np.outer(np.diag(D), np.diag(D)))), 1e-12)
 
     def test_compliance_is_the_derivative_of_the_equilibrium(self):
-        """Small dead loads on the deformed sheet displace it as the compliance predicts; moments are about fixed
-        axes."""
+        """The compliance predicts the displacements of the deformed sheet due to small dead loads with moments about
+        fixed axes."""
         net, tip, _ = self.twisted(6, 12)
         C = net.response(1.0, tip, {tip: free})
         x, R, load = tip.x.copy(), tip.R, tip.load.copy()
@@ -107,7 +107,7 @@ class Sheet(unittest.TestCase):
             1,
             delta=1e-12)
         self.assertAlmostEqual(C[0, 0] / (beam.length / beam.EA), 1, delta=1e-12)
-        rate = beam.length * math.sqrt(beam.GJ / beam.EIw)  # both ends cannot warp
+        rate = beam.length * math.sqrt(beam.GJ / beam.EIw)  # warping is restrained at both ends
         self.assertAlmostEqual(
             C[3, 3] / (beam.length / beam.GJ * (1 - math.tanh(rate / 2) / (rate / 2))),
             1,
@@ -117,7 +117,8 @@ class Sheet(unittest.TestCase):
 class Elastica(unittest.TestCase):
 
     def test_elliptic_integrals(self):
-        """Nearly inextensible: P L^2/EI = (K(m) - F(phi, m))^2 with m = (1 + sin theta)/2, sin^2 phi = 1/2m."""
+        """A nearly inextensible cantilever satisfies P L^2/EI = (K(m) - F(phi, m))^2 with m = (1 + sin theta)/2 and
+        sin^2 phi = 1/2m."""
         r, R = cantilevers.dead_load(Beam(1.0, EA=1e13, EIy=1.0, EIz=1.0, GJ=1.0), (0, 5.0, 0), 10)
         theta = cantilevers.planar_angle(R)
         m = (1 + math.sin(theta)) / 2

@@ -1,5 +1,5 @@
-"""The geometrically exact beam with eccentric shear centre and coupled shear, at its buckling loads: closed forms
-according to Haringx."""
+"""Compares buckling loads of the geometrically exact beam with eccentric shear centre and coupled shear with closed
+forms according to Haringx."""
 import pathlib
 import sys
 import unittest
@@ -21,7 +21,7 @@ class Buckling(unittest.TestCase):
         """Returns the scaled determinant of the tangent of the column on fork supports, which vanishes at the buckling
         load.
 
-        The column is stiff in extension and in the strong plane, so that the state before buckling is straight.
+        The column is so stiff axially and in the strong plane that the state before buckling is straight.
         """
         s = column.channel_data()
         E, G = float(s.E), float(s.G)
@@ -60,7 +60,8 @@ class Buckling(unittest.TestCase):
             delta=1e-7)
 
     def test_end_moments(self):
-        """Checks cases with and without shear, with only -2 ys and with b_z - 2 ys of the Wagner moments."""
+        """The determinant vanishes at the critical end moments, with and without shear, and with -2 ys or b_z - 2 ys
+        of the Wagner moments."""
         for shear in (0, 1):
             for wagner in (False, True):
                 closed = column.buckling_moments(column.channel_data(), 6, shear, True, wagner)[0]

@@ -14,7 +14,7 @@ from reference.derive.section import section  # noqa: E402
 class Sections(unittest.TestCase):
 
     def test_channel_of_table_1(self):
-        """J Table 1 and its shear rigidities follow from closed forms; in m."""
+        """J Table 1 and the shear rigidities follow from closed forms (in m)."""
         s = column.channel_data()
         for got, value in ((s.A, "0.054"), (s.Iy, "3.78e-3"), (s.Iz, "2.16e-3"), (s.It, "1.62e-5"),
                            (s.ys, mpf(16) / 35), (s.Iw, mpf(243) / 175 * mpf("1e-4"))):
@@ -44,7 +44,8 @@ class Sections(unittest.TestCase):
 class Torsion(unittest.TestCase):
 
     def test_rectangles(self):
-        """tanh x = 1 - 2/(exp 2x + 1): the sum of the ones is 31/32 zeta(5), and the rest vanishes rapidly."""
+        """The constant agrees with the series in which tanh x = 1 - 2/(exp 2x + 1): the sum of the ones is 31/32
+        zeta(5), and the other terms decrease rapidly."""
         for w, t in ((1, 1), (2, 1), (mpf("0.05"), mpf("0.0005"))):
             rest = sum(mpf(2) / n ** 5 / (exp(n * pi * w / t) + 1) for n in range(1, 40, 2))
             value = w * t ** 3 / mpf(3) * (1 - 192 / pi ** 5 * t / w * (31 * zeta(5) / 32 - rest))
@@ -74,7 +75,7 @@ class Buckling(unittest.TestCase):
                                              (2 * (1 + nu)) * b * t ** 3 / 3)) - 1), 1e-20)
 
     def test_shear_column_without_shear(self):
-        """Both theories become Euler's."""
+        """Without shear deformation, both theories give Euler's load."""
         plain = column.channel_data()
         for haringx in (False, True):
             stiff = column.channel_data()
@@ -88,8 +89,8 @@ class Buckling(unittest.TestCase):
 class Rotating(unittest.TestCase):
 
     def test_slender_limit_by_power_series(self):
-        """Solves w'''' - Omega^2 (T w')' = omega^2 w with T = R (1 - X) + (1 - X^2)/2, w(0) = w'(0) = 0, w''(1) =
-        w'''(1) = 0."""
+        """The slender limit agrees with the power series of w'''' - Omega^2 (T w')' = omega^2 w with T = R (1 - X) +
+        (1 - X^2)/2, w(0) = w'(0) = 0, w''(1) = w'''(1) = 0."""
 
         def determinant(omega, Omega, R):
             tall = []
@@ -137,8 +138,8 @@ class Rotating(unittest.TestCase):
                         (rotating.flap(Omega, 1e6) ** 2 - Omega ** 2) - 1)), 1e-7)
 
     def test_body_at_the_end(self):
-        """At rest, frequencies satisfy the characteristic equation. Without a body, the beam alone is obtained; for a
-        point mass, lag follows from flap."""
+        """At rest, the frequencies satisfy the characteristic equation. Without a body, they are those of the beam
+        alone. For a point mass, the lag frequencies follow from the flap frequencies."""
         for m, c, g in ((1.0, 0.2, 0.3), (0.1, -0.5, 0.3), (10.0, 0.0, 0.0)):
             rest = np.array([float(w) for w in tip_body.at_rest(m, c, g)])
             self.assertLess(np.max(np.abs(tip_body.flap(0, m, c, g) / rest - 1)), 1e-11)

@@ -1,5 +1,5 @@
-"""Proofs of the errata (reference/ERRATA.md) that need no element: each printed form fails where the corrected form
-holds."""
+"""Proofs of the errata (reference/ERRATA.md) that need no element: each corrected form is correct, and the printed
+form is not."""
 import math
 import pathlib
 import sys
@@ -26,7 +26,7 @@ def slope(f, x=X, h=1e-5):
 
 
 def shapes(Phi):
-    """Returns the functions of J Eq. 38b as corrected."""
+    """Returns the functions of the corrected J Eq. 38b."""
     f = 1 / (1 + Phi)
     return {
         "13": lambda x: f * (x * x * (3 - 2 * x) + Phi * x), "23": lambda x: f * 6 * x * (1 - x),
@@ -56,7 +56,7 @@ class Modes(unittest.TestCase):
             exponential(np.array([-0.2, 0.5, 0.1])))
 
     def measured(self):
-        """Returns the gradient with columns r^p, phi^p, r^q, phi^q by central differences."""
+        """Returns the gradient with columns r^p, phi^p, r^q, phi^q from central differences."""
         columns = []
         for k in range(12):
             values = []
@@ -99,7 +99,7 @@ class Modes(unittest.TestCase):
         self.assertGreater(np.max(np.abs(printed6 - measured[5])), 0.1)
 
     def test_rotation_about_the_shear_centre(self):
-        """A twist of the end about an axis at (ys, zs) moves the centroid: all signs of J Eq. 60 are opposite."""
+        """A twist of the end about an axis at (ys, zs) moves the centroid. All signs of J Eq. 60 must be opposite."""
         angle, ys, zs = 1e-6, 0.4, -0.3
         moved = np.array([0, 0, 0, self.l0, zs * angle, -ys * angle])
         e = self.modes(moved, np.eye(3), rotation(exponential(np.array([angle, 0, 0]))))
@@ -112,8 +112,8 @@ class Interpolation(unittest.TestCase):
     Phi = 0.7
 
     def test_torsion_functions(self):
-        """phi(0) = 0; the warping shear is constant and carries the change of bimoment: g_w = q (e2 - (e7 +
-        e8)/2)/l0^2."""
+        """phi(0) = 0, and the warping shear, which is due to the change of the bimoment, is constant: g_w = q (e2 -
+        (e7 + e8)/2)/l0^2."""
         N, q = shapes(self.Phi), self.Phi / (1 + self.Phi)
         for e2, e7, e8 in ((1, 0, 0), (0, 1, 0), (0, 0, 1)):
             phi = lambda x: N["13"](x) * e2 + N["12"](x) * e7 - N["14"](x) * e8  # noqa: E731
@@ -124,7 +124,7 @@ class Interpolation(unittest.TestCase):
         self.assertEqual(printed(0.0), self.Phi)
 
     def test_sign_of_the_row_of_v(self):
-        """v' = phi_z without shear: v = -(N12 e5 + N14 e6)."""
+        """Without shear, v' = phi_z requires v = -(N12 e5 + N14 e6)."""
         N = shapes(0.0)
         for e5, e6 in ((1, 0), (0, 1)):
             phi_z = N["22"](X) * e5 + N["24"](X) * e6
@@ -142,7 +142,7 @@ class Interpolation(unittest.TestCase):
         self.assertGreater(abs(second / (2 * G * D * qw * qz / l0) - 1), 0.5)
 
     def test_uniform_torsion(self):
-        """With e7 = e8 = e2 in J Eq. 40a and Iw = 0: s2 = G It/l0^3 e2, not 1/30 of it; s7 = s8 = 0."""
+        """With e7 = e8 = e2 in J Eq. 40a and Iw = 0, s2 is G It/l0^3 e2, not 1/30 of this value, and s7 = s8 = 0."""
         s = np.array([[36, -3, -3], [-3, 4, -1], [-3, -1, 4]]) / 30 @ np.ones(3)
         self.assertLess(np.max(np.abs(s - [1, 0, 0])), 1e-15)
 
@@ -167,13 +167,13 @@ class Modified(unittest.TestCase):
         self.assertAlmostEqual(integral(slope(phi) ** 2) / 2, printed, delta=1e-9)
 
     def elongation(self, e, Phi, ys):
-        """Returns int (v_c'^2 + w_c'^2)/2 dx with l0 = 1: e[3], e[4] about the shear centre, v_c = v_s, w_c = w_s - ys
-        phi."""
+        """Returns int (v_c'^2 + w_c'^2)/2 dx with l0 = 1, where e[3], e[4] refer to the shear centre, v_c = v_s and
+        w_c = w_s - ys phi."""
         N = shapes(Phi)
         e3, e4 = e[3] - ys * e[2], e[4] + ys * e[2]
         w = lambda x: N["12"](x) * e3 + N["14"](x) * e4 - ys * (N["13"](x) * e[2] + N["12"](x) * e[
             7] - N["14"](x) * e[8]) + ys * e[2] * x  # noqa: E731
-        # The chord passes through the centroids, so that w_s(1) = ys phi(1): this is the last term.
+        # The chord passes through the centroids, so that w_s(1) = ys phi(1), which is the last term.
         return integral(slope(w) ** 2) / 2
 
     def test_shear_and_eccentricity_are_missing(self):
@@ -181,7 +181,7 @@ class Modified(unittest.TestCase):
         e = {2: 0.0, 3: 0.8, 4: -0.5, 7: 0.0, 8: 0.0}
         printed = (2 * e[3] ** 2 + e[3] * e[4] + 2 * e[4] ** 2) / 30
         self.assertAlmostEqual(self.elongation(e, 0.0, 0.0), printed, delta=1e-9)
-        for Phi in (1.0, 100.0):  # fine meshes: Phi grows with 1/l0^2
+        for Phi in (1.0, 100.0):  # fine meshes, because Phi is proportional to 1/l0^2
             Vt = (e[3] - e[4]) / (2 * (1 + Phi))
             Vs = (e[3] + e[4]) / 2
             self.assertAlmostEqual(self.elongation(e, Phi, 0.0), (Vs ** 2 / 3 + Vt ** 2 / 5) / 2,
@@ -193,7 +193,7 @@ class Modified(unittest.TestCase):
         return (2 * e3 ** 2 + e3 * e4 + 2 * e4 ** 2) / 30
 
     def test_eccentric_shear_centre(self):
-        """Compares with the exact integral in closed form for any shear and twist; J Eq. 66 includes neither."""
+        """The exact integral has a closed form for any shear and twist; J Eq. 66 includes neither."""
         ys, e = 0.7, {2: 0.6, 3: 0.8, 4: -0.5, 7: 0.4, 8: -0.3}
         for Phi in (0.0, 2.0):
             tw = (e[2] - (e[7] + e[8]) / 2) / (1 + Phi)
@@ -207,8 +207,8 @@ class Modified(unittest.TestCase):
                     ys ** 2 * e[2] ** 2 / 10), 0.01)
 
     def test_term_of_an_eccentric_shear_centre(self):
-        """Uniform twist without shear: there is no term in strains of the shear centre; in J's e there is a product of
-        twist and bending, which the printed square replaces if there is no bending."""
+        """For uniform twist without shear, there is no term in strains of the shear centre. In J's e, there is a
+        product of twist and bending, which equals the printed square if there is no bending."""
         ys, e2 = 0.7, 0.6
         for e3, e4, alone in ((0.8, -0.5, False), (ys * e2, -ys * e2, True)):
             exact = self.elongation({2: e2, 3: e3, 4: e4, 7: e2, 8: e2}, 0.0, ys)
@@ -235,8 +235,8 @@ class Modified(unittest.TestCase):
         self.assertNotEqual(right, (e[3] * e[4] - e[2] * e[5]) / length)
 
     def test_table_1(self):
-        """D with D_w = 3.65e6 mm^4 as printed is indefinite; with 3.65e9 and by shear flow, it is positive
-        definite."""
+        """D is indefinite with the printed D_w = 3.65e6 mm^4, but positive definite with 3.65e9 mm^4 and if computed
+        from the shear flow."""
         for Dw, good in ((3.65e6, False), (3.65e9, True)):
             self.assertEqual(1.58e4 * Dw - 3.7e6 ** 2 > 0, good)
         self.assertAlmostEqual(float((channel_data().F ** -1)[2, 2]) * 1e12, 3.6936533e9, delta=1e2)
@@ -267,7 +267,8 @@ class ThirdOrder(unittest.TestCase):
             self.assertGreater(np.max(np.abs(residual - f(X))), 0.5)
 
     def test_initial_strains_of_an_arc(self):
-        """N Eq. 37 along a plane arc with total rotation psi: N Eq. 52 contains no initial elongation."""
+        """Along a plane arc with total rotation psi, N Eq. 37 gives an elongation, but N Eq. 52 contains no initial
+        elongation."""
         for psi in (0.05, 0.2, math.pi / 4):
             u, zp, zq = 2 * math.sin(psi / 2) / psi - 1, -psi / 2, psi / 2  # per L
             elongation = u + (2 * zp ** 2 - zp * zq + 2 * zq ** 2) / 30

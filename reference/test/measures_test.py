@@ -14,7 +14,7 @@ from reference.derive.predicted_beam import Jet  # noqa: E402
 
 
 X, WEIGHT = (lambda x, w: ((x + 1) / 2, w / 2))(*np.polynomial.legendre.leggauss(12))
-# a smooth beam with constant gamma and kappa, a with its rate; and its section
+# A smooth beam with constant gamma and kappa, the amplitude a and its rate, and the section of the beam.
 GAMMA, KAPPA, A, RATE = np.array([0.05, 0.23, -0.31]), np.array([0.4, -0.7, 0.9]), 0.55, 0.35
 (YS, ZS), POLAR = CENTRE, _ = (0.21, -0.13), 0.37
 E, G, AREA, IY, IZ, IT, IW = 3.0, 1.1, 1.7, 0.9, 1.3, 0.6, 0.8
@@ -44,7 +44,7 @@ def values(measures, **given):
 
 
 def extrapolated(measured, h):
-    """Returns the limit for h = 0 if the error contains all powers of h."""
+    """Returns the limit h -> 0 of a measurement whose error contains all powers of h."""
     table = [measured(h / 2 ** k) for k in range(5)]
     for k in range(1, 5):
         table = [(2 ** k * fine - coarse) / (2 ** k - 1) for coarse, fine in zip(table, table[1:])]
@@ -77,7 +77,7 @@ def eq66(e, h):
 
 
 def bending_fields(h, p, q, stiffness, sheared):
-    """Returns u', the rotation and its rate from the angles at the ends, N Eqs. 14-17; GA = 1."""
+    """Returns u', the rotation and its rate from the angles at the ends (N Eqs. 14-17, GA = 1)."""
     Phi = 12 * stiffness / h ** 2 if sheared else 0.0
     lag = Phi / (2 + 2 * Phi) * (p + q)
     slope = p * (1 - 4 * X + 3 * X ** 2) + q * (3 * X ** 2 - 2 * X) - lag * (1 - 6 * X + 6 * X ** 2)
@@ -86,7 +86,7 @@ def bending_fields(h, p, q, stiffness, sheared):
 
 
 def local_coordinates(h):
-    """Returns u, px, yp, yq, zp, zq of N Eqs. 40, 42."""
+    """Returns the local coordinates u, px, yp, yq, zp, zq of N Eqs. 40 and 42."""
     r, Rp, Rq = ends(h)
     d, l = Rp.T @ r, np.linalg.norm(r)
     yp, zp = math.asin(d[2] / l), -math.atan(d[1] / d[0])
@@ -96,7 +96,7 @@ def local_coordinates(h):
 
 
 def nijenhuis_modes(h, sheared):
-    """Returns e1 .. e8 of N: Eq. 7 over the linear solution (Eq. 37: Phi = 0); Wp = Wq = px/h."""
+    """Returns e1 .. e8 of N, from Eq. 7 over the linear solution (for Phi = 0, Eq. 37), with Wp = Wq = px/h."""
     u, px, yp, yq, zp, zq = local_coordinates(h)
     duy, phz, dphz = bending_fields(h, zp, zq, IZ, sheared)
     minus_duz, phy, dphy = bending_fields(h, yp, yq, IY, sheared)
@@ -119,7 +119,7 @@ def measured(e, h, centre):
 
 
 def torsion_of_appendix_a(h, i, q):
-    """Returns rows and columns e2, e7, e8; i = 1/(1 + Phi_w), q = Phi_w/(1 + Phi_w)."""
+    """Returns the rows and columns e2, e7, e8 of S. i = 1/(1 + Phi_w), q = Phi_w/(1 + Phi_w)."""
     f = 5 * q * (i + q / 2)
     same = np.array([[36 * i * i + 30 * q * (2 * i + q), -3 * i * i, -3 * i * i],
                      [-3 * i * i, 4 * i * i + f, -i * i - f],
@@ -130,7 +130,7 @@ def torsion_of_appendix_a(h, i, q):
 
 
 def appendix_a(h):
-    """Returns S of J App. A, S23 .. S26 corrected, for strains of the shear centre."""
+    """Returns S of J App. A with S23 .. S26 corrected, for strains of the shear centre."""
     Phi = 12 * E * np.array([IZ, IY, IW]) / (G * np.diag(D) * h ** 2)
     (qy, qz, qw), S, pair = Phi / (1 + Phi), np.zeros((8, 8)), np.array([1, -1])
     S[0, 0] = E * AREA / h
@@ -162,7 +162,7 @@ class Measures(unittest.TestCase):
         self.assertGreater(np.min(np.abs(printed - first)), 1e-3)
 
     def test_sheets(self):
-        """Without warping shear, W is their p."""
+        """For the sheet elements, without warping shear, W equals p."""
         for sheared, name in ((False, "sheet_second"), (True, "sheet_second_consistent")):
             p = KAPPA[0] + KAPPA[1] * GAMMA[1] / (1 + GAMMA[0])
             limit = values(predicted_beam.OF[name], a=p)
@@ -170,7 +170,7 @@ class Measures(unittest.TestCase):
             self.assert_limit(modes, limit, (0, 0), 0.1, 1e-5)
 
     def test_energy_of_a_short_element(self):
-        """e^T S e/(2 h) with the printed stiffness is the energy of the measures."""
+        """The energy e^T S e/(2 h) with the printed stiffness is that of the measures."""
         def energy(h):
             e, at_centre = eq66(jonker_modes(h), h), np.eye(8)
             at_centre[2:6, 1] = np.array([-YS, YS, -ZS, ZS]) / h
@@ -190,7 +190,7 @@ class Measures(unittest.TestCase):
                 self.assertAlmostEqual(one.value[0], other.value[0], delta=1e-14)
 
     def test_derivatives(self):
-        """Compares the gradient and the Hessian of every measure with differences."""
+        """The gradient and the Hessian of every measure agree with finite differences."""
         point, step = np.array([*GAMMA, *KAPPA, A]), 1e-5
 
         def jets(measures, shift):

@@ -11,7 +11,7 @@ from reference.derive.scene_text import Refused
 
 
 # Compares scenes solved as networks with stored reference values of cases, closed forms, and equivalent descriptions;
-# unsupported entries are named.
+# messages name unsupported entries.
 TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 BAR = """beamwork: 1
 sections:
@@ -62,7 +62,7 @@ def tip(component, kind="displacement", **_):
 
 
 def values(text):
-    """Returns {quantity: (value, uncertainty)}; a rejected quantity fails the test."""
+    """Returns {quantity: (value, uncertainty)}. A rejected quantity fails the test."""
     out = {}
     for row in of_scene.solve(scene_text.read(text)):
         if isinstance(row[1], Refused):
@@ -98,7 +98,7 @@ class Scenes(unittest.TestCase):
             self.close(found[mine], truth[theirs], 11)
 
     def test_weight_of_a_body(self):
-        """The weight is the force at the centre of mass."""
+        """The weight of a body is equivalent to a force at its centre of mass."""
         asked, body = {"w": tip("uy"), "t": tip("rz")}, ", mass: 0.3, centre: [0.1, -0.2, 0]"
         weight = values(bar("gravity: [0, -9.81, 2], on: tip", asked, tip=body))
         force = values(
@@ -115,7 +115,7 @@ class Scenes(unittest.TestCase):
         self.close(values(driven)["f"], 3.0)
 
     def test_unknown_motion(self):
-        """The position of the tip is prescribed; the motion of the root, which is unknown, is solved for."""
+        """The unknown motion of the root is determined by the prescribed position of the tip."""
         text = bar(
             "force: [0, 0, 0], on: tip", {"a": "motion: {analysis: path, motion: turn}, unit: rad"},
             motions=
@@ -150,7 +150,8 @@ class Scenes(unittest.TestCase):
         self.assertNotAlmostEqual(one["w"][0], other["w"][0], delta=1e-3)
 
     def test_loads_on_parts(self):
-        """Closed forms of linear theory at the tip: a force, a moment, loads from a to b, uniform and linear."""
+        """The tip displacements due to a force, a moment, and uniform and linear loads from a to b agree with closed
+        forms of linear theory."""
         asked = {"w": tip("uy"), "M": "internal: {analysis: path, member: beam, end: from, resultant: Mz}, unit: N m",
                  "Q": "internal: {analysis: path, member: beam, end: to, resultant: Qy}, unit: N"}
         for load, deflection, moment in (
@@ -172,7 +173,7 @@ class Scenes(unittest.TestCase):
             self.assertLessEqual(abs(found["Q"][0] - at_tip), found["Q"][1] + 1e-12, load)
 
     def test_parts_in_other_words(self):
-        """Loads on parts of a member with large bending equal those on members that are cut there by hand."""
+        """At large bending, loads on parts of a member are equivalent to loads on members that are cut explicitly."""
         whole = ("distributed: [0, 3, 0.5], on: beam, from: 0.25, to: 0.75, to_value: [1, 9, 0], follower: KIND, axes: member"
                  "}\n  b: {force: [2, 5, 1], on: beam, where: 0.25, at: [0, 0.1, 0.2], follower: KIND"
                  "}\n  c: {moment: [0.3, 0.2, 1], on: beam, where: 0.75, follower: KIND, axes: member")
@@ -195,7 +196,7 @@ class Scenes(unittest.TestCase):
             self.assertGreater(abs(found["w"][0]), 0.3)
 
     def test_parts_beyond(self):
-        """Unsupported entries are named."""
+        """Messages name unsupported entries."""
         asked = {"w": tip("uy")}
         for load, beam, words in (
                 ("force: [0, 3, 0], on: beam, where: 0.4", ", curvature: [0, 0, 0.1]", "beam: a load on a part of a curved member"),
@@ -206,8 +207,8 @@ class Scenes(unittest.TestCase):
             values(bar("force: [0, 3, 0], on: tip", {"R": "reaction: {analysis: path, node: root, component: uy}, unit: N"}, path="linear: {}"))
 
     def test_resultants(self):
-        """At the root of a cantilever: the tip load and its moment; at the free end of a cantilever with a line load:
-        zero."""
+        """The resultants at the root of a cantilever are the tip load and its moment; at the free end of a cantilever
+        with a line load, they are zero."""
 
         def at(end, what):
             return f"internal: {{analysis: path, member: beam, end: {end}, resultant: {what}}}, unit: N"
@@ -229,8 +230,8 @@ class Scenes(unittest.TestCase):
         self.close(found["M"], 3 * (1 + found["u"][0]))
 
     def test_releases(self):
-        """A bar that rotates at a hinge, one that slides, a cantilever propped by a hinge and by a ball joint, and a
-        universal joint, whose second axis rotates with the first."""
+        """Checks a bar that rotates at a hinge, a bar that slides, a cantilever propped by a hinge and by a ball
+        joint, and a universal joint, whose second axis rotates with the first."""
         motion = "motions:\n  push: {path: [0, 1], value: [0, 0.6]}\n"
         found = values(
             bar("force: [0, 0, 0], on: tip", {"u": tip("ux"), "t": tip("rz")},
@@ -276,8 +277,8 @@ class Scenes(unittest.TestCase):
             self.close(found[name], scale * value)
 
     def test_frequencies(self):
-        """Frequencies of a cantilever without rotary inertia: bending in both planes, twist, with a point mass at its
-        tip."""
+        """The frequencies of a cantilever without rotary inertia agree with closed forms: bending in both planes,
+        twist, and with a point mass at its tip."""
         asked = {f"f{i}": f"frequency: {{analysis: path, which: {i}}}, unit: Hz" for i in range(4)}
         text = bar("force: [0, 0, 1], on: tip", asked, path="modal: {}").replace(
             "shear_modulus: 1}", "shear_modulus: 1, density: 1e-8}").replace("It: 1", "It: 0.36")
@@ -350,7 +351,7 @@ class Refusals(unittest.TestCase):
         self.refused("version", "beamwork: 2\n")
 
     def test_path_dependent_turn(self):
-        """One component of the rotation is fixed as an increment, while the node rotates about the other two: this is
+        """A node with one rotation component fixed as an increment, which rotates about the other two axes, is
         rejected."""
         self.refused(
             "'rx' means depend",
@@ -358,8 +359,7 @@ class Refusals(unittest.TestCase):
                 "Iy: 1", "Iy: 2"))
 
 
-# Values at new points: the programs reproduce the values of the tables at the stored points, and reject points that
-# they do not support.
+# The programs reproduce the values of the tables at the stored points and reject points that they do not support.
 AT_TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 CHEAP = {
     "c_column": 3, "moment_buckling": 8, "unsymmetric_column": 3, "shear_column": 12,

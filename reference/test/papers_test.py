@@ -1,4 +1,4 @@
-"""Tests papers and their equations, and programs that derive values again."""
+"""Tests the tables of papers and their equations, and the programs that derive values."""
 import ast
 import csv
 import fnmatch
@@ -11,8 +11,7 @@ from reference import pack
 from reference.derive import rederive
 
 
-# The papers item by item and equation by equation: every item has a row, every equation a file and a test, or a
-# reason.
+# The tables of the papers: every item has a row, and every equation has a file and a test, or a reason.
 REFERENCE = pathlib.Path(__file__).resolve().parents[1]
 ROOT = REFERENCE.parent
 STATUSES = ("reproduced", "partly", "not reproducible", "contradicted", "open")
@@ -23,7 +22,7 @@ ITEMS = {
          "|Sec. 4.1|Sec. 4.2|Sec. 5|App. A|App. B"
 }
 FIGURES = {"J": 13, "N": 10}
-# Numbers as printed; App. A of J has none.
+# Numbers of the equations as printed; the equations of J App. A have no numbers.
 EQUATIONS = {
     "J": {*map(str, range(1, 77)), "App. A"},
     "N": {*map(str, range(1, 71)), "A1", "B2"}
@@ -39,7 +38,7 @@ def rows(name="papers.csv"):
 
 
 def numbers(text):
-    """Returns '1-3,7' as the numbers of the equations, as words."""
+    """Returns the numbers of equations such as '1-3,7' as a list of strings."""
     out = []
     for part in (p.strip() for p in re.sub(r"^(Figs?\.|Eqs\.) ", "", text).split(",")):
         first, _, last = part.partition("-")
@@ -48,7 +47,8 @@ def numbers(text):
 
 
 def defines(path, name):
-    """Does a file define a function? In C by its name at the start of a line, in Python by its class and name."""
+    """Returns whether a file defines a function, given in C by its name at the start of a line, in Python by its class
+    and name."""
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".py":
         of = ast.parse(text).body
@@ -127,7 +127,7 @@ class Equations(unittest.TestCase):
             self.assertTrue(defines(ROOT / path, name), r)
             text = (ROOT / path).read_text(encoding="utf-8")
             self.assertTrue(r["by"] in text, r)
-            if path.endswith(".c"):  # called, not only defined
+            if path.endswith(".c"):  # the function is called, not only defined
                 self.assertGreater(len(re.findall(rf"\b{name}\(", text)), 1, r)
             else:
                 self.assertTrue(name.split(".")[1].startswith("test_"), r)
@@ -142,7 +142,7 @@ class Equations(unittest.TestCase):
 class Programs(unittest.TestCase):
 
     def test_each_takes_no_more_than_whether_all_are_wanted(self):
-        """A program of another kind with a function rows() would be taken for one of these."""
+        """No program of another kind has a function rows(), because it would be run as one of these programs."""
         for name in rederive.programs([]):
             module = rederive.importlib.import_module(f"reference.derive.{name}")
             wanted = ["everything"] if rederive.is_solid(name) else []

@@ -1,4 +1,5 @@
-"""Limits of printed elements: compares the beam model with exact values, and closed forms with the beam model."""
+"""Tests derived limits of printed elements: compares the beam model with exact values, and closed forms with the beam
+model."""
 import copy
 import pathlib
 import sys
@@ -19,7 +20,7 @@ from reference.derive.predicted_column import compression, critical, pinned_squa
 
 
 def planar(name, GA):
-    """Returns the network of shear_elastica; its level is the fraction of the load."""
+    """Returns the network of shear_elastica. Its level is the fraction of the load."""
     beam = Printed(Beam(1.0, EA=1e9, EIy=10.0, EIz=10.0, GJ=10.0, fy=1 / GA, fz=1 / GA), name)
     net = Network(1.0, 10.0, intervals=6)
     root = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0)))
@@ -62,14 +63,14 @@ class Machinery(unittest.TestCase):
                 self.assertLess(abs(one[3] / two[3] - 1), one[5], one[:3])
 
     def test_amplitude_between_the_nodes(self):
-        """If the twist rate equals the amplitude, both give the same value; J Eq. 66 makes them differ."""
+        """If the twist rate equals the amplitude, both give the same value; with J Eq. 66, the two differ."""
         for name, least, most in (("beamw_first", 0, 1e-10), ("beamw", 2e-7, 3e-7)):
             form = predicted.as_printed(name)
             nodes, between = (equilibrium.sheet_frequencies(3, {}, form, one)[2] for one in (0, 1))
             self.assertTrue(least <= abs(between / nodes - 1) < most, (name, nodes, between))
 
     def test_stored_rows(self):
-        """Checks every closed form, and points of the beams."""
+        """The stored rows agree with all closed forms and with the beam model at some points."""
         stored = predicted_rows.stored_rows(predicted.CASES)
         self.assertEqual({row["kind"] for row in stored.values()}, {"predicted"})
         (force, lateral), = channel_cantilever.path((0.25, ), form=predicted.as_printed("beamw"))
@@ -88,7 +89,8 @@ class Machinery(unittest.TestCase):
                               row)
 
     def test_end_of_the_path(self):
-        """shear_elastica, GA = 10: load at which the beams of J lose equilibrium (reference/ERRATA.md)."""
+        """In shear_elastica with GA = 10, the beams of J lose equilibrium at the load stated in
+        reference/ERRATA.md."""
         for name, end in (("beamw", 0.45130), ("beamw_first", 0.41987)):
             net, at, step = planar(name, 10), 0.0, 0.1
             while step > 8e-6:
@@ -113,7 +115,7 @@ def cantilever_column(beam, level):
 
 
 class ClosedForms(unittest.TestCase):
-    """Compares predicted_column.py with the nonlinear beam of the same measures, nearly inextensible."""
+    """Compares predicted_column.py with the nearly inextensible nonlinear beam of the same measures."""
 
     def test_c_column(self):
         s = column.channel_data(section_data="printed")

@@ -1,4 +1,4 @@
-"""Compares published numbers with exact ones: reference/ERRATA.md lists every contradiction and no other."""
+"""Compares published numbers with exact values: reference/ERRATA.md lists exactly the contradictions."""
 import csv
 import math
 import pathlib
@@ -42,7 +42,7 @@ def contradictions():
 
 
 def listed():
-    """Returns {(case, parameters, quantity): (published, exact as printed there)}."""
+    """Returns {(case, parameters, quantity): (published value, exact value)} as listed in reference/ERRATA.md."""
     section = (
         (REFERENCE / "ERRATA.md").read_text(encoding="utf-8").split(HEADING)[1].split("\n## ")[0]
     )

@@ -1,4 +1,4 @@
-"""The derived modified modes: exact comparisons in fractions (reference/derive/second_order.py)."""
+"""Compares the derived modified modes exactly, in fractions (reference/derive/second_order.py)."""
 import pathlib
 import sys
 import unittest
@@ -24,7 +24,8 @@ class ModifiedModes(unittest.TestCase):
         self.assertEqual((len(gaps), second_order.largest(gaps)), (110, 0))
 
     def test_theories_differ_with_shear_only(self):
-        """A comparison that detects nothing would pass the other tests, too."""
+        """The theories differ if there is shear, which shows that the comparison of the other tests can detect
+        differences."""
         e, zero = [Fraction(k, 7) for k in range(8)], (Fraction(0), Fraction(0))
         for g, equal in ((zero, True), ((Fraction(1, 3), Fraction(0)), False)):
             both = [second_order.simo_reissner(e, zero, g, Fraction(1, 5), c) for c in (0, 1)]

@@ -16,13 +16,13 @@ from reference.derive.solids import channel, deck, sheet
 from reference.derive.solids.deck import BRICK, graded, spin, turned
 
 
-# The solids: meshes fill their volume, tangents are those of the resultant, known limits are reached.
+# Solids: meshes fill their volume, tangents are derivatives of the resultant, and known limits are reached.
 TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 needs_ccx = unittest.skipUnless(deck.available(), f"{deck.PROGRAM} is not installed")
 
 
 def volume(grid):
-    """Returns the volume of bricks along the axes."""
+    """Returns the volume of bricks whose edges are along the axes."""
     low, high = (
         grid.nodes[grid.elements[:, BRICK.index(corner)]] for corner in ((0, 0, 0), (2, 2, 2))
     )
@@ -97,8 +97,8 @@ class Sheet(unittest.TestCase):
             self.assertLess(np.max(np.abs(slope - K[:, i]) / (scale * scale[i])), 1e-3, i)
 
     def test_at_rest(self):
-        """At rest there is no force, and the stiffness is symmetric: along the sheet E A/L, and up to nu^2/(1 - nu^2)
-        more.
+        """In the undeformed state, there is no force, and the stiffness is symmetric. Along the sheet, it is E A/L or
+        up to nu^2/(1 - nu^2) higher.
 
         The ends of the sheet cannot contract.
         """
@@ -116,8 +116,8 @@ class Sheet(unittest.TestCase):
 
 # Compares beams on fork supports in their bent state with linear prestress and with the exact beam of network.py.
 def fork(place, along):
-    """Returns the conditions at a fixed position (free along x: no force), with web R ez normal to the guides' normal
-    ey, and no moment but that of the guides."""
+    """Returns the conditions of a fork at a fixed position (if free along x, without a force): the web R ez is normal
+    to ey, the normal of the guides, and the only moment is that of the guides."""
 
     def conditions(level, x, R, force, moment, numbers):
         held = [force[0] if along else x[0] - place[0], x[1] - place[1], x[2] - place[2]]
@@ -127,7 +127,7 @@ def fork(place, along):
 
 
 def network_load(bracket, ratio, K):
-    """Returns the load of two members with a dead force on the body between them."""
+    """Returns the critical load of two members with a dead force on the body between them."""
     beam = Beam(0.5, EA=fork_beams.EA, EIy=ratio, EIz=1.0, GJ=1.0, EIw=1 / K if K else 0.0)
     net = Network(1.0, 1.0, intervals=3, nodes=14)
     first = net.body((0, 0, 0), fork((0, 0, 0), False))

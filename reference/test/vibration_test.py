@@ -1,4 +1,5 @@
-"""Compares frequencies from transfer matrices with the Ritz method, which misses none, and with closed forms."""
+"""Compares frequencies from transfer matrices with those of the Ritz method, which misses no frequency, and with
+closed forms."""
 import pathlib
 import sys
 import unittest
@@ -14,8 +15,8 @@ from reference.derive.vibrating_beam import bending, zeros  # noqa: E402
 
 
 def fields(held, length, count=14):
-    """Returns (values, first, second derivatives) [count, points], the same at the end [count, 3], and weights; x^held
-    divides all."""
+    """Returns (values, first and second derivatives) [count, points] of polynomials divisible by x^held, the same at
+    the end [count, 3], and quadrature weights."""
     points, weights = legendre.leggauss(3 * count)
     x, found = np.append((points + 1) / 2, 1.0), []
     for k in range(count):
@@ -51,7 +52,7 @@ class Scenes(unittest.TestCase):
 class DoubleCross(unittest.TestCase):
 
     def ritz(self, conditions):
-        """Returns the frequencies of an arm below 60 Hz; conditions: rows on (w, t, u) at the hub."""
+        """Returns the frequencies of an arm below 60 Hz. conditions: rows that multiply (w, t, u) at the hub."""
         E, rho, A, I = (float(v)
                         for v in (double_cross.E, double_cross.RHO, double_cross.A, double_cross.I))
         value, end, weight = fields(1, 5.0)
@@ -78,7 +79,7 @@ class DoubleCross(unittest.TestCase):
                 self.assertLess(abs(float(one) / value - 1), 1e-8)
 
     def test_closed_form(self):
-        """Pinned at both ends, the frequencies are n^2 pi^2 sqrt(EI/(rho A))/L^2."""
+        """With both ends pinned, the frequencies are n^2 pi^2 sqrt(EI/(rho A))/L^2."""
         first = pi / 2 * sqrt(double_cross.E * double_cross.I /
                               (double_cross.RHO * double_cross.A)) / double_cross.LENGTH ** 2
         found = double_cross.frequencies()
@@ -121,7 +122,7 @@ class OffCentreMasses(unittest.TestCase):
 class TransferMatrices(unittest.TestCase):
 
     def test_cantilever_with_a_mass(self):
-        """An Euler-Bernoulli beam has the determinant of tip_body.py."""
+        """The frequencies of an Euler-Bernoulli cantilever with a mass satisfy the determinant of tip_body.py."""
 
         def end(f):
             t, o = bending(mpf(1), f, mpf(1), mpf(1)), f
@@ -132,8 +133,8 @@ class TransferMatrices(unittest.TestCase):
             self.assertLess(abs(got / value - 1), 1e-25)
 
     def test_pinned_timoshenko_beam(self):
-        """k = pi/L: (rho I o^2 - S - EI k^2)(rho A o^2 - S k^2) = S^2 k^2, here with rho A = rho I = EI = S = L =
-        1."""
+        """For k = pi/L, the frequencies satisfy (rho I o^2 - S - EI k^2)(rho A o^2 - S k^2) = S^2 k^2, here with rho A
+        = rho I = EI = S = L = 1."""
         k2 = pi ** 2
         b = 1 + 2 * k2
         values = [sqrt((b - s * sqrt(b ** 2 - 4 * k2 ** 2)) / 2) for s in (1, -1)]
