@@ -55,8 +55,8 @@ class Release(unittest.TestCase):
 class Plane(unittest.TestCase):
 
     def test_pendulum_is_that_of_two_other_programs(self):
-        # The values are from the explicit method of order 8 on 8 elements of degree 10; they are compared with Radau
-        # and Gauss methods on other meshes.
+        # plane_motion uses an explicit method of order 8 on 8 elements of degree 10. The expected values are from
+        # Radau and Gauss methods on other meshes.
         found, apart = plane_motion.swing(("0.125", ))
         self.assertLess(np.max(np.abs(found[0, 2:] - [0.9916559559, -0.0702880662])), 1e-6)
         self.assertLess(np.max(apart), 1e-7)

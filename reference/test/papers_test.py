@@ -142,7 +142,8 @@ class Equations(unittest.TestCase):
 class Programs(unittest.TestCase):
 
     def test_each_takes_no_more_than_whether_all_are_wanted(self):
-        """No program of another kind has a function rows(), because it would be run as one of these programs."""
+        """Every function rows() has the expected parameters; another function of this name would be run as one of
+        these programs."""
         for name in rederive.programs([]):
             module = rederive.importlib.import_module(f"reference.derive.{name}")
             wanted = ["everything"] if rederive.is_solid(name) else []

@@ -1,4 +1,4 @@
-"""Tests the answers to readers' questions, and their page."""
+"""Tests the selection of the best formulations, and its page."""
 import csv
 import html
 import json
@@ -14,9 +14,9 @@ from reports.test.browser_test import CHROMIUM, chromium
 from reports.test.results import Site, verdict
 
 
-# Choice of the best formulation: the coarsest mesh that stays within a level, ranked by counted work. Formulations
-# that do not pass are never the cheapest; costs that differ by less than the uncertainty of the cost coefficients tie;
-# measured times have no influence.
+# Selection of the best formulation: the coarsest mesh from which all errors are within a level, ranked by counted
+# work. Formulations that do not pass are never the cheapest. Costs that differ by less than the uncertainty of the
+# cost coefficients tie. Measured times have no influence.
 def clock(*rounds):
     return data.Clock(0, min(rounds), min(rounds), max(rounds), 5 if len(rounds) > 1 else 1, rounds)
 
@@ -137,7 +137,7 @@ class Defects(unittest.TestCase):
         self.assertEqual((told(found.best), found.unjudged), ([("one", 1)], ["two"]))
 
 
-# The page of answers and its tables: the reader's tolerance, by the rule of the evaluation.
+# The page of answers and its tables, for the tolerance of the reader and by the rule of the evaluation.
 SELECTION = "elastica/default or warping_torsion/default"
 LEVELS = (0.1, 0.03, 0.01, 0.004, 1e-3, 2e-4, 1e-4, 1e-6)
 
@@ -157,7 +157,7 @@ class Page(ProgramTest):
         for case in self.cases:
             for point in case.points:
                 for series in point.series:
-                    if series.other:  # a series with another model reaches no level, however small its error
+                    if series.other:  # a series with another model is within no level, even if its error is small
                         self.assertFalse(any(v.reach for v in series.verdicts), series.key)
                         continue
                     for v in series.verdicts:
@@ -168,7 +168,7 @@ class Page(ProgramTest):
         self.assertGreater(seen, 20)
 
     def test_points_say_what_the_answers_say(self):
-        """The points agree with the rule of the script at any tolerance."""
+        """The data of the page give the same answers as the evaluation at any tolerance."""
         for one, case in zip(self.points["cases"], self.cases):
             for quantity, found in one["asked"]:
                 for level in LEVELS:
@@ -237,7 +237,7 @@ class Page(ProgramTest):
         self.assertIn(f"<td>{html.escape(words)}</td>", self.page)
 
     def asked(self, *said):
-        """Returns the page's document after the fields were given these values."""
+        """Returns the document of the page after these values were entered in its fields."""
         script = "".join(f"field({name!r}, {value!r});" for name, value in said)
         (self.site / "ask.js").write_text(
             "const field = (name, value) => { const at = document.getElementById(name);"

@@ -1,5 +1,5 @@
-"""The report in a headless browser: no console message, every image is decoded, the printable report prints. Skipped
-if there is no Chromium."""
+"""Tests the report in a headless browser: there is no console message, every image is decoded, and the printable
+report can be printed. Skipped if there is no Chromium."""
 import html
 import re
 import shutil
@@ -11,7 +11,7 @@ from harness.tools.kit.program import ProgramTest, drawn, run
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which(
     "google-chrome")
 
-# All pages at once, each in a frame; errors are written into the document.
+# A document that shows all pages, each in a frame, and into which errors are written.
 DRIVER = """<!DOCTYPE html><html><head><link rel="icon" href="data:,"></head><body><pre id="out"></pre>{frames}<script>
 addEventListener("load", () => {{
   let out = [];
@@ -26,7 +26,7 @@ addEventListener("load", () => {{
 
 
 def chromium(folder, *arguments, software=False):
-    """Runs Chromium; software: with WebGL rendered by the processor."""
+    """Runs Chromium. software: WebGL is rendered by the processor."""
     graphics = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"
                 ] if software else ["--disable-gpu"]
     return subprocess.run([

@@ -16,7 +16,7 @@ from reference.pack import seal
 from reports import answers, answers_table, certificates, data, experiments, problems
 
 
-# The page of certificates: drawn and omitted parts, names from files.
+# The page of certificates: drawn and omitted parts, and names from files.
 class Site:
     """The parts of a site that the page uses."""
 
@@ -92,7 +92,7 @@ class Page(ProgramTest):
         self.assertIn('href="certificates.html#beamw"', self.formulation)
 
 
-# Formulations whose costs are not ranked, and new ones: shown and marked everywhere, never first.
+# Formulations whose costs are not ranked, and new formulations, are shown and marked everywhere but never first.
 EXAMPLES = ROOT / "elements" / "examples"
 NAMES = {"timoshenko": "by differences", "timoshenko_py": "in another process"}
 
@@ -161,7 +161,7 @@ class Drawn(ProgramTest):
         return (self.site / name).read_text(encoding="utf-8")
 
     def test_marks(self):
-        """Marks are next to the name in tables and legends."""
+        """The marks follow the names in tables and legends."""
         for name, why in NAMES.items():
             words = f"({why})"
             for page in ("index.html", "tapered_cantilever.html", "formulations.html"):
@@ -197,7 +197,7 @@ class Drawn(ProgramTest):
         self.assertIn("whose costs cannot be ranked", page)
 
     def test_results_without_costs(self):
-        """For files written before work had costs, no best formulation is given, with the reason."""
+        """For files that were written before work had costs, the page states why there is no best formulation."""
         old = self.folder / "old.h5"
         shutil.copy(self.results, old)
         with h5py.File(old, "r+") as file:

@@ -1,4 +1,4 @@
-"""Charts, figures and pictures."""
+"""Tests charts, figures and pictures."""
 import json
 import re
 import types
@@ -17,7 +17,7 @@ from reports.site import ASSETS, Site
 from reports.style import Styles, plt
 
 
-# Charts written directly as SVG: positions, ticks, legends, data of markers.
+# Charts written directly as SVG: positions, ticks, legends, and data of markers.
 def site():
     """Returns the parts of a site that a chart uses."""
     found = types.SimpleNamespace(said=[], styles=Styles([]))
@@ -28,7 +28,7 @@ def site():
 class Axes(unittest.TestCase):
 
     def test_part(self):
-        """Decades are equally long; the margin keeps the drawing inside."""
+        """Decades have equal lengths, and the margin keeps the drawing inside the axes."""
         one = chart.Axis(log=True)
         one.take([1e-3, 1e-1, 1e1, 0, float("nan")])
         one.settle()
@@ -49,7 +49,7 @@ class Axes(unittest.TestCase):
             self.assertGreater(len(chart.whole_ticks(low, high)), 0)
 
     def test_nothing_to_scale(self):
-        """An axis also exists for one value or none."""
+        """An axis exists even for one value or no value."""
         for values in ([3.0], []):
             one = chart.Axis(log=True, whole=True)
             one.take(values)
@@ -73,7 +73,7 @@ class Charts(unittest.TestCase):
         return picture.image(place, "some")
 
     def test_valid(self):
-        """The separate file is well-formed, and every marker that is used is defined."""
+        """The separate file is well-formed and defines all markers that it uses."""
         text = figures.alone(self.drawn().markup)
         xml.etree.ElementTree.fromstring(text.encode())
         self.assertEqual(set(re.findall(r"url\(#(\w+)\)", text)),
@@ -82,7 +82,7 @@ class Charts(unittest.TestCase):
         self.assertIn("&lt;theirs&gt;", text)
 
     def test_points(self):
-        """Both panels refer to the same points; the curve passes through its values."""
+        """Both panels refer to the same data of points, and the curve passes through its values."""
         image = self.drawn()
         self.assertEqual(image.markup.count('data-f="beamw" data-p="0"'), 2)
         said = json.loads(image.points)
@@ -94,8 +94,8 @@ class Charts(unittest.TestCase):
         self.assertLess(y0, y1)  # a smaller error is farther down
 
 
-# Figures in pages: unique identifiers, preserved text, colours that follow the page, curves assigned to their
-# formulation.
+# Figures in pages: unique identifiers, preserved text, colours that change with the page, and curves assigned to their
+# formulations.
 def drawn(name, said=(), gid=None):
     figure, axes = plt.subplots(figsize=(3, 2))
     look = Styles.of("beamw:mass=lumped")
@@ -108,14 +108,14 @@ def drawn(name, said=(), gid=None):
 class Figures(unittest.TestCase):
 
     def test_identifiers(self):
-        """The identifiers of two figures differ, and every one that is used exists."""
+        """The identifiers of two figures differ, and all identifiers that are used exist."""
         one, two = (set(re.findall(r' id="([^"]+)"', drawn(name).markup)) for name in ("a", "b"))
         self.assertGreater(len(one), 2)
         self.assertFalse(one & two)
         self.assertEqual(set(re.findall(r'[("]#(\w+)', drawn("a").markup)), one)
 
     def test_colours(self):
-        """Black and grey have the colour of the text; a formulation's colour is a variable."""
+        """Black and grey have the colour of the text; the colour of a formulation is a variable."""
         markup = drawn("a").markup
         self.assertNotIn("#000000", markup)
         self.assertIn('fill="currentColor" stroke="currentColor"', markup)
@@ -163,7 +163,7 @@ class Looks(unittest.TestCase):
             self.assertEqual(len(set(column)), len(looks))
 
     def test_classes(self):
-        """Attributes shared by curves occur once in a page; curves that differ do not share them."""
+        """Attributes that several curves share occur once in a page; different curves do not share attributes."""
         curve = '<polyline points="{}" stroke="red" stroke-dasharray="1 2" style="{}:url(#k1)"/>'
         page = "<head></head>" + "".join(curve.format(*one) for one in (
             ("0,0", "marker"), ("1,1", "marker"), ("2,2", "marker-mid")))
@@ -175,7 +175,7 @@ class Looks(unittest.TestCase):
         self.assertEqual(figures.with_classes("<head></head>"), "<head></head>")
 
 
-# Pictures: geometry of the drawing, and their presence in a report with shapes.
+# Pictures of scenes: the geometry of the drawing, and the pictures in a report with shapes.
 class Geometry(unittest.TestCase):
 
     def test_axes(self):
@@ -195,7 +195,7 @@ class Geometry(unittest.TestCase):
         self.assertEqual(len(shapes.hull(corners)), 12)
 
     def test_chosen(self):
-        """On an even path, whose middle is slightly less than half as far, the end is shown; on a path that returns,
+        """On an even path, whose middle is slightly less than half as far, the end is shown. On a path that returns,
         both extremes are shown."""
         for moved, wanted in (([0, 0.75, 1.499, 2.25,
                                 3], [0, 2, 4]), ([0, 0.6, 1.2, 1.8, 2.4,
@@ -248,14 +248,15 @@ class Report(ProgramTest):
             self.assertIn('data-shape="spherical_joint"', text)
 
     def test_absent(self):
-        """Without shapes in the results there is no page; the page on the environment says how to get it."""
+        """Without shapes in the results, there is no page, and the page on the environment states the command that
+        adds it."""
         site = self.site()
         self.assertFalse((site / "pictures.html").exists())
         about = (site / "environment.html").read_text(encoding="utf-8")
         self.assertIn("verify --shapes", about)
 
 
-# The page of stationary rotation from a small run: its figures exist, and the curves end at the exact values.
+# The page of stationary rotation from a small run: its figures exist, and its curves end at the exact values.
 class Campbell(ProgramTest):
 
     @classmethod
@@ -285,11 +286,11 @@ class Campbell(ProgramTest):
             self.assertEqual(growth > 0, first < omega < 2 * first, f"at {omega}")
 
 
-# Pages stay small: the common parts of every page, a figure, and the largest page of a case with many formulations and
+# Pages are small: the common parts of every page, a figure, and the largest page of a case with many formulations and
 # parameter points.
 FORMULATION = 45_000
-VERDICT = 160  # average for each row of a table of verdicts
-VALUE = 16  # for each value of the results in the data of the explorer
+VERDICT = 160  # average size of a row in a table of verdicts
+VALUE = 16  # size of each value of the results in the data of the explorer
 PAGE, FIGURE, SCRIPT, VIEWER, SHEET = 500_000, 90_000, 10_000, 13_000, 20_000  # bytes
 
 
@@ -307,7 +308,7 @@ class Sizes(ProgramTest):
             self.assertLess(page.stat().st_size, PAGE, page.name)
 
     def test_figures(self):
-        """This includes the largest figure, with the data of its markers."""
+        """Figures, including the largest one with the data of its markers, are within the limit."""
         seen = 0
         for page in self.site.glob("*.html"):
             for figure in re.findall(r'<svg id=.*?</svg>(?:<script type.*?</script>)?',
@@ -325,7 +326,7 @@ class Sizes(ProgramTest):
             self.assertEqual(len(markers), len(set(markers)), page.name)
 
     def test_verdicts(self):
-        """Verdicts occur once, in short rows, on the pages of cases; the pages of formulations count them."""
+        """Verdicts occur once, in short rows, on the pages of cases; the pages of formulations only count them."""
         rows = 0
         for page in self.site.glob("*.html"):
             text = page.read_text(encoding="utf-8")
@@ -355,8 +356,8 @@ class Sizes(ProgramTest):
         self.assertLess((self.site / "style.css").stat().st_size, SHEET)
 
 
-# The page of equilibrium paths: curves next to the points of the solids, conclusions with numbers, critical points of
-# the snapping frames.
+# The page of equilibrium paths: curves together with points of the solids, conclusions with numbers, and critical
+# points of the snapping frames.
 class Paths(ProgramTest):
 
     @classmethod

@@ -1,4 +1,4 @@
-"""Drawn scenes: an arrow for each load, a symbol for each support, and labels that avoid each other."""
+"""Tests drawings of scenes: an arrow for each load, a symbol for each support, and labels that avoid each other."""
 import itertools
 import pathlib
 import tempfile
@@ -26,7 +26,7 @@ def written():
 
 
 class Arrows(Canvas):
-    """Keeps them."""
+    """A canvas that stores the arrows drawn on it."""
 
     def __init__(self):
         super().__init__()
@@ -46,7 +46,7 @@ class Drawings(unittest.TestCase):
         self.assertGreaterEqual(len(self.scenes), 49)
 
     def test_motions_in_time(self):
-        """Motions in time are drawn and described as such; a motion that is solved for stays unknown."""
+        """Motions in time are drawn and described as such; a motion that the analysis determines remains unknown."""
         one = self.scenes["spin_up"]
         self.assertEqual(one.motions, {"turn": ()})
         self.assertEqual(loads.motion_words(one, "turn", True), "turn, in time")
@@ -68,8 +68,8 @@ class Drawings(unittest.TestCase):
             plt.close(figure)
 
     def test_loads_on_parts_of_members(self):
-        """Arrows are only on the loaded part, longer where the load is larger; there is one arrow for a load at a
-        position."""
+        """Arrows are only on the loaded part and are longer where the load is larger. A load at a position has one
+        arrow."""
         one = scene.read(run("scene", "--scene", str(LOADED)).stdout)
         self.assertEqual(len(one.loads), 19)
         figure = draw.draw(one)
@@ -108,7 +108,7 @@ class Drawings(unittest.TestCase):
                 self.assertLess(boxes_overlap(a, b), 12, f"{name}: {a} {b}")
 
     def test_sections(self):
-        """Every shape has a figure; sections given by constants have none."""
+        """Every shape of a section has a figure; sections given by constants have none."""
         for name, one in self.scenes.items():
             figure = draw.draw_sections(one)
             shapes = [s for s in one.sections.values() if geometry.outline(s)]
@@ -116,7 +116,7 @@ class Drawings(unittest.TestCase):
             plt.close(figure)
 
     def test_words(self):
-        """Every load, spring and section has a line, however many there are."""
+        """Every load, spring and section is described, for any number of them."""
         for name, one in self.scenes.items():
             said = dict(describe.describe(one))
             for heading, own in (("Loads", one.loads), ("Springs", one.springs),
@@ -127,7 +127,7 @@ class Drawings(unittest.TestCase):
 
 class Geometry(unittest.TestCase):
     def test_arc(self):
-        """Draws a quarter of a circle of radius 2 between its ends."""
+        """An arc between the ends of a quarter of a circle of radius 2 is drawn correctly."""
         one = scene.read("""
 name: arc
 sections: {s: {rectangle: {width: 0.1, thickness: 0.1}}}
@@ -155,10 +155,10 @@ analyses: {a: {linear: {}}}
         self.assertTrue(geometry.choose_view(frame, down, [], True).face_on)
         self.assertTrue(geometry.choose_view(frame, [], out, True).face_on)  # a moment about the normal
         self.assertFalse(geometry.choose_view(frame, out, [], True).face_on)
-        self.assertFalse(geometry.choose_view(frame[:2], down, [], True).face_on)  # its section is seen
+        self.assertFalse(geometry.choose_view(frame[:2], down, [], True).face_on)  # the section is visible
 
     def test_far_axes(self):
-        """A distant axis of rotation would make the structure small; it is described in text."""
+        """A distant axis of rotation is only described in text, because it would make the structure small."""
         text = """
 name: turns
 sections: {s: {rectangle: {width: 0.1, thickness: 0.1}}}
@@ -175,8 +175,8 @@ analyses: {a: {rotation: {omega: [0, 0, 2], centre: [%d, 0, 0], stations: [0, 1]
             plt.close(figure)
 
     def test_warping(self):
-        """A bar at each end shows that warping is restrained or free. The text lists nodes, or members if their ends
-        differ; nothing is listed if nothing warps."""
+        """A bar at each end shows whether warping is restrained or free. The text lists nodes, or members if their
+        ends at a node differ. Without warping, there is no list."""
         text = """
 name: warps
 sections: {s: {SECTION}}

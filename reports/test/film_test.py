@@ -1,5 +1,5 @@
-"""Motions in the viewer and as films: frames are those of the file, keyboard control, reduced motion on request, no
-external files."""
+"""Tests motions in the viewer and as films: frames equal those of the file, keyboard control, reduced motion on
+request, and no external files."""
 import base64
 import contextlib
 import io
@@ -18,7 +18,7 @@ from reports.test.browser_test import CHROMIUM, chromium, console
 TIMES = np.linspace(0, 0.5, 26)
 CASE = "spherical_joint"
 
-# Runs before the scripts of a film: page contents are in view at once, and the test controls the clock.
+# Script that runs before those of a film: page contents are in view at once, and the test controls the clock.
 CLOCK = """<script>
 window.due = null; window.requestAnimationFrame = next => { window.due = next; };
 window.IntersectionObserver = class {
@@ -26,7 +26,7 @@ window.IntersectionObserver = class {
   observe(target) { this.seen([{ isIntersecting: true, target }]); }
 };</script>"""
 
-# Performs the actions of a test; `out` is written into the page.
+# Script that performs the actions of a test and writes `out` into the page.
 ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{
   const out = {{}}, place = document.querySelector("div.viewer");
   const q = what => place.querySelector(what), time = () => q("output").textContent;
@@ -38,7 +38,7 @@ ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{
 
 
 def filmed(results, target):
-    """Returns the exit status; the output is suppressed."""
+    """Writes a film, with its output suppressed, and returns the exit status."""
     with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
         return film.main([str(results), "-o", str(target)])
 
@@ -63,7 +63,7 @@ class Film(ProgramTest):
         return whole.reshape(len(self.shape["states"]), -1, width)
 
     def test_frames_are_those_of_the_file(self):
-        """Every frame has its time, and its positions to a unit of the stored digits."""
+        """Every frame has the time and, to a unit of the stored digits, the positions of the file."""
         s = shapes.read_file(self.results, CASE)
         at, _ = shapes.kept(s, film.MOST)
         self.assertEqual(self.shape["times"][1:], TIMES.tolist())
@@ -74,7 +74,7 @@ class Film(ProgramTest):
         self.assertLess(np.ptp(off, axis=(0, 1)).max(), 1.01 * half / shapes.WHOLE)
 
     def test_sections_turn_with_their_frames(self):
-        """Each axis of the last frame is that of the first, rotated by rate times time."""
+        """Each axis of the last frame is that of the first frame rotated by rate times time."""
         s = shapes.read_file(self.results, CASE)
         angle = 2.0 * (TIMES[-1] - TIMES[0])
         turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0],
@@ -82,7 +82,7 @@ class Film(ProgramTest):
         np.testing.assert_allclose(s.axes[-1], s.axes[1] @ turn.T, atol=1e-12)
 
     def test_thinned(self):
-        """With less room, frames are omitted evenly, but never the first or the last."""
+        """If there is less room, frames are omitted evenly, but never the first or the last frame."""
         s = shapes.read_file(self.results, CASE)
         states = shapes.drawn_states(s, shapes.LEAST * len(s.members) * 6)
         self.assertEqual([states[0], states[1], states[-1]], [0, 1, len(TIMES)])
@@ -115,7 +115,7 @@ class Film(ProgramTest):
         self.assertEqual(self.results.read_bytes(), before)
 
     def test_as_a_report(self):
-        """`--film` instead of a folder gives the same file."""
+        """The report with `--film` instead of a folder writes the same file."""
         target = self.folder / "same.html"
         done = run("-B", "-m", "reports", self.results, TRUTHS, "--film", target, "-k", CASE,
                    program=sys.executable, cwd=ROOT)
@@ -137,8 +137,8 @@ class Film(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_plays(self):
-        """The film starts by itself, plays, restarts from the beginning, and announces this unobtrusively. The test
-        controls the clock: 40 pictures per second."""
+        """The film starts by itself, plays, restarts from the beginning, and indicates this. The test controls the
+        clock at 40 pictures per second."""
         out = self.done("""
             out.label = q("button").textContent; out.live = q("output").getAttribute("aria-live");
             q("button").click(); out.paused = q("button").textContent;
@@ -164,7 +164,8 @@ class Film(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_keyboard(self):
-        """Space, single frames, ends, speed; the ends of the slider are those of the motion."""
+        """Keys control pause, single frames, start and end, and speed. The ends of the slider are those of the
+        motion."""
         out = self.done("""
             key(" "); out.paused = q("button").textContent;
             key("Home"); out.home = time(); key("."); out.next = time();
@@ -187,7 +188,7 @@ class Film(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_less_motion(self):
-        """With reduced motion the film waits, but can still be played."""
+        """With reduced motion, the film does not start by itself but can be played."""
         out = self.done("""
             out.asked = window.due !== null; out.label = q("button").textContent; out.time = time();
             key(" "); out.then = q("button").textContent;""", "--force-prefers-reduced-motion")
@@ -195,7 +196,7 @@ class Film(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_without_graphics(self):
-        """The still picture stays."""
+        """Without graphics, the still picture remains."""
         ran = chromium(self.folder, "--disable-3d-apis", "--virtual-time-budget=3000",
                        "--dump-dom", self.film.as_uri())
         self.assertNotIn("<canvas", ran.stdout)
@@ -206,7 +207,7 @@ class Genuine(ProgramTest):
     """Films of motions that are solved here."""
 
     def test_examples(self):
-        """Frames run from the first to the last instant, and the structure moves."""
+        """Frames cover the motion from the first to the last instant, and the structure moves."""
         for name in ("slider_crank", "released_guide", "robot_arm"):
             results, target = self.folder / f"{name}.h5", self.folder / f"{name}.html"
             self.answered("solve", "--scene", ROOT / "cases" / "examples" / f"{name}.yaml", "-f",

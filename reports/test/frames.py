@@ -13,7 +13,7 @@ def turned(axes, by):
 
 
 def add(path, case, times, rate=1.0):
-    """Appends a frame for each time to the shapes of a case: everything rotates about z."""
+    """Appends a frame for each time to the shapes of a case, in which the whole structure rotates about z."""
     with h5py.File(path, "r+") as file:
         g = file[f"cases/{case}/shapes/default"]
         new = {"kind": [FRAME.encode()] * len(times), "analysis": [0] * len(times),
@@ -34,7 +34,7 @@ def add(path, case, times, rate=1.0):
 
 
 def only(path, case, times, rate=1.0):
-    """Does the same, but keeps only the undeformed state and the frames."""
+    """Like `add`, but keeps only the undeformed state and the frames."""
     with h5py.File(path, "r+") as file:
         g = file[f"cases/{case}/shapes/default"]
         for name in ("kind", "analysis", "value", "position", "orientation", "nodes"):

@@ -14,7 +14,7 @@ from reports.test.results import case, series
 from reports.verdicts import UNJUDGED
 
 
-# The first page: the contents of its lists; nothing is empty if there is little to show.
+# The first page: the contents of its lists, and no empty parts if there are few results.
 SCENE = """beamwork: 1
 nodes:
   node_0: {at: [0, 0, 0], hold: all}
@@ -41,7 +41,7 @@ class Kinds(unittest.TestCase):
 class Agreed(unittest.TestCase):
 
     def tried(self, key, limit, errors):
-        """Returns a formulation on meshes of 1, 2, 4 ... elements with these errors relative to the agreed value 2."""
+        """Returns a series on meshes of 1, 2, 4 ... elements with these errors relative to the agreed value 2."""
         found = series(key, [data.Verdict("u", "no truth", limit=limit, model_truth=2.0,
                                           model_truth_kind="agreement", model_error=limit / 2 - 1)])
         clock = data.Clock(0, 1, 1, 1, 1)
@@ -109,7 +109,7 @@ class Small(ProgramTest):
         self.assertNotIn("Outcome.", (site / "index.html").read_text(encoding="utf-8"))
 
     def test_whole_or_none(self):
-        """A page that fails leaves the previous site unchanged, and nothing next to it."""
+        """If a page fails, the previous site does not change, and no other files remain next to it."""
         site = drawn(self.folder, "-k", "warping_torsion/default", "-f", "collocation")
         before = {file.name: file.read_bytes() for file in site.iterdir()}
         code = ("import sys\nfrom reports import glossary, pages\n"
@@ -169,7 +169,7 @@ class Bar(unittest.TestCase):
 
         self.assertEqual(title("errata.html"), "Papers & errata")
         self.assertEqual(title("elastica.html"), "Cases")
-        self.assertIsNone(title("formulation_beamw.html"))  # no page lists formulations here
+        self.assertIsNone(title("formulation_beamw.html"))  # there is no page that lists formulations
 
 
 class Words(unittest.TestCase):
@@ -204,20 +204,20 @@ class Words(unittest.TestCase):
                          [("verdicts", 1), ("new", 2)])
 
 
-# Pages of formulations: their text about cases agrees with the verdicts.
+# Pages of formulations: their statements about cases agree with the verdicts.
 
 # The text recommends a formulation for cases with these verdicts at worst.
 RIGHT = ("pass", "low order", "undecided", "biased", "biased, as predicted")
 
 
 def texts():
-    """Returns {formulation: its text} of all that have one."""
+    """Returns {formulation: its text} of all formulations with a text."""
     return {path.stem: path.read_text(encoding="utf-8")
             for path in sorted((ROOT / "elements").glob("*.md")) if path.stem != "README"}
 
 
 def claims(text):
-    """Returns [(recommended?, named cases)] of the bullets on when to choose a formulation."""
+    """Returns [(whether recommended, named cases)] from the list on when to choose a formulation."""
     said = dict(formulation.sections(text))[formulation.CHOICE]
     bullets = re.findall(r"^\* \*\*(For|Not for)\*\* (.*)$", said, flags=re.M)
     return [(kind == "For", re.findall(r"`(\w+)`", words)) for kind, words in bullets]
@@ -268,8 +268,8 @@ class Pages(ProgramTest):
                      for key in cls.site.styles.order}
 
     def test_texts_agree_with_the_verdicts(self):
-        """A formulation is right for the cases for which its text recommends it, and wrong or not run for the others
-        named."""
+        """A formulation has good verdicts in the cases for which its text recommends it, and is wrong or not run in
+        the other named cases."""
         for name, text in texts().items():
             found = {c.name: s for c, _, s in formulation.defaults(self.site.cases, name)}
             self.assertGreater(len(claims(text)), 0, name)
@@ -281,7 +281,7 @@ class Pages(ProgramTest):
                     self.assertEqual(right, is_for, f"{name}, {case}: {worst}")
 
     def test_who_offers_all(self):
-        """A text says that the formulation supports everything if and only if it does."""
+        """A text states that the formulation supports all physics if and only if it does."""
         offers = {key: set(row["offers"].split(", ")) for key, row in self.known.declared.items()}
         everything = set().union(*offers.values())
         for name, text in texts().items():
@@ -306,7 +306,7 @@ class Pages(ProgramTest):
                 self.assertNotIn(left, page, key)
 
     def test_what_is_measured_of_the_choice(self):
-        """The cases in which it is the cheapest, and those in which it is wrong, come from the data."""
+        """The listed cases in which a formulation is the cheapest or wrong come from the data."""
         self.assertRegex(self.pages["beamw_first"],
                          r'however many elements[^\n]*>c_column</a> \(buckling_load, \+32 %\)')
         self.assertNotIn("however many elements, at the", self.pages["collocation"])
@@ -320,7 +320,7 @@ class Pages(ProgramTest):
         self.assertIn("<h2>Theory</h2>", self.pages["beamw:mass=lumped"])
 
     def test_verdicts(self):
-        """The sum on the page is that of its verdicts."""
+        """The numbers of verdicts on the page are those of the formulation."""
         for key, page in self.pages.items():
             number = sum(r.formulation == key and r.standing != "alias"
                          and r.verdict.verdict not in UNJUDGED for r in self.known.rows)

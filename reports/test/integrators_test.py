@@ -1,4 +1,4 @@
-"""The page of integrators: lowest costs, orders, maps with letters, sentences against data."""
+"""Tests the page of integrators: lowest costs, orders, maps with letters, and text against data."""
 import json
 import re
 import unittest
@@ -44,7 +44,7 @@ class Answers(unittest.TestCase):
         self.assertEqual(integrators.answer(self.one, 1e-2, noise=1.01).ties, ())
 
     def test_series(self):
-        """Runs go from coarse to fine; those with a tolerance are separate."""
+        """Runs are sorted from coarse to fine; runs with a tolerance are separate."""
         rows = [motions.run("radau", 0.1, tolerance=x) for x in (1e-6, 1e-3)]
         self.one.runs += [integrators.run_of(r) for r in rows]
         equal, by_tolerance = integrators.series(self.one, "radau")
@@ -69,8 +69,8 @@ class Answers(unittest.TestCase):
         self.assertEqual(integrators.profile(self.every, 1e-6)["alpha"][-1], 0)
 
     def test_summary(self):
-        """For all formulations of a case: how often a scheme has the lowest cost, and at what cost schemes conserve
-        energy."""
+        """The summary of a case counts how often a scheme has the lowest cost and states the costs of schemes that
+        conserve energy."""
         for own in integrators.by_case(self.every).values():
             self.assertEqual(len(own), 2)
             for level in integrators.LEVELS:
@@ -99,7 +99,7 @@ class Answers(unittest.TestCase):
         self.assertNotIn((self.one.name, "radau", 0.2), rows)
 
     def test_without_a_reference(self):
-        """A problem without a reference is reported, and is counted nowhere."""
+        """A problem without a reference is reported but not counted."""
         found = motions.record()
         found["references"][0]["reason"] = "no result after 120 s"
         every = problems(found)
@@ -108,7 +108,7 @@ class Answers(unittest.TestCase):
                          ["no result after 120 s"])
 
     def test_structures(self):
-        """All stiffenings of a mesh are grouped, under the name without them."""
+        """All stiffenings of a mesh are grouped under the name without the stiffening."""
         found = integrators.structures(problems())
         self.assertEqual(len(found), 4)
         self.assertEqual({p.stiffening for own in found.values() for p in own},
@@ -134,7 +134,7 @@ class Words(unittest.TestCase):
         self.assertIn("12 answers are verified", text)
 
     def test_one_problem(self):
-        """The sentence contains the step."""
+        """For a single problem, the sentence contains the step."""
         one = problems()[:1]
         best = integrators.answer(one[0], 1e-2).best
         self.assertIn(f"within 1 % {best.scheme} with step {best.run.step:g} s",
@@ -162,7 +162,7 @@ class Words(unittest.TestCase):
         self.assertIn("trapezoidal grows or stops from a step of 0.05 s on", text)
 
     def test_iterations(self):
-        """The largest increase is that counted by hand."""
+        """The largest increase of iterations is that counted by hand."""
         rows = {"a": {1: 3.0, 1e6: 3.25}, "b": {1: 4.0, 1e3: 9.0, 1e6: 4.5}}
         self.assertIn("at most 0.5 iterations more, of 2", integrators_page.iterations(rows))
         self.assertEqual(integrators_page.iterations({}), "")
@@ -179,7 +179,7 @@ class Map(unittest.TestCase):
         self.problems = next(iter(integrators.structures(problems()).values()))
 
     def test_letters(self):
-        """Each field has the letter of its outcome and describes it."""
+        """Each field of a map has the letter of its outcome and a description."""
         markup = integrators_page.draw_map(self.problems, legend=False).markup
         fields = re.findall(r"<title>(.*?)</title>.*?<text[^>]*>(\w)</text>", markup)
         wanted = integrators_page.fates(self.problems)
@@ -218,7 +218,7 @@ class Page(ProgramTest):
         self.assertIn("step 3 does not converge", self.text)
 
     def test_every_case(self):
-        """If all cases were run, they are compared, and the reference is checked against another integrator; verdicts
+        """If all cases were run, they are compared, and the reference is checked against another integrator. Verdicts
         and maps are still those of the results."""
         folder = self.folder
         motions.leave(folder / "results.h5", motions.record())
@@ -236,7 +236,7 @@ class Page(ProgramTest):
         self.assertRegex(text, r"conserves energy to round-off: conserving, at [\d.]+ times the cost")
 
     def test_an_old_paces(self):
-        """If the file has another format or is truncated, one line says what to run."""
+        """If the file has another format or is truncated, a one-line message states the command to run."""
         motions.leave(self.folder / "results.h5", motions.record())
         for text in ('{"cases": []}', "[1", "[]"):
             (self.folder / "paces.json").write_text(text, encoding="utf-8")
@@ -258,7 +258,7 @@ class Page(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_browser(self):
-        """Markers show the selected run, without a console message."""
+        """Markers show the selected run, and there is no console message."""
         copy = self.site / "marks.html"
         action = """<pre id="out"></pre><script>addEventListener("load", () => {
           const frame = document.querySelector(".scroll ~ details [data-p]").closest("div.figure");

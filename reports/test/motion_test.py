@@ -74,7 +74,7 @@ class Curves(unittest.TestCase):
         self.assertEqual(motion_page.thinned(np.arange(3)).tolist(), [0, 1, 2])
 
     def test_units(self):
-        """Numbers of an axis stay short; units that take no prefix use a power of ten."""
+        """Numbers of an axis are short; units without prefixes have a power of ten."""
         for values, unit, wanted in (([0, -2e-3], "m", (1e-3, "mm")), ([0.5, 3], "J", (1, "J")),
                                      ([0.02], "m", (1, "m")), ([5e-6], "N m", (1e-6, "µN m")),
                                      ([2e4], "J", (1e3, "kJ")), ([2e4], "m", (1e3, "10³ m")),
@@ -107,7 +107,7 @@ class Page(ProgramTest):
         cls.text = (cls.site / "motion_elastica.html").read_text(encoding="utf-8")
 
     def test_finest_meshes(self):
-        """The finest mesh of each formulation is used; the first row is the start."""
+        """The finest mesh of each formulation is used, and its first row is the start."""
         found = motion_page.motions_of(self.results, "elastica")
         self.assertEqual([(m.formulation, m.elements, len(m.steps)) for m in found],
                          [("beamw", 4, 400), ("collocation", 4, 99)])
@@ -122,7 +122,7 @@ class Page(ProgramTest):
         self.assertFalse((self.site / "motion_roll_up.html").exists())
 
     def test_energies_are_those_of_the_file(self):
-        """The curve of the kinetic energy passes through the stored values, in the figure's scale."""
+        """The curve of the kinetic energy passes through the stored values, in the scale of the figure."""
         figure = re.search(r'<svg id="motion_elastica_energies".*?</svg>', self.text, re.S)[0]
         line = re.search(r'data-f="kinetic".*?points="([^"]+)"', figure)[1]
         points = np.array([[float(x) for x in p.split(",")] for p in line.split()])
@@ -186,14 +186,14 @@ class Truths(ProgramTest):
             g["value"] = np.arange(6.0)
 
     def test_of_all_instants(self):
-        """Reference values at the defaults except for the time are used; none of other parameters, models or
-        quantities."""
+        """Only reference values of the quantity at the default parameters, at any time, are used; those of other
+        models are not."""
         found = motion_page.truths_of(self.path, "swing", "x", 9.0)
         self.assertEqual([(t.time, t.value) for t in found], [(1, 0), (2, 1), (9, 2)])
         self.assertEqual(motion_page.truths_of(self.path, "nothing", "x", 9.0), [])
 
     def test_values_at_points(self):
-        """A case whose points differ in time gives values over time; other parameters give none."""
+        """A case whose points differ only in time gives values over time."""
         def point(said, value):
             mesh = types.SimpleNamespace(n=4, values={"x": value}, curves={})
             return types.SimpleNamespace(parameters=said, series=[
@@ -206,7 +206,7 @@ class Truths(ProgramTest):
         self.assertEqual((x.tolist(), y.tolist(), n, whole), ([3, 9], [4, 5], 4, False))
 
     def test_one_instant(self):
-        """A value computed at one instant is not a curve, however many reference values there are."""
+        """A value computed at one instant is not a curve, for any number of reference values."""
         mesh = types.SimpleNamespace(n=4, values={"tip_x": 1.0}, curves={})
         series = types.SimpleNamespace(key="beamw", meshes=[mesh])
         case = types.SimpleNamespace(

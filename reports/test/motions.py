@@ -1,4 +1,4 @@
-"""Made-up records of integrators, as `beamwork motion` writes them to a results file."""
+"""Artificial records of integrators in the form that `beamwork motion` writes to a results file."""
 import json
 
 from harness.records.test.stored import put_experiment
@@ -23,8 +23,8 @@ def run(integrator, step, worse=1.0, **more):
 
 
 def fate(integrator, step, stiffening):
-    """Returns the outcome: exact for `conserving`; the trapezoidal rule grows, and stops if step and stiffness are
-    large."""
+    """Returns the outcome: energy is conserved by `conserving`; with the trapezoidal rule, it grows, and the run stops
+    if step and stiffness are large."""
     if integrator == "conserving":
         return "exact"
     if integrator == "alpha":
@@ -95,7 +95,8 @@ def record(cases=("pendulum", "free_flight_space"),
 
 
 def paces():
-    """Returns the same for three cases, as `make lab L=paces` writes it: one check was possible, and one was not."""
+    """Returns records for three cases in the form that `make lab L=paces` writes; one check was possible, and one was
+    not."""
     check = {"case": "elbow", "parameters": "time=3", "formulation": "collocation", "elements": 8,
              "distances": [3e-9, 4e-10], "uncertainty": 1e-10, "steps": 50, "reason": ""}
     refused = {**check, "case": "release", "distances": [None, None], "reason": "no inertia"}

@@ -1,4 +1,4 @@
-"""Profiles of problems with solutions known by hand, and their description on the first page."""
+"""Tests profiles of problems whose results are known by hand, and their description on the first page."""
 import math
 import unittest
 
@@ -22,7 +22,7 @@ def tried(key, quantities, cost=1.0, missing=""):
 
 
 def case(name, *points):
-    """points: lists of series."""
+    """Returns a case with these points, which are lists of series."""
     return data.Case(name, "", "", [data.Point(f"p{i}", str(i), list(s), {})
                                     for i, s in enumerate(points)])
 
@@ -31,8 +31,8 @@ GOOD, POOR = ("pass", 0.0, True), ("pass", 0.0, False)
 
 
 def two():
-    """Returns two formulations and two cases: a costs half as much as b, but solves one of two problems in the second
-    case."""
+    """Returns two cases with two formulations: a costs half as much as b, but solves only one of two problems in the
+    second case."""
     first = case("first", [tried("a", {"u": GOOD}, 1), tried("b", {"u": GOOD}, 2)])
     second = case("second", [tried("a", {"u": GOOD, "v": POOR}, 1),
                              tried("b", {"u": GOOD, "v": GOOD}, 4)])
@@ -180,7 +180,8 @@ class Contestants(unittest.TestCase):
         self.assertEqual(found, ["beamw:mass=lumped"])
 
     def test_eight_curves(self):
-        """There are as many curves as in every other figure; formulations without a curve are still compared."""
+        """There are at most as many curves as in other figures, but formulations without a curve are still
+        compared."""
         keys = [f"f{i}" for i in range(10)]
         compared = profiles.Compared([case("one", [tried(k, {"u": GOOD}) for k in keys])])
         self.assertEqual(len(compared.curves), 8)

@@ -15,7 +15,7 @@ from reports.style import Styles
 from reports.test import results
 
 
-# The report of a small run: every page exists, every link and image resolves, files of other kinds are rejected.
+# The report of a small run: every page exists, every link and image resolves, and files of other kinds are rejected.
 
 # Files that other commands leave next to the results, with some data for every page.
 MESHES = {"parameters": "shear=0", "meshes": [8, 256]}
@@ -180,7 +180,7 @@ class Report(ProgramTest):
         self.assertEqual(len(done.stderr.strip().splitlines()), 1)
 
 
-# The report of a user's scene without reference values: its picture, and limits instead of verdicts.
+# The report of the scene of a user without reference values: its picture, and limits instead of verdicts.
 SWINGS = LEAF.replace("young: 210e9", "density: 7800, young: 210e9") + """
 analyses:
   swing: {motion: {stations: [0.005, 0.01], step: 1e-3}}
@@ -211,7 +211,7 @@ class SceneReport(ProgramTest):
         self.assertIn("<details open><summary>Limits of quantities without a reference value", page)
 
     def test_what_is_assumed(self):
-        """Assumptions about constants of a section are on its page, with the text shown on the terminal."""
+        """Assumptions about constants of a section are on the page, with the text that is printed on the terminal."""
         scene, results, site = (self.folder / name for name in ("bar.yaml", "bar.h5", "site"))
         text = re.sub("rectangle: {[^}]*}", "constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8, Iw: 0}",
                       LEAF, count=1)
@@ -226,7 +226,7 @@ class SceneReport(ProgramTest):
                       " to be zero.</p>", page)
 
     def test_motion_without_summary(self):
-        """With only the required contents in the file, pages and film omit the rest."""
+        """If the file has only the required contents, pages and film omit the optional parts."""
         scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
         scene.write_text(SWINGS, encoding="utf-8")
         done = run("verify", "--shapes", "--scene", scene, "-f", "beamw", "-o", results)
@@ -259,8 +259,8 @@ class SceneReport(ProgramTest):
                          [("u", ["a", "b"]), ("w", ["b"])])
 
 
-# Pages of cases: the scene comes first, every quantity is explained, figures have at most eight curves, errors below
-# the digits of the reference value are marked.
+# Pages of cases: the scene comes first, every quantity is explained, figures have at most eight curves, and errors
+# below the uncertainty of the reference value are marked.
 class Site:
     """The parts of a site that a chart uses."""
 
@@ -290,8 +290,8 @@ def point(*found):
 
 class Figures(unittest.TestCase):
     def test_below_the_digits(self):
-        """The reference value is known to 1e-6: two of four markers are hollow, on that line, and the legend explains
-        them."""
+        """If the reference value is known to 1e-6, two of four markers are hollow and on this line, and the legend
+        explains them."""
         site, own = Site(), point(series("beamw", (1e-2, 1e-4, 1e-8, -1e-9)))
         image = plots.errors_figure(site, own, "u", own.series, ("elements",), "f")
         self.assertIn(OPEN, html.unescape(image.markup))
@@ -309,7 +309,7 @@ class Figures(unittest.TestCase):
         self.assertNotIn(OPEN, html.unescape(image.markup))
 
     def test_eight_at_most(self):
-        """Misprints and options are dropped first; an option on the front stays."""
+        """Misprints and options are omitted first, but an option on the front is drawn."""
         names = [f"f{i}" for i in range(7)]
         own = point(*[series(key, (1e-2, 1e-4)) for key in names],
                     series("sheet_third_printed", (1e-2, 1e-5)),
@@ -317,7 +317,8 @@ class Figures(unittest.TestCase):
         shown, further = plots.leading(own, "u")
         self.assertEqual([s.key for s in shown], [*names, "f0:mass=lumped"])
         self.assertEqual([s.key for s in further], ["sheet_third_printed", "f1:mass=lumped"])
-        # f0 is on the front with its first mesh, f11 with its last; of the others, the most accurate stay.
+        # f0 is on the front with its first mesh, f11 with its last mesh. Of the other series, the most accurate are
+        # drawn.
         many = point(*[series(f"f{i}", (1e-2, 10.0**-i)) for i in range(12)])
         shown, further = plots.leading(many, "u")
         self.assertEqual(len(shown), MOST_CURVES)
@@ -399,7 +400,7 @@ class Pages(ProgramTest):
                 self.assertLessEqual(len(keys), MOST_CURVES, name)
 
     def test_neighbours(self):
-        """Next and previous lead through all cases."""
+        """The links to the next and previous cases lead through all cases."""
         names = [c.name for c in self.cases]
         for name, following in zip(names, names[1:]):
             self.assertIn(f'<a href="{following}.html">{following} →</a>', self.pages[name])

@@ -1,4 +1,4 @@
-"""Made-up results for tests of pages: cases with one mesh for each series."""
+"""Artificial results for tests of pages: cases with one mesh for each series."""
 from reports import data
 
 

@@ -1,4 +1,4 @@
-"""Tests pages of stability, Newton's steps, predictions, and results of other programs."""
+"""Tests the pages of stability and of Newton's method, the table of predictions, and results of other programs."""
 import json
 import math
 import random
@@ -28,7 +28,7 @@ class Stability(ProgramTest):
         return (self.folder / "site" / "stability.html").read_text(encoding="utf-8")
 
     def test_without_a_sweep(self):
-        """There is no page, and the page on the environment gives the command that makes it."""
+        """Without a sweep, there is no page, and the page on the environment states the command that makes it."""
         site = Site(self.folder / "results.h5", TRUTHS, self.folder / "site")
         self.assertFalse(stability.present(site))
         self.assertIn("stress", [command for command, _ in checks.more(site)])
@@ -78,7 +78,7 @@ class Stability(ProgramTest):
         self.assertIn("of the other pages are of commit", page)
 
     def test_findings_that_are_alike(self):
-        """Findings with the same extreme, outcome, values and proof share one row."""
+        """Findings with the same extreme, outcome, values and proof are in one row."""
         def outcome(formulation, x, proof):
             return {"extreme": "thin", "formulation": formulation, "x": x, "outcome": "wrong",
                     "proof": proof, "reason": ""}
@@ -104,7 +104,7 @@ class Stability(ProgramTest):
         self.assertTrue(all(float(x) < width for x in re.findall(r"M([\d.]+) ", markup)))
 
 
-# The page about Newton's method: the definition of the largest step, and a page without data.
+# The page on Newton's method: the definition of the largest step, and a page without data.
 STEP = {
     "path": 1.0, "increment": 1.0, "iterations": 3, "rejected": 0, "corrections": [0.1, 0.01, 1e-4],
     "residuals": [1.0, None, 1e-6]
@@ -169,8 +169,8 @@ class Newton(ProgramTest):
         self.assertEqual(len(page["histories"][0][2]), 2)
 
 
-# The table of analytic predictions: errors against the reference value of the point, and none without a reference
-# value.
+# The table of analytic predictions: errors are relative to the reference value of the point, and there are none
+# without a reference value.
 def point(prediction):
     mesh = data.Mesh(1,
                      "ok",
@@ -210,7 +210,7 @@ class Predictions(unittest.TestCase):
         self.assertEqual(predictions.section(None, data.Case("other", "", "", [point({})])), [])
 
 
-# Other programs next to beamwork: stored separately, drawn hollow, with escaped names.
+# Results of other programs are stored separately, drawn hollow, and have escaped names.
 HEAD = """# beamwork-import: 1
 # program: {}
 # case: elastica
@@ -265,19 +265,19 @@ class Beside(ProgramTest):
         self.assertGreaterEqual(seen, 2, "the page of the case and its figure")
 
     def test_look(self):
-        """Other programs are hollow and do not have the colour of a formulation."""
+        """Markers of other programs are hollow and do not have the colour of a formulation."""
         self.assertEqual(data.style_beside(3)["color"], "currentColor")
         self.assertTrue(data.style_beside(3)["hollow"])
 
 
-# Two runs of verify name the same best formulations, with the same n and ties, whatever their times.
+# Two runs of verify give the same best formulations, with the same n and ties, although their times differ.
 SELECTION = ("elastica/default or c_column/default or spherical_joint/default or "
              "warping_torsion/default or rotating_cantilever/default")
 LEVELS = (*data.REACH, 3e-3, 2e-5)
 
 
 def told(cases):
-    """The answers without times."""
+    """Returns the answers without times."""
     return [{name: value for name, value in row.items() if name != "seconds"}
             for row in answers_table.rows(cases, LEVELS, everywhere=True)]
 

@@ -1,4 +1,4 @@
-"""Tests pages of sweeps: their parts, the chosen design, and the page of a real sweep."""
+"""Tests pages of sweeps: their parts, the maps that the reader selects, and the page of a real sweep."""
 import html
 import json
 import re
@@ -14,14 +14,14 @@ from reports.test.browser_test import CHROMIUM, chromium, console
 from reports.test.sweep_test import ANGLE, SHAPE, WIDTH
 
 
-# The page of a sweep: its first statements, maps, best formulations, worst points, reference values, failures.
+# The page of a sweep: its first statements, maps, best formulations, worst points, reference values, and failures.
 PAGE = 2_000_000  # bytes, for any number of points
 KEYS = ("beamw", "collocation", "sheet_third")
 
 
 def errors(key):
-    """Returns errors: beamw is good while the first axis is small; collocation everywhere with 2 elements; sheet_third
-    nowhere."""
+    """Returns errors: beamw is within the tolerance for small values on the first axis, collocation everywhere with 2
+    elements, and sheet_third nowhere."""
     level = {"beamw": lambda at, n: np.where(at[:, 0] < 0.55, 0.001, 0.5) / n**0.1,
              "collocation": lambda at, n: np.full(len(at), 0.03 / n**2),
              "sheet_third": lambda at, n: np.full(len(at), 0.3 / n)}
@@ -60,7 +60,7 @@ class Pages(ProgramTest):
         self.assertLess(said.index("collocation with 2"), said.index("beamw with 1"))
 
     def test_maps(self):
-        """There is a map for each formulation, with the same signs; each has a description."""
+        """There is a map with a description for each formulation, and all maps use the same signs."""
         page = self.page((WIDTH, ANGLE))
         maps = re.findall(r'<svg id="sweep_map_\d".*?</svg>', page, re.S)
         self.assertEqual(len(maps), 3)
@@ -85,10 +85,10 @@ class Pages(ProgramTest):
         self.assertIn(">shape is strip</text>", page)
 
     def test_scattered(self):
-        """Few points are drawn individually, many as fields."""
+        """A few points are drawn individually, many points as fields."""
         axes = [("width", "m", "halton", "linear"), ("angle", "rad", "halton", "linear")]
         few = self.page(axes, sweeps.scattered(100, (1, 10), (0, 0.9)))
-        self.assertEqual(few.count("<circle cx=") - 1, 300)  # and one in a hatch pattern
+        self.assertEqual(few.count("<circle cx=") - 1, 300)  # one circle belongs to a hatch pattern
         many = self.page(axes, sweeps.scattered(5000, (1, 10), (0, 0.9)))
         self.assertEqual(many.count("<circle cx="), 1)
         self.assertRegex(text_of(many), r"beamw with 1 element is within 1 % where width < 5\.\d")
@@ -118,7 +118,7 @@ class Pages(ProgramTest):
         self.assertNotIn("<i>", page)
 
     def test_many_points(self):
-        """A page of 300 000 cells is no longer than one of a few."""
+        """A page of 300 000 cells is no longer than a page of a few cells."""
         axes = [(name, "m", "sobol", "linear") for name in ("width", "length", "load")]
         page = self.page(axes, sweeps.scattered(25_000, *[(1, 10)] * 3))
         self.assertIn("300 000 cells", text_of(page))
@@ -147,7 +147,7 @@ class Pages(ProgramTest):
         self.assertIn("collocation with 2 elements", said)
 
     def test_without_costs(self):
-        """Formulations that are not ranked never win, and are reported."""
+        """Formulations that are not ranked are reported but never win."""
         path = sweeps.store(self.folder / "c.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE),
                             {key: errors(key) for key in KEYS})
         with sweeps.h5py.File(path, "r+") as file:
@@ -173,7 +173,7 @@ class Pages(ProgramTest):
         self.assertIn('aria-current="page">Sweeps</a>', page)
 
     def test_several(self):
-        """Several sweeps work, even with the same file name; the first replaces the results."""
+        """Several sweeps are shown, even with the same file name; the first replaces the results."""
         paths = []
         for folder in ("a", "b", "c"):
             (self.folder / folder).mkdir()
@@ -196,7 +196,7 @@ class Pages(ProgramTest):
             self.assertIn(words, done.stderr)
 
     def test_many_that_say_the_same(self):
-        """Equal answers are given in one sentence, with the counts of the worst of them."""
+        """Equal answers are in one sentence, with the counts of the worst answer."""
         def nearly(bad):
             return lambda at, n: np.where(at[:, 0] + at[:, 1] > 2.01 - 0.05 * bad, 0.02, 0.001)
         axes = (WIDTH, ANGLE)
@@ -209,7 +209,7 @@ class Pages(ProgramTest):
                       "angle = 0.9 rad (2 %).", said)
 
 
-# Maps of a sweep over axes of the reader's choice, in a browser; skipped if there is none.
+# Maps of a sweep over axes that the reader selects, in a browser; skipped if there is none.
 CHOOSE = """<pre id="out"></pre><script>addEventListener("load", () => {{
   const form = document.getElementById("choice"), drawn = document.getElementById("drawn");
   const all = (what, of) => [...drawn.querySelectorAll(what)].map(of);
@@ -235,7 +235,7 @@ CHOOSE = """<pre id="out"></pre><script>addEventListener("load", () => {{
 
 @unittest.skipUnless(CHROMIUM, "needs chromium")
 class Chosen(ProgramTest):
-    """Maps over axes of the reader's choice."""
+    """Maps over axes that the reader selects."""
 
     @classmethod
     def setUpClass(cls):
@@ -249,7 +249,7 @@ class Chosen(ProgramTest):
         assert done.returncode == 0, done.stderr
 
     def setUp(self):
-        """The folder is that of the class."""
+        """Uses the folder of the class."""
 
     def chosen(self, change, page="index.html"):
         site = self.folder / "site"
@@ -264,7 +264,7 @@ class Chosen(ProgramTest):
         return json.loads(html.unescape(found.group(1)))
 
     def test_the_same_drawn_twice(self):
-        """The script draws the same maps as the page for the same choice."""
+        """The script draws the same maps as the page for the same selection."""
         found = self.chosen("")
         self.assertFalse(found["hidden"])
         self.assertEqual(found["after"][:2], found["before"][:2])
@@ -292,7 +292,7 @@ class Chosen(ProgramTest):
         self.assertIn("!", found["after"][1])
 
     def own(self, *values):
-        """Returns the answer at these values: the sentence, and {formulation: (required elements, error)}."""
+        """Returns the answer for these values: the sentence, and {formulation: (required elements, error)}."""
         fields = "".join(f'document.getElementById("own").elements.v{k}.value = "{value}";'
                          for k, value in enumerate(values))
         found = self.chosen(fields + 'document.getElementById("own").dispatchEvent('
@@ -311,7 +311,7 @@ class Chosen(ProgramTest):
         self.assertEqual(found, {})
 
     def test_on_a_phone(self):
-        """Nothing makes the page wider than the window."""
+        """No part of the page is wider than the window."""
         found = self.chosen("document.body.style.width = '366px';")
         self.assertLessEqual(found["wide"], 390)
 
@@ -322,7 +322,7 @@ class Chosen(ProgramTest):
 
 # A sweep made by the program, stored and drawn.
 class Genuine(ProgramTest):
-    """The counts of a stored sweep are those of the program."""
+    """The counts of a stored sweep agree with those of the program."""
 
     def test_a_grid(self):
         path, site = self.folder / "loads.h5", self.folder / "site"

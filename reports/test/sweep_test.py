@@ -11,12 +11,12 @@ from reports.test import sweeps
 from reports.test.sweeps import ANGLE, SHAPE, WIDTH
 
 
-# Sweeps: the counts of their points, and the statements on their page.
+# Counts of the points of sweeps, and statements on their pages.
 QUANTITIES = (("u", "m"), ("v", "m"))
 
 
 class Counts(ProgramTest):
-    """Every count is compared with a loop over the tables of the file."""
+    """Every count agrees with that of a loop over the tables of the file."""
 
     def made(self, points=None, axes=(WIDTH, ANGLE), **more):
         draw = np.random.default_rng(7)
@@ -91,7 +91,7 @@ class Counts(ProgramTest):
         self.assertLess(ratios.max(), 1.2 * ratios.min())
 
     def test_many_values_of_a_grid(self):
-        """Values of a grid are grouped; a bound is a value that was run."""
+        """Values of a grid are grouped, and each bound is a value that was run."""
         axes = (("width", "m", "log", np.geomspace(1, 100, 60)), SHAPE)
         found = self.check(self.made(axes=axes))
         self.assertEqual(found.shape, (gather.MOST, 3))
@@ -109,7 +109,7 @@ class Counts(ProgramTest):
             np.testing.assert_array_equal(getattr(parts, name), getattr(whole, name), name)
 
     def test_of_another_theory(self):
-        """A value without an error, where there is a reference value, is not compared."""
+        """A value without an error is not compared, even if there is a reference value."""
         path = sweeps.store(self.folder / "t.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE), {
             "beamw": lambda at, n: np.full(len(at), np.nan),
             "collocation": lambda at, n: np.full(len(at), 1e-3)})
@@ -123,8 +123,8 @@ class Counts(ProgramTest):
         self.assertIsNone(second.first)
 
     def test_a_quantity_that_nothing_measures(self):
-        """A point that is within the tolerance in one quantity may be outside in the other: the result is unknown,
-        except where the first quantity is outside."""
+        """If the second quantity of a point has no reference value, the result for both quantities is unknown, unless
+        the first quantity is outside the tolerance."""
         def errors(at, n):
             both = np.stack([np.full(len(at), 1e-3), np.full(len(at), np.nan)], 1)
             both[at[:, 0] > 0.8, 0] = 0.5
@@ -150,7 +150,7 @@ class Counts(ProgramTest):
         self.assertEqual((one.whole, one.asked), (100, 100))
 
     def test_judged_at_few_points(self):
-        """Few points with a reference value are not described as everywhere."""
+        """The text does not state "everywhere" if only a few points have a reference value."""
         def errors(at, n):
             return np.where(at[:, 0] < 0.5, 1e-3, np.nan)
         path = sweeps.store(self.folder / "f.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE),
@@ -163,7 +163,7 @@ class Counts(ProgramTest):
         self.assertEqual(answers.held(made.first.box), "all 50 points; 50 of all 100 cannot be judged")
 
     def test_a_ratio(self):
-        """A ratio of two axes of the same unit is used if it is more informative than the axes; its counts and its
+        """The ratio of two axes with the same unit is used if it is more informative than the axes. Its counts and its
         exception are those of the points."""
         axes = (("length", "m", "sobol", "linear"), ("width", "m", "sobol", "linear"), ANGLE)
         points = sweeps.scattered(3000, (1, 10), (1, 4), (0, 0.9))
@@ -225,9 +225,9 @@ class Refused(ProgramTest):
             stored.read(path)
 
 
-# The largest boxes of a sweep's points within the tolerance, and their descriptions.
+# The largest boxes of points within the tolerance, and their descriptions.
 def lattice_of(*axes):
-    """Returns the cells of a grid of few values."""
+    """Returns the lattice of a grid with a few values."""
     out = []
     for name, unit, kind, values in axes:
         axis = stored.Axis(name, unit, kind, len(values), False,
@@ -241,7 +241,8 @@ def lattice_of(*axes):
 class Boxes(unittest.TestCase):
 
     def largest(self, axes, holds):
-        """Returns the box, and its description, of grid points within the tolerance, given by their indices."""
+        """Returns the largest box and its description, for grid points within the tolerance that are given by their
+        indices."""
         cells = lattice_of(*axes)
         good = np.array([holds(*at) for at in itertools.product(*map(range, cells.shape))], int)
         box = boxes.largest([cells], [(good, 1 - good)])
@@ -275,7 +276,7 @@ class Boxes(unittest.TestCase):
         self.assertLessEqual(box.bad, boxes.ALLOWED * box.points)
 
     def test_simple_before_large(self):
-        """A further bound is not worth it for two more lines of ten, but it is for eight more."""
+        """An additional bound is not justified by two more lines of ten points, but by eight more lines."""
         def with_more(lines):
             return lambda i, j: i >= 5 or (i >= 4 and j < lines)
         self.assertEqual(self.largest((WIDTH, ANGLE), with_more(2))[1], "where width ≥ 6 m")
@@ -295,7 +296,7 @@ class Boxes(unittest.TestCase):
         self.assertEqual(said, "where a ≤ 1 and aa ≤ 2 and aaa ≥ 1 and aaaaa ≤ 2")
 
     def test_no_box_is_better(self):
-        """Compares with all boxes of two axes, one by one, for random points."""
+        """For random points, no box of two axes is better than the one found."""
         draw = np.random.default_rng(3)
         for _ in range(20):
             table = draw.random((5, 6)) < np.add.outer(np.arange(5), np.arange(6)) / 6
@@ -312,9 +313,9 @@ class Boxes(unittest.TestCase):
             self.assertEqual(found, best)
 
 
-# Fields of a sweep's maps, classes of errors, and numbers in text.
+# Fields of maps, classes of errors, and numbers in text.
 class Fields(unittest.TestCase):
-    """The state that a map shows for a field of several points."""
+    """Tests the state that a map shows for a field of several points."""
 
     def state(self, *reached, points=None):
         """Returns the state of points given by the first mesh within the tolerance: 0, 1, 2, none or without a
@@ -336,13 +337,13 @@ class Fields(unittest.TestCase):
         self.assertEqual(maps.runs(row), [(0, 2, 1), (3, 3, 2), (6, 1, 1)])
 
     def test_signs_differ(self):
-        """Also without colours."""
+        """All signs differ, so that maps can be read without colours."""
         look = maps.Look((1, 2, 4, 8, 16, 32))
         self.assertEqual(len(set(look.sign.values())), len(look.sign))
         self.assertEqual(len(set(look.fill.values())), len(look.fill))
 
     def test_errors(self):
-        """A class is not below any error in it, and the next smaller class is."""
+        """The upper end of a class is not below any error in the class, but that of the next smaller class is."""
         levels = sweep_page.levels_of(0.003)
         self.assertIn(0.3, levels)
         for error in (1e-9, 0.0123, 0.01, 0.003, 0.0031, 0.5, 0.99):

@@ -1,4 +1,4 @@
-"""Sweeps of made-up errors, stored like those of `beamwork sweep`, for tests of their page."""
+"""Sweeps of artificial errors, stored like those of `beamwork sweep`, for tests of their page."""
 import itertools
 
 import h5py
@@ -13,11 +13,11 @@ AXIS = np.dtype([("name", "S64"), ("unit", "S16"), ("kind", "S8"), ("scale", "S8
                  ("count", "i4")])
 WORST = [("point", "i8"), ("formulation", "S64"), ("mesh", "i4"), ("quantity", "S32"),
          ("error", "f8"), ("status", "S16"), ("scene", "S128")]
-# axes of ten lengths, ten angles, three words
+# Axes of ten lengths, ten angles and three words.
 WIDTH = ("width", "m", "linear", np.linspace(1, 10, 10))
 ANGLE = ("angle", "rad", "linear", np.linspace(0, 0.9, 10))
 SHAPE = ("shape", "1", "words", ("C", "box", "strip"))
-STEP = 20_000  # points that are written at once
+STEP = 20_000  # number of points that are written at once
 
 
 def grid(*axes):
@@ -33,14 +33,14 @@ def scattered(count, *limits, seed=1):
 
 
 def series(key):
-    """Returns made-up errors of a formulation: they decrease with the square of the number of elements, and grow along
-    each axis by a different factor."""
+    """Returns artificial errors of a formulation, which decrease with the square of the number of elements and grow
+    along each axis by a different factor."""
     factor = 1 + sum(map(ord, key)) % 7
     return lambda at, n: 0.02 * factor * (0.1 + at.sum(axis=1)) / n**2
 
 
 def least_of(error, meshes, tolerance):
-    """Returns, like the program, the number of elements from which every mesh is within the tolerance."""
+    """Returns, like the program, the number of elements from which all meshes are within the tolerance."""
     within = np.flip(np.logical_and.accumulate(np.flip(np.abs(error) <= tolerance, 2), axis=2), 2)
     first = np.argmax(within, axis=2)
     return np.where(within.any(axis=2), np.asarray(meshes)[first], 0)

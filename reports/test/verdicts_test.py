@@ -10,9 +10,9 @@ from reports.site import ROOT
 from reports.test.results import Site, case, series, verdict
 
 
-# Descriptions of verdicts: every kind that the evaluation assigns, and its remarks.
+# Descriptions of verdicts: all kinds that the evaluation assigns, and their remarks.
 def told():
-    """Returns the description of verdicts in the schema, and of the following tables."""
+    """Returns the part of the schema that describes verdicts and the following tables."""
     return run("schema").stdout.split("/cases/CASE/verdicts:")[1]
 
 
@@ -29,7 +29,7 @@ class Kinds(unittest.TestCase):
     def test_every_column_of_the_judge_is_read(self):
         columns = set(re.findall(r"^  (\S+) ", told().split("\n\n")[0], re.M))
         left_out = {"case", "point", "parameters", "formulation", "unit", "asymptotic_from",
-                    "omitted", "assumed"}  # the last two appear as in its cells
+                    "omitted", "assumed"}  # the last two are read for the series, not for the verdict
         read = set(data.Verdict.__dataclass_fields__) - {"reach"} | set(data.REACH.values())
         self.assertEqual(columns - read, left_out)
 
@@ -63,7 +63,7 @@ class Remarks(unittest.TestCase):
         self.assertEqual(verdicts.remarks(verdict("f", "diverged")), [])
 
     def test_the_mark_is_that_of_the_worst(self):
-        """A way for all quantities is as good as its worst verdict, in any order."""
+        """The mark of a way for all quantities is that of the worst verdict, in any order."""
         good = verdict("a", "pass", truth=1.0, error=0.0)
         biased, more = (verdict("b", "biased", truth=1.0, error=e) for e in (1e-4, -3e-4))
         wrong = verdict("c", "wrong limit", truth=1.0, error=0.1)
@@ -79,7 +79,7 @@ class Remarks(unittest.TestCase):
         self.assertIs(answers.way(series, ["a", "b", "c"], 0.1).worst, wrong)
 
 
-# The page of experiments: without any, and its conclusions from some.
+# The page of experiments: without experiments, and conclusions from some experiments.
 def experiment(kind, gone, what="shear", formulation="beam"):
     return {"kind": kind, "gone": gone, "what": what, "formulation": formulation}
 
@@ -111,7 +111,8 @@ class Causes(ProgramTest):
                                                                                  ("b", 2)])
 
 
-# The page of checks: counts from the results, tables that other targets write next to them, and missing ones.
+# The page of checks: counts from the results, tables that other make targets write next to the results, and missing
+# tables.
 def row(formulation, left_out, number, covered):
     return {
         "formulation": formulation,
@@ -145,7 +146,7 @@ class Checks(ProgramTest):
         self.assertEqual((found["mutants"], found["fuzz"]), (mutants, fuzz))
 
     def test_smallest_faults(self):
-        """The smallest faults are those of the shown cases; undetected ones have a reason; every constant of a
+        """The smallest faults are those of the shown cases, undetected faults have a reason, and every constant of a
         formulation is listed."""
         self.assertFalse(self.context(case("none"))["noticed"])
         found = self.context(case("elastica"), case("cross_flexure"))["noticed"]
@@ -156,7 +157,7 @@ class Checks(ProgramTest):
             self.assertEqual(list(of), found["constants"])
 
     def test_coverages(self):
-        """Coverages are sums over cases; formulations with biased limits are separate."""
+        """Coverages are sums over cases; formulations with biased limits are counted separately."""
         rows = [row("collocation", 0, 4, 4), row("collocation", 1, 3, 2), row("beamw", 0, 5, 1)]
         one = data.Case("one", "", "", [], rows)
         two = data.Case("two", "", "", [], [row("collocation", 0, 6, 5)])
@@ -170,7 +171,7 @@ class Checks(ProgramTest):
         self.assertEqual(by_case, [("one", [(4, 4), (2, 3)]), ("two", [(5, 6)])])
 
 
-# The page of the list of known deviations: counted verdicts, repeated ones, and derived limits that are met.
+# The page of the list of known deviations: counted verdicts, repeated verdicts, and confirmed derived limits.
 RULE = {
     "rule": "shear",
     "formulations": "sheet_third",
@@ -190,7 +191,7 @@ def known(quantity, kind, error, **more):
 
 
 def sheet(second_name):
-    """Returns a corrected form, its misprint, and a second name of one entry with this value."""
+    """Returns results of a corrected form and its misprint, with a second name of one entry that has this value."""
     values = {"C_ux_Fx": 1.5, "C_xx": second_name, "C_zz": 2.0}
     told = known("C_ux_Fx", "wrong limit, as predicted", 0.01, predicted=1.01 * (1 + 1e-6))
     right = [told, known("C_xx", "biased", 4e-4), known("C_zz", "biased", -3e-4)]
@@ -252,8 +253,8 @@ class Deviations(unittest.TestCase):
         self.assertIsNone(found["farthest"])
 
     def test_what_is_left_open(self):
-        """The unexplained part is the distance from a derived limit, relative to the reference value, or otherwise the
-        distance from the reference value."""
+        """The unexplained part of a limit is its distance from the derived limit or, if there is none, from the
+        reference value, relative to the reference value."""
         there = {"limit": 2.02, "truth": 2.0, "error": 0.01}
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", predicted=2.03, **there)), 0.005)
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", **there)), 0.01)
@@ -275,7 +276,8 @@ class Deviations(unittest.TestCase):
             self.assertIn(f'id="{link.partition("#")[2]}"', site.pages["errata.html"]["body"])
 
     def test_every_table_of_the_errata_is_one(self):
-        """A table without an empty line above it would be read as prose."""
+        """All tables of the errata are rendered as tables; one without an empty line above it would be rendered as
+        text."""
         text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
         site = Site()
         deviations.write_errata(site)
@@ -293,7 +295,7 @@ class Deviations(unittest.TestCase):
         self.assertEqual(set(RULE), set(pack.FINDING_COLUMNS))
 
 
-# The page of the mechanisms: published rows next to measured ones, with and without times.
+# The page of the mechanisms: published and measured rows, with and without times.
 class Page(ProgramTest):
 
     def page(self):
@@ -308,14 +310,14 @@ class Page(ProgramTest):
         self.assertIn("make lab L=bench-mechanisms", about)
 
     def test_with_times(self):
-        """The time of the dense baseline and the parts of an iteration exist."""
+        """The page contains the time of the dense baseline and the parts of an iteration."""
         done = self.answered("bench", "spherical_joint", "-f", "sheet_third", "-n", "1", "--dense",
                              "-o", self.folder / "mechanisms_joint.h5")
         parts = re.search(
             r"\[us\] in an iteration.*\n +sheet_third +1(?: +-?[\d.]+){5}\n"
             r" +dense ([\d.]+) ms \(243 unknowns\): ([\d.]+) times", done.stdout)
         self.assertIsNotNone(parts, done.stdout)
-        # Their size is a matter for benchmarks: on a busy machine, differences may be negative.
+        # Only benchmarks check the values: on a busy machine, differences may be negative.
         self.assertTrue(all(float(part) > 0 for part in parts.groups()), done.stdout)
         page = self.page()
         self.assertIn("time here", page)

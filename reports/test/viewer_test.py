@@ -1,4 +1,4 @@
-"""Pages with scripts: the viewer, the explorer and the behaviour of pages."""
+"""Tests pages with scripts: the viewer, the explorer and the behaviour of pages."""
 import base64
 import json
 import math
@@ -13,10 +13,10 @@ from reports import data, shapes
 from reports.test.browser_test import CHROMIUM, chromium, console
 
 
-# Shapes that can be rotated: their stored data, and their drawing in a browser. The latter is skipped if there is no
+# Shapes that can be rotated: their stored data, and the drawing in a browser, which is skipped if there is no
 # Chromium.
 
-# Opens a copy of a page, waits for the viewer, and counts the drawn items in three of its states.
+# Script that waits for the viewer in a copy of a page and counts the drawn items in three of its states.
 ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {
   const out = {}, place = document.querySelector("div.viewer");
   const picture = () => {
@@ -58,7 +58,7 @@ class Stored(ProgramTest):
         return whole.reshape(len(self.found["states"]), -1, width)
 
     def test_nodes(self):
-        """Nodes have the positions in the results, to half a unit of the stored digits."""
+        """Nodes have the positions of the results to half a unit of the stored digits."""
         half, nodes = self.found["half"], self.numbers("nodes", 3) * self.found["half"]
         for k, of in enumerate(shapes.exaggerations(self.shapes)):
             wanted = self.shapes.nodes[0] + of * (self.shapes.nodes[k] - self.shapes.nodes[0])
@@ -90,7 +90,7 @@ class Stored(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_browser(self):
-        """Something is drawn; the slider and an arrow key change it; without WebGL the still picture remains."""
+        """A picture is drawn, and the slider and an arrow key change it. Without WebGL, the still picture remains."""
         copy = self.site / "turned.html"
         text = (self.site / "pictures.html").read_text(encoding="utf-8")
         copy.write_text(text.replace("</body>", ACTION + "</body>"), encoding="utf-8")
@@ -108,10 +108,10 @@ class Stored(ProgramTest):
         self.assertIn('<img src="picture_spherical_joint.svg"', without.stdout)
 
 
-# The explorer: its numbers are those of the results, and in a browser it draws the selection. The latter is skipped if
+# The explorer: its numbers are those of the results, and in a browser it draws the selection, which is skipped if
 # there is no Chromium.
 
-# Opens a copy of the page and makes selections: the text and drawings before and after.
+# Script that makes selections in a copy of the page and records the text and drawings before and after.
 EXPLORER_ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {
   const out = {}, q = what => document.querySelector(what), fields = document.forms.choice.elements;
   const seen = () => ({ curves: document.querySelectorAll("#explored [data-p]").length, label: q("#explored svg") && q("#explored svg").getAttribute("aria-label"), words: q("#explored-words").textContent });
@@ -147,7 +147,7 @@ class Explorer(ProgramTest):
             return stored["w"][text] if isinstance(text, int) else text
 
         def values(columns):
-            """Values of quantities with a reference value follow from the errors."""
+            """Returns the values; those of quantities with a reference value follow from the errors."""
             errors, _, truth, *plain = map(told, columns)
             if plain:
                 return plain[0].split()
@@ -188,8 +188,8 @@ class Explorer(ProgramTest):
         self.assertTrue(out["third"]["words"].startswith("warping_torsion"))
 
 
-# Behaviour of a page in a browser: a tooltip at the markers, formulations switched off, folded parts on paper, no page
-# wider than a phone. Skipped if there is no Chromium.
+# Behaviour of a page in a browser: tooltips at markers, formulations that are switched off, folded parts on paper, and
+# no page wider than a phone. Skipped if there is no Chromium.
 BEHAVIOUR_ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{
   const out = {{}}, q = (what, where = document) => where.querySelector(what), frame = q("[data-p]").closest("div.figure"), svg = q("svg", frame);
   const key = name => frame.dispatchEvent(new KeyboardEvent("keydown", {{ key: name, bubbles: true, cancelable: true }}));
@@ -223,7 +223,7 @@ class Behaviour(ProgramTest):
         return json.loads(found.group(1).replace("&gt;", ">").replace("&lt;", "<"))
 
     def test_keyboard(self):
-        """Arrow keys go from marker to marker and from curve to curve; Escape leaves."""
+        """Arrow keys move from marker to marker and from curve to curve; Escape ends this."""
         out = self.done(
             "elastica.html", """
             key("ArrowRight"); out.first = q("#said").innerText;
@@ -234,13 +234,13 @@ class Behaviour(ProgramTest):
             key("Escape"); out.gone = q("#said").hidden;""")
         self.assertRegex(out["first"], r"(?s)beamw.*w_over_L.*elements\s+1\b.*value.*error.*verdict")
         self.assertRegex(out["second"], r"elements\s+2\b")
-        self.assertIn(out["other"], ("beamw_consistent", "beamw_first"))  # next by its times
+        self.assertIn(out["other"], ("beamw_consistent", "beamw_first"))  # the next curve according to its times
         self.assertIn(out["other"], out["aloud"])
         self.assertEqual(out["back"], "beamw")
         self.assertTrue(out["gone"])
 
     def test_pointer(self):
-        """On a marker, the tooltip describes it; far from all markers there is none."""
+        """On a marker, a tooltip describes it; far from all markers, there is no tooltip."""
         out = self.done(
             "elastica.html", """
             key("ArrowRight"); const ring = q("circle", svg).getBoundingClientRect();
@@ -284,7 +284,7 @@ class Behaviour(ProgramTest):
         self.assertEqual((out["on"], out["after"]), (0, out["before"]))
 
     def test_phone(self):
-        """No page is wider than a phone: tables and figures scroll separately."""
+        """No page is wider than a phone, because tables and figures scroll separately."""
         frames = "".join(f'<iframe width="390" height="800" src="{p.name}"></iframe>'
                          for p in sorted(self.site.glob("*.html")))
         driver = self.site / "phone.html"
