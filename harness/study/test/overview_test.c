@@ -145,7 +145,7 @@ static void sentences(void)
          "FAIL: 1 verdict differs from the expected one, 2 values differ from their stored "
          "ones, 1 inconsistent run record, 2 known deviations were not observed, 1 reference value "
          "refers to "
-         "nothing that exists.");
+         "an unknown name.");
     r.j.judged = 0;
     says(&r, "");
 }
@@ -167,7 +167,7 @@ static void single_ones(void)
     make(&r);
     add(&r, 0, VERDICT_PASS, 1, 3);
     r.j.is_new = 2;
-    says(&r, "PASS: every verdict is as expected; 2 are of new formulations, which do not affect "
+    says(&r, "PASS: every verdict is as expected; 2 belong to new formulations and do not affect "
              "the exit status: "
              "none needs a known deviation.");
     r.j.proposed = 1;
@@ -195,9 +195,10 @@ static void single_ones(void)
              "writes it "
              "down).");
     r.j.proposed = 0;
-    says(&r, "PASS: every verdict is as expected; 1 is of a new formulation, which does not affect "
-             "the exit status: "
-             "none needs a known deviation.");
+    says(&r,
+         "PASS: every verdict is as expected; 1 belongs to a new formulation and does not affect "
+         "the exit status: "
+         "none needs a known deviation.");
 }
 
 /* Formulations with options share columns if there are many of them. */

@@ -300,10 +300,10 @@ static void unexpected_tests(void)
               "    cases: made_up other_case\n    quantities: load\n    cause: cccc");
 
     b.j.unmet = 1;
-    holds(&b, "\n 5. reference value of nothing that exists: made_up, load (book, page 3)\n");
+    holds(&b, "\n 5. reference value with an unknown name: made_up, load (book, page 3)\n");
     b.t.strangers = 2;
     strcpy(b.t.stranger, "gone");
-    holds(&b, "\n 6. reference values of 2 unknown cases, the first: gone\n");
+    holds(&b, "\n 6. reference values for 2 unknown cases, the first: gone\n");
 }
 
 /* Describes the stable ranges of a path: runs of steps, for several analyses. */
