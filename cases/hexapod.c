@@ -9,7 +9,7 @@
 enum { STROKE = HEXAPOD_PARAMETERS, STEPS };
 enum { MAX_STEPS = 101 };
 
-/* In the order of the enumeration. */
+/* Entries in the order of the enumeration. */
 static const parameter_type parameters[] = {
     {"stroke", "m", 0.05, 0, 1e2, NULL, "the platform moves from -stroke to +stroke"},
     {"steps", "1", 11, 2, MAX_STEPS, NULL, "positions of the platform"},

@@ -10,7 +10,7 @@
 enum { MODES = SHEET_PARAMETERS, DENSITY, ROTARY, STATIONS };
 enum { MOST_STATIONS = 100, MOST_MODES = 6 };
 
-/* In the order of the enumeration. */
+/* Entries in the order of the enumeration. */
 static const parameter_type parameters[] = {
     {"modes", "1", 0, 0, MOST_MODES, NULL,
      "number of natural frequencies of the deflected sheet, with "

@@ -24,7 +24,7 @@ TABLE = {
     "sheet_third": ("#882255", "#d8639b", "<"),
     "sheet_third_printed": ("#44aa99", "#7fdccd", ">"),
 }
-# The same for integrators of motions, with colours from the table above.
+# Colours and markers of integrators of motions; the colours are from the table above.
 SCHEMES = {
     "alpha": ("#0072b2", "#4a9fe0", "o"), "conserving": ("#d55e00", "#ff8c42", "s"),
     "radau": ("#009e73", "#2bc495", "D"), "explicit": ("#882255", "#d8639b", "^"),

@@ -1,4 +1,4 @@
-/* format/: reads and writes scene files. */
+/* Reading and writing of scene files. */
 #ifndef BEAMWORK_CASES_FORMAT_FORMAT_H
 #define BEAMWORK_CASES_FORMAT_FORMAT_H
 

@@ -111,7 +111,8 @@ const document_node *placement_port(const placement *, const char *name);
 /* Reports an error if the text is not an allowed unit. */
 void units_check(const document_node *unit, mistakes *m);
 
-/* Units of a scene: length and force; those of stress and mass (force s^2/length) follow. */
+/* Units of a scene: length and force. The units of stress and mass (force s^2/length) follow from
+ * them. */
 typedef struct unit_system {
     int given;            /* 0: SI */
     double length, force; /* size of one unit [m], [N] */

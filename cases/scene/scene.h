@@ -13,9 +13,9 @@
 #include "elements/section/section.h"
 #include "elements/shared/status.h"
 
-/* Analyses: a kind, and the data of that kind. Every scene_add_* returns the index of the new
- * analysis, or -1 if out of memory. The data of a kind are read with its function below, which ends
- * the program if the analysis is of another kind. The union is not used elsewhere. */
+/* Analyses. An analysis has a kind and the data of this kind. Every scene_add_* returns the index
+ * of the new analysis, or -1 if out of memory. The data of a kind are read with its function below,
+ * which ends the program if the analysis is of another kind. The union is not used elsewhere. */
 
 typedef struct scene scene;
 
@@ -98,7 +98,7 @@ typedef enum scene_scheme {
     SCENE_ALPHA,      /* generalized-alpha: order 2, damps unresolved frequencies */
     SCENE_CONSERVING, /* order 2, conserves energy and momenta */
     SCENE_RADAU,      /* Radau IIA with three stages: order 5 */
-    SCENE_EXPLICIT,   /* Runge-Kutta of order 8: for reference values */
+    SCENE_EXPLICIT,   /* explicit Runge-Kutta method of order 8, for reference values */
     SCENE_SCHEMES
 } scene_scheme;
 
@@ -177,7 +177,8 @@ typedef struct scene_analysis {
         scene_motion motion;
         scene_path harmonic; /* frequencies [Hz] */
     } of;
-    scene_proportional damping; /* of small vibrations, in addition to members and dashpots */
+    scene_proportional damping; /* damping of small vibrations, in addition to that of members and
+                                 * dashpots */
     int damped;                 /* 1: modes include damping */
     int open_loops;             /* 1: small vibrations do not include the feedback of loads */
     int by_modes;               /* 1: a harmonic analysis is solved by superposition of modes */
@@ -322,7 +323,7 @@ typedef enum scene_quantity_kind {
     SCENE_STIFFNESS_ENTRY,  /* reciprocal of compliance entry (i, i), with all fixed coordinates
                              * remaining fixed */
     SCENE_CRITICAL_FACTOR,  /* load factor of linear buckling */
-    SCENE_GROWTH,           /* largest growth rate of a mode [1/s]; 0: stable */
+    SCENE_GROWTH,           /* largest growth rate of all modes [1/s]; 0: stable */
     SCENE_FREQUENCY,        /* [Hz] */
     SCENE_FACTOR_AT,        /* load factor of a continuation at a value of the control coordinate */
     SCENE_CRITICAL_POINT,   /* critical point of a continuation */
@@ -1526,10 +1527,10 @@ typedef struct quantity_type {
      * *part is the part of the value to which the error of the quantity refers. */
     double (*read)(const scene_quantity *, const quantity_state *);
     double (*eigenvalue)(const scene_quantity *, const quantity_eigenvalue *, double *part);
-    /* The following are NULL for most kinds. turns: rotations that the quantity needs; 1: *out is
-     * the i-th component, 0: there are no more. settle: completes the data read from a file;
-     * returns what is wrong with *key, or NULL. check: REFUSED for errors that the table does not
-     * cover. */
+    /* The following functions are NULL for most kinds. turns: sets *out to the i-th rotation
+     * component that the quantity needs and returns 1, or returns 0 if there are no more. settle:
+     * completes the data read from a file; returns an error message for *key, or NULL. check:
+     * REFUSED for errors that the table does not cover. */
     int (*turns)(const scene *, const scene_quantity *, int i, scene_component *out);
     const char *(*settle)(const scene *, scene_quantity *, const char **key);
     status (*check)(const scene *, const scene_quantity *, fault *);

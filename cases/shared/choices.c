@@ -67,7 +67,7 @@ status case_build(const case_type *c, const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* In the order of the enumeration. */
+/* Entries in the order of the enumeration. */
 const parameter_type hexapod_parameters[] = {
     {"base_radius", "m", 0.40, 1e-3, 1e3, NULL, "radius of the crank pivots"},
     {"crank_length", "m", 0.20, 1e-3, 1e3, NULL, "length of a crank, pointing inwards"},
@@ -200,7 +200,7 @@ status joint_prepare(const double value[], scene *s, int *profile, fault *f)
     return STATUS_OK;
 }
 
-/* Transforms a point from the joint's axes to global coordinates. */
+/* Transforms a point from the axes of the joint to global coordinates. */
 static void to_global(const double centre[3], const double axes[9], const double local[3],
                       double global[3])
 {

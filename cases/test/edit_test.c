@@ -234,7 +234,7 @@ static void refused(void)
     }
 }
 
-/* An edited scene is a valid scene. */
+/* Edited scenes are valid. */
 static void stay_scenes(void)
 {
     static const scene_edit edit[] = {

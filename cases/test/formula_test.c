@@ -271,7 +271,7 @@ static void read_driver(const void *q)
     scene_driver_of(q);
 }
 
-/* Makes one scene with every kind. */
+/* Makes a scene with analyses and quantities of every kind. */
 static void everything(scene *s)
 {
     const double end = 1;

@@ -250,7 +250,7 @@ static inline void exact_loaded_write(int stages, const exact_stages *s, const e
                 unit * exact_collocated_entry(stages, w, TURN + i, TURN + j, lane);
     }
     for (int i = 0; i < stages && out->followed != NULL;
-         i++) { /* F is first, but in the last block */
+         i++) { /* F is the first variable, but is stored in the last block */
         double *rows = &out->followed[(i < stages - 1 ? i + 1 : 0) * 9];
         for (int j = 0; j < 9; j++)
             rows[j] = -real_lane(&w->X[3][i][j], lane);

@@ -31,8 +31,8 @@ enum {
     EXACT_STAGES_ALL = EXACT_STAGES_UNKNOWNS + EXACT_STAGES_OUTER
 };
 
-/* Head of the element_data of collocation elements. Variables: x of the inner nodes, then 2 X, half
- * of which belongs to each end node. */
+/* First part of the element_data of collocation elements. Variables: x of the inner nodes, then 2
+ * X, half of which belongs to each end node. */
 typedef struct exact_stages {
     int stages, unknowns; /* unknowns: F (3), x of the inner nodes */
     beam_constants c;

@@ -169,7 +169,8 @@ typedef struct exact_fields {
     double twist[EXACT_STIFFNESS_MAX_FIELD][EXACT_FIELDS_MAX_FREE]; /* kappa_x */
     double slope[EXACT_STIFFNESS_MAX_FIELD][EXACT_FIELDS_MAX_FREE]; /* a' */
     double mean[EXACT_STRAIN_MAX_POINTS][EXACT_FIELDS_MAX_FREE];    /* P a at the points */
-    double energy[EXACT_FIELDS_MAX_ALL * EXACT_FIELDS_MAX_ALL];     /* 2 x the quadratic form */
+    double energy[EXACT_FIELDS_MAX_ALL * EXACT_FIELDS_MAX_ALL];     /* symmetric matrix of twice the
+                                                                     * energy */
 } exact_fields;
 
 void exact_fields_prepare(const beam_constants *c, int nodes, exact_fields *f);

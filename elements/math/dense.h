@@ -13,7 +13,7 @@ double dense_dot(int n, const double a[], const double b[]);
 double dense_quadratic(int n, const double A[], const double x[]); /* x^T A x */
 /* y(m) = A(m x n) x. */
 void dense_mul_vec(int m, int n, const double *A, const double *x, double *y);
-/* K(n x n) += J^T S J with J(m x n), S(m x m) (S may be unsymmetric); work: m*n doubles. */
+/* K(n x n) += J^T S J with J(m x n), S(m x m) (S may be unsymmetric). work: m*n doubles. */
 void dense_add_congruence(int m, int n, const double *J, const double *S, double *K, double *work);
 
 /* Replaces A (n x n) by the mean of A and its transpose. Returns the largest difference of two

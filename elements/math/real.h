@@ -48,7 +48,7 @@ static inline real real_sqrt(real a)
 {
     return sqrt(a);
 }
-/* Truth values of the lanes; with one element: 0 or 1. */
+/* Truth value of each lane; with one element, 0 or 1. */
 typedef int real_truth;
 static inline real_truth real_true(void)
 {

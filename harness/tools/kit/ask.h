@@ -21,8 +21,8 @@ typedef enum ask_outcome {
     ASK_OUTCOMES
 } ask_outcome;
 
-/* Answer to a question. Values are in the order of the quantities of the scene; after a failure,
- * they are those that were found. */
+/* Answer to a question. Values are in the order of the quantities of the scene. After a failure,
+ * only the values that were found are set. */
 typedef struct answer {
     ask_outcome outcome;
     status status;
