@@ -117,7 +117,7 @@ class Bench(ProgramTest):
         self.refused(2, "a different model", "bench", "c_column", "-f", "beamw", "--against",
                      "beamw_vlasov", "--error", "1%")
         self.refused(2, "did you mean 'theta'", *work, "1%", "-k", "thetta")
-        self.refused(2, "leaves one formulation", *work, "1%", "-k", "beamw")
+        self.refused(2, "selects only one formulation", *work, "1%", "-k", "beamw")
 
     def least(self, case, formulation, level):
         """Returns the number of elements of the coarsest mesh such that its error and those of all finer meshes are
