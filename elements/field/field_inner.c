@@ -18,8 +18,8 @@ enum {
     DEGREE = 6,
     ENDS = 6,
     MOST = ENDS + DEGREE + 1 + 2
-};                   /* degree of the resultants without
-                      * load */
+}; /* degree of the resultants without
+    * load */
 enum { POINTS = 8 }; /* if no resultant is hyperbolic */
 enum { LOADS = 7 };  /* q, mu, b */
 
