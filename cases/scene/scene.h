@@ -1282,10 +1282,8 @@ typedef enum entry_turns {
     ENTRY_DIAGONAL   /* like a component, but without a change of sign */
 } entry_turns;
 
-enum {
-    ENTRY_MOST_ORDER = 100000
-}; /* largest number of an eigenvalue, a critical point or a
-    * crossing */
+/* Largest number of an eigenvalue, a critical point or a crossing. */
+enum { ENTRY_MOST_ORDER = 100000 };
 
 struct quantity_type;
 

@@ -20,10 +20,8 @@
 
 #include "elements/element.h"
 
-enum {
-    POINTS = 3
-}; /* Gauss points: as many as there are independent stretches (two slopes and a
-    * chord) */
+/* Gauss points: as many as there are independent stretches (two slopes and a chord). */
+enum { POINTS = 3 };
 static const double abscissa[POINTS] = {0.11270166537925831, 0.5, 0.88729833462074169};
 static const double weight[POINTS] = {5. / 18, 8. / 18, 5. / 18};
 

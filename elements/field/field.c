@@ -118,10 +118,8 @@ int field_points(const displacement_field *f, double from, double to, double x[F
     return beamw_twist_points(&f->twist, from, to, x, weight);
 }
 
-enum {
-    PSI = FIELD_FUNCTIONALS
-}; /* position of the warping amplitude, after the other
-    * functionals */
+/* Position of the warping amplitude, after the other functionals. */
+enum { PSI = FIELD_FUNCTIONALS };
 /* Numbers of points. The first is exact for the square of a cubic; the second integrates hyperbolic
  * twist within 1e-9 up to a length of ten boundary layers. */
 enum { CUBIC_POINTS = 4, HYPERBOLIC_POINTS = BEAMW_GAUSS };

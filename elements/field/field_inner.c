@@ -14,12 +14,8 @@
 
 enum { N = FIELD_INNER };
 enum { NX, QY, QZ, MX, MY, MZ, W, MW, RESULTANTS };
-enum {
-    DEGREE = 6,
-    ENDS = 6,
-    MOST = ENDS + DEGREE + 1 + 2
-}; /* degree of the resultants without
-    * load */
+/* Degree of the resultants without load. */
+enum { DEGREE = 6, ENDS = 6, MOST = ENDS + DEGREE + 1 + 2 };
 enum { POINTS = 8 }; /* if no resultant is hyperbolic */
 enum { LOADS = 7 };  /* q, mu, b */
 
