@@ -16,9 +16,9 @@
 #include "elements/math/scalar.h"
 #include "elements/sheet/deformation.h"
 
-/* With the antisymmetric cubic c = x - 3x^2 + 2x^3 and the shear share r = Phi/(2 + 2 Phi):
- * a deflection with end slopes a, b is v = l0 [a (x-2x^2+x^3) + b (-x^2+x^3) - r (a+b) c], and the
- * rotation is v' + r (a+b). */
+/* With the antisymmetric cubic c = x - 3x^2 + 2x^3 and r = Phi/(2 + 2 Phi), the deflection for end
+ * rotations a and b is v = l0 [a (x-2x^2+x^3) + b (-x^2+x^3) - r (a+b) c], and the rotation of the
+ * cross-section is v'/l0 + r (a+b), with ' = d/dx. */
 static void bending(double l0, double x, double Phi, int at, double sign, double v[], double dv[],
                     double phi[], double dphi[])
 {
