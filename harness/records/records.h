@@ -106,8 +106,8 @@ typedef struct result_series {
     result_mesh *mesh;        /* [meshes] ascending by elements */
     long work[RESULTS_WORKS]; /* sums over the meshes */
     int errors;               /* number of values with an error, over all meshes */
-    double decades; /* sum of log10(|error| + RESULTS_FLOOR) over these values: it changes with
-                       every error */
+    double decades; /* sum of log10(max(|error|, RESULTS_FLOOR)) over these values: it changes with
+                       every error above RESULTS_FLOOR, but not with rounding below it */
     result_error least,
         largest; /* least: of the mesh on which this error is smallest; largest: over all meshes */
     result_limit *limit; /* [limits] at a default point, in the order of the point's quantities */

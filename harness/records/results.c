@@ -78,7 +78,7 @@ static void take_errors(result_series *s, const result_cell *cell)
         if (!isfinite(size))
             continue;
         s->errors++;
-        s->decades += log10(size + RESULTS_FLOOR);
+        s->decades += log10(fmax(size, RESULTS_FLOOR));
         if (here.elements == 0 || size > here.size) {
             here = (result_error){size, cell->elements, ""};
             memcpy(here.quantity, cell->value[i].quantity, sizeof here.quantity);

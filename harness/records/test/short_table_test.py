@@ -167,7 +167,7 @@ class ShortTable(ProgramTest):
         judged = own["quantities"][np.isfinite(own["quantities"]["error"])]
         size = np.abs(judged["error"])
         self.assertEqual(int(row["errors"]), len(judged))
-        self.assertAlmostEqual(float(row["decades"]), np.log10(size + FLOOR).sum(), delta=1e-6)
+        self.assertAlmostEqual(float(row["decades"]), np.log10(np.maximum(size, FLOOR)).sum(), delta=1e-6)
         worst = {n: size[judged["elements"] == n].max() for n in set(judged["elements"])}
         self.check_error(row, "largest", judged, max(worst.values()))
         self.check_error(row, "least", judged, min(worst.values()))
