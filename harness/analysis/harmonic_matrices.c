@@ -134,9 +134,6 @@ status harmonic_matrices(vibration *v, int whole, fault *f)
         TRY(linear_system_of(v, NULL, f));
     } else if (c->scene->analysis[follows].kind == SCENE_LINEAR) {
         const analysis_outcome *o = &c->outcomes[follows];
-        if (o->status != STATUS_OK)
-            return fault_set(f, o->status, "the analysis of the base state failed: %.150s",
-                             o->reason);
         TRY(linear_system_of(v, outcome_displacements(o, c->eq.loading.acting), f));
     } else {
         TRY(tangent_of(v, &c->outcomes[follows], f));

@@ -73,6 +73,17 @@ static status judge_rest(analysis_context *c, const analysis_outcome *o, int fir
     return at_rest == STATUS_NOT_CONVERGED ? fault_set(f, at_rest, "%s", why.text) : o->status;
 }
 
+/* Returns the failure of the linear analysis whose stresses the analysis includes. After a failed
+ * path, followers use the states that it reached, and check them. */
+static status check_base(const analysis_context *c, int analysis, fault *f)
+{
+    const int base = c->scene->analysis[analysis].follows;
+    const analysis_outcome *o = base != SCENE_NONE ? &c->outcomes[base] : NULL;
+    if (o == NULL || o->kind != SCENE_LINEAR || o->status == STATUS_OK)
+        return STATUS_OK;
+    return fault_set(f, o->status, "the analysis of the base state failed: %.150s", o->reason);
+}
+
 /* Runs analyses; the first failure determines the overall status. perfect: 0: runs the analyses of
  * the imperfect structure; 1: those of the perfect structure; otherwise: all analyses. */
 static void run_analyses(analysis_context *c, int perfect)
@@ -93,6 +104,8 @@ static void run_analyses(analysis_context *c, int perfect)
         o->status = scene_inputs_check(c->scene, i, &f);
         if (o->status == STATUS_OK)
             o->status = newton_judge_rest(c->model, &f);
+        if (o->status == STATUS_OK)
+            o->status = check_base(c, i, &f);
         if (o->status == STATUS_OK)
             o->status = run(&own, i, o, &f);
         history_judge_steps(c->result, c->scene, i, first_step);

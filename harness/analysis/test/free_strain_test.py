@@ -51,6 +51,38 @@ quantities:
                 with self.subTest(formulation=formulation, quantity=name):
                     self.assertAlmostEqual(got[name], exact.get(name, 0), delta=1e-9 if name in exact else 1e-6)
 
+    def test_failed_base(self):
+        """Analyses of a structure under the loads of a failed analysis have no value, only its failure."""
+        text = """nodes: {a: {at: [0, 0, 0], hold: all}, n: {at: [1, 0, 0], hold: [rx, ry, rz], mass: 2}, b: {at: [2, 0, 0], hold: all}}
+members:
+  l: {from: a, to: n, section: s, y: [0, 1, 0], pretension: 800, release: {from: [ry, rz], to: [ry, rz]}}
+  r: {from: n, to: b, section: s, y: [0, 1, 0], release: {from: [ry, rz], to: [ry, rz]}}
+loads: {p: {force: [1, 0, 0], on: n}}
+analyses:
+  li: {linear: {}}
+  st: {static: {stations: [1]}}
+  ml: {modal: {about: li}}
+  dl: {modal: {about: li, damped: yes}}
+  hl: {harmonic: {about: li, frequencies: [3]}}
+  ms: {modal: {about: st}}
+  bs: {buckling: {about: st}}
+  hs: {harmonic: {about: st, frequencies: [3]}}
+quantities:
+  ml: {frequency: {analysis: ml}}
+  dl: {frequency: {analysis: dl}}
+  hl: {response: {analysis: hl, node: n, component: ux, force: n, along: ux, at: 3}}
+  ms: {frequency: {analysis: ms}}
+  bs: {critical_factor: {analysis: bs, which: 0}}
+  hs: {response: {analysis: hs, node: n, component: ux, force: n, along: ux, at: 3}}
+"""
+        done = run("solve", "--scene", "/dev/stdin", "-f", "collocation", "-n", 1, "--format", "json", input=HEAD + text)
+        self.assertEqual(done.returncode, 1, done.stderr + done.stdout)
+        for quantity in json.loads(done.stdout)["quantities"]:
+            with self.subTest(quantity=quantity["quantity"]):
+                self.assertNotEqual(quantity["status"], "ok")
+                self.assertIsNone(quantity["value"])
+                self.assertIn("can move along", quantity["reason"])
+
     def test_where_the_path_begins(self):
         """At station 0 pretension and constant loads act, also in analyses that follow this state."""
         for keys, loads, force in ((", pretension: 10000", "", 10000),
