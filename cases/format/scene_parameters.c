@@ -414,6 +414,8 @@ void build_scene(const document_node *root, const scope *names, arena *a, mistak
     m->out_of_memory |= a->failed || out->out_of_memory;
     if (b.units.given && m->count == 0 && !m->out_of_memory)
         to_si(&b, own);
+    scene_join_instants(out);
+    m->out_of_memory |= out->out_of_memory;
     if (m->count == 0 && !m->out_of_memory && scene_validate(out, &f) != STATUS_OK)
         tell_refusal(&b, f.text);
 }

@@ -112,3 +112,53 @@ int function_smooth(const scene_function *f, double end, double *time, int *deri
     }
     return 1;
 }
+
+static int by_end(const void *a, const void *b)
+{
+    const scene_piece *const *x = a, *const *y = b;
+    return ((*x)->until > (*y)->until) - ((*x)->until < (*y)->until);
+}
+
+/* Puts the pieces of a function that have an end into the list. Returns their number. */
+static int list_ends(const scene_function *f, scene_piece *list[])
+{
+    for (int i = 0; i < f->pieces - 1; i++)
+        list[i] = &f->piece[i];
+    return f->pieces > 1 ? f->pieces - 1 : 0;
+}
+
+static int is_same(double a, double b)
+{
+    static const double rounding = 1e-12;
+    return fabs(a - b) <= rounding * fabs(a);
+}
+
+void scene_join_instants(scene *s)
+{
+    size_t most = 1;
+    int n = 0;
+    for (int i = 0; i < s->drivers; i++)
+        most += (size_t)s->driver[i].function.pieces;
+    for (int i = 0; i < s->loads; i++)
+        most += (size_t)s->load[i].function.pieces;
+    scene_piece **piece = calloc(most, sizeof *piece);
+    if (piece == NULL) {
+        s->out_of_memory = 1;
+        return;
+    }
+    for (int i = 0; i < s->drivers; i++)
+        n += list_ends(&s->driver[i].function, piece + n);
+    for (int i = 0; i < s->loads; i++)
+        n += list_ends(&s->load[i].function, piece + n);
+    qsort(piece, (size_t)n, sizeof *piece, by_end);
+    for (int k = 1; k < n; k++)
+        if (is_same(piece[k - 1]->until, piece[k]->until))
+            piece[k]->until = piece[k - 1]->until;
+    for (int i = 0; i < s->analyses; i++) {
+        const scene_path *path = scene_path_of(&s->analysis[i]);
+        for (int k = 0; k < n && s->analysis[i].kind == SCENE_MOTION; k++)
+            if (is_same(path->value[path->stations - 1], piece[k]->until))
+                piece[k]->until = path->value[path->stations - 1];
+    }
+    free(piece);
+}

@@ -1173,6 +1173,10 @@ void scene_meshes_doubled(scene *s, int first, int last);
  * thread-safe. */
 status scene_constants(const scene *s, int i, section *out, fault *f);
 
+/* Makes the ends of pieces of functions of time equal if they differ only by rounding, and equal to
+ * the end of a motion that differs only by rounding. Otherwise, a motion would make a step between
+ * them, the rates of which are rounding errors. */
+void scene_join_instants(scene *s);
 /* Checks the scene. REFUSED, with the cause: for example, indices out of range, members of zero
  * length, contradictory supports, unused drivers, or names of curves or entries that are not
  * unique. */
