@@ -12,6 +12,12 @@ enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
 /* bounds of the ratio of consecutive step sizes, and safety factor on the error estimate */
 static const double shorter = 0.3, longer = 2, safety = 0.9;
 
+/* The rates of very short steps are rounding errors. Relative to the step size, a remainder before
+ * a discontinuity or the end that is shorter than `least_rest` is added to the last step; together
+ * with a remainder that is shorter than `short_rest`, the last step is divided into two equal ones.
+ */
+static const double least_rest = 1e-6, short_rest = 0.1;
+
 /* Data of the integration of one motion. */
 typedef struct motion_course {
     analysis_context *c;
@@ -26,6 +32,8 @@ typedef struct motion_course {
     motion_scheme *scheme;
     instant now, next;
     double h, least; /* [s] next step size; smallest step size */
+    double rest;     /* [s] sum of the steps beyond now.time: the rounding error of now.time, which
+                        would grow with each step */
     stations stations;
     watches watches;
     peaks peaks;
@@ -156,11 +164,12 @@ static void lengthen(motion_course *w, double step, double whole, int rejected)
 static status take_step(motion_course *w, double target, fault *f)
 {
     for (int rejected = 0;; rejected++) {
-        const double left = target - w->now.time, whole = w->h;
-        const int last = whole >= left * (1 - 1e-9);
-        const double step = last ? left : whole;
-        step_record record = {
-            .path = last ? target : w->now.time + step, .increment = step, .rejected = rejected};
+        const double left = target - w->now.time - w->rest, whole = w->h;
+        const int last = left <= whole * (1 + least_rest);
+        const double step = last ? left : left < whole * (1 + short_rest) ? left / 2 : whole;
+        step_record record = {.path = last ? target : w->now.time + (step + w->rest),
+                              .increment = step,
+                              .rejected = rejected};
         double error = 0;
         int grows = 0;
         status outcome = w->scheme->step(w->scheme, &w->now, step, &w->next, &error, &record, f);
@@ -172,6 +181,7 @@ static status take_step(motion_course *w, double target, fault *f)
             outcome = watch(w, &grows, f);
         if (right && outcome == STATUS_OK && !grows) {
             lengthen(w, step, whole, rejected);
+            w->rest = last ? 0 : w->now.time - record.path + (step + w->rest);
             w->next.time = record.path;
             return keep_step(w, &record, error, last, f);
         }
