@@ -93,33 +93,57 @@ static void wall_points(const wall_flow *of, int k, double x, stress_points *out
         }
         p->across[PER_TWIST][0] = (l->flow[w] / t + side * t) * n.ty;
         p->across[PER_TWIST][1] = (l->flow[w] / t + side * t) * n.tz;
-        if (s->thickness_terms) { /* the stress varies through the wall */
-            p->y += side * t / 2 * n.ny;
-            p->z += side * t / 2 * n.nz;
-            p->omega -= side * t / 2 * arm;
-        }
+        p->y += side * t / 2 * n.ny; /* the surface, also with the constants of mid-lines */
+        p->z += side * t / 2 * n.nz;
+        p->omega -= side * t / 2 * arm;
     }
 }
 
-/* Adds the fibre where the outer surfaces of two walls meet. The shear stress is zero there. */
-static void add_corner(const wall_flow *of, int at, stress_points *out)
+/* Adds the fibre where the outer surfaces of walls v and w meet at point `at`, with the warping
+ * continued from wall v. The shear stress is zero there. */
+static void add_corner(const wall_flow *of, int at, int v, int w, stress_points *out)
 {
     const section_spec *s = of->spec;
-    stress_point p = {.y = of->lines.y[at], .z = of->lines.z[at]};
-    double away[2][2];
+    const walls_lines *l = &of->lines;
+    const int wall[2] = {v, w};
+    const flow_frame n = flow_frame_of(s, v, l->y, l->z);
+    double away[2][2], from[2] = {0, 0};
     for (int i = 0; i < 2; i++) {
-        const int far = s->wall[i].from == at ? s->wall[i].to : s->wall[i].from;
-        const double y = of->lines.y[far] - p.y, z = of->lines.z[far] - p.z;
+        const int k = wall[i], far = s->wall[k].from == at ? s->wall[k].to : s->wall[k].from;
+        const double y = l->y[far] - l->y[at], z = l->z[far] - l->z[at];
         away[i][0] = y / hypot(y, z);
         away[i][1] = z / hypot(y, z);
     }
-    const double sine = fabs(away[0][0] * away[1][1] - away[0][1] * away[1][0]),
-                 thickness[2] = {s->wall[0].thickness, s->wall[1].thickness};
-    for (int i = 0; i < 2; i++) {
-        p.y -= thickness[1 - i] / (2 * sine) * away[i][0];
-        p.z -= thickness[1 - i] / (2 * sine) * away[i][1];
+    const double sine = fabs(away[0][0] * away[1][1] - away[0][1] * away[1][0]);
+    if (sine < 0.1) /* nearly in one line: the surfaces of the walls suffice */
+        return;
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++)
+            from[k] -= s->wall[wall[1 - i]].thickness / (2 * sine) * away[i][k];
+    const double along = from[0] * n.ty + from[1] * n.tz, off = from[0] * n.ny + from[1] * n.nz,
+                 rise = (l->omega[s->wall[v].to] - l->omega[s->wall[v].from]) / n.length,
+                 arm = (l->y[at] + along * n.ty - l->pole[0]) * n.ty +
+                       (l->z[at] + along * n.tz - l->pole[1]) * n.tz;
+    out->point[out->count++] = (stress_point){.y = l->y[at] + from[0],
+                                              .z = l->z[at] + from[1],
+                                              .omega = l->omega[at] + along * rise - off * arm};
+}
+
+/* Adds the outer corners at points where two walls meet. */
+static void add_corners(const wall_flow *of, stress_points *out)
+{
+    const section_spec *s = of->spec;
+    for (int at = 0; at < s->points; at++) {
+        int found = 0, wall[2] = {0, 0};
+        for (int w = 0; w < s->walls; w++)
+            if (s->wall[w].from == at || s->wall[w].to == at) {
+                if (found < 2)
+                    wall[found] = w;
+                found++;
+            }
+        for (int i = 0; found == 2 && i < 2; i++)
+            add_corner(of, at, wall[i], wall[1 - i], out);
     }
-    out->point[out->count++] = p;
 }
 
 /* Completes the points of an angle section. Its shear centre is where its walls meet, even with
@@ -133,8 +157,6 @@ static void complete_angle(const wall_flow *of, stress_points *out)
         return;
     const int first = s->wall[0].from,
               at = first == s->wall[1].from || first == s->wall[1].to ? first : s->wall[0].to;
-    if (s->thickness_terms)
-        add_corner(of, at, out);
     for (int k = 0; k < out->count; k++) {
         out->point[k].y += of->constants->ys - of->lines.y[at];
         out->point[k].z += of->constants->zs - of->lines.z[at];
@@ -157,6 +179,7 @@ static status walls_of(const section_spec *s, const section *c, stress_points *o
             if (value[i][near] * value[i][far] < 0)
                 wall_points(&of, k, value[i][far] / (value[i][far] - value[i][near]), out);
     }
+    add_corners(&of, out);
     complete_angle(&of, out);
     return STATUS_OK;
 }

@@ -12,7 +12,7 @@
 
 #include "elements/section/section.h"
 
-enum { STRESS_MAX_POINTS = 12 * SECTION_MAX_WALLS };
+enum { STRESS_MAX_POINTS = 14 * SECTION_MAX_WALLS };
 
 /* Stresses at a point per unit of each resultant. */
 typedef struct stress_point {
@@ -45,8 +45,8 @@ typedef enum stress_measure {
 
 /* Computes the stress points. Rectangle: corners, midpoints of sides, and centre. Wall: ends,
  * middle, and points where y, z or omega is zero (where the shear flow is largest), on both
- * surfaces. constants: computed from the description. REFUSED: a section given by constants, which
- * has no points. */
+ * surfaces, and the outer corner where two walls meet. constants: computed from the description.
+ * REFUSED: a section given by constants, which has no points. */
 status stress_points_of(const section_spec *, const section *constants, stress_points *, fault *);
 
 /* Returns the largest von Mises stress or the largest or smallest normal stress of all points

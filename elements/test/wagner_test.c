@@ -338,8 +338,8 @@ static void integrated(const char *name, const section_spec *spec)
     for (int k = 0; k < 4; k++) {
         double Q[2] = {0}, torque = 0;
         int from = 0;
-        while (from <
-               p.count) { /* ends and middle of a wall on both surfaces, then its other points */
+        for (int wall = 0; wall < spec->walls; wall++) { /* ends and middle of a wall on both
+                                                          * surfaces, then its other points */
             const stress_point *at = &p.point[from];
             const double length = hypot(at[4].y - at[0].y, at[4].z - at[0].z);
             double t = 0;
@@ -357,7 +357,8 @@ static void integrated(const char *name, const section_spec *spec)
                         tau[j] += by[k][r] * at[i].across[r][j];
                 Q[0] += share * tau[0];
                 Q[1] += share * tau[1];
-                torque += share * ((at[i].y - c.ys) * tau[1] - (at[i].z - c.zs) * tau[0]);
+                const double y = (at[i].y + at[i ^ 1].y) / 2, z = (at[i].z + at[i ^ 1].z) / 2;
+                torque += share * ((y - c.ys) * tau[1] - (z - c.zs) * tau[0]);
             }
             if (k == 3) /* the part that varies through the wall, which is half of t^3/3; the other
                          * half is due to stresses across the wall */

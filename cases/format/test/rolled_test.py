@@ -277,6 +277,18 @@ class ProfilesTest(SceneCase):
                 self.assertAlmostEqual(got[sign] / max(sign * s for s in stress), 1, delta=1e-5, msg=(name, sign))
             self.assertEqual(max(stress), stress[0])
 
+    def test_stresses_of_mid_lines(self):
+        """Stresses are those at the outer surfaces and corners also in sections given by mid-lines: M_y z/Iy + M_z y/Iz
+        of the outer box over the inertias of the mid-lines."""
+        h, b, t = 0.2, 0.1, 0.01
+        Iy, Iz = t * h**3 / 6 + b * t * h**2 / 2, t * b**3 / 6 + h * t * b**2 / 2
+        box = f"box: {{depth: {h}, flange: {b}, flange_thickness: {t}, web_thickness: {t}}}"
+        for My, Mz in ((1000, 0), (0, 1000), (1000, 500)):
+            text = scene({"c": box}, loads={"p": "[0, 0, 0]"}).replace("{force: [0, 0, 0], on: b}",
+                                                                       f"{{moment: [0, {My}, {Mz}], on: b}}")
+            got = values(self.record("solve", "--scene", self.scene(text), "-n", 1, "-f", "collocation"))["s"]
+            self.assertAlmostEqual(got / (My * (h + t) / 2 / Iy + Mz * (b + t) / 2 / Iz), 1, delta=1e-9, msg=(My, Mz))
+
     def test_beam(self):
         """The deflection and stress of a cantilever follow from the printed constants, P L^3/(3 E Iy) and P L/Wel with
         Wel = 194.3 cm^3, for all formulations that support the section."""
