@@ -15,6 +15,11 @@ verdicts() {
         / \.\.\. (FAIL|ERROR)$/ { sub(/ \.\.\. (FAIL|ERROR)$/, ""); print "FAIL: " $0 }
         / \.\.\. skipped / { sub(/^.* \.\.\. skipped ./, ""); sub(/.$/, ""); print "SKIP " name ": " $0 }'
 }
+# Seconds of the processor, from what the shell prints about its children.
+processor() {
+    awk 'function seconds(t, of) { split(t, of, "[ms]"); return 60 * of[1] + of[2] }
+        NR == 2 { print seconds($1) + seconds($2) }' "$1"
+}
 tally() { # name log exit-status
     p=$(grep -c '^PASS' "$2") f=$(grep -c '^FAIL' "$2") k=$(grep -c '^SKIP' "$2")
     if [ "$3" != 0 ] && [ "$f" = 0 ]; then f=1; echo "FAIL $1 ended with status $3"; tail -n 5 "$2"; fi
@@ -22,7 +27,7 @@ tally() { # name log exit-status
     echo "$p $f $k" >"${2%.log}.count"
     [ "$f" = 0 ] || grep '^FAIL' "$2"
     [ "$k" = 0 ] || grep '^SKIP' "$2"
-    printf '%-44s %5d passed %3d failed\n' "$1" "$p" "$f"
+    printf '%-44s %5d passed %3d failed %6.1f s\n' "$1" "$p" "$f" "$(processor "${2%.log}.times")"
 }
 one() { # program, file or folder
     if [ -d "$1" ] || [ "${1%.py}" != "$1" ]; then
@@ -41,6 +46,7 @@ one() { # program, file or folder
         GSL_TEST_VERBOSE=1 timeout -k 30 $limit "$1" >"$log" 2>&1
         status=$?
     fi
+    times >"${log%.log}.times" # not in a subshell: it has no children yet
     told=$([ -z "${SHOW:-}" ] || cat "$log.raw" 2>/dev/null || cat "$log"; tally "$name" "$log" $status) # in one piece
     echo "$told"
 }
