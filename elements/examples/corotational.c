@@ -90,8 +90,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
     if (!(height > 0)) /* the mean y axis is along the chord */
         return STATUS_SINGULAR;
 
-    /* All following vectors are in the element axes: S = E R and t of both nodes, and the moments M
-     * on them. */
+    /* From here on in the element axes: S = E R, t of both nodes, and the moments M on them. */
     double S[2][9] = {{0}}, t[6], M[6] = {0}, energy = n * n / d->axial / 2;
     for (int k = 0; k < 2; k++) {
         add(3, 3, 3, 0, E, x[k].R, S[k]);
@@ -157,8 +156,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
         row[4 * N] += torque * (dq[k][j] - S[k][1] * d2 / q2) / (2 * q2);
     }
 
-    double T[N * NODES] = {0}, KT[N * NODES] = {0}; /* transformation to global axes; warping is
-                                                     * inactive */
+    double T[N * NODES] = {0}, KT[N * NODES] = {0}; /* to global axes; warping is inactive */
     for (int i = 0; i < 36; i++)
         T[i / 3 * NODES + i / 9 * 3 + i / 18 + i % 3] = E[i % 9];
     if (out->energy != NULL)

@@ -72,8 +72,7 @@ static void strain(const element_data *d, const node_state x[], strain_output *o
     between(x[0].R, x[1].R, psi);
     transposed(x[0].R, chord, p);
     transposed(x[1].R, chord, q);
-    /* Normal to psi, the mean of p and q is the chord in the middle axes times c; along psi, all
-     * three are equal. */
+    /* Normal to psi, the mean of p and q is the chord in the middle axes times c. */
     const double square = psi[0] * psi[0] + psi[1] * psi[1] + psi[2] * psi[2];
     const double c = cos(sqrt(square) / 2), k = square > 0 ? (1 - 1 / c) / square : 0;
     const double along = psi[0] * p[0] + psi[1] * p[1] + psi[2] * p[2];

@@ -11,8 +11,7 @@
 
 enum { N = 12, PROPS = 6, STATES = 100 };
 
-/* SUBROUTINE UEL: INTEGER is int, DOUBLE PRECISION is double, and all arguments are passed by
- * address. */
+/* SUBROUTINE UEL: INTEGER is int, DOUBLE PRECISION double; all arguments are addresses. */
 void uel_(double rhs[], double amatrx[], double svars[], double energy[8], const int *ndofel,
           const int *nrhs, const int *nsvars, const double props[], const int *nprops,
           const double coords[], const int *mcrd, const int *nnode, const double u[],
@@ -70,8 +69,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
     const double coords[6] = {0, 0, 0, d->length, 0, 0}, zero[N] = {0}, step = 1;
     double rhs[N] = {0}, K[N * N] = {0}, svars[STATES] = {0}, energy[8] = {0}, pnewdt = 1;
     double u[N];
-    for (int k = 0; k < 2; k++) { /* displacements relative to the initial element along x, which is
-                                   * moved rigidly: zero in a rigid motion */
+    for (int k = 0; k < 2; k++) { /* relative to the rigidly moved element: strains only */
         for (int i = 0; i < 3; i++)
             u[6 * k + i] = x[k].r[i] - coords[3 * k + i];
         rotation_vector(x[k].R, u + 6 * k + 3);
