@@ -16,7 +16,7 @@ static const double shorter = 0.3, longer = 2, safety = 0.9;
  * a discontinuity or the end that is shorter than `least_rest` is added to the last step; together
  * with a remainder that is shorter than `short_rest`, the last step is divided into two equal ones.
  */
-static const double least_rest = 1e-6, short_rest = 0.1;
+static const double least_rest = 1e-6, short_rest = 1e-3;
 
 /* Data of the integration of one motion. */
 typedef struct motion_course {
