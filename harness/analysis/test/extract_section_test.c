@@ -155,7 +155,7 @@ static void flanged(const element_type *e, ask_tally *tally)
     if (!ask_count(tally, &a, "flanged beam"))
         return;
     gsl_test_rel(c.Iw, 2 * 4e-3 * pow(0.08, 3) / 12 * 0.01, 1e-12, "I f h^2/4");
-    gsl_test_rel(a.value[1], fabs(a.value[0]) * 0.1 * 0.04 / c.Iw, 1e-9,
+    gsl_test_rel(a.value[1], fabs(a.value[0]) * (0.1 + 2e-3) * 0.04 / c.Iw, 1e-9,
                  "%s: normal stress of the bimoment at the flanges' ends", e->name);
     gsl_test(!(fabs(a.value[0]) > 60 && fabs(a.value[0]) < 200), "%s: bimoment %g", e->name,
              a.value[0]);
@@ -228,11 +228,11 @@ static void channel(const element_type *e, ask_tally *tally)
         return;
     const double l = 1.5, F = 40, k = sqrt(80e9 * c.It / (200e9 * c.Iw)),
                  B = F * fabs(c.ys) / k * tanh(k * l);
-    /* at the ends and the corners of the flanges: distance e of the shear centre of a thin C, and
-     * the warping function */
-    const double f = 0.05, h = 0.1, web = 3 * f * f / (h + 6 * f), tip_omega = h / 2 * (f - web),
-                 corner = h / 2 * web, bend = F * l * h / 2 / c.Iy,
-                 most = fmax(bend + B * corner / c.Iw, fabs(bend - B * tip_omega / c.Iw));
+    /* At the outer corner of a flange and the web. web: distance of the shear centre of a thin C
+     * from the web. */
+    const double f = 0.05, h = 0.1, t = 3e-3, web = 3 * f * f / (h + 6 * f),
+                 corner = h / 2 * (web + t / 2) + t / 2 * (web - t / 2),
+                 most = F * l * (h + t) / 2 / c.Iy + B * corner / c.Iw;
     gsl_test_rel(fabs(c.ys - 0.02 + c.centroid[0]), web, 1e-12, "shear centre of a C");
     gsl_test_rel(fabs(a.value[0]), B, 3e-3, "%s: bimoment at the root", e->name);
     gsl_test_rel(a.value[1], fabs(a.value[0]), 1e-9, "%s: it is largest there", e->name);
