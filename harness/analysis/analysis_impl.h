@@ -327,7 +327,7 @@ int extract_path_whole(const analysis_context *, int analysis, int station);
 /* Quantities of eigenvalues: critical loads and frequencies. */
 
 /* Checks whether stability is lost and regained within a step of a static path: the state is
- * examined after every sixth of the step, so that a loss over a fifth of the step is noticed. */
+ * examined after every sixth of the step, so a loss over a fifth of the step is noticed. */
 
 /* Examines the step between the two states. *found: a path value within the step whose stability is
  * not between those of the ends; INFINITY: none was found. The work is not counted. */
@@ -421,8 +421,8 @@ status harmonic_matrix(vibration *, fault *);
 /* Factors this matrix at a circular frequency. */
 status harmonic_factor(vibration *, double w, fault *);
 /* Returns the number of additional unknowns for modes with a damping ratio in a direct solution.
- * Each has one unknown, y = i w U^T (x - r), so that D x + U y = f, where r are the static
- * displacements due to driven coordinates. */
+ * Each has one unknown, y = i w U^T (x - r), so D x + U y = f, where r are the static displacements
+ * due to driven coordinates. */
 int harmonic_border(const vibration *);
 
 /* Inputs and outputs (harmonic_inputs.c). */

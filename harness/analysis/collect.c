@@ -133,7 +133,7 @@ static status keep_modes(const analysis_context *c, int analysis, const outcome_
     return outcome;
 }
 
-/* Stores all shapes. The caller, collect_shapes, frees *s, also after a failure. */
+/* Stores all shapes. The caller, collect_shapes, frees *s, even after a failure. */
 static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
 {
     TRY(shapes_alloc(s, f));

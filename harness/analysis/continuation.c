@@ -295,7 +295,7 @@ static status start(continuation *p, fault *f)
     return add_point(p, f);
 }
 
-/* Follows the path. The caller, continuation_analysis, frees *p, also after a failure. */
+/* Follows the path. The caller, continuation_analysis, frees *p, even after a failure. */
 static status walk(analysis_context *c, int analysis, outcome_continuation *o, continuation *p,
                    fault *f)
 {

@@ -312,8 +312,8 @@ static int goes_back(const path_point *a, const path_point *b, const path_point 
            b->negative > (a->negative > c->negative ? a : c)->negative;
 }
 
-/* Examines the state after every sixth of the step, so that a loss of stability over a fifth of the
- * step contains one of these states. */
+/* Examines the state after every sixth of the step, so a loss of stability over a fifth of the step
+ * contains one of these states. */
 static status look_within(continuation *p, path_goal goal, int *hidden, fault *f)
 {
     double value[PARTS + 1] = {p->here.least, [PARTS] = p->next.least};

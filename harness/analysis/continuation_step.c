@@ -10,7 +10,7 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-/* Returns 1 if a curve of coordinates is requested, so that the states of all points are kept. */
+/* Returns 1 if a curve of coordinates is requested, so the states of all points are kept. */
 static int continuation_extract_keeps_states(const scene *, int analysis);
 
 status continuation_step_alloc(analysis_context *c, int analysis, outcome_continuation *o,

@@ -202,7 +202,7 @@ status harmonic_modes_project(vibration *v, int count, const double f[], fault *
     m->half = calloc(2 * kept * kept + 1, sizeof *m->half);
     enough &= m->D != NULL && m->entry != NULL && m->scale != NULL && m->pivot != NULL &&
               m->y != NULL && m->inverse != NULL && m->half != NULL;
-    if (m->complete) { /* the solution is exact, so that no bound is needed */
+    if (m->complete) { /* the solution is exact, so no bound is needed */
         free(X[0]);
         free(X[1]);
         X[0] = X[1] = NULL;
@@ -255,7 +255,7 @@ static double coupled(vibration *v, harmonic_modes *m, double w)
         for (int k = 0; k < kept; k++)
             for (int j = 0; j < kept; j++)
                 product[i * kept + j] += G[i * kept + k] * m->inverse[k * kept + j];
-    /* conj(G) D^-H = conj((D^-1)^T's G): D is symmetric, so that conj(G) D^-H = conj(G D^-1) */
+    /* conj(G) D^-H = conj((D^-1)^T's G): D is symmetric, so conj(G) D^-H = conj(G D^-1) */
     for (int i = 0; i < kept; i++)
         for (int j = 0; j < kept; j++)
             sum += product[i * kept + j] * conj(product[j * kept + i]);

@@ -67,8 +67,8 @@ static int asks_for_growth(const analysis_context *c, int analysis)
     return 0;
 }
 
-/* Finds the frequencies if the tangent is not symmetric and positive definite, so that modes may
- * grow. Damping is included for the growth rates but not for the frequencies. */
+/* Finds the frequencies if the tangent is not symmetric and positive definite, so modes may grow.
+ * Damping is included for the growth rates but not for the frequencies. */
 static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_run *n,
                                       outcome_spectrum *out, fault *f)
 {
@@ -102,7 +102,7 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
     return outcome;
 }
 
-/* Finds the frequencies. The caller, loaded_modal, frees *n, *M and *e, also after a failure. */
+/* Finds the frequencies. The caller, loaded_modal, frees *n, *M and *e, even after a failure. */
 static status frequencies(analysis_context *c, int analysis, newton_run *n, sparse *M,
                           eigen_result *e, outcome_spectrum *out, fault *f)
 {
@@ -572,7 +572,7 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
     return STATUS_OK;
 }
 
-/* Runs the search. The caller, loaded_buckling, frees *s, also after a failure. */
+/* Runs the search. The caller, loaded_buckling, frees *s, even after a failure. */
 static status run(analysis_context *c, int analysis, loaded_search *s, outcome_spectrum *out,
                   fault *f)
 {

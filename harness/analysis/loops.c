@@ -74,7 +74,7 @@ double complex loops_gain(const control_loop *l, double w, double complex *own)
 {
     const scene_feedback *b = l->gains;
     const double complex s = I * w, gain = b->proportional + b->derivative * s;
-    *own = b->integral != 0 ? s : 1; /* multiplied by s, so that it is finite at s = 0 */
+    *own = b->integral != 0 ? s : 1; /* multiplied by s, so it is finite at s = 0 */
     return b->integral != 0 ? gain * s + b->integral : gain;
 }
 

@@ -207,7 +207,7 @@ static status assemble(analysis_context *c, int analysis, linear_system *s, moda
     return STATUS_OK;
 }
 
-/* Finds the modes. The caller, modal_analysis, frees *s, *about and *e, also after a failure. */
+/* Finds the modes. The caller, modal_analysis, frees *s, *about and *e, even after a failure. */
 static status solve(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                     eigen_result *e, fault *f)
 {

@@ -34,7 +34,7 @@ static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, s
                : flutter_judge_state(judge, n->c, n->state, record, f);
 }
 
-/* Undoes the step, so that it can be repeated in shorter steps. */
+/* Undoes the step, so it can be repeated in shorter steps. */
 static void take_back(newton_run *n, const step_record *record)
 {
     history_drop_step(n->c->result, record);
@@ -168,7 +168,7 @@ static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance
     return STATUS_OK;
 }
 
-/* Solves the path. The caller, static_analysis, frees the workspace, also after a failure. */
+/* Solves the path. The caller, static_analysis, frees the workspace, even after a failure. */
 static status solve(analysis_context *c, int analysis, newton_run *n, predictor *t,
                     flutter_judge *judge, compliance_walk **on_the_way, outcome_path *o, fault *f)
 {
@@ -314,7 +314,7 @@ static status unloaded(analysis_context *c, newton_run *n, const model_state **s
 }
 
 /* Computes the compliances at the stations of the path. The caller, compliance_analysis, frees the
- * workspace, also after a failure. */
+ * workspace, even after a failure. */
 static status compliance_solve(analysis_context *c, int analysis, node_tangent *t, newton_run *n,
                                outcome_compliance *out, fault *f)
 {

@@ -139,7 +139,7 @@ void cells_keep(sweep *s, const char keep[])
 }
 
 /* [s] estimated cost of a batch on the reference machine. If there is little work, the batches are
- * smaller, so that every process receives some. */
+ * smaller, so every process receives some. */
 static const double batch_most = 0.5, batch_least = 0.02, batch_share = 1.0 / 32;
 
 /* The sweep cut into batches. An item is a series that is run. */
@@ -261,7 +261,7 @@ static status leave_out(const cut *c, const spread_end *end, fault *f)
 }
 
 /* Computes the shard or reads the batches. The caller, verification_work_run, frees the workspace,
- * also after a failure. */
+ * even after a failure. */
 static status spread(cut *c, const shard_options *r, identity_texts *texts, spread_end *out,
                      fault *f)
 {

@@ -304,7 +304,7 @@ int message_exit(status s, const fault *f);
  * formulations. */
 void guard_formulation(const formulation *chosen, int seconds);
 /* Must be called once, before any file is opened. Closed standard streams are opened on /dev/null
- * without write permission, so that no other file takes their place. Signals that end the program
+ * without write permission, so no other file takes their place. Signals that end the program
  * (SIGTERM, SIGHUP, SIGINT) and crashes first delete unfinished output files. A crash, or a call of
  * exit() by a library or an element, is reported in one line. */
 void ending_begin(void);

@@ -117,8 +117,7 @@ void manual_write_scene(FILE *to);
 void manual_write_results(FILE *to, const verb *const *verbs);
 
 /* Pages in mdoc(7). The text is escaped so that no formatter interprets it. */
-/* Writes running text: lines with its words unchanged, so that hyphens, quotes and '^' can be
- * copied. */
+/* Writes running text: lines with its words unchanged, so hyphens, quotes and '^' can be copied. */
 void roff_text(FILE *to, const char *text);
 /* Reference to other pages: names with their sections, as in "beamwork 1 beamwork-scene 5". */
 typedef struct roff_reference {

@@ -214,7 +214,7 @@ static status compare(duel *d, const bench_options *r, fault *f)
     return STATUS_OK;
 }
 
-/* REFUSED: one of the two is a different model, so that its errors are not due to its elements. */
+/* REFUSED: one of the two is a different model, so its errors are not due to its elements. */
 static status check_models(const sweep *s, fault *f)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -227,8 +227,8 @@ static status check_models(const sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Runs the comparison at equal errors. The caller, against_error, frees *d, also after a
- * failure. */
+/* Runs the comparison at equal errors. The caller, against_error, frees *d, even after a failure.
+ * */
 static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
 {
     const sweep_request request = {.jobs = r->jobs,
@@ -287,8 +287,8 @@ static sweep_point point_of(const bench_options *r, const case_type *type, const
     return p;
 }
 
-/* Compares with another build at the same number of elements. Both are run as programs, so that
- * they start in the same way. against_meshes frees the scene. */
+/* Compares with another build at the same number of elements. Both are run as programs, so they
+ * start in the same way. against_meshes frees the scene. */
 static status against_program(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;

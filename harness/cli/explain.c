@@ -322,7 +322,7 @@ static int explain_word(const dictionary *d, const char *word)
     return found > 0 ? EXIT_AS_EXPECTED : refuse_word(d, word);
 }
 
-/* Joins all arguments, so that a term needs no quotes. */
+/* Joins all arguments, so a term needs no quotes. */
 static int explain_words(const command_line *l, const dictionary *d)
 {
     char word[LONGEST] = "";

@@ -8,7 +8,7 @@
 
 #include "harness/cli/cli.h"
 
-/* Not inlined, so that it uses the stack only after the stack size has been checked. */
+/* Not inlined, so it uses the stack only after the stack size has been checked. */
 static __attribute__((noinline)) int run(int count, char **arguments)
 {
     return verb_table_run(count, arguments);

@@ -78,7 +78,7 @@ static status add_all(const batch_label *label, const command_line *l, again *ou
 
 /* Reads the request from the first batch of the first folder, and adds --from for all folders and
  * the outputs of this request. REFUSED: there are no batches. FAULT: out of memory, or a file
- * cannot be read. again_free must be called also after a failure. */
+ * cannot be read. again_free must be called even after a failure. */
 static status again_make(const command_line *l, again *out, fault *f)
 {
     batch_label label;

@@ -58,7 +58,7 @@ static void say(const char *text)
     }
 }
 
-/* Ends with the same signal, so that the parent process sees it. */
+/* Ends with the same signal, so the parent process sees it. */
 static void end_by(int number)
 {
     signal(number, SIG_DFL);
@@ -156,7 +156,7 @@ static void tell(int which)
     _exit(EXIT_DIFFERS);
 }
 
-/* Uses a separate stack, so that a stack overflow is handled too. */
+/* Uses a separate stack, so a stack overflow is handled too. */
 static void stand_on_another_stack(void)
 {
     static char stack[1 << 16];

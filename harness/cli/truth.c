@@ -123,7 +123,7 @@ static void print_line(const derived_value *v, const case_type *type, const doub
     printf("}\n");
 }
 
-/* Prints the values. The caller, print_scene, closes the file, also after a failure. */
+/* Prints the values. The caller, print_scene, closes the file, even after a failure. */
 static status print_scene_of(const case_type *type, const double parameter[], FILE *text, fault *f)
 {
     char script[PATH_MAX];

@@ -81,8 +81,8 @@ int body_direction(int component);
  * value = factor*printed + offset, with the reciprocal of the printed number if `reciprocal` is 1.
  * Steps start at 1; x [SI] is the abscissa of a curve, or empty. */
 
-/* Quantities and loads of a scene that a deck of solids supports. All others are rejected, so that
- * none is omitted without notice. */
+/* Quantities and loads of a scene that a deck of solids supports. All others are rejected, so none
+ * is omitted without notice. */
 
 /* Returns the index of the static analysis if there is exactly one, else SCENE_NONE. */
 int carried_static(const scene *s);
@@ -104,7 +104,7 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
 
 /* Values of another program as a series of a sweep, whose cells are not run here. */
 
-/* Appends a series to the point; takes ownership of `found`, also after a failure. REFUSED: more
+/* Appends a series to the point; takes ownership of `found`, even after a failure. REFUSED: more
  * meshes than a series can have. */
 status import_cells_add(sweep *s, int point_index, imported *found, fault *f);
 
@@ -117,7 +117,7 @@ const char *map_keys_text(mistakes *m, const document_node *map, const char *key
 double map_keys_number(mistakes *m, const document_node *map, const char *key, double otherwise);
 
 /* Points of a deck on a static path: its stations, points that quantities need, and the corners of
- * drivers and load factors, so that each step is linear. */
+ * drivers and load factors, so each step is linear. */
 
 typedef struct path_points {
     int count;

@@ -253,7 +253,7 @@ static status read_line(file_reader *r, char *line, fault *f)
     return STATUS_OK;
 }
 
-/* Reads all lines. The caller, import_file_read, frees *line, also after a failure. */
+/* Reads all lines. The caller, import_file_read, frees *line, even after a failure. */
 static status read_lines(file_reader *r, FILE *from, char **line, fault *f)
 {
     size_t room = 0;

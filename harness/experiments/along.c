@@ -44,7 +44,7 @@ static void make_scene(support of, scene *s)
     section_spec spec = section_spec_rectangle(70e3, 27e3, 0.3, 0.2);
     spec.given.Iw = 0;
     spec.shear_factor[0] = 5.0 / 6;
-    spec.shear_factor[1] = 0.4; /* different values, so that swapped factors are detected */
+    spec.shear_factor[1] = 0.4; /* different values, so swapped factors are detected */
     scene_init(s, "along");
     const int profile = scene_add_section(s, &spec), from = scene_add_node(s, 0, 0, 0),
               to = scene_add_node(s, L, 0, 0);

@@ -127,9 +127,9 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
     return outcome;
 }
 
-/* Returns 1 when the writer of a temporary file has ended, so that the file is not locked. The
- * lock of an empty file may still be missing; such a file counts only if its writer is known to
- * have ended or the file is old. */
+/* Returns 1 when the writer of a temporary file has ended, so the file is not locked. The lock of
+ * an empty file may still be missing; such a file counts only if its writer is known to have ended
+ * or the file is old. */
 static int is_orphan(const char *path, int gone_for_sure)
 {
     enum { OLD = 60 }; /* [s] */

@@ -184,7 +184,7 @@ static void sample(const cell_request *dense, dense_reference *out)
     if (cell_run(&one, &cell, &f) == STATUS_OK)
         for (int k = 0; k < PHASE_REST; k++)
             seconds += cell.solve.phase[k];
-    if (seconds > 0) { /* continued paths have no dense form, so that nothing was sampled */
+    if (seconds > 0) { /* continued paths have no dense form, so nothing was sampled */
         out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
         out->unknowns = unknowns_of(&cell);
     }

@@ -204,7 +204,7 @@ static section_spec spec_of(const beam_request *r)
     section_spec spec = section_spec_rectangle(210e9, 81e9, r->width, r->thickness);
     spec.given.Iw = 0;
     spec.shear_factor[0] = 5.0 / 6;
-    spec.shear_factor[1] = 0.4; /* different values, so that swapped factors are detected */
+    spec.shear_factor[1] = 0.4; /* different values, so swapped factors are detected */
     if (r->profile)
         spec = i_profile();
     spec.density = 7800;

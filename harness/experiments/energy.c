@@ -398,8 +398,8 @@ static void rotating_check(const specimen *s, claims *c)
         warping(s, claims_open(c, "centrifugal energy of warping", 2e-4));
 }
 
-/* Makes all checks. Those of the rotating frame are repeated without some physics, so that the
- * remaining terms are tested alone. */
+/* Makes all checks. Those of the rotating frame are repeated without some physics, so the remaining
+ * terms are tested alone. */
 static void check_all(const specimen *s, claims *c)
 {
     static const unsigned without[] = {FEATURE_ROTARY_INERTIA, FEATURE_WARPING,

@@ -72,7 +72,7 @@ typedef struct machine {
 /* Work that can be cut into batches. A verb supplies these functions; a batch need not consist
  * of cells. */
 
-/* The batches depend only on the request and the build, so that independent processes make the same
+/* The batches depend only on the request and the build, so independent processes make the same
  * batches. */
 typedef struct shard_work {
     const char *verb;
@@ -206,7 +206,7 @@ typedef struct bench {
     sweep sweep;
     judgement judgement;
     environment made;
-    int named; /* 1: cases were named, so that more is shown for each case */
+    int named; /* 1: cases were named, so more is shown for each case */
 } bench;
 
 extern const experiment_type experiment_bench;
@@ -491,8 +491,7 @@ typedef struct extreme_request {
     int jobs, formulations;
     const formulation *formulation; /* [formulations] only these formulations; formulations 0:
                                        all */
-    int named;                      /* 1: the user named the formulations, so that their outcomes
-                                       affect the exit status */
+    int named; /* 1: the user named the formulations, so their outcomes affect the exit status */
     FILE *progress;
 } extreme_request;
 
@@ -732,7 +731,7 @@ typedef struct parameter_ranges {
 } parameter_ranges;
 
 /* Plans the sweep without solving anything. REFUSED: the message names the invalid part and the
- * remedy. Call ranges_free also after a failure. The request must outlive the result. */
+ * remedy. Call ranges_free even after a failure. The request must outlive the result. */
 status ranges_make(const ranges_request *request, parameter_ranges *out, fault *f);
 void ranges_free(parameter_ranges *);
 rows_shape ranges_shape(const parameter_ranges *);
@@ -814,9 +813,9 @@ typedef struct stock {
 
 /* Reads and checks every byte of the requested batches (wanted NULL: all). If a batch is in two
  * folders, the first one is used. Writes one line about each damaged batch, which counts as
- * missing, to the stream (may be NULL). REFUSED: a batch belongs to another build, request or
- * plan; a file has the name of a batch but is none; or two versions of a batch differ. FAULT: a
- * folder cannot be read. Call stock_free also after a failure. */
+ * missing, to the stream (may be NULL). REFUSED: a batch belongs to another build, request or plan;
+ * a file has the name of a batch but is none; or two versions of a batch differ. FAULT: a folder
+ * cannot be read. Call stock_free even after a failure. */
 status stock_take(const shard_work *w, const char *const folder[], int folders, const char *wanted,
                   FILE *tell, stock *out, fault *f);
 void stock_free(stock *);
@@ -902,7 +901,7 @@ typedef struct tally {
     tally_worst worst[RANGES_FORMULATIONS][TALLY_WORST]; /* in decreasing order of error */
 } tally;
 
-/* FAULT: out of memory. Call tally_free also after a failure. */
+/* FAULT: out of memory. Call tally_free even after a failure. */
 status tally_alloc(const parameter_ranges *r, tally *out, fault *f);
 void tally_free(tally *);
 
@@ -1018,10 +1017,10 @@ void solution_choice_free(solution_choice *);
 status solution_choose(solution_request *, const rule *rules, int count, int elements,
                        solution_choice *why, fault *f);
 /* Plans one point, series and mesh with the selected quantities, without running it. Call
- * sweep_free also after a failure. */
+ * sweep_free even after a failure. */
 status solution_plan(const solution_request *, sweep *, fault *);
 /* Solves the cell in this process. A cell without a solution counts as a result, except after
- * REFUSED and FAULT. Returns NOT_CONVERGED also if the chosen mesh does not reach the requested
+ * REFUSED and FAULT. Returns NOT_CONVERGED even if the chosen mesh does not reach the requested
  * error. */
 status solution_run(const solution_request *, const solution_choice *, sweep *, fault *);
 
@@ -1041,7 +1040,7 @@ status restart_possible(const scene *, fault *);
 /* Writes the final states of the solved motions to a file, with their scene, formulation and
  * mesh. The file has a temporary name until it is complete. */
 status restart_write(const char *path, const solution_request *, const sweep *, fault *);
-/* FAULT: the file is missing, damaged or foreign. Call restart_free also after a failure. */
+/* FAULT: the file is missing, damaged or foreign. Call restart_free even after a failure. */
 status restart_read(const char *path, restart *, fault *);
 void restart_free(restart *);
 /* Prepares the scene for continuation: only the stations after the stored state remain. REFUSED:
@@ -1067,8 +1066,8 @@ void runs_on_scene(const scene *s, const element_type *type, runs_on *out);
  * `other` is 0, because other models are not examined. */
 int runs_on_cases(const element_type *type, runs_on out[], int room);
 
-/* Binds this process to the processor on which it runs, so that the times of repetitions are
- * comparable. */
+/* Binds this process to the processor on which it runs, so the times of repetitions are comparable.
+ * */
 void rounds_pin(void);
 /* Restarts the program with one thread, because libraries set their number of threads when they are
  * loaded. arguments: NULL-terminated. */
@@ -1086,10 +1085,10 @@ typedef struct verification_reader {
 } verification_reader;
 
 /* Checks the interface requirements for named or loaded formulations. Then runs a planned sweep
- * (study.h) and evaluates its series in order, as soon as all series of their point are
- * complete. Finest meshes are run again if verdicts may depend on their scatter. Agreements of
- * formulations become reference values of scene files. whole 1: no selection was made; it has no
- * effect in an interrupted run. reader NULL: none. Call judgement_free also after a failure. */
+ * (study.h) and evaluates its series in order, as soon as all series of their point are complete.
+ * Finest meshes are run again if verdicts may depend on their scatter. Agreements of formulations
+ * become reference values of scene files. whole 1: no selection was made; it has no effect in an
+ * interrupted run. reader NULL: none. Call judgement_free even after a failure. */
 status verification_run(const sweep_request *, int whole, const verification_reader *reader,
                         truths *, sweep *, judgement *out, fault *);
 

@@ -273,8 +273,8 @@ const tally_place *tally_at(const tally *, int formulation, int quantity, int li
  * axis. */
 double tally_edge(const tally *, int axis_index, int place);
 
-/* A sweep as a group of a results file, which is written batch by batch, so that at most one
- * batch is in memory. */
+/* A sweep as a group of a results file, which is written batch by batch, so at most one batch is in
+ * memory. */
 
 /* Adds the results of points from `first` on. */
 status ranges_file_add(ranges_file *, long first, const rows *, fault *f);
@@ -342,7 +342,7 @@ void certificate_csv(FILE *to, const certificate *all, int count);
 /* Expected outcomes of a sweep of extremes (reference/extreme_findings.csv), and its counts. */
 
 /* Sets finding and as_expected of every outcome, and the counts. whole: 1 when no selection was
- * made, so that an unobserved deviation is a failure. */
+ * made, so an unobserved deviation is a failure. */
 void extreme_expect(extreme_sweep *s, int whole);
 
 /* Classifies the number of an outcome as accurate, under-resolved or wrong. */
@@ -402,8 +402,8 @@ typedef struct labour_notice {
 /* Computes batches until none is left or one of them fails. to: a pipe for the messages. */
 _Noreturn void labour_work(const labour *, int self, int to);
 
-/* Time after which no load acts on a structure, so that its energy and momenta are constant from
- * then on. */
+/* Time after which no load acts on a structure, so its energy and momenta are constant from then
+ * on. */
 
 /* Distance between two motions on the same mesh. */
 

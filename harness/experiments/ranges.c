@@ -112,7 +112,7 @@ static int quantity_of(const scene *s, const char *name)
     return -1;
 }
 
-/* Removes quantities that were not requested, so that they are not computed. */
+/* Removes quantities that were not requested, so they are not computed. */
 static void drop_quantities(const parameter_ranges *r, scene *s)
 {
     int kept = 0;
@@ -262,9 +262,9 @@ static status solve(const parameter_ranges *r, int batch, sweep *s, rows *out, f
     return STATUS_OK;
 }
 
-/* Computes all points of a batch and stores them in rows, which the caller frees, also after a
- * failure. The failure of a point, a cell or a reference value counts as a result. FAULT: an
- * error of the memory or of processes. */
+/* Computes all points of a batch and stores them in rows, which the caller frees, even after a
+ * failure. The failure of a point, a cell or a reference value counts as a result. FAULT: an error
+ * of the memory or of processes. */
 static status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f)
 {
     sweep s = {.values_only = 1};

@@ -90,8 +90,8 @@ static status place_output(const range_sweep_request *r, range_sweep *s, fault *
     return check_folder(s->worst, f);
 }
 
-/* Locks the folder until this process ends, so that the second of two runs with the same output
- * is rejected. */
+/* Locks the folder until this process ends, so the second of two runs with the same output is
+ * rejected. */
 static status hold_batches(const char *folder, fault *f)
 {
     struct stat there = {.st_nlink = 0};

@@ -14,7 +14,7 @@ static const double LARGER = 0.02;
  * fault of 1e-3 is detected wherever a limit changes by a hundredth of the fault. */
 static const double MOVED = 1e-5;
 
-/* Reads back the run as it will be stored, so that both sides are treated in the same way. */
+/* Reads back the run as it will be stored, so both sides are treated in the same way. */
 static status read_back(const sweep *s, const judgement *j, stored_results *out, fault *f)
 {
     const char *folder = getenv("TMPDIR");

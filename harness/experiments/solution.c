@@ -36,7 +36,7 @@ static void take(solution_request *r, preference *p, solution_choice *why)
     p->change = NULL;
 }
 
-/* Chooses the formulation and the elements. The caller, solution_choose, frees the scene, also
+/* Chooses the formulation and the elements. The caller, solution_choose, frees the scene, even
  * after a failure. */
 static status choose(solution_request *r, const rule *rules, int count, int elements, scene *s,
                      solution_choice *why, fault *f)

@@ -247,7 +247,7 @@ static status write_texts(verification_files *to, const overview *o, const envir
     return to->propose != NULL ? write_proposal(to, f) : STATUS_OK;
 }
 
-/* Writes the store, and closes it also after a failure. */
+/* Writes the store, and closes it even after a failure. */
 static status write_store(verification_files *to, const environment *e, fault *f)
 {
     char where[PATH_MAX];

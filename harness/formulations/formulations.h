@@ -230,7 +230,7 @@ int select_matches(const char *expression, const char *text);
  * NULL; 0 for an expression with `not`. */
 int select_covers(const char *expression, const char *part);
 
-/* Records which words of an expression have matched a name, so that a misspelt word is reported. */
+/* Records which words of an expression have matched a name, so a misspelt word is reported. */
 typedef struct select_words {
     char met[SELECT_WORDS];
 } select_words;

@@ -108,9 +108,9 @@ void channel_end(channel *);
 /* Marks the channel as broken, for a reason that the caller gives. Returns FAULT. */
 status channel_break(channel *, const char *why, fault *);
 
-/* Gathers the perturbed states of many elements, so that one call evaluates all of them. A
- * function that computes finite differences is called twice: the first call records its states,
- * and the second call receives their values. */
+/* Gathers the perturbed states of many elements, so one call evaluates all of them. A function that
+ * computes finite differences is called twice: the first call records its states, and the second
+ * call receives their values. */
 
 typedef struct gather {
     int answered;    /* 0: states are being gathered; 1: their answers are returned, in the same

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reads the options to *out, a table that the caller frees, also after REFUSED; NULL when the
- * list is NULL or empty. REFUSED: see handshake_read. */
+/* Reads the options to *out, a table that the caller frees, even after REFUSED; NULL when the list
+ * is NULL or empty. REFUSED: see handshake_read. */
 static status handshake_options(const char *who, const json_t *list, const parameter_type **out,
                                 fault *f);
 static void handshake_options_free(const parameter_type *table); /* accepts NULL */
@@ -53,7 +53,7 @@ static status refuse(const handshake_reading *r, const char *key, const char *wh
                      what);
 }
 
-/* Copies a string, so that it outlives the JSON. */
+/* Copies a string, so it outlives the JSON. */
 static status text_of(const handshake_reading *r, const char *key, const char **out)
 {
     const char *text = json_string_value(json_object_get(r->said, key));

@@ -221,8 +221,8 @@ void assignment_text(const assignment_list *l, const double value[], char *text,
     }
 }
 
-/* Returns 1 when the program has added the parameter, so that the original source of the case
- * does not have it. */
+/* Returns 1 when the program has added the parameter, so the original source of the case does not
+ * have it. */
 static int is_shared(const parameter_type *p)
 {
     return case_is_omit(p) || case_is_mass(p);
@@ -322,8 +322,9 @@ uint64_t parameters_hash_next(const case_type *c, const double value[], const in
     for (; (p = parameter_at(c->parameters, i)) != NULL; i++) {
         write_word(p, i, value[i], any != NULL && any[i], before);
         if (is_shared(p) && value[i] == 0)
-            continue; /* the default adds nothing, so that points keep the names that they had
-                         before this parameter existed */
+            /* the default adds nothing, so points keep the names that they had before this
+             * parameter existed */
+            continue;
         for (const char *at = before->text[i]; *at != '\0'; at++)
             hash = (hash ^ (unsigned char)*at) * 1099511628211ull;
     }

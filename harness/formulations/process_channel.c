@@ -43,8 +43,7 @@ static void become(char *const words[], int in, int out, int why, pid_t parent)
     _exit(127);
 }
 
-/* Opens a pipe whose descriptors are not 0, 1 or 2, so that dup2 does not close a descriptor in
- * use. */
+/* Opens a pipe whose descriptors are not 0, 1 or 2, so dup2 does not close a descriptor in use. */
 static int pipe_above(int ends[2])
 {
     int low[2];
@@ -198,7 +197,7 @@ static child_event child_write(const child *c, const void *bytes, size_t count, 
     return CHILD_DONE;
 }
 
-/* Reads at least `least` and at most `most` bytes. *count: number of bytes read, also when the
+/* Reads at least `least` and at most `most` bytes. *count: number of bytes read, even when the
  * child has ended. */
 static child_event child_read(const child *c, void *bytes, size_t least, size_t most, size_t *count,
                               int limit)
@@ -261,7 +260,7 @@ void channel_note(channel *c, status outcome, const fault *why)
     c->told = 0;
 }
 
-/* Replaces characters that are not printable by dots, so that the text is one line. */
+/* Replaces characters that are not printable by dots, so the text is one line. */
 static void on_one_line(char text[])
 {
     for (; *text != '\0'; text++)

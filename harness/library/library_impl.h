@@ -82,7 +82,7 @@ struct bw_scene {
 };
 
 /* Makes the source of a built-in case, or of a file. name: used in messages. Takes ownership of
- * file and name, also after a failure. */
+ * file and name, even after a failure. */
 status source_new(const case_type *type, scene_file *file, char *name, source **out, fault *f);
 void source_release(source *); /* NULL: does nothing */
 const case_type *source_case(const source *);

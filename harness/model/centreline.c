@@ -7,7 +7,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-enum { LEAST_PIECES = 12 }; /* pieces per member, so that a single element appears curved */
+enum { LEAST_PIECES = 12 }; /* pieces per member, so a single element appears curved */
 static const double drawn_part = 0.1,
                     drawn_rotation = 0.5; /* fraction of the model's size; [rad] */
 

@@ -144,7 +144,7 @@ typedef struct pairs {
     int *begin, *end;           /* [n + 1] starts of the lists of rows, and of columns */
 } pairs;
 
-/* Sorts columns by rows first, so that the rows of each column are in ascending order. Removes
+/* Sorts columns by rows first, so the rows of each column are in ascending order. Removes
  * duplicates. */
 static void sort_pairs(const pairs *all, sparse *out)
 {

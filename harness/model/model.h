@@ -466,8 +466,8 @@ static inline int model_first_release(const model *m)
 {
     return model_mesh_of(m)->first_release;
 }
-/* Returns the only axis about which a node is fixed or prescribed, so that it can support a moment
- * about this axis at any rotation about the two others. NONE: there is no such axis, or there are
+/* Returns the only axis about which a node is fixed or prescribed, so it can support a moment about
+ * this axis at any rotation about the two others. NONE: there is no such axis, or there are
  * several. */
 int coordinates_held_turn(const model *, int node);
 /* Number of warping amplitudes, and the coordinate of a warping amplitude. */

@@ -75,7 +75,7 @@ static void turns_continue(const double q[4], const double before[3], double out
     double along[3] = {0};
     rotation_log(q, out);
     if (q[0] > 0 && length < PI / 2)
-        return; /* less than half a revolution, so that no other vector is closer */
+        return; /* less than half a revolution, so no other vector is closer */
     if (length > PI && keeps_direction(out, before, length)) {
         const int odd = q[0] < 0;
         const double turns = 2 * round((length / (2 * PI) - odd) / 2) + odd;

@@ -342,8 +342,8 @@ static int motions_at_release(const entries *all, const applied *what,
     return count;
 }
 
-/* Returns 1 if rotation e comes before l, so that it rotates the axis of l; 0 if it does not;
- * 1/2 if neither comes first. */
+/* Returns 1 if rotation e comes before l, so it rotates the axis of l; 0 if it does not; 1/2 if
+ * neither comes first. */
 static double carries(const mesh_release *r, const load_motion *e, const load_motion *l)
 {
     if (r->turns == 3 && e->own != l->own)

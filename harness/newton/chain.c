@@ -186,7 +186,7 @@ status chain_stiffness(const chain *s, double K[], fault *f)
  * Two sweeps find the forces between the links. If w is the force on the joint before a link,
  * including that of the link,
  *   x = Z a + Z F w,   w - B x = Z^T w - B Z a.
- * The motions then follow link by link, so that neighbours differ exactly by the deformation of a
+ * The motions then follow link by link, so neighbours differ exactly by the deformation of a
  * link. Differences of independently computed motions would lose as many digits as an assembled
  * stiffness. Sizes are compile-time constants where a sweep is inlined. */
 
@@ -283,9 +283,8 @@ INLINED void backward(chain *s, int c, int y, const double r[], const double las
         begin[i] = -g[in + i];
 }
 
-/* Computes the motions from the motion of the first joint and the forces, so that the
- * deformations of links are exact to the last digit. Writes x[links x y]; r NULL: adds to x. x
- * may be r. */
+/* Computes the motions from the motion of the first joint and the forces, so the deformations of
+ * links are exact to the last digit. Writes x[links x y]; r NULL: adds to x. x may be r. */
 INLINED void deform(const chain *s, int c, int y, const double r[], const double first[],
                     double x[])
 {

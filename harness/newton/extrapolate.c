@@ -150,8 +150,8 @@ static void keep_smooth(const equations *eq, const model_state *const at[], doub
     }
 }
 
-/* Sets the prescribed components of a spatial increment to the values of their drivers, so that
- * frame and driver agree. */
+/* Sets the prescribed components of a spatial increment to the values of their drivers, so frame
+ * and driver agree. */
 static void prescribe(const model *m, const mesh_vertex *v, const model_state *last,
                       const model_state *out, double turn[3])
 {

@@ -344,8 +344,8 @@ void linear_system_free(linear_system *s)
 }
 
 /* Computes the residual: load minus K x, including prescribed coordinates, minus the forces of
- * initial strains. It is computed from element strains, so that its error does not grow with the
- * number of elements. */
+ * initial strains. It is computed from element strains, so its error does not grow with the number
+ * of elements. */
 static status residual_of(analysis_context *c, double path, const double load[], const double x[],
                           double sigma[], double r[], fault *f)
 {
@@ -437,8 +437,8 @@ static status refine(analysis_context *c, linear_system *s, system_workspace *w,
     return state == REFINEMENT_ENDS ? STATUS_OK : refinement_refuse(&r, "the linear solution", f);
 }
 
-/* Solves for x with iterative refinement. The caller, linear_system_solve, frees *w, also after
- * a failure. */
+/* Solves for x with iterative refinement. The caller, linear_system_solve, frees *w, even after a
+ * failure. */
 static status solve(analysis_context *c, linear_system *s, double path, system_workspace *w,
                     double x[], fault *f)
 {

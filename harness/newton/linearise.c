@@ -1,6 +1,6 @@
 /* Mixed linearisation (N section 4): with J = de/dx and the independent e and sigma,
  *   de = D(x) - e + J dx,   sigma + dsigma = P'(e) + P''(e) de.
- * The equations are condensed element by element, so that stiff modes cause no large spurious
+ * The equations are condensed element by element, so stiff modes cause no large spurious
  * stresses during the iteration. */
 #include "harness/newton/newton_impl.h"
 

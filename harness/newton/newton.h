@@ -106,7 +106,7 @@ status linear_memory_alloc(const model *, linear_memory *, fault *);
 void linear_memory_free(linear_memory *);
 
 /* Starts a run of a model. threads: number of threads for the loop over elements; 0 or 1: one
- * thread. Sums keep their order, so that results do not depend on the number of threads. */
+ * thread. Sums keep their order, so results do not depend on the number of threads. */
 status run_state_begin(run_state *, const model *, int threads, fault *);
 void run_state_end(run_state *);
 
@@ -163,8 +163,8 @@ typedef struct arrival {
 } arrival;
 
 /* differences 1: derivatives are computed by differences, whose noise prevents quadratic
- * convergence, so that the iteration ends at the first small correction. elements: with many
- * elements rounding of the positions limits the size of corrections. */
+ * convergence, so the iteration ends at the first small correction. elements: with many elements
+ * rounding of the positions limits the size of corrections. */
 void arrival_start(double criterion, int differences, int elements, arrival *);
 /* Returns 1 when the last change of the state was so small that the tangent of the last
  * linearisation is still exact up to rounding. */
@@ -1059,8 +1059,8 @@ typedef struct internal_place {
 /* Resultants at a position of a member, and the other values of section_forces.h: out[SPAN_VALUES].
  * NOT_CONVERGED: as span_recover. In a motion the mass is distributed evenly along an element, with
  * accelerations interpolated between its nodes. For a linear acceleration the forces are in
- * equilibrium with the rest of the structure, so that values are continuous between elements (order
- * 2). Warping inertia acts at nodes. */
+ * equilibrium with the rest of the structure, so values are continuous between elements (order 2).
+ * Warping inertia acts at nodes. */
 status internal_at(const equations *, const internal_state *, const internal_place *, double out[],
                    fault *);
 
@@ -1276,7 +1276,7 @@ int quantity_curve(quantity_result *, int points);
  * limits them (N.J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 12.1): x
  * is then the solution for loads rounded in their last digit, and the correction is its error. This
  * level depends on the problem, not on the mesh or on K. Example: a bar of length L is pushed along
- * an oblique axis, so that the components of the force are rounded; the transverse displacement eps
+ * an oblique axis, so the components of the force are rounded; the transverse displacement eps
  * P L^3/(3 EI) is eps (L/r)^2/3 relative to P L/(EA). Measured with square bars of side L/10 to
  * L/1e5, 1 to 256 elements, three oblique axes and every formulation: at most 2.5 eps (L/side)^2
  * where this exceeds the rounding due to the mesh (170 times that for the geometrically exact

@@ -179,8 +179,7 @@ void loads_stiffness_at_vertices(const equations *eq, const model_state *s, doub
 void loads_subtract_at_vertices(const equations *eq, const model_state *s, double path, sparse *K);
 /* Subtracts the stiffness of all loads from K, which has a pattern of model.h. */
 void loads_subtract_stiffness(const equations *eq, const model_state *s, double path, sparse *K);
-/* REFUSED: the stiffness of a moment is not symmetric, so that a symmetric matrix cannot contain
- * it. */
+/* REFUSED: the stiffness of a moment is not symmetric, so a symmetric matrix cannot contain it. */
 status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f);
 
 /* Elements and loads give derivatives of work in the exponential chart of a node's rotation. At

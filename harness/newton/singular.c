@@ -73,8 +73,7 @@ double quadratic_forms_geometric_rounding(quadratic_forms *p, const double x[])
     return linear_geometric_rounding(p->eq, p->load_x, p->sigma, all_of(p, x));
 }
 
-/* The undeformed elements were evaluated when K was assembled, so that no evaluation can fail
- * here. */
+/* The undeformed elements were evaluated when K was assembled, so no evaluation can fail here. */
 void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
 {
     linear_stresses(p->eq, all_of(p, x), p->stress, NULL);

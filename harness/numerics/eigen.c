@@ -248,7 +248,7 @@ static status find(const eigen_problem *e, candidates *up, candidates *down, eig
     return one_sparse(down, 1, e->smallest, &r->negative, r, f);
 }
 
-/* Solves for both sides. The caller, eigen_solve, frees the candidates, also after a failure. */
+/* Solves for both sides. The caller, eigen_solve, frees the candidates, even after a failure. */
 static status solve(const eigen_problem *e, candidates *up, candidates *down, eigen_result *r,
                     fault *f)
 {

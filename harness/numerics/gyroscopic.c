@@ -376,7 +376,7 @@ static status find(gyroscopic_solver *s, fault *f)
     return hand_over(s, f);
 }
 
-/* Finds the modes. The caller, gyroscopic_solve, frees *s, also after a failure. */
+/* Finds the modes. The caller, gyroscopic_solve, frees *s, even after a failure. */
 static status solve(gyroscopic_solver *s, fault *f)
 {
     const gyroscopic_problem *p = s->p;

@@ -10,7 +10,7 @@
  *
  * A symmetric matrix stores only its upper triangle (row <= column), any other matrix all entries.
  * If by_numbers is 1, a matrix stored in full is factored as symmetric if its values are symmetric.
- * The pattern does not change; values are added by position, so that assembly needs no search. */
+ * The pattern does not change; values are added by position, so assembly needs no search. */
 
 typedef struct sparse {
     int n, symmetric;
@@ -293,8 +293,8 @@ static inline const char *phase_name(newton_phase k)
     return name[k];
 }
 
-/* Threads that share a loop. Each takes one range of consecutive indices, so that results do not
- * depend on the number of threads. */
+/* Threads that share a loop. Each takes one range of consecutive indices, so results do not depend
+ * on the number of threads. */
 
 typedef struct thread_team thread_team;
 typedef void team_work(void *context, int first, int end); /* [first, end) */

@@ -177,8 +177,8 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
 /* Proves, from the negative eigenvalues of K, that no mode about an unstable state is missing.
  *
  * (lambda^2 M + lambda G + K) x = 0 with M positive. Each negative eigenvalue of K belongs to a
- * mode, so that negative(K) = real + 2 complex + 2 opposed where the three numbers count the real
- * lambda > 0, the pairs the lambda = a + i b with a, b > 0, and the frequencies whose energy x^H (K
+ * mode, so negative(K) = real + 2 complex + 2 opposed where the three numbers count the real lambda
+ * > 0, the pairs the lambda = a + i b with a, b > 0, and the frequencies whose energy x^H (K
  * + omega^2 M) x is negative (T. Kapitula, P. Kevrekidis, B. Sandstede, Physica D 195 (2004)
  * 263-282). If the modes found add up to this number, none is missing. The number of negative
  * eigenvalues of K - omega^2 M + i omega G is then that of K, plus one for each frequency of
@@ -225,7 +225,7 @@ status polish(candidates *p, long *solutions, fault *f);
 /* Computes the values of L and D in P A P^T = L D L^T, row by row. Consecutive rows that have
  * entries in the same columns are computed together, one in each lane. Consecutive columns of equal
  * pattern are subtracted together. The terms of every number are summed in the order of the
- * columns, so that all numbers agree bitwise with those of SuiteSparse's ldl_numeric. */
+ * columns, so all numbers agree bitwise with those of SuiteSparse's ldl_numeric. */
 
 enum { TRIANGULAR_LANES = 4, TRIANGULAR_RUN = 7 };
 
@@ -290,8 +290,8 @@ void triangular_groups_place(const triangular_groups *, const int column[], int 
 void triangular_groups_free(triangular_groups *);
 
 /* Solves P^T L D L^T P x = b for one or several right-hand sides. Terms are summed in the order of
- * SuiteSparse's ldl_lsolve and ldl_ltsolve, so that the bits do not depend on how many right-hand
- * sides are solved together. */
+ * SuiteSparse's ldl_lsolve and ldl_ltsolve, so the bits do not depend on how many right-hand sides
+ * are solved together. */
 
 enum { TRIANGULAR_TOGETHER = 4 };
 

@@ -212,7 +212,7 @@ static void discard(output *out)
     }
 }
 
-/* Writes to the disk. Returns 1 also for a file that cannot be synchronised, such as a pipe or a
+/* Writes to the disk. Returns 1 even for a file that cannot be synchronised, such as a pipe or a
  * device. */
 static int is_stored(FILE *stream)
 {

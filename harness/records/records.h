@@ -336,7 +336,7 @@ digest digest_begin(void);
 void digest_add(digest *, const void *data, size_t size);
 void digest_add_text(
     digest *,
-    const char *text); /* includes the terminating zero, so that "ab", "c" differs from "a", "bc" */
+    const char *text); /* includes the terminating zero, so "ab", "c" differs from "a", "bc" */
 /* Equal numbers give equal digests: -0 counts as 0, and all NaN are alike. */
 void digest_add_number(digest *, double value);
 /* Writes the digits; further data may then be added to the digest. */
@@ -564,8 +564,8 @@ hid_t kept_group(record_file *r, const char *name);
  * is unchanged. */
 status kept_close(record_file *r, const char *name, const char *path, fault *f);
 /* Must be called before the computation. REFUSED: the existing HDF5 file is damaged or contains no
- * results, so that its contents would be lost, or another program has locked it. FAULT: the file
- * cannot be locked. */
+ * results, so its contents would be lost, or another program has locked it. FAULT: the file cannot
+ * be locked. */
 status kept_check(const char *path, fault *f);
 
 /* Summary of a verification as Markdown, for the description of a pull request. */

@@ -376,7 +376,7 @@ void omission_of(const scene *s, const element_type *type, omission *out)
     if (out->what == 0)
         return;
     find_change(s, out);
-    out->other = !(out->change <= omission_most); /* true also for NAN */
+    out->other = !(out->change <= omission_most); /* true even for NAN */
 }
 
 void omission_words(const omission *o, char text[OMISSION_TEXT])

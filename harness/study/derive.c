@@ -127,7 +127,7 @@ static int stop(script *s)
 }
 
 /* Runs the script and reads its values. The caller, derive_asked, stops the script and frees
- * memory, also after a failure. */
+ * memory, even after a failure. */
 static status derive(const derive_question *q, script *s, derived_value **out, int *count, fault *f)
 {
     char complaint[LINE] = "", more[LINE];

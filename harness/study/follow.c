@@ -9,7 +9,7 @@
 
 enum { HALVINGS = 20 };
 
-/* Adds a sample. The walk takes ownership of the shapes, also after a failure. */
+/* Adds a sample. The walk takes ownership of the shapes, even after a failure. */
 static status keep_sample(follow_walk *w, double value, int asked, follow_shapes *s, fault *f)
 {
     follow_curves *c = w->out;
@@ -169,8 +169,8 @@ static int unfinished_step(const solve_result *r, double promised)
     return -1;
 }
 
-/* Returns 1 when the solution consists only of Newton iterations without rejected steps, so that
- * each iteration evaluates every element once and factors once. */
+/* Returns 1 when the solution consists only of Newton iterations without rejected steps, so each
+ * iteration evaluates every element once and factors once. */
 static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
 {
     for (int i = 0; i < s->analyses; i++)

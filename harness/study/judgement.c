@@ -325,8 +325,8 @@ static int formulations_are_run(const sweep *s, const char *word)
     return all && found;
 }
 
-/* Returns 1 when all points and quantities of the cases are included, so that the word selects
- * only cases. */
+/* Returns 1 when all points and quantities of the cases are included, so the word selects only
+ * cases. */
 static int cases_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;

@@ -119,7 +119,7 @@ int reach_mesh(const sweep *s, const verdict *v, double level)
     for (int i = one->meshes - 1; i >= 0; i--) {
         const solve_result *r = &one->cell[i].solve;
         const double value = v->quantity < r->quantities ? r->quantity[v->quantity].value : NAN;
-        if (!(fabs(verdict_error(q, value, v->truth->value)) <= level)) /* false also for NAN */
+        if (!(fabs(verdict_error(q, value, v->truth->value)) <= level)) /* false even for NAN */
             break;
         first = i;
     }

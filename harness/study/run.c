@@ -158,8 +158,8 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
     return outcome == STATUS_OK ? tell_all(w, f) : outcome;
 }
 
-/* Cells run in a separate process even for one job, so that a crash is reported as a result and
- * results do not depend on the number of jobs. */
+/* Cells run in a separate process even for one job, so a crash is reported as a result and results
+ * do not depend on the number of jobs. */
 status run_sweep(const sweep_request *request, sweep *s, fault *f)
 {
     workload w;

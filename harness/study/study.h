@@ -113,7 +113,7 @@ typedef struct cell_result {
 /* Sets the formulation, its options and the form of Newton's method. */
 void cell_formulation(cell_request *, const formulation *chosen);
 /* Builds the valid scene of a case at its parameters, changed by the edit (NULL: unchanged). The
- * caller frees the scene, also after a failure. */
+ * caller frees the scene, even after a failure. */
 status cell_scene(const case_type *type, const double parameter[], const scene_edit *edit,
                   scene *out, fault *f);
 status cell_run(const cell_request *, cell_result *, fault *);
@@ -340,8 +340,9 @@ typedef struct sweep_request {
     int share; /* 1: cells with provably equal results are solved once; such cells also share their
                   times */
     int time_limit; /* [s] limit for one cell, checked by its process and by the parent; 0: none */
-    int together;   /* 1: if a worker is killed (SIGKILL), this process ends too, so that its result
-                       is not used. 0: the cell counts as crashed */
+    /* 1: if a worker is killed (SIGKILL), this process ends too, so its result is not used. 0: the
+     * cell counts as crashed */
+    int together;
     int interruptible;             /* 1: Ctrl-C ends the run, and finished results are kept */
     int stop;                      /* descriptor that becomes readable to stop the run; 0: none */
     const case_type *const *cases; /* NULL-terminated; NULL: all cases */
@@ -349,8 +350,9 @@ typedef struct sweep_request {
                     */
     int formulations; /* number of formulations in the list; 0: all */
     const formulation *formulation;
-    int named; /* 1: the user named these formulations, so that their verdicts affect the exit
-                  status even if the project has not accepted them */
+    /* 1: the user named these formulations, so their verdicts affect the exit status even if the
+     * project has not accepted them */
+    int named;
     /* relative tolerance that replaces those of the cases; 0: the tolerances of the cases */
     double tolerance;
     /* largest number of path states with stored centre lines, on the finest mesh at the defaults;
@@ -841,7 +843,7 @@ const overview_cell *overview_at(const overview *, int row, int column);
 /* Returns 1 when the row has an evaluated run. */
 int overview_judged(const overview *, int row);
 /* Returns 1 when the row gets a line of its own. All rows do if there are few. Otherwise passing
- * cases share lines, so that the table fits on one screen. */
+ * cases share lines, so the table fits on one screen. */
 int overview_shown(const overview *, int row);
 /* Writes the mark as "ok", "~3" or "!#2", which is readable without colour. utf8 1: uses
  * characters outside ASCII. */

@@ -47,7 +47,7 @@ int rules_is_observed(const rule *);
 status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f);
 void rules_free(rule *, int count);
 
-/* Allocates memory, so that rows do not move while `more` rows are added. FAULT: out of memory. */
+/* Allocates memory, so rows do not move while `more` rows are added. FAULT: out of memory. */
 status truths_reserve(truths *, int more, fault *f);
 
 /* Returns 1 when the selection of the sweep includes the quantity. */
@@ -209,14 +209,14 @@ extern const expense_factor expense_factors[];
  */
 void expense_count(const scene *s, int steps, double times[EXPENSE_KINDS]);
 /* Orders all cells of a sweep, tasks[sweep_cells]. Cells of expensive series come first, in
- * decreasing order of cost, so that only small ones remain at the end. The others follow in the
- * order of the series, so that series are completed one after the other. Within a series the finest
- * mesh comes first. A series is expensive if it needs more than a hundredth of the work of one
- * process. Returns 0, or -1 when out of memory. */
+ * decreasing order of cost, so only small ones remain at the end. The others follow in the order of
+ * the series, so series are completed one after the other. Within a series the finest mesh comes
+ * first. A series is expensive if it needs more than a hundredth of the work of one process.
+ * Returns 0, or -1 when out of memory. */
 int expense_order(const sweep *s, int jobs, workload_task tasks[]);
 
 /* Cross-formulation agreement, for structures without a reference value: the limit on which
- * formulations of different families agree. Types of one family share code or theory, so that their
+ * formulations of different families agree. Types of one family share code or theory, so their
  * agreement proves little. All families may be wrong together; therefore an agreement is
  * informative and never affects the exit status. A formulation is excluded if it has a known
  * deviation for a feature of the scene (a rule with that feature in its condition), or is marked
@@ -421,8 +421,8 @@ int truth_index_next(const truths *t, int i);
 
 /* Returns the name of the first column of a row whose value is invalid, or NULL. */
 const char *truth_rows_wrong(const truth *row);
-/* Fills row[table->rows], which is initially zero. FAULT: a column is invalid, or the defaults
- * of the case of a row have changed. truths_free releases the rows read, also after a failure. */
+/* Fills row[table->rows], which is initially zero. FAULT: a column is invalid, or the defaults of
+ * the case of a row have changed. truths_free releases the rows read, even after a failure. */
 status truth_rows_read(const table_columns *table, const case_type *type, truth row[]);
 
 #endif

@@ -328,8 +328,8 @@ static status plan_point(const sweep_request *request, const truths *t, sweep *s
     if (asked == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a selection");
     const status outcome = plan_series(request, t, s, index, words, asked, f);
-    plan_omissions(s, index); /* omissions depend on all quantities, so that a verdict does not
-                                 depend on the selection */
+    /* omissions depend on all quantities, so a verdict does not depend on the selection */
+    plan_omissions(s, index);
     drop_quantities(&s->point[index].scene, asked);
     free(asked);
     return outcome;

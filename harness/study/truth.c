@@ -144,8 +144,8 @@ int truth_index_next(const truths *t, int i)
     return walk(t, row->type, row->quantity, i < t->indexed ? t->indexed : i + 1);
 }
 
-/* Fills the index from the last row to the first one, so that each entry links to the next row
- * of the same quantity. */
+/* Fills the index from the last row to the first one, so each entry links to the next row of the
+ * same quantity. */
 static void chain(truths *t)
 {
     for (int k = 0; k < t->places; k++)

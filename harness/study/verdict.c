@@ -132,8 +132,8 @@ static int order_is_low(const scene_quantity *q, const verdict *v)
            v->fit.last_change > v->truth->uncertainty;
 }
 
-/* Returns 1 when the limit equals the derived one within both uncertainties. The criterion is
- * the same as for a bias, so that a significantly different limit is not the derived one. */
+/* Returns 1 when the limit equals the derived one within both uncertainties. The criterion is the
+ * same as for a bias, so a significantly different limit is not the derived one. */
 static int is_predicted(const verdict *v)
 {
     if (v->predicted == NULL)

@@ -102,9 +102,9 @@ void workload_end(workload *w)
     free(w->after);
 }
 
-/* Takes task i, which is number n of a counter. The worker first records that it works on the
- * task, so that the task is not lost if the worker ends in between. Returns 0 if another worker
- * has taken the task. */
+/* Takes task i, which is number n of a counter. The worker first records that it works on the task,
+ * so the task is not lost if the worker ends in between. Returns 0 if another worker has taken the
+ * task. */
 static int take(board *b, int self, atomic_int *counter, int n, int i)
 {
     b->since[self] = clock_wall_seconds();
@@ -333,7 +333,7 @@ static int noise_take(const sweep_point *p, const cell_result again[NOISE_REPETI
         const double measured =
             noise_of(&p->scene.quantity[q], value_of(&one->cell[one->meshes - 1], q), value);
         /* errors of finite differences are the same on all meshes and in equivalent scenes, so
-         * that scatter does not show them */
+         * scatter does not show them */
         one->noise[q] =
             isnan(measured) ? measured : fmax(measured, adapters_error(one->formulation.type));
     }

@@ -163,7 +163,7 @@ void carried_free(carried_masses *c)
  * the centre follows from the rotation. It is (w x s) at both ends of the step. Its mean differs
  * from the mean velocity of the step by h (v_c + v_c1)/2 - dr_c = h/4 c x g, g = (R_n + R_1)/2 (W1
  * - W) x s. The moment g x m (v_c1 - v_c)/4 of the fixed components compensates for the work of
- * this difference, so that the kinetic energy gained equals the work done. */
+ * this difference, so the kinetic energy gained equals the work done. */
 
 /* to[3 x n]: replaces the components along fixed translations by those of `from`. */
 static void hold_rows(const carried_step *p, int n, const double from[], double to[])

@@ -435,9 +435,9 @@ static void heavy_ones(const model *m, const carried_mass *one, const carried_st
     }
 }
 
-/* Computes the velocities of the masses at released ends. They are integrated separately, so
- * that these masses conserve energy and momenta like the masses of nodes. They differ from the
- * rates of the coordinates by terms of second order in the step size. */
+/* Computes the velocities of the masses at released ends. They are integrated separately, so these
+ * masses conserve energy and momenta like the masses of nodes. They differ from the rates of the
+ * coordinates by terms of second order in the step size. */
 static void conserving_released_rates(const conserving *s, const instant *from, double h,
                                       instant *to)
 {

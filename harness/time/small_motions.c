@@ -1,8 +1,8 @@
-/* Small motions about a state with rates: M x'' + (C + G) x' + K x, where x contains increments
- * of the coordinates (rotations in fixed axes). For a free rotation with W = R^T w, dW = R^T x'
- * and dW' = R^T (x'' - w x x'), so that M w~ is subtracted there from the derivatives with
- * respect to the rates. Strains e(x) of damped members have the rates J x', which change by J x'
- * + J' x, where J' is the change of J along the motion. */
+/* Small motions about a state with rates: M x'' + (C + G) x' + K x, where x contains increments of
+ * the coordinates (rotations in fixed axes). For a free rotation with W = R^T w, dW = R^T x' and
+ * dW' = R^T (x'' - w x x'), so M w~ is subtracted there from the derivatives with respect to the
+ * rates. Strains e(x) of damped members have the rates J x', which change by J x' + J' x, where J'
+ * is the change of J along the motion. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>

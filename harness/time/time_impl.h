@@ -16,7 +16,7 @@
 #include "harness/newton/newton.h"
 #include "harness/time/time.h"
 
-/* The convergence history of Newton's method is part of the instant, so that a rejected step has no
+/* The convergence history of Newton's method is part of the instant, so a rejected step has no
  * effect on it. Call instant_recall before a step, and instant_remember with the instant at its
  * end. */
 void instant_recall(const instant *from, arrival *);
@@ -184,9 +184,9 @@ void cayley_forces(const cayley_step *, int columns, double f[]);
 
 typedef struct complement complement; /* data for one state */
 
-/* Sets *out to NULL if no update is needed or possible: all stresses are linear in the strains,
- * or they depend on inner unknowns of the element, or the type evaluates all elements in one
- * call (another process), so that updates would require many requests. */
+/* Sets *out to NULL if no update is needed or possible: all stresses are linear in the strains, or
+ * they depend on inner unknowns of the element, or the type evaluates all elements in one call
+ * (another process), so updates would require many requests. */
 status complement_alloc(const equations *, complement **out, fault *);
 void complement_free(complement *);
 
@@ -232,7 +232,7 @@ typedef enum rotation_form {
 /* REFUSED: two rotations about fixed axes are free while the third is fixed or follows a driver,
  * whether its row is kept or eliminated. They fix a component of the angular velocity at zero. This
  * constraint is not integrable: exp(-b e_j~) exp(-a e_i~) exp(b e_j~) exp(a e_i~) = 1 - a b e_k~ +
- * ..., so that the coordinates do not determine the orientation of the node. */
+ * ..., so the coordinates do not determine the orientation of the node. */
 status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
@@ -258,7 +258,7 @@ void inertia_force_at(const carried_mass *, const frame_rates *, double F[6]);
 void inertia_force(const model *, const carried_mass *, const model_state *, const double v[],
                    const double a[], double F[6]);
 /* out[free + driven] -= inertia forces at the rates v and their derivatives a. a NULL: zero, so
- * that only the terms in the velocities remain. */
+ * only the terms in the velocities remain. */
 void inertia_subtract(const model *, const carried_masses *, const model_state *, const double v[],
                       const double a[], double out[]);
 
@@ -653,7 +653,7 @@ double kinks_before(const model *, double time);
 /* One instant of a motion by mixed Newton iteration (Nijenhuis et al., section 4), starting from
  * the previous instant: equilibrium with the inertia forces of rates that follow the increment,
  *   v = v0 + g inc,   a = a0 + b inc.
- * Strains and stresses of elements are unknowns, so that stiff elements need no additional
+ * Strains and stresses of elements are unknowns, so stiff elements need no additional
  * iterations. */
 
 /* Returns 1 when the last factors may be used again. The error that they cause is the product of
@@ -778,13 +778,13 @@ void peaks_jump(peaks *);
 void peaks_end(peaks *);
 
 /* Motion of a frame during a step, from the coordinates of its body and of a released end. It is
- * exact, so that forces do the same work in both sets of coordinates. Subscript m denotes the mean
- * of the values at the two ends of the step, subscripts n and 1 denote the start and the end.
- * Frame moved by a body:  dr = dr_b + c x rho_m, with forces f and m + rho_m x f.
- * Angles and released rotations, each about an axis b, with tau = 2 tan(d angle/2):
- *     c_k = c_(k-1) + tau_k x_k,  x = [b + c x b/2 + c (c.b)/4]/(1 - tau c.b/4),
- * where b is taken at the start; x lies along the mean axis, about which no moment acts.
- * Released sliding s along an axis a adds c x (a s)_m + [a_m - c x (a_1 - a_n)/4] ds to dr. */
+ * exact, so forces do the same work in both sets of coordinates. Subscript m denotes the mean of
+ * the values at the two ends of the step, subscripts n and 1 denote the start and the end. Frame
+ * moved by a body:  dr = dr_b + c x rho_m, with forces f and m + rho_m x f. Angles and released
+ * rotations, each about an axis b, with tau = 2 tan(d angle/2): c_k = c_(k-1) + tau_k x_k,  x = [b
+ * + c x b/2 + c (c.b)/4]/(1 - tau c.b/4), where b is taken at the start; x lies along the mean
+ * axis, about which no moment acts. Released sliding s along an axis a adds c x (a s)_m + [a_m - c
+ * x (a_1 - a_n)/4] ds to dr. */
 
 enum { PLACE_MOST = 6 + SCENE_RELEASED };
 
@@ -1043,7 +1043,7 @@ void spread_rows(const spread_parts *, double K[]);
 
 /* Matrices of small motions about an instant of a motion, on all coordinates. `now` is consistent:
  * its accelerations are those of its forces. out: initially zero but for its time; freed with the
- * outcome, also after a failure. */
+ * outcome, even after a failure. */
 status small_motions_of(const equations *, const carried_masses *, instant *now, outcome_about *out,
                         fault *);
 

@@ -1,5 +1,5 @@
-/* Small motions along axes that rotate with angular velocity w: dx = R y, so that dx' = y' + w~
- * y and dx'' = y'' + 2 w~ y' + (w'~ + w~ w~) y at the instant, where R is 1. */
+/* Small motions along axes that rotate with angular velocity w: dx = R y, so dx' = y' + w~ y and
+ * dx'' = y'' + 2 w~ y' + (w'~ + w~ w~) y at the instant, where R is 1. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>

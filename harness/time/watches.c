@@ -197,9 +197,9 @@ static status watch_extreme(watches *s, watched *one, const instant *from, doubl
     return STATUS_OK;
 }
 
-/* Adds a part of a mean by six-point Gauss quadrature, which is exact for squares of
- * fifth-degree polynomials. A root mean square is computed relative to the largest value so far,
- * so that its square does not overflow. */
+/* Adds a part of a mean by six-point Gauss quadrature, which is exact for squares of fifth-degree
+ * polynomials. A root mean square is computed relative to the largest value so far, so its square
+ * does not overflow. */
 static void add_mean(watches *s, watched *one, double a, double b)
 {
     static const double x[] = {0.23861918608319690863, 0.66120938646626451366,

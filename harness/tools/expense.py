@@ -22,7 +22,7 @@ WORK = ("cell", "linear", "buckling", "loaded_buckling", "modal", "load_step", "
         "radau_step", "explicit_step")
 FOLDS = 5
 ROUNDS = 15
-DEAR = 0.75  # relative errors are weighted by cost^0.25, so that expensive runs have more weight, but cheap runs still
+DEAR = 0.75  # relative errors are weighted by cost^0.25, so expensive runs have more weight, but cheap runs still
              # matter
 LARGE = 0.3  # error of the logarithm above which errors have less weight
 

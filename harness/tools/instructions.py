@@ -112,8 +112,8 @@ def part_of(function):
 
 
 def frames(profile):
-    """Returns the functions that are reached without passing through a part. Only their callees are counted, so that
-    no instruction is counted twice."""
+    """Returns the functions that are reached without passing through a part. Only their callees are counted, so no
+    instruction is counted twice."""
     callees = collections.defaultdict(set)
     for caller, callee in profile.calls:
         callees[caller].add(callee)

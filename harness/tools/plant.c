@@ -2,7 +2,7 @@
  *   BEAMWORK_PLANT=NAME=SIZE   multiplies one constant of all elements, or one kind of loads, by
  *                              1 + SIZE; not set: no fault
  *   BEAMWORK_PLANT_MESHES=N    uses only the N coarsest meshes, without measuring their scatter
- * It wraps functions at link time (Makefile: --wrap), so that the sources of the program do not
+ * It wraps functions at link time (Makefile: --wrap), so the sources of the program do not
  * change. A fault in a stiffness affects only stresses, a fault in a mass only inertia: each
  * element is prepared twice, and other uses of the section do not change. */
 #include <math.h>

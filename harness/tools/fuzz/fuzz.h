@@ -18,8 +18,8 @@ static inline void fuzz_must(int holds, const char *what)
     }
 }
 
-/* Returns the bytes up to the first zero as text. It is allocated by malloc, so that reads past its
- * end are detected. */
+/* Returns the bytes up to the first zero as text. It is allocated by malloc, so reads past its end
+ * are detected. */
 static inline char *fuzz_text(const uint8_t *data, size_t size)
 {
     char *text = malloc(size + 1);

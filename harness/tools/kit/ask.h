@@ -47,8 +47,7 @@ typedef struct question {
     scene_edit edit;
 } question;
 
-/* Returns 1 if the type declares everything that the scene requires, so that it must not reject
- * it. */
+/* Returns 1 if the type declares everything that the scene requires, so it must not reject it. */
 int ask_offered(const scene *, const element_type *);
 /* Asks with the default options of the formulation. */
 void ask(const question *, answer *);

@@ -58,7 +58,7 @@ def read_json(path):
 
 
 def values(record):
-    """Returns {quantity: value as written}, so that values can be compared bit for bit."""
+    """Returns {quantity: value as written}, so values can be compared bit for bit."""
     return {q["quantity"]: q["value"] for q in record["quantities"]}
 
 

@@ -77,7 +77,7 @@ def groups(source):
 
 
 def apart(source):
-    """Separates members that are declared together, so that each has the comment that follows them."""
+    """Separates members that are declared together, so each has the comment that follows them."""
     return re.sub(r"^( +[\w ]+?)((?: \w+(?:\[\w*\])?,)+)( \w+(?:\[\w*\])?; +)(/\*.*?\*/)",
                   lambda found: found[1] + found[2].replace(",", f" {found[4]},") + found[3]
                   + found[4], source, flags=re.MULTILINE | re.DOTALL)

@@ -166,7 +166,7 @@ def stoppable(work, options):
     try:
         done.wait()
     finally:
-        os.write(writable, b"x")  # forked processes have it open, so that closing it would not be noticed
+        os.write(writable, b"x")  # forked processes have it open, so closing it would not be noticed
         while not done.is_set():
             try:
                 done.wait()
