@@ -84,7 +84,7 @@ static double across(const double corner[], int at)
     return (corner[at / 2] + corner[(at + 1) / 2]) / 2;
 }
 
-/* Returns 1 when there is a brick at this position of the face. */
+/* Returns 1 if there is a brick at this position of the face. */
 static int is_filled(const face *s, int y, int z)
 {
     for (int i = (y - 1) / 2; i <= y / 2; i++)
@@ -94,7 +94,7 @@ static int is_filled(const face *s, int y, int z)
     return 0;
 }
 
-/* Returns 1 when a lattice position has a node. A position between corners in two directions has
+/* Returns 1 if a lattice position has a node. A position between corners in two directions has
  * none. */
 static int has_node(const brick *b, const int at[3])
 {
@@ -321,7 +321,7 @@ static status fill_walls(const section_spec *spec, const double centroid[2], fac
     return STATUS_OK;
 }
 
-/* Returns 1 when given constants replace those computed from the dimensions. */
+/* Returns 1 if given constants replace those computed from the dimensions. */
 static int is_overridden(const section_spec *spec)
 {
     double given[sizeof spec->given / sizeof(double)];

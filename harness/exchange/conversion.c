@@ -91,7 +91,7 @@ static int read_sign(char c, int *side, int *depth)
     return 1;
 }
 
-/* Reads a unit. Returns 0 when the text is not a unit. */
+/* Reads a unit. Returns 0 if the text is not a unit. */
 static int read_unit(const char *text, unit_measure *out)
 {
     int side = 1, depth = 0, symbols = 0;
@@ -189,7 +189,7 @@ static int *word_in(const entry_field *k, scene_quantity *q)
 }
 
 /* Transforms the extracted component to beamwork's axes. Components in axes of a section, or
- * without axes, do not change. Returns 1 when the component has axes. */
+ * without axes, do not change. Returns 1 if the component has axes. */
 static int turn_extract(const axes *a, scene_quantity *q, int *sign)
 {
     int turns = 0;

@@ -19,8 +19,8 @@ static void body_write_held(const body_numbers *, const scene *s, int node, unsi
  * path, with one unit load about its last state. FAULT: out of memory. */
 static status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f);
 static status path_points_of(const scene *s, int analysis, path_points *out, fault *f);
-/* Returns 1 when a quantity of the path, or of an analysis about the path, needs its value at
- * the point. */
+/* Returns 1 if a quantity of the path, or of an analysis about the path, needs its value at the
+ * point. */
 static int path_points_asked(const scene *s, int analysis, const scene_quantity *q, double point);
 
 status deck_check(const deck_request *r, fault *f)

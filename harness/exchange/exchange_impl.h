@@ -131,7 +131,7 @@ void path_points_free(path_points *);
 /* Returns the node of the body to which a node belongs; the node itself if it is not attached to
  * another one. */
 int rigid_body(const scene *s, int node);
-/* Returns 1 when the node is not attached to another one, and a member ends at it or at a node
+/* Returns 1 if the node is not attached to another one, and a member ends at it or at a node
  * attached to it. */
 int rigid_moves(const scene *s, int node);
 /* Returns the axis 0, 1 or 2 of a node that rotates only about x, y or z; SCENE_NONE for other

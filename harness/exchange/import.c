@@ -199,7 +199,7 @@ static const scene_quantity *find_quantity(const import_block *b, const imported
     return NULL;
 }
 
-/* Returns 1 when the value depends on the convention for moments on rotating nodes. */
+/* Returns 1 if the value depends on the convention for moments on rotating nodes. */
 static int has_moments(const scene_quantity *q)
 {
     return (q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY) &&

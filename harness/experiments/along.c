@@ -1,6 +1,6 @@
-/* Loads along one element in linear theory: the element must be as exact for them as for forces
- * and moments at its ends, with the stiffness that it has for the latter (Przemieniecki, Theory
- * of Matrix Structural Analysis, 1968, sec. 5 and 10: Timoshenko's beam). */
+/* Loads along one element in linear theory. The element must be as exact for such loads as it is
+ * for forces and moments at its ends. The stiffness is that of the element for loads at its ends
+ * (Timoshenko's beam: Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5 and 10). */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 enum { SIX = 6, END = 1 };
 
 static const double L = 0.7, force = 3, moment = 2; /* [m, N/m, N m/m] */
-static const double rounding = 1e-8;                /* relative to the values of a cantilever */
+static const double rounding = 1e-8;                /* relative to the value of a cantilever */
 
 typedef enum support { CANTILEVER, CLAMPED, PROPPED, HINGED, SUPPORTS } support;
 static const char *const support_name[SUPPORTS] = {
@@ -28,12 +28,12 @@ static const struct {
     int shift, turn, sign;
 } planes[2] = {{1, 5, 1}, {2, 4, -1}};
 
-/* Flexibility at the end: 1/EA, 1/GIt, and in each plane 1/EI and the shear flexibility. */
+/* Flexibilities at the end: 1/EA, 1/GIt, and for each plane 1/EI and the shear flexibility. */
 typedef struct softness {
     double axial, twist, bend[2], shear[2];
 } softness;
 
-/* Displacements of both nodes; for fixed components, reactions. */
+/* Displacements of both nodes, or reactions for fixed components. */
 typedef struct ends {
     double of[2][SIX];
 } ends;
@@ -44,7 +44,7 @@ static void make_scene(support of, scene *s)
     section_spec spec = section_spec_rectangle(70e3, 27e3, 0.3, 0.2);
     spec.given.Iw = 0;
     spec.shear_factor[0] = 5.0 / 6;
-    spec.shear_factor[1] = 0.4; /* different values, so swapped factors are detected */
+    spec.shear_factor[1] = 0.4; /* different values, so exchanged factors are detected */
     scene_init(s, "along");
     const int profile = scene_add_section(s, &spec), from = scene_add_node(s, 0, 0, 0),
               to = scene_add_node(s, L, 0, 0);
@@ -63,7 +63,6 @@ static void ask(scene *s, int analysis, int number, scene_extract what)
     scene_add_quantity(s, name, "1", analysis, what);
 }
 
-/* Computes the values of the quantities of the scene. */
 static status solve(const formulation *chosen, const scene *s, double value[], fault *f)
 {
     const model_request what = {s, chosen->type, chosen->option, 1, 0, 0};
@@ -83,7 +82,7 @@ static status solve(const formulation *chosen, const scene *s, double value[], f
     return outcome;
 }
 
-/* Returns the shear flexibility of the displacements between nodes (elements/field). */
+/* Returns the shear flexibility of the displacement field between the nodes (elements/field). */
 static double shear_of(const formulation *chosen, const section *c, int plane)
 {
     const int rigid = !(chosen->type->offers & FEATURE_SHEAR) ||
@@ -91,9 +90,8 @@ static double shear_of(const formulation *chosen, const section *c, int plane)
     return rigid ? 0 : c->F[4 * plane] / c->shear_modulus;
 }
 
-/* Measures the flexibility of one element. REFUSED: for forces and moments at the end, the
- * element does not give the solution of the exact beam; no rule for loads along the element can
- * correct that. */
+/* Measures the flexibility of one element. REFUSED: the element is not exact for forces and moments
+ * at its end. In this case, no rule for loads along the element can be exact. */
 static status measure(const formulation *chosen, softness *out, fault *f)
 {
     double C[SIX * SIX];
@@ -125,7 +123,7 @@ static status measure(const formulation *chosen, softness *out, fault *f)
     return STATUS_OK;
 }
 
-/* Computes stretch or twist (component c) under a load along the beam. */
+/* Computes the stretch or twist (component c) due to a load along the beam. */
 static void exact_along(support of, double soft, double load, int c, ends *out)
 {
     const int both = held[of][END] >> c & 1;
@@ -133,8 +131,8 @@ static void exact_along(support of, double soft, double load, int c, ends *out)
     out->of[0][c] = both ? -load * L / 2 : -load * L;
 }
 
-/* Computes bending in a plane under a force and a moment along the beam, by the force method: R
- * and M are the forces on the end of a cantilever whose root may rotate in a hinge. */
+/* Computes bending in a plane due to a force and a moment along the beam, by the force method. R
+ * and M are the force and the moment on the end of a cantilever, whose root may be hinged. */
 static void exact_across(support of, const softness *soft, int k, double along, double turning,
                          ends *out)
 {
@@ -163,7 +161,7 @@ static void exact_across(support of, const softness *soft, int k, double along, 
     end[z] = sign * (of == CLAMPED ? M : t + vt * R + root);
 }
 
-/* Computes the exact values. q: force and moment per length. */
+/* Computes the exact values. q: force and moment per unit length. */
 static ends exact_ends(support of, const softness *soft, const double q[SIX])
 {
     ends out;
@@ -191,7 +189,7 @@ static status found_ends(const formulation *chosen, support of, const double q[S
     return outcome;
 }
 
-/* Returns the corresponding value of a cantilever as a scale. */
+/* Returns the corresponding value of a cantilever, which is used as a scale. */
 static double size_of(const softness *soft, int component, int reaction)
 {
     const ends of =
@@ -233,7 +231,8 @@ typedef struct taken {
     const specimen *s;
     const node_state *x;
     double q[3 * ELEMENT_ALONG_POINTS];
-    double *inner; /* inner unknowns of x, from which those of neighbouring states are found */
+    /* inner unknowns of x, from which the iteration for neighbouring states starts */
+    double *inner;
 } taken;
 
 /* Computes the forces with converged inner unknowns, and K if requested. */

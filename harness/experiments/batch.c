@@ -62,8 +62,8 @@ static int write_label(FILE *to, const batch_label *b, size_t size)
     return bad ? -1 : 0;
 }
 
-/* Assembles the label, the bytes and the last line of the file. The caller frees *out. Returns
- * 0; -1: out of memory. */
+/* Assembles the label, the bytes and the last line of the file. The caller frees *out. Returns 0,
+ * or -1 if out of memory. */
 static int assemble(const batch_label *b, const void *bytes, size_t size, char **out,
                     size_t *length)
 {
@@ -81,8 +81,8 @@ static int assemble(const batch_label *b, const void *bytes, size_t size, char *
     return fclose(to) != 0 || bad ? -1 : 0;
 }
 
-/* Ensures that written names survive a power failure. It is not an error if a folder cannot be
- * synchronised. */
+/* Ensures that written names survive a power failure. A folder that cannot be synchronised is not
+ * an error. */
 static void keep_names(const char *folder)
 {
     const int there = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -92,8 +92,8 @@ static void keep_names(const char *folder)
     }
 }
 
-/* Writes under a lock, which shows that the writer is running. The lock ends with the process in
- * any case. */
+/* Writes the file under a lock, which shows that the writer is running. The lock ends with the
+ * process. */
 static status write_locked(const char *path, const char *bytes, size_t length, fault *f)
 {
     output file;
@@ -127,9 +127,9 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
     return outcome;
 }
 
-/* Returns 1 when the writer of a temporary file has ended, so the file is not locked. The lock of
- * an empty file may still be missing; such a file counts only if its writer is known to have ended
- * or the file is old. */
+/* Returns 1 if the writer of a temporary file has ended. The file is then not locked. An empty file
+ * may not be locked yet. Such a file counts only if its writer has certainly ended or the file is
+ * old. */
 static int is_orphan(const char *path, int gone_for_sure)
 {
     enum { OLD = 60 }; /* [s] */
@@ -166,7 +166,7 @@ static status no_batch(const char *path, fault *f)
     return fault_set(f, STATUS_FAULT, "%.200s: not a batch of this program, or damaged", path);
 }
 
-/* Returns 0, or -1 if the string is missing or too long. */
+/* Copies a string of the label. Returns 0, or -1 if the string is missing or too long. */
 static int get_text(const json_t *from, const char *key, char *out, size_t size)
 {
     const char *text = json_string_value(json_object_get(from, key));
@@ -176,7 +176,6 @@ static int get_text(const json_t *from, const char *key, char *out, size_t size)
     return 0;
 }
 
-/* Returns a non-negative whole number; -1: the entry is not such a number. */
 static int get_index(const json_t *from, const char *key)
 {
     const json_int_t value = json_integer_value(json_object_get(from, key));
@@ -205,8 +204,8 @@ static int get_label(const json_t *from, batch_label *b)
     return b->batch >= 0 && b->batch < b->batches && b->shard >= 0 ? 0 : -1;
 }
 
-/* Reads the line with the label, after which the stream is at the first byte of the results.
- * *size: number of bytes that follow. */
+/* Reads the line with the label, and moves the stream to the first byte of the results. *size:
+ * number of bytes of the results. */
 static status read_line(FILE *from, const char *path, batch_label *out, long *size, fault *f)
 {
     char *line = NULL;
@@ -240,7 +239,7 @@ status batch_read_label(const char *path, batch_label *out, fault *f)
     return outcome;
 }
 
-/* Checks that the file contains nothing but the results between the first and the last line. */
+/* Checks that the file contains only the results between the first and the last line. */
 static status check_size(FILE *from, const char *path, long size, fault *f)
 {
     const long begin = ftell(from);
@@ -299,7 +298,7 @@ status batch_belongs(const batch_label *b, const shard_work *w, const char *path
     return STATUS_OK;
 }
 
-/* Returns the processor time of this process and of the children that it has waited for. */
+/* Returns the processor time of this process and of the child processes that have ended. */
 static double processor_seconds(void)
 {
     static const int whose[] = {RUSAGE_SELF, RUSAGE_CHILDREN};
@@ -313,7 +312,6 @@ static double processor_seconds(void)
     return all;
 }
 
-/* Computes one batch and writes its file. */
 static status compute(const labour *c, int batch, double *seconds, fault *f)
 {
     const shard_work *w = c->w;

@@ -10,16 +10,16 @@
 #include "harness/numerics/numerics.h"
 #include "harness/terminal/terminal.h"
 
-/* Measures the times of a sweep. floor: minimum processor time [s] of a round for one cell. If
- * there are several points, only the default point is measured completely: with the parts of an
+/* Measures the times of a sweep. floor: minimum processor time [s] of a round for one cell. Only
+ * the default point is measured completely if there are several points: with the parts of an
  * iteration and, on the middle mesh of each formulation, the run without elimination. At other
- * points rounds are short, and long cells keep the time of their single run. Crashed cells are
- * not run again. dense 1: the published algorithm is also timed. to: stream for the progress, or
- * NULL. */
+ * points, rounds are short, and long cells keep the time of their single run. Crashed cells are not
+ * run again. dense 1: the published algorithm is also timed. to: stream for the progress, or NULL.
+ * */
 static status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f);
 
 enum { MOST = 64 };                        /* largest number of formulations */
-static const double floor_seconds = 0.002; /* minimum processor time of a round for one cell */
+static const double floor_seconds = 0.002; /* minimum processor time [s] of a round for a cell */
 
 static int all_formulations(formulation out[MOST])
 {
@@ -31,8 +31,8 @@ static int all_formulations(formulation out[MOST])
     return count;
 }
 
-/* Excludes formulations that solve another model at the point, because the times are used for a
- * ranking. */
+/* Excludes formulations that solve another model at the point, because their times must not be
+ * ranked. */
 static void leave_out_others(sweep *s, int point)
 {
     for (int i = 0; i < s->seriess; i++) {
@@ -42,8 +42,8 @@ static void leave_out_others(sweep *s, int point)
     }
 }
 
-/* Plans a case at the given parameters, with the given formulations and meshes. Default: all
- * formulations, and the meshes of the case. */
+/* Plans a case at the given parameters, with the given formulations and meshes. The defaults are
+ * all formulations, and the meshes of the case. */
 static status plan_case(const bench_request *r, const case_type *type, sweep *s, fault *f)
 {
     double parameter[CASE_MAX_PARAMETERS];
@@ -109,7 +109,6 @@ static experiment_cells cells(const void *found)
     return (experiment_cells){&b->sweep, &b->judgement, &b->made};
 }
 
-/* Writes the table, including errors against agreements. */
 static status write_table(FILE *to, const bench *b, fault *f)
 {
     judgement shown = {.verdicts = 0};
@@ -161,14 +160,13 @@ void rounds_run(const cell_request *request, double floor, rounds_reading *out)
         out->round[out->rounds++] = least;
 }
 
-/* [s] of a whole run; a longer time is extrapolated from that of one iteration */
+/* [s] longest complete run; the time of a longer run is extrapolated from the time of one iteration
+ * */
 static const double longest_dense = 1;
 enum {
     MOST_UNKNOWNS = 3000
-}; /* largest number of unknowns: the matrix takes 72 MB, and an
-      iteration takes a few seconds */
+}; /* largest number of unknowns; the matrix takes 72 MB, and an iteration takes a few seconds */
 
-/* Returns the number of coordinates, strains and stresses. */
 static int unknowns_of(const cell_result *cell)
 {
     return cell->size.free + 2 * cell->size.strains * cell->size.elements;
@@ -184,7 +182,7 @@ static void sample(const cell_request *dense, dense_reference *out)
     if (cell_run(&one, &cell, &f) == STATUS_OK)
         for (int k = 0; k < PHASE_REST; k++)
             seconds += cell.solve.phase[k];
-    if (seconds > 0) { /* continued paths have no dense form, so nothing was sampled */
+    if (seconds > 0) { /* continued paths have no dense form, so there is no sample */
         out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
         out->unknowns = unknowns_of(&cell);
     }
@@ -198,22 +196,22 @@ void dense_reference_round(const cell_request *own, const cell_result *cell, dou
     cell_request dense = *own;
     dense.solve.newton = NEWTON_DENSE;
     if (iterations == 0 || unknowns_of(cell) > MOST_UNKNOWNS)
-        return; /* a linear problem, or one that is too large */
+        return; /* the problem is linear or too large */
     if (out->unknowns == 0 || out->iteration < longest_dense)
         sample(&dense, out);
     if (out->unknowns > 0 && out->iteration * (double)iterations <= longest_dense)
         rounds_run(&dense, floor, &out->whole);
 }
 
-static const double longest_elsewhere = 0.05; /* [s] longest run that is repeated at points other
-                                                 than the defaults */
+/* [s] longest run that is repeated at points other than the default point */
+static const double longest_elsewhere = 0.05;
 
 static int at_defaults(const sweep *s, const series *one)
 {
     return strcmp(s->point[one->point].name, "default") == 0;
 }
 
-/* Returns 1 when rounds are run for this cell. At points other than the defaults, a long cell
+/* Returns 1 if rounds are run for this cell. At points other than the default point, a long cell
  * keeps the time of its single run. */
 static int can_run(const sweep *s, const series *one, int mesh)
 {
@@ -224,7 +222,7 @@ static int can_run(const sweep *s, const series *one, int mesh)
             r->seconds_setup + r->seconds_solve < longest_elsewhere);
 }
 
-/* Returns the index of the middle one of the meshes that have a solution, or -1. */
+/* Returns the index of the middle one of the meshes that have a solution; -1: none. */
 static int mesh_kept_whole(const sweep *s, const series *one)
 {
     if (!at_defaults(s, one))
@@ -235,7 +233,8 @@ static int mesh_kept_whole(const sweep *s, const series *one)
     return one->meshes > 0 && one->cell[mesh].solve.status == STATUS_OK ? mesh : -1;
 }
 
-/* Runs both variants in turn. The difference of their times is the time saved by elimination. */
+/* Runs both variants alternately. The difference of their times is the time saved by elimination.
+ * */
 static void round_kept_whole(const cell_request *as_is, double floor, cell_timing *out)
 {
     cell_request whole = *as_is;
@@ -259,7 +258,7 @@ static double sum_of(const double part[PHASES])
     return sum;
 }
 
-/* Makes one run in which the time of each part of the iterations is measured; the fastest of all
+/* Makes one run in which the time of each part of the iterations is measured. The fastest of all
  * rounds is kept. Long cells have only one such run, in the last round. */
 static void read_phases(const cell_request *as_is, cell_timing *out)
 {
@@ -322,8 +321,8 @@ void rounds_pin(void)
     cpu_set_t only;
     CPU_ZERO(&only);
     CPU_SET(here >= 0 ? here : 0, &only);
-    sched_setaffinity(0, sizeof only, &only); /* without this call, the readings only have more
-                                                 noise */
+    /* an error is ignored, because it only increases the noise of the times */
+    sched_setaffinity(0, sizeof only, &only);
 }
 
 void rounds_single_thread(char **arguments)
@@ -337,7 +336,8 @@ void rounds_single_thread(char **arguments)
         setenv(threads[i], "1", 1);
     }
     if (!single)
-        /* returns only if there is no /proc; then libraries choose the number of threads */
+        /* This point is reached only if /proc is missing. Libraries then choose the number of
+         * threads. */
         execv("/proc/self/exe", arguments);
 }
 
@@ -483,6 +483,7 @@ status profiles_section(profiles_form form, double unit, section *out, fault *f)
         spec.density = 7850 * unit * unit * unit;
     TRY(section_compute(&spec, out, f));
     if (form == PROFILES_UNSYMMETRIC)
-        out->Iw = out->A * pow(0.2 / unit, 4); /* as large as the value that it is compared with */
+        /* Iw is of the same size as the value with which it is compared */
+        out->Iw = out->A * pow(0.2 / unit, 4);
     return STATUS_OK;
 }

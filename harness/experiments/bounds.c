@@ -1,5 +1,5 @@
-/* Guard words around every output. They show whether each output is filled completely, and
- * whether memory outside it is changed. */
+/* Guard words around every output. They reveal outputs that are not filled completely, and changes
+ * of memory outside an output. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 
 enum { GUARD = 64, M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 
-/* A signalling NaN that no computation produces. */
+/* a signalling NaN that no computation produces */
 static const uint64_t mark = 0x7ff4beadfacade01ULL;
 
 /* An output of `size` entries between guards. */
@@ -42,7 +42,7 @@ static int untouched(const double *word)
     return bits == mark;
 }
 
-/* Checks an output and frees it. must 1: the output must be filled completely. */
+/* Checks an output and frees the guarded memory. must 1: the output must be filled completely. */
 static void look(guarded *g, int must, const specimen *s, claims *c)
 {
     claim *beside = claims_open(c, "no memory outside an output is changed", 0),
@@ -175,7 +175,7 @@ static void forces(const specimen *s, const node_state x[], claims *c)
     look(&stiffness, filled && out.K != NULL, s, c);
 }
 
-/* Checks that prepare writes only into its data_size bytes. */
+/* Checks that prepare writes only data_size bytes. */
 static void data(const specimen *s, claims *c)
 {
     guarded bytes;
@@ -215,7 +215,7 @@ void checks_bounds(const formulation *chosen, claims *out)
     specimens_each(chosen, out, check);
 }
 
-/* Elements have no hidden state: the results of a call depend only on its arguments. */
+/* Checks for hidden states: the results of a call must depend only on its arguments. */
 
 enum { STATELESS_M = SPECIMEN_STRAINS, STATELESS_N = SPECIMEN_COORDINATES };
 
@@ -257,7 +257,7 @@ static int same_bits(size_t count, const double a[], const double b[])
     return 1;
 }
 
-/* Returns the name of the first result that is not bit-for-bit equal, or NULL. */
+/* Returns the name of the first result that is not bit-for-bit equal; NULL: none. */
 static const char *apart(const call_account *a, const call_account *b)
 {
     const struct {
@@ -287,7 +287,7 @@ static void same(const call_account *a, const call_account *b, const char *after
                 other, after, s->words);
 }
 
-/* Prepares an element of another length, in memory of its own or in place of the first element,
+/* Prepares an element of another length, in separate memory or in the memory of the first element,
  * which is then prepared again. Both elements must give the same results as without these calls. */
 static void other_element(const specimen *s, const call_account *before, const node_state x[],
                           const call_account *first, claim *one)
@@ -306,8 +306,7 @@ static void other_element(const specimen *s, const call_account *before, const n
     specimen_free(&other);
 }
 
-/* Prepares the element again in its own memory. Returns 0 if this fails; the failure is
- * reported. */
+/* Prepares the element again in its memory. Returns 0 after a failure, which is reported. */
 static int in_its_place(const specimen *s, const call_account *before, const node_state x[],
                         claim *one)
 {
@@ -337,8 +336,8 @@ static int in_its_place(const specimen *s, const call_account *before, const nod
     return again;
 }
 
-/* Checks that each output, when requested alone, equals the output requested together with the
- * others. */
+/* Checks that each output that is requested alone equals the output that is requested together with
+ * the others. */
 static void alone(const specimen *s, const call_account *before, const node_state x[], claim *one)
 {
     call_account a = *before;
@@ -352,7 +351,7 @@ static void alone(const specimen *s, const call_account *before, const node_stat
     s->type.stress(s->data, a.e, inner, &(stress_output){.C = a.C});
     s->type.stress(s->data, a.e, inner, &(stress_output){.sigma = a.sigma});
     s->type.stress(s->data, a.e, inner, &(stress_output){.energy = &a.energy});
-    if (s->inner > 0) { /* its last correction is not repeated */
+    if (s->inner > 0) { /* the last correction is not repeated */
         memcpy(a.sigma, before->sigma, sizeof a.sigma);
         memcpy(a.C, before->C, sizeof a.C);
         a.energy = before->energy;
@@ -360,8 +359,8 @@ static void alone(const specimen *s, const call_account *before, const node_stat
     same(before, &a, "a call for that output alone", s, one);
 }
 
-/* For an element with inner unknowns, finds the same state in two ways: directly from rest, and
- * through another state. */
+/* Finds the same state of an element with inner unknowns in two ways: directly from the undeformed
+ * state, and through another state. */
 static void two_ways(const specimen *s, const call_account *before, const node_state x[],
                      claim *one)
 {
@@ -391,7 +390,7 @@ static void make_longer(const specimen *s, const node_state x[], call_account *o
     specimen_free(&other);
 }
 
-/* Computes the results of the longer element in a new process, in the first call of all. */
+/* Computes the results of the longer element in a new process, before any other call. */
 static void tell_first(const specimen *s, const node_state x[], call_account *out)
 {
     const pid_t parent = getpid();

@@ -15,16 +15,15 @@
 
 enum {
     MOST_CHILDREN = 64,
-    LOOK = 100 /* largest number of processes; [ms] between checks of the
-                  clocks */
+    LOOK = 100 /* largest number of processes, and time [ms] between checks of the clocks */
 };
 
-/* A process that runs one part; its pipe closes when it ends. */
+/* A process that runs a part. Its pipe closes when the process ends. */
 typedef struct tester {
     pid_t process;
-    int end; /* -1: no process is running */
+    int end; /* end of the pipe that is read; -1: no process is running */
     int late;
-    double since; /* [s] start of the part */
+    double since; /* [s] time when the part started */
     certificate *of;
     int part;
 } tester;
@@ -105,7 +104,8 @@ static status start(tester *t, certificate *of, int part, int time_limit, fault 
     return STATUS_OK;
 }
 
-/* Records that a part has ended. If the part did not finish, a requirement is violated. */
+/* Records that the process of a part has ended. If the part was not complete, a requirement is
+ * violated. */
 static void bury(tester *t, int time_limit)
 {
     char words[100];
@@ -131,7 +131,7 @@ static void stop_late(tester *t, int time_limit)
     kill(t->process, SIGKILL);
 }
 
-/* Skips the parts that follow a part that exceeded the time limit. */
+/* Skips the parts after a part that exceeded the time limit. */
 static void pass_over(certificate *of, int part)
 {
     char why[CLAIM_SENTENCE];
@@ -139,7 +139,7 @@ static void pass_over(certificate *of, int part)
     claims_not_made(&of->part[part].claims, certificate_part_name(part), why);
 }
 
-/* Waits until a process ends, and collects all processes that have ended. Returns their number. */
+/* Waits until a process ends. Returns the number of processes that have ended. */
 static int attend(tester all[], int jobs, int time_limit)
 {
     struct pollfd ends[MOST_CHILDREN];
@@ -212,7 +212,8 @@ status certificate_find(const certificate_request *r, certificate **out, fault *
             kill(team[i].process, SIGKILL);
             bury(&team[i], 0);
         }
-    for (int i = 0; i < r->count; i++) { /* restored, since a part may have corrupted it */
+    for (int i = 0; i < r->count;
+         i++) { /* the table is restored, because a part may have corrupted it */
         all[i].chosen = r->chosen[i];
         if (r->hash != NULL)
             r->hash(r->chosen[i].type, all[i].hash);
@@ -242,13 +243,13 @@ claim_outcome claims_outcome(const claims *c)
     int held = 0;
     if (claims_counted(c, CLAIM_BROKEN) > 0)
         return CLAIM_BROKEN;
-    for (int i = 0; i < c->count; i++) /* an answer is required: preparing an element does not
-                                          count as one */
+    for (int i = 0; i < c->count;
+         i++) /* an answer is required, and a successful preparation is not an answer */
         held |= c->claim[i].outcome == CLAIM_HOLDS && strcmp(c->claim[i].name, "prepare") != 0;
     return held ? CLAIM_HOLDS : CLAIM_NOT_CLAIMED;
 }
 
-/* Prints a line for each violated requirement or, if verbose, for all requirements. */
+/* Prints the violated requirements or, if verbose, all requirements, in one line each. */
 static void write_claims(FILE *to, screen look, const claims *c, int verbose)
 {
     for (int i = 0; i < c->count; i++) {
@@ -329,7 +330,7 @@ static void write_measure(FILE *to, const element_measure *one, int verbose)
         paragraph_write(to, fprintf(to, "      "), 6, one->words);
 }
 
-/* Prints the measured values, below a line that names the columns. */
+/* Prints the measured values below a line with the names of the columns. */
 static void write_measures(FILE *to, screen look, const certificate *c, int part, int verbose)
 {
     const certificate_part *own = &c->part[part];

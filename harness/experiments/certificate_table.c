@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Certificates as tables for a publication: CSV, Markdown, LaTeX. */
+/* Certificates as tables for a publication, in CSV, Markdown or LaTeX. */
 
 enum {
     ROWS = MEASURES_MOST + 2,
@@ -13,8 +13,7 @@ enum {
     CELL = 2 * MEASURE_WORDS
 };
 
-/* Row 0 is the heading. A row with `words` has this text in place of the cells after its first
- * one. */
+/* Row 0 is the heading. `words`, if given, replaces all cells of the row except the first one. */
 typedef struct paper_table {
     int latex, rows, columns;
     char caption[2 * CELL], label[CELL];
@@ -22,7 +21,7 @@ typedef struct paper_table {
     int words[ROWS];
 } paper_table;
 
-/* Writes text as a cell in which no character has a special meaning. */
+/* Writes text as a cell, and escapes special characters. */
 static void put_text(const paper_table *t, char cell[CELL], const char *text)
 {
     static const char special[] = "&%$#_{}";
@@ -46,8 +45,9 @@ static void put_text(const paper_table *t, char cell[CELL], const char *text)
     cell[at] = '\0';
 }
 
-/* Writes a number as "0.35", "3e-05" or "$3\cdot10^{-5}$", and a unit. digits: number of
- * significant digits; 0, -1, ...: -digits after the decimal point of a power of ten. */
+/* Writes a number and a unit; the number has a form such as "0.35", "3e-05" or "$3\cdot10^{-5}$".
+ * digits > 0: number of significant digits. digits <= 0: power of ten with -digits decimal digits.
+ * */
 static void put_number(const paper_table *t, char cell[CELL], int digits, double value,
                        const char *unit)
 {
@@ -68,7 +68,7 @@ static void put_number(const paper_table *t, char cell[CELL], int digits, double
     }
 }
 
-/* Writes an error in the same words as the text output. */
+/* Writes an error in the same format as the text output. */
 static void put_error(const paper_table *t, char cell[CELL], double error)
 {
     const double percent = 100 * fabs(error);
@@ -87,7 +87,7 @@ static void head(paper_table *t, int column, const char *text)
     t->columns = column + 1;
 }
 
-/* Returns the check whose deviation is the largest fraction of the allowed one; NULL: no
+/* Returns the check with the largest ratio of the deviation to the allowed deviation; NULL: no
  * deviation is finite. */
 static const claim *worst_of(const claims *c)
 {
@@ -134,7 +134,7 @@ static void fill_requirements(paper_table *t, const certificate *c)
     }
 }
 
-/* Returns "correct" or "wrong" for a linear state, whose limit is checked. */
+/* Returns "correct" or "wrong" for a linear state, according to the check of its limit. */
 static const char *state_limit(const claims *c, const char *state, const char *none)
 {
     char name[CLAIM_NAME];
@@ -278,7 +278,7 @@ static const char *what_is_hashed(const certificate *c)
     return strncmp(from, "exec:", 5) == 0 ? "of the files that its command names" : "of its file";
 }
 
-/* Writes what was tested, and with which program. */
+/* Writes what was tested, and the version of the program. */
 static void write_about(FILE *to, int latex, const certificate *c)
 {
     const environment now = environment_now(1);
@@ -362,7 +362,7 @@ static void put_value(FILE *to, double value)
         fprintf(to, "%.17g", value);
 }
 
-/* Writes the columns that all lines have in common. */
+/* Writes the columns that are equal in all lines. */
 static void csv_begin(FILE *to, const certificate *c, int part, const char *name)
 {
     const environment now = environment_now(1);

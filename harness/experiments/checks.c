@@ -25,7 +25,8 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"in_time", "inertia forces in time derive from the kinetic energy", checks_in_time},
 };
 
-/* Invariances: under rigid motion, order of the nodes, and unit of length. */
+/* Invariance under rigid motion, under reversal of the nodes, and under a change of the unit of
+ * length. */
 
 enum { M = SPECIMEN_STRAINS };
 
@@ -66,8 +67,8 @@ static status energy_of(const specimen *s, const node_state x[], double *energy)
     return specimen_settled(s, e, inner, &(stress_output){.energy = energy});
 }
 
-/* Checks the reversed element, which is rotated by pi about y and has the same warping
- * amplitudes. Curved elements are not checked, since a reversed one is a different element. */
+/* Checks the reversed element, which is rotated by pi about y and has the same warping amplitudes.
+ * Curved elements are not checked, because their reversal gives a different element. */
 static void node_order(const specimen *s, double size, claim *one)
 {
     static const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
@@ -99,7 +100,7 @@ static void has_energy(const specimen *s, claim *one)
         s->words);
 }
 
-/* Checks the same element in m, mm and um: its energy in joules must be equal. */
+/* Checks the same element in m, mm and um: the energies in joules must be equal. */
 static void units(const specimen *s, claim *one)
 {
     static const double unit[] = {1, 1e-3, 1e-6};
@@ -142,7 +143,7 @@ static void check(const specimen *s, claims *c)
         if (s->type.offers & FEATURE_LARGE)
             node_order(s, 0.05,
                        claims_open(c, "exchanging the nodes does not change the energy", 1e-9));
-        else /* optional terms of higher order are as large as the strains */
+        else /* optional higher-order terms are as large as the strains */
             node_order(s, 1e-5,
                        claims_open(c, "exchanging the nodes does not change the energy", 5e-5));
     }
@@ -160,8 +161,8 @@ void checks_motion(const formulation *chosen, claims *out)
                         "declares LIMIT_ORDER_DEPENDENT");
 }
 
-/* States with NaN or Inf, which occur in a diverging iteration. They must be reported by a
- * status or by NaN values, and never be ignored. */
+/* States with NaN or Inf, as in a diverging iteration. The element must report them by a status or
+ * by NaN values, and must never ignore them. */
 
 enum { UNSOUND_M = SPECIMEN_STRAINS };
 
@@ -173,7 +174,7 @@ static int all_finite(int n, const double a[])
     return 1;
 }
 
-/* Returns 1 when nothing shows that the state is invalid. */
+/* Returns 1 if neither the status nor the values show that the state is invalid. */
 static int swallowed(const specimen *s, const node_state x[])
 {
     double e[UNSOUND_M], sigma[UNSOUND_M], inner[SPECIMEN_INNER], energy = 0;
@@ -204,8 +205,8 @@ static void spoil(const specimen *s, double by, claim *one)
         }
 }
 
-/* Checks that strains that are NaN or Inf do not give a finite stress if the element has a
- * stiffness against them. */
+/* Checks that strains with NaN or Inf do not give a finite stress if the element has a stiffness
+ * for them. */
 static void spoil_strains(const specimen *s, double by, claim *one)
 {
     const double none[UNSOUND_M] = {0};

@@ -10,7 +10,7 @@
 
 /* Appends a point to a measure. */
 static void measures_point(element_measure *one, double at, double error);
-/* Returns 1 when there are at least three points and none has a value. */
+/* Returns 1 if there are at least three points, and none of them has a value. */
 static int measures_hopeless(const element_measure *one);
 
 claim *claims_open(claims *c, const char *name, double allowed)
@@ -86,8 +86,6 @@ int claims_compared(const claims *c)
         count += c->claim[i].compared;
     return count;
 }
-
-/* Checks of the declarations of a type. */
 
 static void theories(const element_type *t, claim *one)
 {
@@ -204,7 +202,7 @@ static section_spec spec_of(const beam_request *r)
     section_spec spec = section_spec_rectangle(210e9, 81e9, r->width, r->thickness);
     spec.given.Iw = 0;
     spec.shear_factor[0] = 5.0 / 6;
-    spec.shear_factor[1] = 0.4; /* different values, so swapped factors are detected */
+    spec.shear_factor[1] = 0.4; /* different values, so exchanged factors are detected */
     if (r->profile)
         spec = i_profile();
     spec.density = 7800;

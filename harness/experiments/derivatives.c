@@ -1,4 +1,4 @@
-/* Compares J and H with finite differences of sixth order, entry by entry. */
+/* Compares the entries of J and H with sixth-order finite differences. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 
-static const double allowed = 1e-9; /* relative to the largest entry of the same strain */
+static const double allowed = 1e-9; /* relative to the largest entry for the same strain */
 static const char *const claim_J = "J is the derivative of the strains",
                          *const claim_H = "H is the second derivative";
 
@@ -36,8 +36,8 @@ static double largest(int n, const double a[])
     return out;
 }
 
-/* Compares one entry with the value from finite differences. Both are multiplied by the unit of
- * the coordinate. */
+/* Compares an entry with its finite-difference value. Both are multiplied by the unit of the
+ * coordinate. */
 static void compare_J(const specimen *s, int strain, int c, double given, double found, double size,
                       claim *one)
 {
@@ -50,7 +50,7 @@ static void compare_J(const specimen *s, int strain, int c, double given, double
                    s->words);
 }
 
-/* Compares J strain by strain: [strains x n], multiplied by the units. */
+/* Compares J [strains x n] row by row, multiplied by the units of the coordinates. */
 static void check_J(const specimen *s, const node_state x[], claim *one)
 {
     const specimen_place at = {s, x};
@@ -71,8 +71,8 @@ static void check_J(const specimen *s, const node_state x[], claim *one)
     }
 }
 
-/* Compares H with the symmetric part of the change of J, which is that of the exponential chart.
- * change[c]: change of J along coordinate c, per unit of the coordinate. */
+/* Compares H with the symmetric part of the change of J, which corresponds to the exponential
+ * chart. change[c]: change of J along coordinate c, per unit of the coordinate. */
 static void compare_H(const specimen *s, int strain, const double H[], const double change[][M * N],
                       double size, claim *one)
 {
@@ -154,22 +154,22 @@ void checks_derivatives(const formulation *chosen, claims *out)
         claims_not_made(out, claim_H, "not checked before J is correct");
 }
 
-/* Many elements evaluated together must give the same results as each element alone. The
- * elements are of two kinds, mixed, each in a different state. */
+/* Checks that many elements evaluated in one call give the same results as single calls. Elements
+ * of two kinds alternate, and their states differ. */
 
 enum { MANY_M = SPECIMEN_STRAINS, MANY_N = SPECIMEN_COORDINATES, MANY = 5 };
 
-static const double longer = 1.7 * 0.2385; /* [m] length of the second kind */
+static const double longer = 1.7 * 0.2385; /* [m] length of an element of the second kind */
 static const char *const claim_name = "many at once give the same results as one by one";
 
-/* Results of one element. Values that would be computed by finite differences are not requested. */
+/* Results of one element. They exclude values that would be computed by finite differences. */
 typedef struct many_answers {
     status outcome;
     double e[MANY_M], J[MANY_M * MANY_N], H[MANY_N * MANY_N], energy, sigma[MANY_M],
         C[MANY_M * MANY_M];
 } many_answers;
 
-/* Elements of two kinds, evaluated one by one and together. */
+/* Elements of two kinds, evaluated one by one and in one call. */
 typedef struct many_batch {
     const specimen *of[MANY];
     const element_data *data[MANY];

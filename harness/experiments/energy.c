@@ -9,9 +9,9 @@
 
 enum { ENERGY_M = SPECIMEN_STRAINS };
 
-static const double moved_by = 0.02; /* size of the strains that are examined [lengths] */
+static const double moved_by = 0.02; /* size of the strains [lengths] */
 
-/* Point at which finite differences are computed. The unit of a strain is a twentieth of the
+/* State at which finite differences are computed. The unit of a strain is a twentieth of the
  * length. */
 typedef struct energy_place {
     const specimen *s;
@@ -23,7 +23,7 @@ static double unit_of(const specimen *s)
     return s->request.length / 20;
 }
 
-/* Computes the state with strains i and j moved by si and sj units. */
+/* Computes the state in which strains i and j are changed by si and sj units. */
 static status at_place(const energy_place *at, int i, double si, int j, double sj,
                        stress_output *out)
 {
@@ -45,7 +45,7 @@ static int stress_at(const void *context, int i, double si, int j, double sj, do
     return (int)at_place(context, i, si, j, sj, &(stress_output){.sigma = values});
 }
 
-/* Returns the size of C[i][j]: that of an entry between two strains with these stiffnesses. */
+/* Returns a scale for C[i][j], from the stiffnesses of the two strains. */
 static double size_of(const specimen *s, const double C[], int i, int j)
 {
     const int m = s->strains;
@@ -101,8 +101,8 @@ static void check_stiffness(const energy_place *at, const double C[], claims *c)
     }
 }
 
-/* Checks that without strains there is no energy and no stress. Straightened curved elements are
- * not checked. */
+/* Checks that energy and stress are zero if the strains are zero. Curved elements that are
+ * straightened are not checked. */
 static void check_rest(const specimen *s, claims *c)
 {
     const double none[ENERGY_M] = {0};
@@ -200,9 +200,9 @@ void checks_energy(const formulation *chosen, claims *out)
         claims_not_made(out, "G is symmetric", "has no geometric stiffness inside the element");
 }
 
-/* Inertia in a rotating frame. Centrifugal force and stiffness derive from the potential, the
- * gyroscopic matrix is skew-symmetric, and the motion of the frame itself has the centrifugal
- * energy. */
+/* Inertia in a rotating frame. The centrifugal force and stiffness derive from a potential, and the
+ * gyroscopic matrix is skew-symmetric. The energy of the motion of the frame is minus the
+ * centrifugal potential. */
 
 enum { N = SPECIMEN_COORDINATES };
 
@@ -293,8 +293,8 @@ static void check_skew(const specimen *s, const double G[], claim *one)
                 i + 1, j + 1, G[i * n + j], G[j * n + i], s->words);
 }
 
-/* Checks that the motion v of the frame itself has the kinetic energy 1/2 v^T M v = -V, where V
- * is the centrifugal potential, and that G v = -2 F. */
+/* Checks that the velocity v of the rotating frame gives the kinetic energy 1/2 v^T M v = -V, where
+ * V is the centrifugal potential, and that G v = -2 F. */
 static void own_motion(const specimen *s, const node_state x[], const inertia_output *out,
                        claims *c)
 {
@@ -345,8 +345,8 @@ static void in_frame(const specimen *s, claims *c)
     own_motion(s, x, &out, c);
 }
 
-/* Returns the centrifugal energy [J] of a uniformly twisted element whose warping amplitudes
- * equal its twist rate. */
+/* Returns the centrifugal energy [J] of a uniformly twisted element. Its warping amplitudes equal
+ * the twist rate. */
 static double twisted_energy(const specimen *s, double angle)
 {
     const double ys = s->section.ys, zs = s->section.zs;
@@ -355,10 +355,12 @@ static double twisted_energy(const specimen *s, double angle)
     for (int k = 0; k < s->nodes; k++) {
         const double turn = angle * k / (s->nodes - 1);
         double *node = d + NODE_COORDINATES * k;
-        node[1] = ys * (1 - cos(turn)) + zs * sin(turn); /* about the shear centre: no shear */
+        /* rotation about the shear centre, so there is no shear */
+        node[1] = ys * (1 - cos(turn)) + zs * sin(turn);
         node[2] = zs * (1 - cos(turn)) - ys * sin(turn);
         node[3] = turn;
-        node[6] = sin(angle) / s->request.length; /* the element may measure a twist by its sine */
+        /* the element may use the sine of the twist angle as its strain */
+        node[6] = sin(angle) / s->request.length;
     }
     specimen_state(s, 0, 1, straight);
     chart_move(straight, s->nodes, d, x);
@@ -366,8 +368,8 @@ static double twisted_energy(const specimen *s, double angle)
     return V;
 }
 
-/* Checks the effect of warping: fibres that warping moves along the beam rotate at a different
- * distance from the axis. Potential: -1/2 int rho (omega a)^2 |Omega x e_x|^2 dV. */
+/* Checks the effect of warping: warping moves fibres along the beam, which changes their distances
+ * from the axis of rotation. Potential: -1/2 int rho (omega a)^2 |Omega x e_x|^2 dV. */
 static void warping(const specimen *s, claim *one)
 {
     const double angle = 0.005, *w = turning.omega;
@@ -398,8 +400,8 @@ static void rotating_check(const specimen *s, claims *c)
         warping(s, claims_open(c, "centrifugal energy of warping", 2e-4));
 }
 
-/* Makes all checks. Those of the rotating frame are repeated without some physics, so the remaining
- * terms are tested alone. */
+/* Makes all checks. The checks of the rotating frame are repeated without some physics, so the
+ * remaining terms are tested alone. */
 static void check_all(const specimen *s, claims *c)
 {
     static const unsigned without[] = {FEATURE_ROTARY_INERTIA, FEATURE_WARPING,

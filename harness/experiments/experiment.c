@@ -140,7 +140,8 @@ static status store_found(const experiment_type *e, const void *found, const cha
     return store_write(path, e->name, c.sweep, c.judged, c.made, f);
 }
 
-/* Writes the files before the table, because the reader of the table may have ended. */
+/* Writes the files before the table, because writing the table fails if the program that reads it
+ * has ended. */
 static status leave(const experiment_type *e, const experiment_output *to, const void *found,
                     fault *f)
 {
@@ -177,7 +178,7 @@ status experiment_do(const experiment_type *e, const void *asked, const experime
     return experiment_run(e, asked, to, found, f);
 }
 
-/* Records describe part of a certificate; the index counts its parts. */
+/* Records describe parts of a certificate. The index counts these parts. */
 static const certificate *certificate_of(const subject *s)
 {
     return s->owner;
@@ -298,7 +299,7 @@ static const record_type record_measure = {
     "errors over meshes or thicknesses",
     {key_of_formulation, key_of_family, key_of_measure, fields_of_measure}};
 
-/* Returns the abscissa of a point of a measure; the group counts its points. */
+/* Returns the abscissa of a point of a measure. The group counts the points. */
 static void get_at(const subject *s, field_value *out)
 {
     out->numbers = &((const element_measure *)s->record)->at[s->group];

@@ -35,7 +35,7 @@ typedef enum against_outcome { AGAINST_UNDECIDED, AGAINST_FASTER, AGAINST_SLOWER
 
 typedef struct contest_clock {
     int pairs;
-    double a, b; /* [s] shortest lap of each */
+    double a, b; /* [s] shortest laps of a and of b */
     /* median of b/a over the pairs, and its distribution-free 99.9 % confidence interval */
     double ratio, low, high;
     /* result for b relative to a; ratios within 2 % of 1 are undecided, because a different code
@@ -45,10 +45,10 @@ typedef struct contest_clock {
 
 const char *against_name(against_outcome);
 
-/* Runs one lap of one of the two programs or formulations; *seconds: its time. */
+/* Runs one lap of a program or formulation and writes its time [s] to *seconds. */
 typedef status against_lap(void *contestant, double *seconds, fault *f);
-/* Runs as many pairs of laps as fit into `budget` [s], but at least 51. Their number is fixed
- * before the first counted pair. */
+/* Runs as many pairs of laps as fit into `budget` [s], but at least 51. The number of pairs is
+ * fixed before the first counted pair. */
 status against_run(against_lap *lap, void *a, void *b, double budget, contest_clock *out, fault *f);
 
 typedef enum axis_kind { AXIS_LINEAR, AXIS_LOG, AXIS_LIST, AXIS_WORDS } axis_kind;
@@ -58,38 +58,39 @@ typedef struct sweep_axis {
     int index; /* index of the parameter in the case */
     axis_kind kind;
     double from, to; /* ends of the range, for AXIS_LINEAR and AXIS_LOG */
-    int count;       /* number of values; 0: a range that is not divided into parts */
+    int count;       /* number of values; 0: the range is not divided */
     double *value;   /* [count] for AXIS_LIST and AXIS_WORDS; owned */
 } sweep_axis;
 
-/* The machine that computes a batch: times depend on it, and the last digits of results may too. */
+/* The machine that computes a batch: run times, and sometimes the last digits of results, depend on
+ * it. */
 
 typedef struct machine {
     char host[128], processor[128];
     char blas[256]; /* BLAS library, and its kernels for this processor */
 } machine;
 
-/* Work that can be cut into batches. A verb supplies these functions; a batch need not consist
- * of cells. */
+/* Work that can be cut into batches. A verb supplies these functions. */
 
 /* The batches depend only on the request and the build, so independent processes make the same
  * batches. */
 typedef struct shard_work {
     const char *verb;
-    /* One line each: the program, the request, and everything that the results depend on.
-     * Batches belong to the same work if all three lines are equal. */
+    /* The program, the request, and everything that the results depend on, in one line each. Two
+     * batches belong to the same work if all three lines are equal. */
     const char *build, *request, *plan;
     const char *origin; /* JSON object with the data that merge needs to repeat the request; it is
                            not compared */
     int batches;
     const double *cost; /* [batches] estimated time [s] */
     void *context;
-    /* Computes a batch and writes its results as bytes that another process of this build can
-     * read. *content: digest of all values that must be equal when the batch is computed again;
-     * times and names of machines are excluded. Runs in its own process and frees its memory. */
+    /* Computes a batch and writes its results as bytes that another process of this build can read.
+     * *content: digest of all values that do not change when the batch is computed again (times and
+     * names of machines do change). The function runs in a process of its own and frees its memory.
+     * */
     status (*run)(void *context, int batch, FILE *to, digest *content, fault *f);
-    /* Reads the results of a batch. Called in canonical order, once per batch. FAULT: the batch
-     * cannot be read. */
+    /* Reads the results of a batch. The function is called once per batch, in canonical order.
+     * FAULT: the batch cannot be read. */
     status (*take)(void *context, int batch, FILE *from, fault *f);
 } shard_work;
 
@@ -107,12 +108,12 @@ typedef struct batch_label {
     json_t *origin; /* batch_label_free releases this object */
 } batch_label;
 
-/* Reads only the label and does not check the results. */
+/* Reads the label of a batch without checking the results. */
 status batch_read_label(const char *path, batch_label *out, fault *f);
 void batch_label_free(batch_label *);
 
-/* Measured properties of a formulation, independent of what it declares: errors over meshes and
- * over thicknesses, and orders. Plain data of fixed size, for memory that processes share. */
+/* Measured properties of a formulation: errors over meshes and over thicknesses, and orders. The
+ * structure has a fixed size and no pointers, because processes share it. */
 
 enum { MEASURE_POINTS = 12, MEASURES_MOST = 16, MEASURE_NAME = 64, MEASURE_WORDS = 200 };
 
@@ -120,13 +121,13 @@ typedef struct element_measure {
     char name[MEASURE_NAME];
     int points;
     double at[MEASURE_POINTS];    /* numbers of elements, or thickness/length */
-    double error[MEASURE_POINTS]; /* relative to the exact value; NAN: none */
+    double error[MEASURE_POINTS]; /* errors relative to the exact value; NAN: none */
     double order;       /* observed order of the errors; NAN: not requested, or none observed */
-    int least, highest; /* orders that the type declares; 0: not requested */
-    int locks;          /* 1: shear or membrane locking: the errors increase as the element becomes
-                           thinner */
-    int astray; /* 1: wrong limit: in a linear state, the error on every mesh is the same as with
-                   one element */
+    int least, highest; /* lowest and highest order that the type declares; 0: not requested */
+    /* 1: shear or membrane locking (the errors increase as the element becomes thinner) */
+    int locks;
+    /* 1: wrong limit (in a linear state, all meshes have the same error as one element) */
+    int astray;
     char words[MEASURE_WORDS]; /* reason why there are no values, or a conclusion */
 } element_measure;
 
@@ -149,8 +150,8 @@ typedef struct experiment_cells {
 
 typedef struct experiment_type {
     const char *name; /* name of the group in the results file */
-    /* Steps of the experiment, called one after the other; NULL: no such step. asked: the
-     * request; found: the results, passed from one function to the next. */
+    /* Steps of the experiment, called in this order; NULL: no such step. asked: the request; found:
+     * the results, which each step changes. */
     status (*plan)(const void *asked, void *found, fault *f);
     status (*run)(const void *asked, void *found, fault *f);
     status (*judge)(const void *asked, void *found, fault *f);
@@ -158,10 +159,11 @@ typedef struct experiment_type {
     const record_type *const *records;
     const record_type *about; /* one record for the whole run; NULL: none */
     const record_type *rows;  /* record type that CSV shows; NULL: no CSV */
-    /* Adds the records of that type, taken from the results. */
+    /* Adds the records of this type that the results contain. */
     void (*gather)(const void *found, const record_type *type, subjects *out);
     void (*print)(FILE *to, const void *found); /* prints the results as text */
-    /* For experiments with cells: access to the cells, and all output forms. */
+    /* For experiments with cells: gives access to the cells, from which all forms of output are
+     * written. */
     experiment_cells (*cells)(const void *found);
     status (*write)(FILE *to, const char *format, const void *found, fault *f);
 } experiment_type;
@@ -169,9 +171,9 @@ typedef struct experiment_type {
 typedef struct experiment_output {
     const char *results; /* file that receives the group; groups of other experiments in the file
                             are kept; NULL: none */
-    const char *text, *format; /* path of the output, NULL: standard output; its format: "text",
-                                  "csv" or "json" */
-    const char *json;          /* additional JSON file; NULL: none */
+    /* path of the output (NULL: standard output), and its format: "text", "csv" or "json" */
+    const char *text, *format;
+    const char *json; /* additional JSON file; NULL: none */
 } experiment_output;
 
 /* Returns the output for the values of -o, --format and --json. A path that ends in .h5 or .hdf5
@@ -186,7 +188,7 @@ status experiment_run(const experiment_type *, const void *asked, const experime
 status experiment_do(const experiment_type *, const void *asked, const experiment_output *,
                      void *found, fault *f);
 
-/* Error against run time: every formulation and mesh of the cases, timed in rounds on one
+/* Error against run time for every formulation and mesh of the cases, timed in rounds on one
  * processor. */
 
 typedef struct bench_request {
@@ -206,31 +208,33 @@ typedef struct bench {
     sweep sweep;
     judgement judgement;
     environment made;
-    int named; /* 1: cases were named, so more is shown for each case */
+    int named; /* 1: the user named the cases, so the output has more details */
 } bench;
 
 extern const experiment_type experiment_bench;
 void bench_free(bench *);
 
-/* A check of a formulation: its deviation from a requirement, and how to correct it. Plain data
- * of fixed size, for memory that processes share. */
+/* A check of a formulation: its deviation from a requirement, and the remedy. The structure has a
+ * fixed size and no pointers, because processes share it. */
 
 enum { CLAIM_NAME = 64, CLAIM_SENTENCE = 400, CLAIMS_MOST = 48 };
 
 typedef enum claim_outcome {
     CLAIM_HOLDS,
     CLAIM_BROKEN,
-    CLAIM_NOT_CLAIMED, /* the type does not declare the property, or leaves it to other
-                          functions; `sentence` gives the reason */
+    /* the type does not declare the property, or leaves the calculation to other functions;
+     * `sentence` gives the reason */
+    CLAIM_NOT_CLAIMED,
     CLAIM_OUTCOMES
 } claim_outcome;
 
 typedef struct claim {
     char name[CLAIM_NAME];
     claim_outcome outcome;
-    int compared;          /* number of comparisons or yes/no questions */
-    double worst, allowed; /* largest deviation, dimensionless (INFINITY: the answer to a question
-                              is no), and allowed deviation */
+    int compared; /* number of comparisons or yes/no questions */
+    /* largest deviation (dimensionless; INFINITY: a question was answered with no), and allowed
+     * deviation */
+    double worst, allowed;
     char sentence[CLAIM_SENTENCE]; /* describes the worst deviation that is not allowed */
 } claim;
 
@@ -238,17 +242,17 @@ typedef struct claim {
 typedef struct claims {
     int count;
     claim claim[CLAIMS_MOST];
-    char doing[CLAIM_SENTENCE]; /* description of the present call, for reports of crashes and
-                                   time limits */
-    int complete;               /* 1: all checks have been made */
+    /* description of the current call, for reports of crashes and time limits */
+    char doing[CLAIM_SENTENCE];
+    int complete; /* 1: all checks have been made */
 } claims;
 
 /* Sections of the elements under test. */
 
 typedef enum profiles_form {
     PROFILES_RECTANGLE,   /* supported by every formulation */
-    PROFILES_UNSYMMETRIC, /* an open section of three walls with eccentric shear centre */
-    PROFILES_MATRICES     /* matrices in which every entry matters */
+    PROFILES_UNSYMMETRIC, /* an open section with three walls and an eccentric shear centre */
+    PROFILES_MATRICES     /* matrices without zero entries */
 } profiles_form;
 
 /* One element under test: its section, options and features, states of its nodes, and calls of
@@ -257,12 +261,12 @@ typedef enum profiles_form {
 enum {
     SPECIMEN_STRAINS = ELEMENT_MAX_STRAINS,
     SPECIMEN_COORDINATES = ELEMENT_MAX_COORDINATES,
-    SPECIMEN_INNER = 1 << 10,  /* largest number of inner unknowns that is checked */
+    SPECIMEN_INNER = 1 << 10, /* largest number of inner unknowns for which an element is checked */
     SPECIMEN_MEMORY = 1 << 13, /* number of doubles that stress passes to update */
     SPECIMEN_WORDS = 160
 };
 
-/* Lengths in units of `unit` metres; force in newtons. */
+/* Lengths in units of `unit` metres, and forces in newtons. */
 typedef struct specimen_request {
     const element_type *given;
     const double *options;
@@ -282,22 +286,22 @@ typedef struct specimen {
     element_data *data;
     size_t size; /* size of `data` [bytes] */
     int nodes, strains, coordinates, inner, memory;
-    char words[SPECIMEN_WORDS]; /* "" or ", with option=value, section", for messages */
+    char words[SPECIMEN_WORDS]; /* text for messages: "" or ", with option=value, section" */
 } specimen;
 
-/* Returns the status that the type returns, for example STATUS_REFUSED. Call specimen_free in
- * any case. */
+/* Returns the status of the type's functions, for example STATUS_REFUSED. Call specimen_free in any
+ * case. */
 status specimen_make(const specimen_request *, specimen *out, fault *f);
 void specimen_free(specimen *s);
 
-/* Computes the nodes of the undeformed element, displaced by random numbers times `size` (in
- * units of length, radians and 1/length). */
+/* Computes the nodes of the undeformed element, displaced by random numbers times `size`, in units
+ * of length, radians and 1/length. */
 void specimen_state(const specimen *s, double size, unsigned seed, node_state x[]);
 
 typedef void checks_run(const formulation *chosen, claims *out);
 
 typedef struct checks_family {
-    const char *name, *what; /* name: one word; what: one line with the requirement */
+    const char *name, *what; /* name: one word; what: the requirement, in one line */
     checks_run *run;
 } checks_family;
 
@@ -309,20 +313,20 @@ extern const checks_family checks_families[CHECKS_FAMILIES];
 typedef void measured_run(const formulation *chosen, claims *, measures *out);
 
 typedef struct measured_group {
-    const char *name, *what; /* name: one word; what: one line that explains the numbers */
+    const char *name, *what; /* name: one word; what: an explanation of the numbers, in one line */
     measured_run *run;
 } measured_group;
 
 enum { MEASURED_GROUPS = 3 };
 extern const measured_group measured_groups[MEASURED_GROUPS];
 
-/* Certificate of a formulation: whether it satisfies the interface requirements, and its
- * measured properties. Each part runs in its own process. If a part crashes, hangs or corrupts
- * its memory, this is reported as its result, and the other parts continue. */
+/* Certificate of a formulation: whether it satisfies the interface requirements, and its measured
+ * properties. Each part runs in its own process. A crash, a time-out or corrupted memory is
+ * reported as the result of this part, and the other parts continue. */
 
 enum { CERTIFICATE_PARTS = CHECKS_FAMILIES + MEASURED_GROUPS };
 
-/* One part: its checks and, for a part with measurements, the measures. */
+/* One part of a certificate: its checks and its measures. */
 typedef struct certificate_part {
     claims claims;
     measures measures;
@@ -332,23 +336,23 @@ typedef struct certificate {
     formulation chosen;
     certificate_part part[CERTIFICATE_PARTS];
     const char
-        *late; /* first part that exceeded the time limit; NULL: none. Later parts are not run */
+        *late; /* first part that exceeded the time limit (later parts are not run); NULL: none */
     char hash[DIGEST_TEXT]; /* SHA-256 of the formulation's file; "": not requested */
 } certificate;
 
 typedef struct certificate_request {
     const formulation *chosen;   /* [count] */
-    int count, jobs, time_limit; /* time_limit [s]: limit for one part; 0: none */
+    int count, jobs, time_limit; /* time_limit [s]: limit for a part; 0: none */
     int contract_only;           /* 1: no measurements */
-    void (*hash)(const element_type *, char out[DIGEST_TEXT]); /* computes the hash; NULL: no
-                                                                  hash */
+    /* computes the hash; NULL: no hash */
+    void (*hash)(const element_type *, char out[DIGEST_TEXT]);
 } certificate_request;
 
 /* Call certificates_free in any case. */
 status certificate_find(const certificate_request *, certificate **out, fault *f);
 void certificate_free(certificate *all, int count);
 
-/* Returns 1 when no check of the certificate has failed. */
+/* Returns 1 if no check of the certificate has failed. */
 int certificate_holds(const certificate *);
 
 /* Records of certificates. */
@@ -359,18 +363,19 @@ typedef struct certificates {
     int count, verbose, quiet; /* verbose, quiet: see certificate_text */
 } certificates;
 
-/* Request: a certificate_request; result: certificates, to be freed by certificates_free. */
+/* The request is a certificate_request. The result is a `certificates`, which certificates_free
+ * frees. */
 extern const experiment_type experiment_element_test;
 
-/* One case with several formulations on several meshes: errors, orders, limits. */
+/* Errors, orders and limits of several formulations for one case. */
 
 typedef struct convergence_request {
     const case_type *type;
     const double *parameter;
-    const int *mesh; /* [meshes] numbers of elements; meshes 0: those of the case */
+    const int *mesh; /* [meshes] numbers of elements */
     int meshes;
     double level; /* requested error */
-    int verbose;  /* 1: each formulation is printed separately, with values and times */
+    int verbose;  /* 1: every formulation is printed separately, with values and times */
     sweep_request cells;
 } convergence_request;
 
@@ -386,21 +391,21 @@ typedef struct convergence {
 extern const experiment_type experiment_converge;
 void convergence_free(convergence *);
 
-/* Groups consecutive items into batches with a total cost of at most `most` each. A more
- * expensive item forms its own batch. first[items + 1]: first item of each batch, followed by
- * `items`. Returns the number of batches. */
+/* Groups consecutive items into batches with a total cost of at most `most`. A more expensive item
+ * forms a batch alone. first[items + 1]: first item of each batch, followed by `items`. Returns the
+ * number of batches. */
 int deal_cut(int items, const double cost[], double most, int first[]);
 
-/* Choice of parameter points: a grid over all axes, or points that fill the box of the axes. */
+/* Choice of parameter points: a grid over all axes, or points that fill the ranges of the axes. */
 
 typedef enum design_kind { DESIGN_GRID, DESIGN_SOBOL, DESIGN_HALTON, DESIGN_RANDOM } design_kind;
-/* Words of --design, in the order of design_kind. */
+/* Words of the option --design, in the order of design_kind. */
 #define DESIGN_CHOICES "grid|sobol|halton|random"
 
 /* State of a sequence of points after a given number of points. */
 typedef struct design_mark {
     gsl_qrng *quasi;
-    gsl_rng *random; /* generator of the sequence; one of the two is NULL */
+    gsl_rng *random; /* generator of the sequence; one of the two members is NULL */
 } design_mark;
 
 typedef struct design {
@@ -408,10 +413,10 @@ typedef struct design {
     int axes;
     const sweep_axis *axis; /* [axes]; not owned */
     long points;            /* number of all points */
-    unsigned long seed;     /* for DESIGN_RANDOM: mt19937 of GSL */
+    unsigned long seed;     /* seed of GSL's generator mt19937, for DESIGN_RANDOM */
     long marks, stride;
-    design_mark *mark; /* [marks] states after every `stride` points, from which any point is found
-                          quickly */
+    /* [marks] states after every `stride` points, from which any point is computed quickly */
+    design_mark *mark;
 } design;
 
 /* Outcome of a formulation at an extreme, and expected outcomes that are not accurate. */
@@ -419,15 +424,16 @@ typedef struct design {
 enum { OUTCOME_NEIGHBOURS = 2 };
 
 typedef enum outcome_kind {
-    OUTCOME_VALUE,  /* accurate: within the extreme's tolerance */
-    OUTCOME_COARSE, /* under-resolved: outside the tolerance, but the error decreases with more
-                       elements, as a discretisation error does */
-    OUTCOME_WRONG,  /* a number that is neither accurate nor under-resolved */
+    OUTCOME_VALUE, /* accurate: the error is within the tolerance of the extreme */
+    /* under-resolved: the error exceeds the tolerance, but decreases with more elements like a
+     * discretisation error */
+    OUTCOME_COARSE,
+    OUTCOME_WRONG, /* a number that is neither accurate nor under-resolved */
     OUTCOME_NOT_CONVERGED,
     OUTCOME_SINGULAR,
     OUTCOME_REFUSED,
     OUTCOME_NO_VALUE, /* the mesh does not have the requested mode, load or state */
-    OUTCOME_FAULT,    /* crash, or out of memory */
+    OUTCOME_FAULT,    /* a crash, or out of memory */
     OUTCOME_SKIP,     /* the formulation does not support a required feature */
     OUTCOME_KINDS
 } outcome_kind;
@@ -436,19 +442,19 @@ typedef enum outcome_kind {
  */
 typedef struct extreme_finding {
     char *extreme, *formulation, *quantity, *outcome,
-        *proof;      /* texts; the first three may contain * and ? */
+        *proof;      /* texts; the first three may contain the wildcards * and ? */
     double from, to; /* range of x, including both ends */
     int observed;
 } extreme_finding;
 
 typedef struct extreme_outcome {
-    /* Indices: extreme, its value, formulation, quantity. */
+    /* indices of the extreme, its value, the formulation and the quantity */
     int extreme, value, formulation, quantity;
-    int point, series, neighbours; /* in the sweeps: the point and series, and the series of the
-                                      other meshes; -1: none */
+    /* indices in the sweeps: the point and series, and the series of the other meshes; -1: none */
+    int point, series, neighbours;
     outcome_kind kind;
-    double x, result, reference, error; /* NAN: none; the error is relative */
-    /* Errors on the other meshes; NAN: not needed, or there is no value. */
+    double x, result, reference, error; /* the error is relative; NAN: none */
+    /* Errors on the other meshes; NAN: the error is not needed, or there is no value. */
     double neighbour_error[OUTCOME_NEIGHBOURS];
     const extreme_finding *finding;
     int as_expected;
@@ -457,9 +463,9 @@ typedef struct extreme_outcome {
 
 const char *outcome_name(outcome_kind kind);
 
-/* Every formulation at every extreme: cells, outcomes and counts. */
+/* Outcomes of every formulation at every extreme. */
 
-/* Counts for one formulation. A cell is an extreme at one value of x, and counts as its worst
+/* Counts for one formulation. A cell is an extreme at one value of x. It counts as its worst
  * quantity. */
 typedef struct extreme_count {
     const char *formulation; /* key of the formulation */
@@ -468,8 +474,9 @@ typedef struct extreme_count {
 
 typedef struct extreme_sweep {
     int formulations, outcomes, findings, unexpected, unobserved;
-    int is_new; /* number of outcomes of new formulations that would need a known deviation; they do
-                   not affect the exit status */
+    /* number of outcomes of new formulations that are not expected; these outcomes do not affect
+     * the exit status */
+    int is_new;
     formulation *formulation;
     truths truths; /* exact values */
     sweep first, neighbours;
@@ -489,41 +496,41 @@ typedef struct extreme_request {
     const char *truths; /* path of the packed reference values */
     const char *select; /* expression over "name/group/case/formulation", or NULL */
     int jobs, formulations;
-    const formulation *formulation; /* [formulations] only these formulations; formulations 0:
-                                       all */
+    const formulation *formulation; /* [formulations] formulations to run; formulations 0: all */
     int named; /* 1: the user named the formulations, so their outcomes affect the exit status */
     FILE *progress;
 } extreme_request;
 
-/* At every extreme each formulation must give a value with its error, or a rejection or failure
- * with a reason, but never a wrong number without notice. */
+/* At every extreme, each formulation must give a value with its error, or a rejection or failure
+ * with a reason. It must never give a wrong number without notice. */
 
-/* Request: an extreme_request; result: an extreme_sweep, to be freed by extreme_sweep_free. */
+/* The request is an extreme_request. The result is an extreme_sweep, which extreme_sweep_free
+ * frees. */
 extern const experiment_type experiment_stress;
 
 enum { PACE_LIST_MOST = 16 };
 
 /* Names of integrators on a command line. */
 
-enum { PACE_METHOD_NAME = 32, PACE_REFERENCE_ORDER = 5 }; /* the reference is computed by radau */
+/* order of radau, which computes the reference */
+enum { PACE_METHOD_NAME = 32, PACE_REFERENCE_ORDER = 5 };
 
 typedef struct pace_method {
-    char name[PACE_METHOD_NAME]; /* as given on the command line */
+    char name[PACE_METHOD_NAME]; /* name of the method as given on the command line */
     scene_scheme scheme;
     scene_alpha alpha;
-    int order;    /* order in time, for motions whose frequencies are resolved */
-    int estimate; /* 1: the integrator estimates the error of a step */
+    int order;    /* order with respect to the time step, if all frequencies are resolved */
+    int estimate; /* 1: the integrator estimates the error of every step */
 } pace_method;
 
-/* Comparison of integrators for transient analysis: cost of each step, and accuracy of the results.
- *
- * Errors are due to time integration only: the reference uses the same mesh. */
+/* Comparison of integrators for transient analysis: cost and accuracy. The reference uses the same
+ * mesh, so all errors are due to time integration. */
 
-/* Classification of a motion. Without loads its energy and momenta must be conserved. */
+/* Classification of a motion. Without loads, energy and momenta must be conserved. */
 typedef enum pace_fate {
-    PACE_UNJUDGED, /* loads act on it; it is not classified */
+    PACE_UNJUDGED, /* loads act, so the motion is not classified */
     PACE_GROWS,    /* the energy grows by more than pace_growth */
-    PACE_STOPS,    /* a step of this size has no solution */
+    PACE_STOPS,    /* the equations of a step of this size have no solution */
     PACE_BOUNDED,
     PACE_EXACT, /* energy and momenta are conserved within pace_energy and pace_momentum */
     PACE_FATES
@@ -531,25 +538,24 @@ typedef enum pace_fate {
 
 /* One motion, computed by an integrator with a step size or a tolerance. */
 typedef struct pace_run {
-    int group, series; /* indices in the sweep: a separate series and point with one mesh */
+    int group, series; /* indices of the group, and of the series in the sweep */
     pace_method method;
-    double step,
-        tolerance; /* [s] size of the first step, or of all fixed steps; tolerance 0: fixed steps */
-    /* outcome of the motion; if the motion failed, the values below are NAN */
+    double step, tolerance; /* [s] size of the first step, or of all steps if tolerance is 0 */
+    /* outcome of the motion; after a failure, the values below are NAN */
     status status;
     const char *reason; /* owned by the sweep */
-    double error;       /* largest error over all stations: positions relative to the size of the
-                           structure, rotations [rad] */
-    double *values;     /* [quantities] relative errors; owned by this structure */
-    double order;       /* observed order, from this run and the previous one, which has twice
-                           the step size */
+    /* largest error over all stations: positions relative to the size of the structure, or
+     * rotations in rad */
+    double error;
+    double *values; /* [quantities] relative errors; owned by this structure */
+    double order;   /* observed order, from this run and the run with twice the step size */
     double cost, seconds, iterations; /* [s] cost of the counted work, and measured time;
                                          iterations per step */
     long steps, rejected;
-    double energy, momentum; /* largest relative energy-balance and momentum error */
-    double largest, last;    /* largest and last value of E/E0, with energy E and initial energy
-                                E0 */
-    double stopped;          /* [s] time at which the motion ended early */
+    double energy, momentum; /* largest relative errors of the energy balance and of the momenta */
+    /* largest and last value of E/E0, where E is the energy and E0 the initial energy */
+    double largest, last;
+    double stopped; /* [s] time at which the motion ended prematurely */
     pace_fate fate;
 } pace_run;
 
@@ -561,13 +567,12 @@ typedef struct pace_group {
     int elements;
     int analysis;     /* index of the motion in the scene */
     double step, end; /* step size and end time in the scene [s] */
-    double from;      /* [s] time after which no load acts; INFINITY: loads act until the end */
-    int first, runs;  /* first index, and number, in the list of all runs */
-    int reference;    /* series of the reference, followed by those of its checks; -1: no errors are
-                         requested */
+    double from;      /* [s] time from which no load acts; INFINITY: loads act until the end */
+    int first, runs;  /* index of the first run, and number of runs, in the list of all runs */
+    /* index of the series of the reference, which its checks follow; -1: no errors are requested */
+    int reference;
     double uncertainty; /* uncertainty of the reference; NAN: none */
-    double order;       /* observed order of the reference, from the steps and errors of its checks;
-                           NAN: none */
+    double order; /* observed order of the reference, from the errors of its checks; NAN: none */
     char reason[FAULT_TEXT]; /* reason why there is no reference */
 } pace_group;
 
@@ -582,10 +587,10 @@ typedef struct pace {
  *
  *   order      pass, low order or undecided, from errors at halved steps (experiments_impl.h)
  *   energy     conserved, or "order P" of its drift at halved steps, or drifts
- *   momentum   the same
- *   tolerance  for each tolerance the decimal logarithm of error/tolerance; the verdict allows
+ *   momentum   conserved, or "order P" of its drift at halved steps, or drifts
+ *   tolerance  decimal logarithm of error/tolerance for each tolerance; the verdict allows
  *              a factor of two
- *   fate       of each step: grows, stops, bounded or exact (pace_fate) */
+ *   fate       fate of each step: grows, stops, bounded or exact (pace_fate) */
 
 enum { PACE_FOUND = 128 };
 
@@ -617,17 +622,16 @@ typedef struct pace_verdicts {
 /* Comparison of integrators for transient analysis: request and result. */
 
 typedef struct motion_request {
-    const char
-        *expected; /* table of expected verdicts; replaces the description of motions below */
+    const char *expected;  /* table of expected verdicts, which replaces the members below */
     const case_type *type; /* the case */
     const double *parameter;
-    const char *vary; /* "NAME=A..B/N" or "NAME=A,B,C" for a parameter that varies; NULL: none */
+    const char *vary; /* varied parameter, "NAME=A..B/N" or "NAME=A,B,C"; NULL: none */
     const formulation *formulation;
-    int formulations, elements;                   /* elements 0: the number in the case */
-    const char *integrators, *steps, *tolerances; /* lists as given on the command line; NULL:
-                                                     default */
-    int conservation_only;                        /* 1: without a reference */
-    int each; /* 1: text output has a line for each motion, in addition to verdicts */
+    int formulations, elements; /* elements: number of elements; 0: as in the case */
+    /* lists as given on the command line; NULL: default lists */
+    const char *integrators, *steps, *tolerances;
+    int conservation_only; /* 1: without a reference */
+    int each;              /* 1: the text has a line for each motion, in addition to the verdicts */
     sweep_request cells;
 } motion_request;
 
@@ -641,20 +645,20 @@ typedef struct motions {
 extern const experiment_type experiment_motion;
 void motions_free(motions *);
 
-/* Columns of the results at points of a sweep, in the form in which a batch is transferred and
- * stored. */
+/* Results of a sweep in columns. Batches are transferred and stored in this form. */
 
 /* Kind of reference from which an error is computed. */
 typedef enum rows_reference {
-    ROWS_STORED,   /* a stored reference value at exactly that point */
-    ROWS_DERIVED,  /* a reference value computed for the point by a program of reference/derive */
-    ROWS_LIMIT,    /* the limit of the meshes of all formulations */
-    ROWS_NONE,     /* no limit is known accurately enough */
-    ROWS_DISPUTED, /* none: limits of formulations differ by more than their uncertainties */
+    ROWS_STORED,  /* a reference value stored for exactly this point */
+    ROWS_DERIVED, /* a reference value computed for the point by a program of reference/derive */
+    ROWS_LIMIT,   /* the limit of the meshes of all formulations */
+    ROWS_NONE,    /* no limit is known accurately enough */
+    /* none, because limits of formulations differ by more than their uncertainties */
+    ROWS_DISPUTED,
     ROWS_REFERENCES
 } rows_reference;
 
-/* Sizes of the columns, which are equal at every point. */
+/* Sizes of the columns. All points have the same sizes. */
 typedef struct rows_shape {
     int formulations, meshes, quantities;
 } rows_shape;
@@ -663,24 +667,27 @@ typedef struct rows_shape {
 typedef struct rows {
     rows_shape shape;
     int points;
-    size_t size;               /* size of the block [bytes] */
-    double *first;             /* the block; owned */
-    double *reference, *doubt; /* [points, quantities] value and relative uncertainty; NAN: none */
+    size_t size;   /* size of the block [bytes] */
+    double *first; /* the block; owned */
+    /* [points, quantities] reference value and its relative uncertainty; NAN: none */
+    double *reference, *doubt;
     double *value,
-        *error; /* [points, formulations, meshes, quantities]; error relative; NAN: none */
-    double *cost, *seconds; /* [points, formulations, meshes] [s] cost of the counted work, and
-                               measured time */
-    int32_t *lacks;         /* [points, formulations] bits of the omitted physics (model.h) if the
-                               formulation solves another model, which is not counted; 0: the model of
-                               the scene */
-    int32_t *least;         /* [points, formulations, quantities] number of elements of the coarsest
-                               mesh such that it and all finer meshes are within the tolerance; 0: none */
-    uint8_t *kind;          /* [points, quantities] values of rows_reference */
-    uint8_t *status;        /* [points, formulations, meshes] */
+        *error; /* [points, formulations, meshes, quantities] relative error; NAN: none */
+    /* [points, formulations, meshes] cost of the counted work, and measured time [s] */
+    double *cost, *seconds;
+    /* [points, formulations] bits of the omitted physics (model.h) if the formulation solves
+     * another model. Such a formulation is not counted. 0: the formulation solves the model of the
+     * scene. */
+    int32_t *lacks;
+    /* [points, formulations, quantities] number of elements of the coarsest mesh for which this
+     * mesh and all finer meshes are within the tolerance; 0: none */
+    int32_t *least;
+    uint8_t *kind;   /* [points, quantities] values of rows_reference */
+    uint8_t *status; /* [points, formulations, meshes] */
 } rows;
 
-/* A sweep over parameters: its points, formulations, meshes and quantities, and its batches. All of
- * this depends only on the request and the build. */
+/* A sweep over parameters: its points, formulations, meshes and quantities, and its batches. They
+ * depend only on the request and the build. */
 
 enum { RANGES_FORMULATIONS = 64, RANGES_QUANTITIES = 64 };
 
@@ -692,15 +699,15 @@ typedef struct ranges_request {
     int varies;
     const char *const *vary; /* [varies] arguments of --vary */
     design_kind design;
-    long points; /* number of points for designs other than grids */
+    long points; /* number of points, for all designs except grids */
     unsigned long seed;
     int formulations;
-    const formulation *formulation; /* [formulations]; formulations 0: all that run */
+    const formulation *formulation; /* [formulations]; formulations 0: all that run the case */
     int meshes;
     const int *mesh; /* [meshes]; meshes 0: those of the scene */
     const char *select;
     double tolerance;   /* relative tolerance of the errors */
-    int time_limit;     /* [s] limit of a cell; 0: none */
+    int time_limit;     /* [s] time limit of a cell; 0: none */
     const char *derive; /* program of reference/derive that computes reference values; NULL: none */
     const truths *truths; /* stored reference values of a built-in case; NULL: none */
 } ranges_request;
@@ -719,13 +726,12 @@ typedef struct parameter_ranges {
     formulation formulation[RANGES_FORMULATIONS];
     int mesh[SERIES_MAX_MESHES]; /* ascending */
     ranges_quantity quantity[RANGES_QUANTITIES];
-    char left_out[FAULT_TEXT]; /* describes the formulations that run at none of the examined points
-                                */
+    char left_out[FAULT_TEXT]; /* text about formulations that run at none of the examined points */
     char omitted[SCENE_OMISSION_WORDS]; /* physics that the scene omits, at the first examined
                                            point */
-    char assumed[RANGES_ASSUMED]; /* assumptions on the sections (harness/records/records.h), at
-                                     the same point */
-    long points_in_batch;         /* in all batches except the last */
+    /* assumptions on the sections (harness/records/records.h) at the first examined point */
+    char assumed[RANGES_ASSUMED];
+    long points_in_batch; /* number of points in each batch except the last */
     int batches;
     double point_cost; /* [s] estimated cost of all cells of a point */
 } parameter_ranges;
@@ -736,7 +742,7 @@ status ranges_make(const ranges_request *request, parameter_ranges *out, fault *
 void ranges_free(parameter_ranges *);
 rows_shape ranges_shape(const parameter_ranges *);
 
-/* One shard of a work. Each of its batches is computed by a process and written to a file as
+/* One shard of a work. Each batch of the shard is computed by a process and written to a file as
  * soon as it is finished. */
 
 typedef struct shard_request {
@@ -751,7 +757,7 @@ typedef struct shard_request {
 
 typedef struct shard_outcome {
     int mine;        /* number of batches of the shard */
-    int before;      /* number of its batches that existed before */
+    int before;      /* number of batches of the shard that existed before the run */
     int done;        /* number of batches computed in this run */
     int lost;        /* number of batches whose process ended early */
     int interrupted; /* 1: the run was interrupted */
@@ -760,9 +766,9 @@ typedef struct shard_outcome {
 
 /* Reads "2/4" as index 1 and count 4. REFUSED: any other format. */
 status shard_parse(const char *text, int *index, int *count, fault *f);
-/* Computes the missing batches, the most expensive first. If a process ends without a result,
- * only its batch is lost; it is computed when the shard is started again. REFUSED: the folder
- * contains batches of another work. FAULT: an error of the disk, the memory or a batch. The run
+/* Computes the missing batches, the most expensive first. If a process ends without a result, only
+ * its batch is lost, and the next run of the shard computes this batch. REFUSED: the folder
+ * contains batches of another work. FAULT: a disk error, a failed batch, or out of memory. The run
  * then ends, and completed batches are kept. */
 status shard_run(const shard_work *w, const shard_request *request, shard_outcome *out, fault *f);
 
@@ -771,30 +777,30 @@ status shard_run(const shard_work *w, const shard_request *request, shard_outcom
 /* Lists all cases if `cases` is 1, and all formulations with the physics that they support if
  * `formulations` is 1. */
 status list_json_all(FILE *to, int cases, int formulations, fault *f);
-/* Lists a case at values of its parameters: the values, the quantities, and the formulations that
- * run it. */
+/* Lists a case at given values of its parameters: these values, the quantities, and the
+ * formulations that run the case. */
 status list_json_case(FILE *to, const case_type *type, const double value[], fault *f);
-/* Lists a formulation: its declarations, its options, the known deviations that apply to it
- * (rules NULL: null), and the cases that it runs. */
+/* Lists a formulation: its declarations, its options, its known deviations (null if `rules` is
+ * NULL), and the cases that it runs. */
 status list_json_formulation(FILE *to, const formulation *chosen, const rule *rules, int count,
                              fault *f);
 
-/* Subject of a list: everything, all cases, all formulations, or one of them. */
+/* Subject of a list: everything, all cases, all formulations, a case or a formulation. */
 
 typedef struct list_subject {
     int cases, formulations; /* 1: all of them */
     const case_type *type;   /* one case */
-    formulation chosen;      /* one formulation, possibly with options; type NULL: none */
+    formulation chosen;      /* a formulation, possibly with options; type NULL: none */
 } list_subject;
 
-/* Finds the subject of a list. name: NULL (everything), "cases", "formulations", or the name of
- * a case or formulation. REFUSED: the name is unknown; the message gives the nearest one. */
+/* Finds the subject of a list. name: "cases", "formulations", or the name of a case or formulation;
+ * NULL: everything. REFUSED: the name is unknown; the message suggests the most similar name. */
 status list_subject_find(const char *name, list_subject *out, fault *f);
 
 /* Existing batches of a work, in one or several folders. */
 
 typedef struct stock_kind {
-    machine node; /* machine: the first one of its kind */
+    machine node; /* machine: the first machine of this kind */
     int batches;
 } stock_kind;
 
@@ -805,17 +811,18 @@ typedef struct stock {
     char stem[BATCH_STEM];
     int *where; /* [batches] index of the folder that contains the batch, or -1 */
     int there, damaged, twice;
-    int shards; /* number of shards of the existing batches; 0: different numbers */
+    /* number of shards of the existing batches; 0: the batches have different numbers */
+    int shards;
     double seconds;
     int kinds; /* number of kinds of machines */
     stock_kind *kind;
 } stock;
 
-/* Reads and checks every byte of the requested batches (wanted NULL: all). If a batch is in two
- * folders, the first one is used. Writes one line about each damaged batch, which counts as
- * missing, to the stream (may be NULL). REFUSED: a batch belongs to another build, request or plan;
- * a file has the name of a batch but is none; or two versions of a batch differ. FAULT: a folder
- * cannot be read. Call stock_free even after a failure. */
+/* Reads and checks every byte of the requested batches (wanted NULL: all). If two folders contain
+ * the same batch, the first folder is used. A damaged batch counts as missing, and a line about the
+ * batch is written to the stream (may be NULL). REFUSED: a batch belongs to another build, request
+ * or plan, a file has the name of a batch but is not a batch, or two versions of a batch differ.
+ * FAULT: a folder cannot be read. Call stock_free even after a failure. */
 status stock_take(const shard_work *w, const char *const folder[], int folders, const char *wanted,
                   FILE *tell, stock *out, fault *f);
 void stock_free(stock *);
@@ -824,60 +831,61 @@ void stock_free(stock *);
 void stock_missing(const stock *, const shard_work *, char *out, size_t size);
 /* Writes a line for each kind of machine if there are several. */
 void stock_tell_kinds(const stock *, FILE *to);
-/* Reads the label of the first readable batch of a folder, in the order of names; merge repeats
- * the request of this batch. REFUSED: the folder has no readable batch. */
+/* Reads the label of the first readable batch of a folder, in the order of names. merge repeats the
+ * request of this batch. REFUSED: the folder has no readable batch. */
 status stock_first(const char *folder, batch_label *out, fault *f);
 
 /* Reads the batches of one or several folders in canonical order, with only one batch in memory
  * at a time. */
 
-/* Reads every existing batch. s: from stock_take. FAULT: a batch can no longer be read. */
+/* Reads every existing batch. s: result of stock_take. FAULT: a batch can no longer be read. */
 status merge_take(const shard_work *w, const stock *s, fault *f);
 
-/* Numbers of elements from the option -n. */
+/* Numbers of elements, from the option -n. */
 
 enum { MESHES_FINEST = 10000000 };
 
-/* Appends the numbers of a list such as "1,2,4" to mesh[most]; *count: how many it contains,
- * updated. REFUSED: an item is not an integer from 1 to MESHES_FINEST, or there are too many. */
+/* Appends the numbers of a list such as "1,2,4" to mesh[most] and updates their number *count.
+ * REFUSED: an item is not an integer from 1 to MESHES_FINEST, or there are too many items. */
 status meshes_parse(const char *list, int most, int mesh[], int *count, fault *f);
 
-/* Summary of a sweep, accumulated point by point. It shows at how many points a formulation is
- * within the tolerance, and with how many elements; where it is not; and its worst points. */
+/* Summary of a sweep, accumulated point by point. For each formulation, it contains the number of
+ * points within the tolerance on each mesh, and the points with the largest errors. */
 
 enum { TALLY_WORST = 3, TALLY_COLUMNS = 10, TALLY_ROWS = 12, TALLY_SCENE = 64 };
 
-/* A point where the error of a formulation on its finest mesh is one of the largest. */
+/* A point where a formulation has one of its largest errors on the finest mesh. */
 typedef struct tally_worst {
     long point;
-    int quantity;            /* -1: the cell has no solution */
+    int quantity;            /* index of the quantity; -1: the cell has no solution */
     int status;              /* status of the cell */
     double error;            /* relative error; NAN: no value */
-    char scene[TALLY_SCENE]; /* name of the point's scene file; empty: not stored */
+    char scene[TALLY_SCENE]; /* name of the scene file of the point; empty: not stored */
 } tally_worst;
 
-/* Counts of a formulation for one quantity, or for all quantities together. With all quantities,
- * a point with an undecided quantity is counted in `asked` only if another quantity is never
- * within the tolerance. Otherwise the result of the point is unknown. */
+/* Counts of a formulation for one quantity, or for all quantities together. For all quantities
+ * together, a point with an undecided quantity is counted in `asked` only if another quantity is
+ * never within the tolerance. */
 typedef struct tally_series {
-    long asked;                     /* number of points with a reference */
-    long proven;                    /* number of those points with a reference value */
-    long open;                      /* number of points with a value but without a reference */
-    long within[SERIES_MAX_MESHES]; /* of `asked`: number of points within the tolerance, for
-                                       each mesh */
-    long never;     /* of `asked`: number of points where no mesh and all finer ones are within
-                       the tolerance */
-    int everywhere; /* smallest number of elements for which all points of `asked` are within the
-                       tolerance, also on all finer meshes */
+    long asked;  /* number of points with a reference */
+    long proven; /* number of points whose reference is a reference value */
+    long open;   /* number of points with a value but without a reference */
+    /* for each mesh, number of points of `asked` that are within the tolerance */
+    long within[SERIES_MAX_MESHES];
+    /* number of points of `asked` where even the finest mesh is not within the tolerance */
+    long never;
+    /* smallest number of elements such that this mesh and all finer meshes are within the tolerance
+     * at all points of `asked` */
+    int everywhere;
 } tally_series;
 
-/* One field of the map, which covers a range of each axis. */
+/* A field of the map. It covers a range of each axis. */
 typedef struct tally_place {
     long points, other, asked, never; /* other: number of points with another model */
-    long proven; /* of `asked`: number of points whose reference is a reference value, not a
-                    limit of meshes */
-    int least;   /* smallest number of elements for which all points of the field are within the
-                    tolerance, also on all finer meshes */
+    long proven; /* number of points of `asked` whose reference is a reference value */
+    /* smallest number of elements such that this mesh and all finer meshes are within the tolerance
+     * at all points of the field */
+    int least;
 } tally_place;
 
 typedef struct tally {
@@ -886,22 +894,25 @@ typedef struct tally {
         first_without; /* first_without: index of the first point without a scene */
     long kind[RANGES_QUANTITIES][ROWS_REFERENCES];
     double doubt[RANGES_QUANTITIES]; /* largest relative uncertainty of a reference */
-    int columns, lines;              /* numbers of columns and lines of the map; 0: more than two
-                                        axes */
-    tally_series *series;   /* [formulations x (quantities + 1)]; the last one is for all quantities
-                               together */
+    /* numbers of columns and lines of the map; 0: there are more than two axes */
+    int columns, lines;
+    /* [formulations x (quantities + 1)]; the last entry of a formulation is for all quantities
+     * together */
+    tally_series *series;
     tally_place *map;       /* [formulations x (quantities + 1) x lines x columns] */
     long *failed;           /* [formulations x meshes] number of cells without a solution */
-    double *cost, *seconds; /* [formulations x meshes] [s], sums over all cells that ran */
+    double *cost, *seconds; /* [formulations x meshes] sums over all cells that ran [s] */
     long *ran;              /* [formulations x meshes] number of cells that ran */
-    long others[RANGES_FORMULATIONS];    /* number of points where the formulation solves another
-                                            model; these are not counted elsewhere */
-    unsigned lacks[RANGES_FORMULATIONS]; /* bits of the physics omitted at those points: model.h */
+    /* number of points where the formulation solves another model; no other count includes these
+     * points */
+    long others[RANGES_FORMULATIONS];
+    unsigned lacks[RANGES_FORMULATIONS]; /* bits (model.h) of the physics omitted at these points */
     int worsts[RANGES_FORMULATIONS];
-    tally_worst worst[RANGES_FORMULATIONS][TALLY_WORST]; /* in decreasing order of error */
+    /* the worst points in decreasing order of error */
+    tally_worst worst[RANGES_FORMULATIONS][TALLY_WORST];
 } tally;
 
-/* FAULT: out of memory. Call tally_free even after a failure. */
+/* Allocates and clears the counts. FAULT: out of memory. Call tally_free even after a failure. */
 status tally_alloc(const parameter_ranges *r, tally *out, fault *f);
 void tally_free(tally *);
 
@@ -920,24 +931,24 @@ typedef struct ranges_file {
 typedef struct ranges_work {
     const parameter_ranges *of;
     double *cost;      /* [batches] */
-    tally *tally;      /* counts of the batches that have been read ... */
-    ranges_file *file; /* ... and the file to which they are written; NULL: none */
+    tally *tally;      /* counts of the batches that have been read */
+    ranges_file *file; /* file to which the batches are written; NULL: none */
     FILE *csv;         /* CSV output; NULL: none */
     int csv_begun;     /* 1: the header has been written */
     digest content;    /* digest of all values read, except times */
 } ranges_work;
 
-/* Computes the batches of a sweep or reads those of shards, and writes the summary, the file and
- * the worst points. */
+/* Computes the batches of a sweep or reads the batches of shards, then writes the summary, the file
+ * and the worst points. */
 
 typedef struct range_sweep_request {
     ranges_request of;
     const char *output; /* path of the HDF5 file; NULL: none */
-    int partial;        /* 1: batches may be missing, and the name of the output says so */
+    int partial;        /* 1: batches may be missing; the name of the output then says so */
     int jobs, verbose, quiet;
     FILE *progress, *csv; /* NULL: none */
-    /* Reads the batches; NULL: they are computed by this process. NO_VALUE: there is nothing to
-     * evaluate. */
+    /* Reads the batches; NULL: this process computes them. NO_VALUE: there is nothing to evaluate.
+     * */
     status (*take)(void *context, const shard_work *, fault *f);
     void *context;
 } range_sweep_request;
@@ -947,12 +958,12 @@ typedef struct range_sweep {
     truths truths; /* read before planning */
     parameter_ranges ranges;
     ranges_work work;
-    shard_work all; /* its identity is set after planning */
+    shard_work all; /* the sweep as work; the identity is set after planning */
     const char *output;
-    char partial[PATH_MAX]; /* name of the output if batches are missing */
+    char partial[PATH_MAX]; /* name of the output, used if batches are missing */
     char worst[PATH_MAX];   /* folder for the scenes of the worst points; empty: none */
     char batches[PATH_MAX]; /* folder of the batches */
-    int lost;               /* number of missing batches, if they are computed by this process */
+    int lost;               /* number of missing batches if this process computes them */
     int evaluated;          /* 1: all batches have been read */
     tally tally;
     ranges_file file;
@@ -961,7 +972,7 @@ typedef struct range_sweep {
 extern const experiment_type experiment_sweep;
 void range_sweep_free(range_sweep *);
 
-/* Data that all batches of one sweep must have in common, in addition to the command line. */
+/* Data that all batches of a sweep have in common, in addition to the command line. */
 
 /* Adds the points, formulations, meshes, quantities and the division into batches to the digest. */
 void ranges_identity_add(const parameter_ranges *r, digest *plan);
@@ -973,50 +984,50 @@ void ranges_table_head(FILE *to, const parameter_ranges *r);
 
 /* Results of a verification that are worse than in a previous run. */
 
-/* Adds three kinds of findings to the judgement. First, every mesh whose error is larger than in
- * the previous run (by more than 2 % and RESULTS_FLOOR), or whose value or solution is now
- * missing. Second, series of the previous run that are missing although this run should have
- * them. Third, limits of default points that changed by more than a relative 1e-5, unless an
- * exact reference value checks them as closely. If only the short table of the previous run is
- * known, errors are compared by series. Work is not compared. REFUSED: the two runs have nothing
- * in common. */
+/* Adds three kinds of findings to the judgement. First, meshes whose error is larger than in the
+ * previous run (by more than 2 % and RESULTS_FLOOR), or whose value or solution is now missing.
+ * Second, series of the previous run that are missing although this run should contain them. Third,
+ * limits of default points that changed by more than 1e-5, relatively, unless an exact reference
+ * value checks them as closely. If only the short table of the previous run is known, errors are
+ * compared by series. Work is not compared. REFUSED: the two runs have nothing in common. */
 status regressions_find(const stored_results *former, const char *name, const sweep *, judgement *,
                         fault *);
 
-/* One cell of a case: it is requested, completed by default choices, and solved. Used by the
- * command line and by the library. */
+/* A cell of a case. The request is completed by default choices and solved. The command line and
+ * the library use these functions. */
 
 typedef struct solution_request {
     const case_type *type;
     const double *parameter; /* parameters of the case */
     const char *select;      /* selected quantities, as in harness/study/study.h; NULL: all */
-    formulation formulation; /* type NULL: to be chosen by default */
-    int elements;            /* number of elements per member; 0: to be chosen by default */
+    formulation formulation; /* formulation; type NULL: a default is chosen */
+    int elements;            /* number of elements per member; 0: a default is chosen */
     int keep_all, steps, shapes, threads;
     int keep_ends; /* 1: the final states of motions are stored */
     int restarts;
     const outcome_end *restart; /* [restarts] states from which motions continue; NULL: none */
     int systems;                /* as in solve_options */
     const char *reduce;
-    double error; /* relative change of values between two meshes that counts as converged; 0:
-                     default */
+    /* largest relative change of a value between two meshes that counts as converged; 0: default */
+    double error;
 } solution_request;
 
-/* Choices with their reasons, one line each; "" if the value was given. */
+/* Choices with their reasons, in one line each; "" if the request contains the value. */
 typedef struct solution_choice {
     char formulation[FAULT_TEXT], elements[FAULT_TEXT];
-    double *change; /* [quantities] relative change from the previous mesh; NULL: the number of
-                       elements was given */
-    int short_of;   /* 1: the requested error was not reached */
+    /* [quantities] relative change from the previous mesh; NULL: the request gave the number of
+     * elements */
+    double *change;
+    int short_of; /* 1: the requested error was not reached */
 } solution_choice;
 void solution_choice_free(solution_choice *);
 
-/* Chooses the formulation (harness/study/study.h) and, if elements is 1, the number of elements.
+/* Chooses the formulation (harness/study/study.h) and, if `elements` is 1, the number of elements.
  * rules NULL: no list of known deviations. REFUSED: no formulation supports everything the case
  * requires. Call solution_choice_free in any case. */
 status solution_choose(solution_request *, const rule *rules, int count, int elements,
                        solution_choice *why, fault *f);
-/* Plans one point, series and mesh with the selected quantities, without running it. Call
+/* Plans one point, series and mesh with the selected quantities, without solving anything. Call
  * sweep_free even after a failure. */
 status solution_plan(const solution_request *, sweep *, fault *);
 /* Solves the cell in this process. A cell without a solution counts as a result, except after
@@ -1024,27 +1035,29 @@ status solution_plan(const solution_request *, sweep *, fault *);
  * error. */
 status solution_run(const solution_request *, const solution_choice *, sweep *, fault *);
 
-/* Final states of motions in a file. Another run continues from them. Its results are
- * bit-for-bit identical to those of a single run if its steps are unchanged. */
+/* Final states of motions in a file, from which another run continues. If the steps are unchanged,
+ * its results are bit-for-bit identical to those of a single run. */
 
 typedef struct restart {
     char formulation[FORMULATION_KEY]; /* formulation with its options */
     int elements, keep_all;
-    char *scene; /* text of a scene file, without the parts that may differ */
+    char *scene; /* text of the scene file, without the parts that may differ */
     int ends;
     outcome_end *end;
 } restart;
 
-/* REFUSED: the scene has no motion whose final state can be stored. Call before the solution. */
+/* Checks that final states can be stored. Call this function before the solution. REFUSED: the
+ * scene has no motion whose final state can be stored. */
 status restart_possible(const scene *, fault *);
 /* Writes the final states of the solved motions to a file, with their scene, formulation and
  * mesh. The file has a temporary name until it is complete. */
 status restart_write(const char *path, const solution_request *, const sweep *, fault *);
-/* FAULT: the file is missing, damaged or foreign. Call restart_free even after a failure. */
+/* Reads a file of final states. FAULT: the file is missing, damaged or not such a file. Call
+ * restart_free even after a failure. */
 status restart_read(const char *path, restart *, fault *);
 void restart_free(restart *);
 /* Prepares the scene for continuation: only the stations after the stored state remain. REFUSED:
- * the scene (apart from stations and quantities), the formulation or the mesh differs, or
+ * the formulation, the mesh, or a part of the scene other than stations and quantities differs, or
  * there is no later station. */
 status restart_begin(const restart *, solution_request *, scene *, fault *);
 
@@ -1056,13 +1069,13 @@ enum { RUNS_ON_WORDS = 200 };
 typedef struct runs_on {
     const char *name; /* name of the case or the formulation */
     int runs;
-    int other;                 /* 1: as another model (harness/study/study.h) */
+    int other;                 /* 1: the formulation solves another model (harness/study/study.h) */
     char words[RUNS_ON_WORDS]; /* missing features; if the formulation runs, the physics that it
                                   omits */
 } runs_on;
 
 void runs_on_scene(const scene *s, const element_type *type, runs_on *out);
-/* Lists built-in cases at their default parameters, at most `room`, and returns their number.
+/* Lists at most `room` built-in cases at their default parameters, and returns their number.
  * `other` is 0, because other models are not examined. */
 int runs_on_cases(const element_type *type, runs_on out[], int room);
 
@@ -1073,59 +1086,60 @@ void rounds_pin(void);
  * loaded. arguments: NULL-terminated. */
 void rounds_single_thread(char **arguments);
 
-/* Runs every formulation on every case and parameter point with a reference value, and evaluates
- * the results as they arrive. */
+/* Runs every formulation on every case and parameter point that has a reference value. The results
+ * are evaluated as they arrive. */
 
-/* Observer of results that are evaluated during the run. */
+/* Callbacks that receive results during the run. */
 typedef struct verification_reader {
     void *context;
-    /* Called once per case, after its last series has been evaluated. In an interrupted run it
-     * is called only for the cases before the interruption. */
+    /* Called once per case, after its last series has been evaluated. If the run is interrupted,
+     * the function is called only for the cases before the interruption. */
     void (*judged)(void *context, const case_type *);
 } verification_reader;
 
-/* Checks the interface requirements for named or loaded formulations. Then runs a planned sweep
- * (study.h) and evaluates its series in order, as soon as all series of their point are complete.
- * Finest meshes are run again if verdicts may depend on their scatter. Agreements of formulations
- * become reference values of scene files. whole 1: no selection was made; it has no effect in an
- * interrupted run. reader NULL: none. Call judgement_free even after a failure. */
+/* Checks the interface requirements for formulations that the user named or loaded. Then runs a
+ * planned sweep (study.h) and evaluates its series in order, as soon as all series of their point
+ * are complete. Finest meshes are run again if verdicts may depend on their scatter. Agreements of
+ * formulations become reference values of scene files. whole 1: no selection was made; this has no
+ * effect in an interrupted run. reader NULL: none. Call judgement_free even after a failure. */
 status verification_run(const sweep_request *, int whole, const verification_reader *reader,
                         truths *, sweep *, judgement *out, fault *);
 
-/* Runs the cells of a planned sweep, or of some of its series, and measures scatter, without
- * evaluation. */
+/* Runs all cells of a planned sweep, or of some series, and measures the scatter. Nothing is
+ * evaluated. */
 status verification_cells(const sweep_request *, truths *, sweep *, fault *);
 
 /* Output files of a verification: HDF5, JSON, JUnit, Markdown, and proposed known deviations. The
- * content of a case is prepared as soon as the case is evaluated. */
+ * output of a case is prepared as soon as the case has been evaluated. */
 
 typedef struct verification_files {
     const char *output, *json, *junit, *markdown, *propose; /* paths, set by the caller; NULL:
                                                                none */
     const sweep *sweep;
     const judgement *judged;
-    store store;    /* results file, open if requested */
-    json_part part; /* part of the JSON so far, if requested */
+    store store;    /* results file, open if it was requested */
+    json_part part; /* JSON written so far, if it was requested */
     int open;
 } verification_files;
 
 typedef struct verification_request {
     sweep_request cells;
-    int whole;                   /* 1: no selection was made */
-    int taken;                   /* 1: the cells have been read from batches and are not run */
-    const char *const *imported; /* [importeds] paths of stored imports: other programs to
-                                    compare */
+    int whole; /* 1: no selection was made */
+    int taken; /* 1: the cells were read from batches, and none is run */
+    /* [importeds] paths of stored results of other programs, to be compared */
+    const char *const *imported;
     int importeds;
     int imported_must_pass; /* 1: verdicts on imported values affect the exit status */
     const char *former;     /* name of the file `verification.former` in messages; NULL: none */
-    const char *processor;  /* processor that computed the batches; "": this one */
+    const char *processor;  /* processor that computed the batches; "": this processor */
     int exit_zero, verbose, quiet;
 } verification_request;
 
 typedef struct verification {
     const verification_request *asked;
-    truths truths;             /* read before planning */
-    stored_results former;     /* previous results; the results of this run must not be worse */
+    truths truths; /* read before planning */
+    /* results of the previous run; the results of this run must not be worse */
+    stored_results former;
     verification_files *files; /* owned by the caller */
     double begun;              /* [s] clock_wall_seconds at the start */
     sweep sweep;
@@ -1133,7 +1147,7 @@ typedef struct verification {
     overview overview;
 } verification;
 
-/* Output files of an interrupted run have names that say so. */
+/* The names of the output files of an interrupted run say that it was interrupted. */
 extern const experiment_type experiment_verify;
 void verification_free(verification *);
 

@@ -12,7 +12,7 @@
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"
 
-/* Evaluates the given times [s] of `pairs` laps each; for tests, which supply the times. */
+/* Evaluates given times [s] of `pairs` laps. Tests supply the times. */
 contest_clock against_judge(int pairs, const double a[], const double b[]);
 
 /* Varied parameter: a parameter of a case, and its values. */
@@ -20,19 +20,18 @@ contest_clock against_judge(int pairs, const double a[], const double b[]);
 enum { AXIS_MOST_VALUES = 1000001 };
 
 /* Reads a varied parameter. Formats: "NAME=A..B/N" (N equal parts, ends included),
- * "NAME=A..B/N:log" (equal ratios), "NAME=A..B" or "NAME=A..B:log" (a design supplies the
- * points), "NAME=A,B,C" (numbers, or words of a choice). All values are allowed values of the
+ * "NAME=A..B/N:log" (equal ratios), "NAME=A..B" or "NAME=A..B:log" (a design supplies the points),
+ * or "NAME=A,B,C" (numbers, or words of a choice). All values must be allowed values of the
  * parameter. REFUSED: the message names the invalid part and the remedy. */
 status axis_read(const case_type *type, const char *text, sweep_axis *out, fault *f);
 void axis_free(sweep_axis *);
-/* Returns value number i of `count`. */
+/* Returns value number i, counted from 0. */
 double axis_value(const sweep_axis *, int i);
-/* Returns the value at a fraction of the axis, 0 <= share < 1; for a list, the value at this
+/* Returns the value at a fraction of the axis, 0 <= share < 1. For a list, this is the value at the
  * fraction of the list. */
 double axis_at(const sweep_axis *, double share);
 /* Returns "linear", "log", "list" or "words". */
 const char *axis_kind_name(axis_kind);
-/* Writes the value as text. */
 void axis_text(const sweep_axis *, double value, char *text, int size);
 
 machine node_here(void);
@@ -45,23 +44,25 @@ void batch_stem(const shard_work *w, char out[BATCH_STEM]);
 /* Writes the name of a batch: "verify-0123456789ab-000017.batch". Batch numbers in names start
  * at 1. */
 void batch_name(const char *stem, int batch, char out[BATCH_NAME]);
-/* Returns the index of the batch with this name; -1: the name is not that of a batch with this
- * stem. */
+/* Returns the index of the batch with this name, or -1 if the stem or the format of the name
+ * differs. */
 int batch_of_name(const char *name, const char *stem);
-/* Returns 1 when the name has the ending of batch files. */
+/* Returns 1 if the name has the ending of batch files. */
 int batch_is_name(const char *name);
 
-/* Writes folder/NAME under a temporary name, then renames the file. FAULT: an error of the disk
- * or the memory. */
+/* Writes folder/NAME under a temporary name, then renames the file. FAULT: a disk error, or out of
+ * memory. */
 status batch_write(const char *folder, const batch_label *label, const void *bytes, size_t size,
                    fault *f);
-/* Removes temporary files of a batch that killed processes have left. gone 1: the writer is
- * known to have ended. */
+/* Removes temporary files of a batch that killed processes have left. gone 1: the writer has
+ * certainly ended. */
 void batch_clean(const char *folder, const char *name, int gone);
 /* Reads the label. *from (may be NULL) is then at the first byte of the results, and *end is the
- * position after their last byte. FAULT: the file is truncated, damaged, or not a batch. */
+ * position after the last byte of the results. FAULT: the file is truncated, damaged, or not a
+ * batch. */
 status batch_open(const char *path, batch_label *out, FILE **from, long *end, fault *f);
-/* REFUSED: the batch does not belong to the work; the message gives the difference and the path. */
+/* Checks that the batch belongs to the work. REFUSED: it does not; the message gives the difference
+ * and the path. */
 status batch_belongs(const batch_label *, const shard_work *, const char *path, fault *f);
 
 /* Appends an empty measure and returns it. */
@@ -69,32 +70,32 @@ element_measure *measures_add(measures *m, const char *name);
 /* Returns the number of measures with a wrong limit. */
 int measures_astray(const measures *m);
 
-/* Returns the check of the given name; a new check passes until a deviation is found. */
+/* Returns the check of the given name. A new check passes until a deviation is added. */
 claim *claims_open(claims *c, const char *name, double allowed);
-/* Records that the type does not declare this property, with the reason. */
+/* Records that the type does not declare this property, and the reason. */
 void claims_not_made(claims *c, const char *name, const char *why);
 /* Adds a comparison with its deviation; NaN counts as the largest deviation. */
 void claims_departs(claim *one, double departure, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* Adds a question; `format` describes the error if `holds` is 0. */
+/* Adds a yes/no question. holds 0: no; `format` then describes the error. */
 void claims_asks(claim *one, int holds, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* Names the next call or check, for reports of crashes. */
+/* Names the next call or check. Reports of crashes contain this name. */
 void claims_doing(claims *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Returns a difference relative to `size`; 0 if the difference is 0, even if `size` is 0. */
+/* Returns the difference relative to `size`, or 0 if the difference is 0, even if `size` is 0. */
 static inline double claims_share(double apart, double size)
 {
     return apart == 0 ? 0 : apart / size;
 }
-/* Return the number of checks with this outcome, and the number of comparisons in them. */
+/* Return the number of checks with this outcome, and the number of comparisons in all checks. */
 int claims_counted(const claims *c, claim_outcome outcome);
 int claims_compared(const claims *c);
 
-/* Computes a section. Lengths are in units of `unit` metres, force in newtons, and mass in
+/* Computes a section. Lengths are in units of `unit` metres, forces in newtons, and masses in
  * kilograms. */
 status profiles_section(profiles_form form, double unit, section *out, fault *f);
 
-/* Returns the features for a straight element: all that the type supports, except `without`. */
+/* Returns the features for a straight element: all features of the type, except `without`. */
 unsigned specimen_features(const element_type *t, unsigned without);
 
 /* Computes pseudo-random numbers in (-1/2, 1/2) that are determined by the seed. */
@@ -104,36 +105,37 @@ void specimen_numbers(int count, unsigned seed, double out[]);
 void specimen_carry(const specimen *s, const double turn[3], const node_state x[],
                     node_state out[]);
 
-/* Point at which finite differences are computed. */
+/* State at which finite differences are computed. */
 typedef struct specimen_place {
     const specimen *s;
     const node_state *x;
 } specimen_place;
 
-/* Computes the nodes with coordinate i moved by si difference steps and coordinate j by sj. */
+/* Computes the nodes with coordinate i moved by si difference steps and coordinate j moved by sj
+ * difference steps. */
 void specimen_moved(const specimen_place *at, int i, double si, int j, double sj, node_state out[]);
 
-/* Computes the inner unknowns in the undeformed state [inner]. */
+/* Computes the inner unknowns [inner] of the undeformed state. */
 void specimen_rest(const specimen *s, double inner[]);
-/* Computes the stress after Newton's method has solved the element's equations for its inner
- * unknowns. */
+/* Computes the stress with converged inner unknowns of the element. */
 status specimen_settled(const specimen *s, const double e[], double inner[], stress_output *out);
 
 /* Returns a description such as "rotation about y of node 2". */
 const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS]);
 
-/* Families of checks: the requirements of element.h. Each family checks all elements that the
- * formulation supports and adds its results. */
+/* Families of checks, one for each group of requirements of element.h. Each family checks all
+ * elements that the formulation supports, and adds its results. */
 
-checks_run checks_declared;    /* its declarations are consistent            */
-checks_run checks_features;    /* the type supports the features it declares: alone, in subsets,
-                                  and as required by cases */
+checks_run checks_declared; /* the declarations are consistent */
+/* the type supports the declared features: alone, in subsets, and in the combinations that cases
+ * require */
+checks_run checks_features;
 checks_run checks_derivatives; /* J and H are the derivatives of the strains */
 checks_run checks_energy; /* stress, stiffness and geometric stiffness derive from the energy */
-checks_run
-    checks_force; /* for types defined by forces: force and stiffness derive from the energy */
-checks_run checks_motion;    /* invariance under rigid motion, order of the nodes, units */
-checks_run checks_stateless; /* equal calls give equal results, whatever was called before */
+checks_run checks_force;  /* force and stiffness derive from the energy (types defined by forces) */
+/* results are independent of rigid motions, of the order of the nodes, and of units */
+checks_run checks_motion;
+checks_run checks_stateless; /* equal calls give equal results, regardless of earlier calls */
 checks_run checks_many;      /* one call for many elements gives the same results as single calls */
 checks_run checks_bounds;    /* outputs are filled completely, and no other memory is changed */
 checks_run checks_unsound;   /* NaN and Inf in the input are reported */
@@ -141,7 +143,7 @@ checks_run checks_mass;      /* the mass matrix is symmetric and positive defini
                                 the beam */
 checks_run checks_rotating;  /* effects of a rotating frame */
 checks_run checks_along;     /* loads along one element */
-checks_run checks_in_time;   /* inertia forces in transient analysis */
+checks_run checks_in_time;   /* inertia forces during motions */
 
 measured_run measured_states;  /* errors of a cantilever with respect to the exact solution */
 measured_run measured_locking; /* errors over thickness/length */
@@ -150,60 +152,61 @@ measured_run measured_orders;  /* errors over the number of elements */
 const char *certificate_part_name(int part);
 /* Returns a description of a part in one line. */
 const char *certificate_part_words(int part);
-/* Return the number of checks with that outcome, and the number of comparisons, over all parts. */
+/* Return the number of checks with this outcome, and the number of comparisons in all parts. */
 int certificate_counted(const certificate *, claim_outcome);
 int certificate_compared(const certificate *);
 /* Returns the first failed check; NULL: none. */
 const claim *certificate_broken(const certificate *);
 
-/* Cuts work into batches and assigns batches to shards. Both depend only on the costs. */
+/* Cuts work into batches and assigns batches to shards. The result depends only on the costs. */
 
-/* Assigns each batch to a shard: shard[batches] contains 0..shards-1. The most expensive batch
- * is assigned first, and each batch goes to the shard with the lowest cost so far. Returns 0, or
- * -1 when out of memory. */
+/* Assigns each batch to a shard: shard[batches] contains 0..shards-1. The most expensive batch is
+ * assigned first, and each batch goes to the shard with the lowest cost so far. Returns 0, or -1 if
+ * out of memory. */
 int deal_out(int batches, const double cost[], int shards, int shard[]);
-/* Sorts the batches: order[batches], the most expensive first; equal costs keep their order. */
+/* Sorts the batches in decreasing order of cost into order[batches]. Batches with equal costs keep
+ * their order. */
 void deal_order(int batches, const double cost[], int order[]);
 
-/* Smallest stride, and largest number of marks (a few kilobytes each). */
+/* Smallest stride, and largest number of stored states (a few kilobytes each). */
 enum { DESIGN_STRIDE = 16384, DESIGN_MARKS = 1024, DESIGN_MOST_POINTS = 1000000000 };
 
-/* Makes a design. points: ignored for grids. In a grid the last axis varies fastest. As in GSL,
- * the sequences of Sobol and Halton start with the point after the origin. REFUSED: there are
- * too many points; an axis of a grid is not divided; an axis of another design is divided; or
- * there are more axes than the sequence supports. */
+/* Makes a design. points: ignored for grids. In a grid, the last axis varies fastest. As in GSL,
+ * the sequences of Sobol and Halton start with the point after the origin. REFUSED: there are too
+ * many points, an axis of a grid is not divided, an axis of another design is divided, or there are
+ * more axes than the sequence supports. */
 status design_make(design_kind kind, int axes, const sweep_axis list[], long points,
                    unsigned long seed, design *out, fault *f);
 void design_free(design *);
-/* Computes the values of the axes at `count` points from point `first` on: out[count x axes].
- * FAULT: out of memory. */
+/* Computes the values of the axes at `count` points, starting with point `first`: out[count x
+ * axes]. FAULT: out of memory. */
 status design_points(const design *, long first, long count, double out[], fault *f);
 const char *design_name(design_kind);
 
-int outcome_is_good(outcome_kind kind); /* returns 1 when the outcome is accurate or
-                                           under-resolved */
+int outcome_is_good(outcome_kind kind); /* returns 1 if the outcome is accurate or under-resolved */
 
-/* Returns the outcome of the same formulation and quantity at the value of x with which others
- * are compared, or NULL. */
+/* Returns the outcome with which others are compared: that of the same formulation and quantity at
+ * the base value of x. NULL: none. */
 extreme_outcome *extreme_sweep_base(const extreme_sweep *s, const extreme_outcome *o);
 
-/* Plans a point for every extreme and every value of x, in order, with a series for every
- * formulation and an outcome for each of its quantities. */
+/* Plans the points: one for every extreme and every value of x, in order. A point has a series for
+ * every formulation, and a series has an outcome for each quantity. */
 status extreme_plan(const extreme_request *request, extreme_sweep *out, fault *f);
 
-/* Outcomes of a sweep of extremes as text. */
+/* Writes the outcomes of a sweep of extremes as text. */
 
 void extreme_table(FILE *to, const void *found); /* found: an extreme_sweep */
 
-/* Lists of steps and tolerances on a command line. */
+/* Lists of steps and tolerances in an option. */
 
 typedef struct pace_list {
     int count;
     double value[PACE_LIST_MOST];
 } pace_list;
 
-/* Reads "0.1,0.05", or "0.1..0.0125", where the first number is divided by `ratio` repeatedly
- * until the last is reached. All numbers are positive. option: name of the option, for messages. */
+/* Reads "0.1,0.05" or "0.1..0.0125". In the second form, the first number is divided by `ratio`
+ * repeatedly until the last number is reached. All numbers must be positive. option: name of the
+ * option, for messages. */
 status pace_list_read(const char *option, const char *text, double ratio, pace_list *out, fault *f);
 
 #define PACE_METHODS                                                                               \
@@ -211,16 +214,16 @@ status pace_list_read(const char *option, const char *text, double ratio, pace_l
 
 /* Default list of methods. */
 extern const char pace_method_all[];
-/* Reads one of PACE_METHODS, with parameters R in [0, 1] and A in [0, 1/3]. REFUSED: the message
+/* Reads one of PACE_METHODS, with its parameters R in [0, 1] or A in [0, 1/3]. REFUSED: the message
  * names the invalid part. */
 status pace_method_read(const char *text, int length, pace_method *out, fault *f);
-/* Appends the methods of "NAME,NAME,...", each of which may occur once. */
+/* Appends the methods of a list "NAME,NAME,...". Each method may occur once. */
 status pace_method_read_list(const char *text, int most, pace_method list[], int *count, fault *f);
 
-/* Tolerances of the reference and of its checks, which are computed by radau on the same mesh. */
+/* Tolerances of the reference and of its checks. radau computes them on the same mesh. */
 enum { PACE_CHECKS = 2 };
 extern const double pace_reference[1 + PACE_CHECKS];
-/* Limits of E/E0 - 1, and of relative changes of energy and momenta. */
+/* Limits of E/E0 - 1, of the relative change of energy, and of the relative change of momenta. */
 extern const double pace_growth, pace_energy, pace_momentum;
 
 void pace_free(pace *);
@@ -228,13 +231,14 @@ const char *pace_fate_name(pace_fate);
 const sweep_point *pace_point_of(const pace *, const pace_run *);
 const cell_result *pace_cell_of(const pace *, int index);
 
-/* Reads the table and plans its motions. REFUSED: the first error, with its line. */
+/* Reads the table and plans its motions. REFUSED: the table is invalid; the message gives the first
+ * error with its line. */
 status pace_verdict_plan(const char *path, pace *, pace_verdicts *, fault *);
 /* Sets the observed verdicts and compares them with the table. Call after pace_judge. */
 void pace_verdict_reach(const pace *, pace_verdicts *);
 void pace_verdict_free(pace_verdicts *);
 
-/* Status of a cell, in addition to the values of `status`, which are smaller. */
+/* Status of a cell: a value of `status`, or one of the following larger values. */
 enum {
     ROWS_NOT_OFFERED = STATUS_NO_VALUE + 1,
     ROWS_NO_SCENE,
@@ -245,10 +249,10 @@ enum {
 /* Allocates the columns, all zero. FAULT: out of memory. */
 status rows_alloc(const rows_shape *shape, int points, rows *out, fault *f);
 void rows_free(rows *);
-/* Writes the columns as bytes in the format of this machine. Returns 0, or -1. */
+/* Writes the columns as bytes in the format of this machine. Returns 0, or -1 after a failure. */
 int rows_write(FILE *to, const rows *);
 int rows_read(FILE *from, rows *);
-/* Return indices into the columns. */
+/* Return the index of an entry in the columns. */
 size_t rows_quantity(const rows *, int point, int quantity);
 size_t rows_cell(const rows *, int point, int formulation, int mesh);
 size_t rows_value(const rows *, int point, int formulation, int mesh, int quantity);
@@ -260,76 +264,79 @@ const char *rows_status_name(int status);
 
 enum { SHARD_MOST_JOBS = 64, SHARD_MOST = 100000 };
 
-/* Writes the path of an existing batch. */
+/* Writes the path of a batch that exists. */
 status stock_path(const stock *, int batch, char out[PATH_MAX], fault *f);
 
-/* Adds the results of points from `first` on. Call in the order of the points, once for each. */
+/* Adds the results of points from `first` on. Call the function in the order of the points, once
+ * for every point. */
 status tally_add(tally *, long first, const rows *, fault *f);
-/* Returns the counts of a quantity. quantity: index, or the number of quantities for all
- * together. */
+/* Returns the counts of a quantity. quantity: its index, or the number of quantities for the counts
+ * of all quantities together. */
 const tally_series *tally_of(const tally *, int formulation, int quantity);
 const tally_place *tally_at(const tally *, int formulation, int quantity, int line, int column);
 /* Returns the lower bound of a column (axis_index 0) or a line (1) of the map, as a value of its
  * axis. */
 double tally_edge(const tally *, int axis_index, int place);
 
-/* A sweep as a group of a results file, which is written batch by batch, so at most one batch is in
- * memory. */
+/* A sweep in a group of a results file. The group is written batch by batch, so only one batch is
+ * in memory. */
 
 /* Adds the results of points from `first` on. */
 status ranges_file_add(ranges_file *, long first, const rows *, fault *f);
 
-/* Measures run times: rounds over the cells of a parameter point, for all cells of a completed
+/* Measures run times in rounds over the cells of a parameter point, for all cells of a completed
  * sweep. */
 
-/* Runs one more round: repeats the cell until `floor` [s] of processor time are used, but at
- * least once. Cells that fail are timed too. */
+/* Runs one more round: repeats the cell until `floor` [s] of processor time are used, but runs it
+ * at least once. Cells that fail are also timed. */
 void rounds_run(const cell_request *request, double floor, rounds_reading *out);
-/* Runs one more round of the published algorithm for the cell with the result `cell`. Does
- * nothing for linear or very large problems. */
+/* Runs one more round of the published algorithm for the cell with the result `cell`. Does nothing
+ * if the problem is linear or too large. */
 void dense_reference_round(const cell_request *own, const cell_result *cell, double floor,
                            dense_reference *out);
 
-/* A beam that is fixed at its start and loaded at its end. It is straight or bent to a quarter
- * circle, and solved with one formulation. */
+/* A beam that is fixed at its start and loaded at its end. The beam is straight, or curved to a
+ * quarter circle. */
 
 typedef enum beam_analysis { BEAM_LINEAR, BEAM_LARGE, BEAM_BUCKLING, BEAM_VIBRATION } beam_analysis;
 
-/* The length is 1 m, along x, or along a quarter circle that starts along y with its centre at the
- * origin. */
+/* The beam has a length of 1 m. It lies along x, or along a quarter circle that starts along y and
+ * has its centre at the origin. */
 typedef struct beam_request {
     const formulation *chosen;
-    int elements;            /* number of elements of equal length */
-    const double *fraction;  /* [elements] lengths of the elements as fractions of the length;
-                                NULL: equal lengths */
-    double thickness, width; /* dimensions of a rectangular section along y (towards the centre)
-                                and z [m] */
-    int profile;             /* 1: an I-section instead, with warping restrained at the start */
-    int quarter;             /* 1: the beam is bent to a quarter circle */
-    unsigned needs;          /* FEATURE_* bits */
+    int elements; /* number of elements of equal length */
+    /* [elements] lengths of the elements as fractions of the length of the beam; NULL: equal
+     * lengths */
+    const double *fraction;
+    /* dimensions of a rectangular section [m]: thickness along y (towards the centre) and width
+     * along z */
+    double thickness, width;
+    int profile;    /* 1: I-section with warping restrained at the start of the beam */
+    int quarter;    /* 1: the beam is curved to a quarter circle */
+    unsigned needs; /* FEATURE_* bits */
     beam_analysis analysis;
-    scene_load_kind load; /* force or moment at the end */
+    scene_load_kind load; /* force or moment at the end of the beam */
     double vector[3];     /* [N, N m] */
-    int component;        /* component read at the end; ignored for a frequency or a critical load
-                             factor */
+    /* component that is read at the end; ignored for a frequency or a critical load factor */
+    int component;
 } beam_request;
 
 /* Computes the section constants of the beam. */
 status beam_section(const beam_request *, section *out);
-/* Solves the beam and adds its error with respect to the exact value to the measure. The error
- * is NAN if there is no value; `words` then gives the reason at the first such point. Returns 0
- * when further points are useless, because the formulation does not support the beam, or because
- * none of the first three points has a value. */
+/* Solves the beam and adds its error with respect to the exact value to the measure. The error is
+ * NAN if there is no value; `words` then gives the reason at the first such point. Returns 0 if
+ * further points are useless, because the formulation does not support the beam or none of the
+ * first three points has a value. */
 int beam_point(const beam_request *, double at, double exact, element_measure *one);
 
 /* Returns the outcome of a family of checks. */
 claim_outcome claims_outcome(const claims *);
 
-/* Prints certificates as text, one screen each. */
+/* Prints certificates as text. Each certificate fits on one screen. */
 
 #define CERTIFICATE_EXACT 1e-9 /* smaller errors are printed as `exact` */
 
-/* Writes certificates. verbose: every check with its numbers; quiet: only failed checks. */
+/* Writes certificates. verbose: every check with its numbers. quiet: only the failed checks. */
 void certificate_text(FILE *to, screen look, const certificate *all, int count, int verbose,
                       int quiet);
 /* Writes tables for a publication, as LaTeX or Markdown. */
@@ -339,22 +346,22 @@ void certificate_csv(FILE *to, const certificate *all, int count);
 
 /* Checks that results depend on each supported feature. */
 
-/* Expected outcomes of a sweep of extremes (reference/extreme_findings.csv), and its counts. */
+/* Expected outcomes of a sweep of extremes (reference/extreme_findings.csv), and their counts. */
 
-/* Sets finding and as_expected of every outcome, and the counts. whole: 1 when no selection was
- * made, so an unobserved deviation is a failure. */
+/* Sets finding and as_expected of every outcome, and the counts. whole: 1 if no selection was made;
+ * an unobserved deviation is then a failure. */
 void extreme_expect(extreme_sweep *s, int whole);
 
 /* Classifies the number of an outcome as accurate, under-resolved or wrong. */
 
-/* Classifies an outcome from the first mesh alone: as accurate, as a failure, or as wrong until
- * other meshes are known. */
+/* Classifies an outcome from the first mesh: as accurate, as a failure, or as wrong until other
+ * meshes are known. */
 status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outcome *o, fault *f);
-/* Decides whether the error decreases to the finest mesh with an order of at least 0.5, as a
- * discretisation error does. */
+/* Decides if the error decreases towards the finest mesh with an order of at least 0.5, like a
+ * discretisation error. */
 void extreme_judge_neighbours(const extreme_sweep *s, const truths *t, extreme_outcome *o);
 
-/* Records of extremes, of outcomes and of the counts of a formulation. */
+/* Record types of extremes, of outcomes, and of the counts of a formulation. */
 
 extern const record_type record_extremes_all, record_extreme, record_outcome, record_extreme_count;
 extern const record_type *const extreme_records[]; /* all record types except the first;
@@ -369,16 +376,16 @@ typedef struct known_truths {
 } known_truths;
 
 /* Finds the stored reference values of the point. If there are none and --compute-references was
- * given, uses those that a program of reference/derive computes. If the program fails, there are
- * none. FAULT: out of memory. */
+ * given, a program of reference/derive computes them. If this program fails, there are no reference
+ * values. FAULT: out of memory. */
 status known_at(const parameter_ranges *r, const sweep_point *p, known_truths *out, fault *f);
 void known_free(known_truths *);
 
-/* A process that computes batches, one after the other, and reports the result of each. */
+/* A process that computes batches one after the other, and reports every result. */
 
 /* Data shared by all processes. */
 typedef struct labour_shelf {
-    atomic_int next;                /* next entry of `list` */
+    atomic_int next;                /* next entry of `list` to be computed */
     atomic_int at[SHARD_MOST_JOBS]; /* batch that a process is computing, or -1 */
 } labour_shelf;
 
@@ -386,12 +393,12 @@ typedef struct labour {
     const shard_work *w;
     const shard_request *request;
     int count; /* number of batches to be computed */
-    int *list; /* [count] in the order of their start */
+    int *list; /* [count] batches in the order in which they are started */
     labour_shelf *shelf;
     machine here;
 } labour;
 
-/* Message about one batch, small enough to be written to a pipe in a single write. */
+/* Message about a batch. Its size allows it to be written to a pipe in a single write. */
 typedef struct labour_notice {
     int batch;
     status status;
@@ -399,67 +406,68 @@ typedef struct labour_notice {
     char text[FAULT_TEXT];
 } labour_notice;
 
-/* Computes batches until none is left or one of them fails. to: a pipe for the messages. */
+/* Computes batches until none is left or a batch fails. to: pipe for the messages. */
 _Noreturn void labour_work(const labour *, int self, int to);
 
-/* Time after which no load acts on a structure, so its energy and momenta are constant from then
- * on. */
+/* Time from which no load acts on a structure. Energy and momenta are constant from then on. */
 
-/* Distance between two motions on the same mesh. */
+/* Distance between two motions that are computed on the same mesh. */
 
-/* Returns the largest distance between two positions, relative to the size of the structure, or
- * the largest angle between two sections [rad], whichever is larger, over all stations, nodes
- * and centre lines. NAN: a station is missing. */
+/* Returns the largest distance between two motions over all stations, nodes and centre lines: the
+ * larger of the distance between positions, relative to the size of the structure, and the angle
+ * between sections [rad]. NAN: a station is missing. */
 double pace_distance(const cell_result *, const cell_result *other, int analysis);
-/* Returns the distance in a quantity of the scene, relative to the value of `other` or to
+/* Returns the distance between two values of a quantity, relative to the value of `other` or to
  * near_zero. NAN: a value is missing. */
 double pace_distance_of(const scene_quantity *, const quantity_result *,
                         const quantity_result *other);
 
 /* Evaluates the energy and the momenta of a motion. */
 
-/* Computes energy-balance errors, E/E0 and the classification of a completed run. E, E0: energy
- * and initial energy. */
+/* Computes the energy-balance errors, E/E0 and the classification of a completed run. E: energy;
+ * E0: initial energy. */
 void pace_drift(const pace *, pace_run *);
 
 /* Runs all motions and measures them. */
 
-/* Call after pace_plan. A motion that fails counts as a result. */
+/* Call this function after pace_plan. A motion that fails counts as a result. */
 status pace_judge(pace *, const sweep_request *, fault *);
 
-/* Observed time orders of an integrator, from runs with halved steps. */
+/* Observed orders of an integrator, from runs in which the step is repeatedly halved. */
 
 typedef enum pace_order_kind {
     PACE_ORDER_PASS,
-    PACE_ORDER_LOW,       /* significantly below the nominal order */
-    PACE_ORDER_UNDECIDED, /* fewer than three errors above the floor, or orders that differ */
+    PACE_ORDER_LOW, /* significantly below the nominal order */
+    /* there are fewer than three errors above the floor, or the orders differ */
+    PACE_ORDER_UNDECIDED,
     PACE_ORDER_KINDS
 } pace_order_kind;
 
-/* Runs of one integrator in one group with fixed steps, in order of decreasing step size. */
+/* Runs of an integrator in a group with fixed steps, in decreasing order of step size. */
 typedef struct pace_ladder {
     int group;
     const pace_method *method;
-    int first, count;     /* range in the list of runs */
-    double order, before; /* orders from the last three errors above the floor: last order, previous
-                             order */
-    double floor;         /* smaller errors are due to the reference or to rounding */
+    int first, count; /* range in the list of runs */
+    /* orders from the last three errors above the floor: the last and the previous order */
+    double order, before;
+    double floor; /* errors below this value are due to the reference or to rounding */
     pace_order_kind kind;
 } pace_ladder;
 
-/* Allowed difference of an observed order below the nominal order, as for meshes
+/* Allowed difference between an observed order and the nominal order, as for meshes
  * (harness/study). */
 extern const double pace_order_slack;
 
-/* Returns 1 when unresolved frequencies limit the order of the reference. */
+/* Returns 1 if unresolved frequencies limit the order of the reference. */
 int pace_order_is_stopped(const pace_group *);
 
 /* Returns the ladder that starts with run number `first`. */
 pace_ladder pace_order_of(const pace *, int first);
-/* Returns 1 when the relative error of a quantity does not decrease with the step size. An
- * example is a force that depends on unresolved frequencies. */
+/* Returns 1 if the relative error of a quantity does not decrease with the step size, as for a
+ * force that depends on unresolved frequencies. */
 int pace_order_stands(const pace *, const pace_ladder *, int quantity);
-/* Sets the order of each run, from the previous run with a larger step. */
+/* Sets the order of each run, which is computed from this run and the previous run with a larger
+ * step. */
 void pace_order_fill(pace *);
 const char *pace_order_name(pace_order_kind);
 
@@ -470,34 +478,36 @@ typedef struct pace_plan_request {
     const case_type *type;
     const double *parameter;
     formulation formulation;
-    int elements; /* 0: the number of the second mesh of the case */
+    int elements; /* 0: as in the second mesh of the case */
     int methods;
     const pace_method *method;
     pace_list steps, tolerances; /* count 0: none */
-    int errors;                  /* 1: errors are computed, which requires a reference */
-    int whole;                   /* 1: a step without a solution ends the motion; 0: it is halved */
+    int errors;                  /* 1: errors are computed; they require a reference */
+    int whole; /* 1: a step without a solution ends the motion; 0: such a step is halved */
 } pace_plan_request;
 
-/* Sets default steps or tolerances, based on the step of the scene, if none are given. */
+/* If neither steps nor tolerances are given, sets default values based on the step of the scene. */
 status pace_plan_usual(pace_plan_request *, fault *);
 /* Appends a group of runs. REFUSED: the scene has no motion, or there is nothing to run. */
 status pace_plan_add(pace *, const pace_plan_request *, fault *);
 
-/* Cost at equal error: finds the step size or tolerance with which an integrator reaches a given
+/* Cost at equal error: finds the step size or tolerance for which an integrator reaches a given
  * error at the lowest cost. */
 
 enum { PACE_LEVELS = 3 };
 extern const double pace_levels[PACE_LEVELS];
 
 typedef struct pace_reach {
-    const pace_run *run; /* a run within the error, as are all runs of its integrator with
-                            smaller steps or tolerances; NULL: none */
-    double cost; /* [s] interpolated at the error level between this run and the previous one */
+    /* a run within the error, for which all runs with smaller steps or tolerances are also within
+     * the error; NULL: none */
+    const pace_run *run;
+    /* [s] cost at the error level, interpolated between this run and the previous run */
+    double cost;
 } pace_reach;
 
-/* Finds this run for one integrator in one group. */
+/* Finds this run for an integrator in a group. */
 pace_reach pace_reach_of(const pace *, int group, const char *method, double level);
-/* Lists the integrators of all groups by name, each once, and returns their number. */
+/* Lists the names of the integrators of all groups without repetition, and returns their number. */
 enum { PACE_METHODS_MOST = 32 };
 int pace_reach_methods(const pace *, const char *name[PACE_METHODS_MOST]);
 
@@ -514,7 +524,7 @@ void pace_table(FILE *to, const pace *, const pace_verdicts *, int runs);
 
 /* A sweep as CSV: one row for each point, formulation, mesh and quantity. */
 
-/* Data that the group of a sweep stores once. */
+/* Data that the group of a sweep contains once. */
 
 /* Writes the request, before any point. */
 void ranges_file_request(record_file *, hid_t at, const parameter_ranges *, const char *plan);
@@ -526,7 +536,7 @@ void ranges_file_worst(record_file *, hid_t at, const parameter_ranges *, const 
 /* Computes the values of all parameters from the values on the axes. */
 void ranges_points_values(const parameter_ranges *, const double at[],
                           double value[CASE_MAX_PARAMETERS]);
-/* Writes "NAME=VALUE, NAME=VALUE" for the axes, with as many digits as necessary. */
+/* Writes "NAME=VALUE, NAME=VALUE" for the axes. The numbers have as many digits as necessary. */
 void ranges_points_text(const parameter_ranges *, const double at[], char *text, int size);
 
 /* Solves and measures the cells of some points of a sweep. */
@@ -541,57 +551,55 @@ static inline const char *ranges_table_name(const parameter_ranges *r, int q)
     return q < r->quantities ? r->quantity[q].name : "all quantities";
 }
 
-/* ranges_request.c: writes the references of errors, and the points without a scene. */
+/* Writes the kinds of references, and the points without a scene (ranges_request.c). */
 void ranges_table_known(FILE *to, const tally *t);
-/* ranges_request.c: writes the smallest number of elements over one or two axes. every 1: also
- * for each quantity. */
+/* Writes the smallest number of elements as a map over one or two axes (ranges_request.c). every 1:
+ * writes another map for each quantity. */
 void ranges_table_map(FILE *to, const tally *t, int every);
 
-/* Reference of the values at one point: a stored reference value, a reference value computed by a
+/* Reference of the values at a point: a stored reference value, a reference value computed by a
  * program of reference/derive, or the limit of the meshes of all formulations with the same
- * physics.
- *
- * Among the limits, the one with the smallest uncertainty U is used. Its uncertainty is U or, if
- * larger, the part of its difference from another limit that exceeds the uncertainty of that
- * limit. An uncertainty above half of the tolerance is too large. A reference value with such an
- * uncertainty is ignored. A limit with such an uncertainty counts as disputed or, if U itself is
- * too large, as unknown. */
+ * physics. Among the limits, the one with the smallest uncertainty U is used. Its uncertainty is U
+ * or, if larger, the part of its difference from another limit that exceeds the uncertainty of that
+ * limit. An uncertainty above half of the tolerance is too large: a reference value is then
+ * ignored, and a limit counts as disputed or, if U itself is too large, as unknown. */
 
 typedef struct point_reference {
     rows_reference kind;
     double value, doubt; /* value and its relative uncertainty */
 } point_reference;
 
-/* Returns the reference of a quantity for a series of the sweep. stored, derived: reference
- * values of this point; NULL: none. */
+/* Returns the reference of a quantity for a series of the sweep. stored, derived: reference values
+ * of this point; NULL: none. */
 point_reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
                              const truths *derived, double tolerance);
 
-/* The part of a scene that a continued motion depends on: all except its stations and
+/* The part of a scene on which a continued motion depends: everything except stations and
  * quantities. */
 
-/* Elements of a formulation under test. One has everything that the formulation supports; others
- * have each section and each choice of each option; both straight and curved elements are made. */
+/* Elements of a formulation under test. The default element has everything that the formulation
+ * supports. Other elements have each section and each choice of each option. Elements are straight
+ * and curved. */
 
 typedef void specimens_check(const specimen *s, claims *c);
-/* Calls check for every test element. An element that the formulation rejects with a reason is
+/* Calls `check` for every test element. An element that the formulation rejects with a reason is
  * skipped, except the default element, which must be accepted (check "prepare"). */
 void specimens_each(const formulation *chosen, claims *c, specimens_check *check);
 
-/* Examines a sweep before the solution, at some of its points: quantities, meshes, formulations
- * that run, and the cost of a point. */
+/* Examines a sweep at some of its points before the solution. Finds the quantities, the meshes, the
+ * formulations that run, and the cost of a point. */
 
 /* Sets formulations, meshes, quantities, left_out and point_cost from the scenes of the first
- * point, the last point and some intermediate ones. REFUSED: no scene can be built at any of
- * them, no formulation runs, or the selection has an unknown word or selects nothing. */
+ * point, the last point and some intermediate ones. REFUSED: no scene can be built at these points,
+ * no formulation runs, or the selection has an unknown word or selects nothing. */
 status survey(parameter_ranges *r, fault *f);
 
 /* Stores the worst points of a sweep as scene files. */
 
-/* FAULT: out of memory. ranges_work_free frees the result. */
+/* Makes the work. FAULT: out of memory. ranges_work_free frees the result. */
 status ranges_work_make(const parameter_ranges *r, ranges_work *out, fault *f);
 void ranges_work_free(ranges_work *);
-/* The caller sets the identity of the sweep. */
+/* Returns the shard work of the sweep. The caller sets its identity. */
 shard_work ranges_work_of(ranges_work *);
 
 /* File of a sweep. */
@@ -600,19 +608,19 @@ shard_work ranges_work_of(ranges_work *);
 status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,
                         ranges_file *out, fault *f);
 /* Finishes the file: writes the worst points with the names of their scenes, and `content`, the
- * digits of all values that do not depend on how they were computed. written: status so far; if
- * it is not OK, the file is removed. */
+ * digits of all values that are independent of the way they were computed. written: status so far;
+ * if this is not OK, the file is removed. */
 status ranges_file_close(ranges_file *, const tally *, const char *content, status written,
                          fault *f);
 /* Writes the scenes of the worst points to a new folder as "point_12.yaml", each point once, and
- * stores the names in the tally. A scene that a scene file cannot express is omitted. FAULT: an
- * error of the disk or the memory; no file remains. */
+ * stores the names in the tally. Scenes that a scene file cannot express are omitted. FAULT: a disk
+ * error, or out of memory; no file remains. */
 status worst_write(const char *folder, tally *t, fault *f);
-/* Writes the table within PARAGRAPH_WIDTH. It contains the references of errors; the percentage
- * of points within the tolerance for each mesh, quantity and formulation; for one or two axes
- * the smallest number of elements over the axes, for all quantities together (every 1: also for
- * each quantity); and the worst points with their values and a command that shows one of them.
- * folder: folder with their scenes; "": none were stored. */
+/* Writes the table within PARAGRAPH_WIDTH. The table contains the kinds of references and, for each
+ * mesh, quantity and formulation, the percentage of points within the tolerance. For one or two
+ * axes, it contains the smallest number of elements over the axes. every 1: this number is also
+ * given for each quantity. The last part lists the worst points with their values, and a command
+ * that shows one of them. folder: folder with the scenes of these points; "": none were stored. */
 void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault *f);
 
 #endif

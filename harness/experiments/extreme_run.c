@@ -11,9 +11,10 @@ static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f
 
 enum {
     enough_elements = 16
-}; /* from this index on, the neighbours are coarser meshes; before it, finer ones */
+}; /* neighbours before this index are finer meshes, the others are coarser */
 
-/* Adds a series of neighbouring meshes for the cell of an outcome, once. */
+/* Adds a series with the neighbouring meshes for the cell of an outcome, unless the series exists.
+ * */
 static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
 {
     const series *one = &s->first.series[o->series];
@@ -34,7 +35,7 @@ static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 when the number may be under-resolved. */
+/* Returns 1 if the outcome may be under-resolved. */
 static int is_open(const extreme_outcome *o)
 {
     return o->kind == OUTCOME_WRONG && isfinite(o->error);
@@ -87,8 +88,7 @@ static status run(const void *asked, void *found, fault *f)
     return s->outcomes > 0 ? run_cells(asked, &s->first, f) : STATUS_OK;
 }
 
-/* Evaluates all outcomes. If an outcome may be under-resolved, it is also computed on other
- * meshes. */
+/* Evaluates all outcomes. Outcomes that may be under-resolved are also computed on other meshes. */
 static status judge(const void *asked, void *found, fault *f)
 {
     const extreme_request *request = asked;
@@ -148,7 +148,7 @@ static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f
 static int speaks_of(const extreme_finding *row, const extreme_sweep *s, const extreme_outcome *o)
 {
     const extreme *e = &extremes[o->extreme];
-    const double slack = 1e-9; /* difference between 1e-4 in a table and pow(10, -4) */
+    const double slack = 1e-9; /* covers the difference between 1e-4 in a table and pow(10, -4) */
     return o->x >= row->from * (1 - slack) && o->x <= row->to * (1 + slack) &&
            fnmatch(row->extreme, e->name, 0) == 0 &&
            fnmatch(row->formulation, s->formulation[o->formulation].key, 0) == 0 &&
@@ -175,7 +175,7 @@ static void count_cell(outcome_kind worst, extreme_count *c)
     c->faults += worst == OUTCOME_FAULT;
 }
 
-/* Counts cells. Outcomes of one cell are consecutive; a cell counts as its worst outcome. */
+/* Counts cells. The outcomes of a cell are consecutive. The cell counts as its worst outcome. */
 static void count_cells(extreme_sweep *s)
 {
     outcome_kind worst = OUTCOME_SKIP;
@@ -347,7 +347,7 @@ static const schema_field key_of_count[] = {
 const record_type record_extreme_count = {
     "count", "formulations", "results of a formulation", {key_of_count, fields_of_count}};
 
-/* Keys: x, or the name of a quantity, of an extreme. */
+/* Keys of an extreme: x, or the name of a quantity. */
 static const schema_field key_of_extreme[] = {
     {"extreme", "", FIELD_TEXT, "name of the extreme", .get = get_owner, .key = KEY}, {0}};
 static const schema_field field_of_x[] = {{"x", "1", FIELD_DOUBLE, "extreme value", .get = get_x},

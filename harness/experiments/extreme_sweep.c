@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Return the cell of an outcome, its quantity in the scene, and its value on the first mesh
- * (refinement 0) or on a neighbouring one (NAN: none). */
+/* Return the cell of an outcome, its quantity in the scene, and its value (NAN: none) on the first
+ * mesh (refinement 0) or on a neighbouring mesh. */
 static const cell_result *extreme_sweep_cell(const extreme_sweep *s, const extreme_outcome *o)
 {
     return &s->first.series[o->series].cell[0];
@@ -87,7 +87,7 @@ static int quantity_index(const extreme_outcome *o, const sweep_point *p)
     return q;
 }
 
-/* Returns the exact value according to the formulation's own shear theory, or NULL. */
+/* Returns the exact value according to the shear theory of the formulation; NULL: none. */
 static const truth *exact_value(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
 {
     const sweep_point *p = &s->first.point[o->point];
@@ -95,7 +95,7 @@ static const truth *exact_value(const extreme_sweep *s, const truths *t, const e
     return q < p->scene.quantities ? verdict_truth(t, p, &s->formulation[o->formulation], q) : NULL;
 }
 
-/* Returns 1 when there is an exact value, but only for another shear theory. */
+/* Returns 1 if exact values exist only for another shear theory. */
 static int has_other_theory(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
 {
     const sweep_point *p = &s->first.point[o->point];
@@ -152,7 +152,7 @@ static void set_failure(extreme_outcome *o, status why, const char *reason)
     set_kind(o, failure_of(why), reason);
 }
 
-/* Compares the number on the first mesh with its reference. */
+/* Compares the number on the first mesh with the reference value. */
 static void judge_value(const scene_quantity *q, double value, double uncertainty,
                         extreme_outcome *o)
 {
@@ -198,7 +198,7 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
     return STATUS_OK;
 }
 
-/* |error| on the meshes that have a value, from coarse to fine. */
+/* Absolute errors on the meshes that have a value, from coarse to fine. */
 typedef struct mesh_refinement {
     int count;
     double elements[OUTCOME_NEIGHBOURS + 1], size[OUTCOME_NEIGHBOURS + 1];
@@ -256,8 +256,8 @@ static const struct {
                              [OUTCOME_NO_VALUE] = {'V', "no value"},
                              [OUTCOME_FAULT] = {'F', "fault"}};
 
-/* Writes an error as "0.22" or "2e-7" [%], with a sign for the outcome: ~ under-resolved, !
- * wrong, ? not expected; or a letter for a failure. */
+/* Writes an error [%] as "0.22" or "2e-7", or a letter for a failure. Signs before an error are ~
+ * (under-resolved), ! (wrong) and ? (not expected). */
 static void cell_text(const extreme_outcome *o, char *text, size_t size)
 {
     static const char *const mark[OUTCOME_KINDS] = {[OUTCOME_COARSE] = "~", [OUTCOME_WRONG] = "!"};
@@ -275,7 +275,7 @@ static void cell_text(const extreme_outcome *o, char *text, size_t size)
     }
 }
 
-/* Width of a cell of the table for an extreme with this number of values. */
+/* Returns the width of the cells in the table of an extreme. */
 static int width_of_cells(const extreme *e)
 {
     const int width = (PARAGRAPH_WIDTH - INDENT - NAME_WIDTH - CONDITION_WIDTH) / e->values;
@@ -331,7 +331,6 @@ static void print_line(FILE *to, const extreme_sweep *s, const extreme_outcome *
     fprintf(to, "%*.0e\n", CONDITION_WIDTH, condition);
 }
 
-/* Prints a line for every formulation that runs. */
 static void print_quantity(FILE *to, const extreme_sweep *s, const extreme_outcome *first,
                            int quantity)
 {

@@ -1,5 +1,5 @@
-/* Checks that a type supports what it declares: each feature alone, in subsets, and as required by
- * the cases. */
+/* Checks that a type supports the features that it declares: each feature alone, subsets of
+ * features, and the combinations that cases require. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -9,13 +9,13 @@
 #include "elements/math/rotation.h"
 #include "harness/model/model.h"
 
-/* Checks that each declared feature of the section changes some result of the element, compared
- * with the element without it. Warping must change the amplitudes. */
+/* Checks that each declared feature of the section changes a result of the element. The feature
+ * warping must change the amplitudes. */
 static void effects_check(const formulation *chosen, claims *c);
 
 typedef enum feature_outcome { FINITE, REFUSED, BAD, FEATURE_OUTCOMES } feature_outcome;
 
-/* Returns 1 when C of a displaced element is finite. */
+/* Returns 1 if the stiffness C of a displaced element is finite. */
 static int finite_stiffness(const specimen *s, unsigned seed)
 {
     double inner[SPECIMEN_INNER], e[SPECIMEN_STRAINS], C[SPECIMEN_STRAINS * SPECIMEN_STRAINS];
@@ -31,8 +31,8 @@ static int finite_stiffness(const specimen *s, unsigned seed)
     return 1;
 }
 
-/* Evaluates an element with exactly these features. If the type rejects them, `why` gives the
- * reason. */
+/* Evaluates an element with exactly these features. `why` gives the reason if the type rejects
+ * them. */
 static feature_outcome evaluated(const formulation *chosen, unsigned features, fault *why)
 {
     const specimen_request what = {
@@ -60,8 +60,8 @@ static void accepted(const formulation *chosen, unsigned features, const char *w
                 why.text[0] != '\0' ? "rejected: " : "the stiffness is not finite", why.text);
 }
 
-/* Checks that a type accepts no features, each supported feature with its prerequisites, and all
- * supported features for straight elements. */
+/* Checks that a type accepts an element without features, each supported feature with its
+ * prerequisites, and, for straight elements, all supported features. */
 static void single_features(const formulation *chosen, claims *c)
 {
     static const struct {
@@ -103,8 +103,8 @@ static void features_of_cases(const formulation *chosen, claims *c)
                     "features, limits: the formulation supports none of the built-in cases");
 }
 
-/* Checks that a type rejects at most half of the other subsets, and names a feature in the
- * message, because one feature may presuppose another. */
+/* Checks that a type rejects at most half of the other subsets, and that the message of a rejection
+ * names a feature. A rejection is allowed because one feature may require another. */
 static void feature_subsets(const formulation *chosen, claims *c)
 {
     enum { OPTIONAL = 7 };
@@ -180,7 +180,7 @@ static int differ(const effects_answers *a, const effects_answers *b)
            other(EFFECTS_M * EFFECTS_M, a->C, b->C) || other(EFFECTS_M * EFFECTS_M, a->G, b->G);
 }
 
-/* An element with the features, and the same element without one of them. */
+/* An element with the features, and the same element with one feature removed. */
 typedef struct pair {
     specimen with, without;
 } pair;
@@ -196,7 +196,8 @@ static int makes(const formulation *chosen, unsigned features, profiles_form for
     return specimen_make(&what, out, &f) == STATUS_OK;
 }
 
-/* Returns 1: a result changes; 0: none changes; -1: the type rejects one of the two elements. */
+/* Returns 1 if a result changes, 0 if none changes, and -1 if the type rejects one of the two
+ * elements. */
 static int changes(const formulation *chosen, unsigned features, unsigned bit, profiles_form form)
 {
     pair p;
@@ -217,7 +218,7 @@ static int changes(const formulation *chosen, unsigned features, unsigned bit, p
     return found;
 }
 
-/* Returns 1 when the feature changes the warping amplitudes of the nodes. */
+/* Returns 1 if the feature changes the warping amplitudes of the nodes. */
 static int warps(const formulation *chosen, unsigned features, profiles_form form)
 {
     specimen s;
@@ -236,8 +237,8 @@ static int warps(const formulation *chosen, unsigned features, profiles_form for
     return found;
 }
 
-/* Returns 1 if the feature changes a result, for a rectangular section or, if the type supports
- * it, for an unsymmetric one. */
+/* Returns 1 if the feature changes a result for a rectangular section or, if the type supports it,
+ * for an unsymmetric section. */
 static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
 {
     const element_type *t = chosen->type;
@@ -254,11 +255,11 @@ static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
 
 static void effects_check(const formulation *chosen, claims *c)
 {
-    /* The list excludes FEATURE_ECCENTRIC, because the shear centre is a constant of the
-     * section, from which elements take it. It excludes FEATURE_TRAPEZE, because the trapeze
-     * effect is one of the second-order terms; a formulation that omits all of them to show
-     * their effect (beamw_first) gets the same requests as the complete one. Features of the
-     * structure, the mass or the shape are examined elsewhere. */
+    /* Features whose effect is checked. FEATURE_ECCENTRIC is excluded, because elements take the
+     * shear centre from the constants of the section. FEATURE_TRAPEZE is excluded, because the
+     * trapeze effect is one of the second-order terms, and a formulation that omits all of them
+     * (beamw_first) gets the same requests as the complete formulation. Features of the structure,
+     * the mass or the shape are checked elsewhere. */
     static const unsigned sections[] = {FEATURE_WARPING, FEATURE_SHEAR, FEATURE_WAGNER_MOMENTS,
                                         FEATURE_WAGNER_TORQUE};
     const unsigned all = specimen_features(chosen->type, 0);
@@ -286,8 +287,8 @@ static void effects_check(const formulation *chosen, claims *c)
     }
 }
 
-/* The mass matrix is symmetric and positive definite, has the mass and moments of inertia of the
- * beam, and rotates with the element. */
+/* Checks that the mass matrix is symmetric and positive definite, has the mass and the moments of
+ * inertia of the beam, and rotates with the element. */
 
 enum { MASS_N = SPECIMEN_COORDINATES };
 
@@ -313,8 +314,8 @@ static void symmetric(const specimen *s, const double A[], claim *one)
                 A[i * n + j], A[j * n + i], s->words);
 }
 
-/* Checks that a matrix is positive definite: Cholesky's factors exist after the matrix has been
- * scaled to ones on its diagonal, and slightly increased there. */
+/* Checks that a matrix is positive definite. The matrix is scaled to a unit diagonal, which is then
+ * slightly increased. Its Cholesky factorisation must exist. */
 static void positive(const specimen *s, const double A[], claim *one)
 {
     const int n = s->coordinates;
@@ -332,7 +333,7 @@ static void positive(const specimen *s, const double A[], claim *one)
                 pivot, specimen_coordinate(pivot > 0 ? pivot - 1 : 0, where), s->words);
 }
 
-/* Returns v^T M v of a motion with the velocity field omega x r + shift. */
+/* Returns v^T M v for the velocity field omega x r + shift. */
 static double energy(const specimen *s, const node_state x[], const double M[],
                      const double omega[3], const double shift[3])
 {
@@ -368,7 +369,7 @@ static void total(const specimen *s, const node_state x[], const double M[], cla
     }
 }
 
-/* Checks that M of an element that is rotated as a whole is the rotated matrix. */
+/* Checks that rotating the whole element rotates its mass matrix M. */
 static void carried(const specimen *s, const node_state x[], const double M[], claim *one)
 {
     static const double turn[3] = {0.71, -1.93, 1.37};
@@ -398,8 +399,8 @@ static void carried(const specimen *s, const node_state x[], const double M[], c
 }
 
 /* Checks the inertia of a straight element that rotates about its first node. The effect of
- * FEATURE_ROTARY_INERTIA must be rho l (Ip, Iy, Iz): about the axis this is the whole inertia,
- * about the other axes it is added to that of the masses on the line. */
+ * FEATURE_ROTARY_INERTIA must be rho l (Ip, Iy, Iz). About the beam axis this is the whole moment
+ * of inertia. About the other axes it is added to the moment of inertia of the line of mass. */
 static void moments(const specimen *s, claim *one)
 {
     static const double none[3] = {0, 0, 0};

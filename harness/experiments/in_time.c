@@ -1,8 +1,7 @@
 /* Inertia in transient analysis. The forces required by a motion derive from the kinetic energy T =
- * 1/2 x' . M x' by Lagrange's equations:
- *     force = d(M x')/dt + p x w - dT/dx,  with p x w for the rotations of each node,
- * where p = M x' there and w is the angular velocity of the node. x' and the derivatives are
- * spatial. */
+ * 1/2 x' . M x' by Lagrange's equations: force = d(M x')/dt + p x w - dT/dx. The term p x w applies
+ * to the rotations of each node, where p is the part of M x' for the node and w is the angular
+ * velocity of the node. x' and the derivatives are spatial. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +12,7 @@
 
 enum { N = SPECIMEN_COORDINATES };
 
-/* State and rates at which derivatives of M x' are computed. */
+/* State and rates at which the derivatives of M x' are computed. */
 typedef struct moving_place {
     specimen_place at;
     const double *rate; /* [7n] */
@@ -33,7 +32,7 @@ static int momenta_at(const void *context, int i, double si, int j, double sj, d
     return (int)outcome;
 }
 
-/* Computes the forces required by a motion without accelerations, by finite differences. */
+/* Computes the forces required by a motion without accelerations, using finite differences. */
 static void by_differences(const moving_place *m, const double M[], double h[])
 {
     const specimen *s = m->at.s;
@@ -72,7 +71,7 @@ static void compare(const specimen *s, const double found[], const double right[
             i + 1, specimen_coordinate(i, where), found[i], what, right[i], s->words);
 }
 
-/* Checks that the forces are quadratic in the rates; central differences are then exact. */
+/* Checks that the forces are quadratic in the rates, for which central differences are exact. */
 static void check_rates(const specimen *s, const node_state x[], const double rate[],
                         const double C[], double size, claim *one)
 {
@@ -100,8 +99,7 @@ static void check_rates(const specimen *s, const node_state x[], const double ra
     }
 }
 
-/* Checks that an element that is rotated as a whole, together with its rates, requires the
- * rotated forces. */
+/* Checks that rotating the whole element and its rates rotates the required forces. */
 static void check_turned(const specimen *s, const node_state x[], const inertia_output *out,
                          double size, claim *one)
 {
@@ -165,8 +163,8 @@ static void check_one(const specimen *s, claims *c)
                  claims_open(c, "inertia forces rotate with the element", 1e-11));
 }
 
-/* Makes the checks, and repeats them without rotary inertia, where only the twist has a moment
- * of inertia. */
+/* Makes the checks, and repeats them without rotary inertia. In this case only the twist has a
+ * moment of inertia. */
 static void check(const specimen *s, claims *c)
 {
     specimen_request what = s->made;

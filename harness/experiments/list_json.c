@@ -19,7 +19,7 @@ static json_t *value_of(const parameter_type *p, double value)
     return json_string(word);
 }
 
-/* Returns a list from "a|b|c". */
+/* Returns the words of "a|b|c" as a list. */
 static json_t *choices_of(const parameter_type *p)
 {
     json_t *list = json_array();
@@ -28,14 +28,14 @@ static json_t *choices_of(const parameter_type *p)
     return list;
 }
 
-/* Returns a limit of a parameter; null: none. */
+/* Returns a limit of a parameter; null: no limit. */
 static json_t *bound_of(const parameter_type *p, double value)
 {
     const int none = p->choices != NULL || value <= -DBL_MAX || value >= DBL_MAX;
     return none ? json_null() : json_real(value);
 }
 
-/* Returns a table of parameters. value NULL: the defaults. */
+/* Returns a table of parameters. value NULL: the default values are used. */
 static json_t *parameters_of(const assignment_list *all, const double value[])
 {
     json_t *list = json_array();
@@ -183,7 +183,7 @@ status list_json_formulation(FILE *to, const formulation *chosen, const rule *ru
     return json_finish(root, to, f);
 }
 
-/* Returns valid name number i; NULL after the last one. */
+/* Returns valid name number i; NULL after the last name. */
 static const char *name_at(const void *context, int i)
 {
     static const char *const words[] = {"cases", "formulations"};

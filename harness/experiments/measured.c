@@ -13,13 +13,13 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
     {"orders", "orders of convergence, and errors with 1 to 32 elements", measured_orders},
 };
 
-/* Errors over thickness/length, from 1 to 1e-6. With locking they increase as the element
- * becomes thinner. */
+/* Errors over thickness/length, from 1 to 1e-6. Locking makes them increase as the element becomes
+ * thinner. */
 
 enum { THICKNESSES = 7, ELEMENTS = 8 };
 
-/* Returns the exact displacement of a straight cantilever under a force, or of a quarter ring
- * under a force towards its centre. */
+/* Returns the exact displacement of a straight cantilever due to a force, or of a quarter ring due
+ * to a force towards its centre. */
 static double exact_of(const beam_request *r, const section *c)
 {
     const double EI = c->young * c->Iz, EA = c->young * c->A,
@@ -31,8 +31,8 @@ static double exact_of(const beam_request *r, const section *c)
     return 1 / (3 * EI) + shear;
 }
 
-/* Draws a conclusion: the element locks if the error of the thin structure is much larger than
- * that of the thick one. */
+/* Draws a conclusion: the element locks if the error of the thin structure is much larger than the
+ * error of the thick structure. */
 static void conclude(element_measure *one)
 {
     const double thick = fabs(one->error[0]), thin = fabs(one->error[one->points - 1]);
@@ -61,7 +61,7 @@ static void over_thickness(beam_request *r, const char *name, measures *out)
     conclude(one);
 }
 
-/* Returns FEATURE_SHEAR where the type supports shear along y, else 0. */
+/* Returns FEATURE_SHEAR if the type supports shear along y, otherwise 0. */
 static unsigned shear_of(const element_type *t)
 {
     return t->lacks & LACKS_SHEAR_Y ? 0 : t->offers & FEATURE_SHEAR;
@@ -88,8 +88,8 @@ void measured_locking(const formulation *chosen, claims *c, measures *out)
     over_thickness(&r, "bent by a quarter turn, moment", out);
 }
 
-/* States of a cantilever with a known exact solution: uniform states, which every mesh must
- * reproduce, and linear states, which even one element may reproduce. */
+/* States of a cantilever with a known exact solution. Uniform states must be exact on every mesh.
+ * Linear states may be exact even with one element. */
 
 enum { IRREGULAR = 4 };
 static const double fraction[IRREGULAR] = {0.13, 0.37, 0.19, 0.31};
@@ -102,7 +102,7 @@ typedef struct state {
     beam_analysis analysis;
     scene_load_kind load;
     int direction, component;
-    const char *doubt; /* error of a linear state that more elements do not reduce */
+    const char *doubt; /* reason for an error of a linear state that more elements do not reduce */
 } state;
 
 static const state states[] = {
@@ -132,7 +132,7 @@ static double states_exact_of(const state *s, const section *c, double load)
         const double k = sqrt(GI / (c->young * c->Iw));
         return load / GI * (1 - tanh(k) / k);
     }
-    if (s->analysis == BEAM_LARGE) /* an arc of a quarter circle */
+    if (s->analysis == BEAM_LARGE) /* a large deflection into an arc of a quarter circle */
         return 2 / PI;
     if (s->load == SCENE_FORCE)
         return s->direction == 0   ? load / (c->young * c->A)
@@ -141,8 +141,8 @@ static double states_exact_of(const state *s, const section *c, double load)
     return s->direction == 0 ? load / GI : s->direction == 1 ? -load / (2 * EIy) : load / (2 * EIz);
 }
 
-/* Draws a conclusion: an error that does not change with more elements is due to the section,
- * not to the mesh. */
+/* Draws a conclusion: an error that does not depend on the number of elements is due to the section
+ * and not to the mesh. */
 static void states_conclude(const state *s, element_measure *one)
 {
     const double coarse = fabs(one->error[0]), fine = fabs(one->error[1]);
@@ -187,7 +187,7 @@ static void measure_state(const formulation *chosen, const state *s, measures *o
         states_conclude(s, one);
 }
 
-/* Concludes that units are wrong if all linear states differ by the same power of a thousand. */
+/* Concludes that units are wrong if all linear states deviate by the same power of a thousand. */
 static void compare_units(measures *out)
 {
     double times = NAN;
@@ -208,7 +208,7 @@ static void compare_units(measures *out)
              fmax(times, 1 / times), times > 1 ? "soft" : "stiff");
 }
 
-/* Reports wrong limits as violated requirements: of each state, or of all of them together. */
+/* Reports wrong limits as violated requirements, for each state or for all states together. */
 static void hold_limits(claims *c, const measures *m)
 {
     if (m->words[0] != '\0') {
@@ -234,22 +234,21 @@ void measured_states(const formulation *chosen, claims *c, measures *out)
     hold_limits(c, out);
 }
 
-/* Observed and declared orders of convergence in the number of elements. */
+/* Observed and declared orders of convergence with respect to the number of elements. */
 
 enum {
     MESHES = 6,
-    MESHES_Z = 4 /* number of meshes; for z, where the order should be the same as
-                    for y */
+    MESHES_Z = 4 /* number of meshes for z, where the order should be the same as for y */
 };
 static const double noise =
-    1e-8; /* smaller errors show no order, because the column is not infinitely thin */
+    1e-8; /* smaller errors are not used, because the thickness of the column is not zero */
 
 typedef struct orders_question {
     const char *name;
     beam_analysis analysis;
     element_analysis declared;
     unsigned needs;
-    int plane; /* 1, 2: the displacements are along y, z */
+    int plane; /* 1, 2: the displacements are along y or z */
 } orders_question;
 
 static const orders_question questions[] = {
@@ -263,8 +262,8 @@ static const orders_question questions[] = {
     {"buckling: column along z", BEAM_BUCKLING, ELEMENT_BUCKLING, FEATURE_GEOMETRIC, 2},
 };
 
-/* Computes the elastica with a transverse force at its end, for an end rotation `angle`: P
- * L^2/EI and deflection/L. */
+/* Computes the elastica under a transverse end force for a given end rotation: P L^2/EI and
+ * deflection/L. */
 static void elastica(double angle, double *load, double *deflection)
 {
     const double k = sqrt((1 + sin(angle)) / 2), phi = asin(1 / (k * sqrt(2)));
@@ -277,7 +276,7 @@ static void elastica(double angle, double *load, double *deflection)
             root;
 }
 
-/* Returns the applied load, and its exact result. */
+/* Returns the applied load, and the exact result for this load. */
 static double orders_exact_of(const orders_question *q, const section *c, beam_request *r)
 {
     const double EI = c->young * (q->plane == 1 ? c->Iz : c->Iy), lambda = 1.8751040687119611;
@@ -298,8 +297,8 @@ static double orders_exact_of(const orders_question *q, const section *c, beam_r
     }
 }
 
-/* Returns the index of the finer one of the two finest meshes whose errors are above rounding;
- * 0: there are none. */
+/* Returns the index of the finer one of the two finest meshes whose errors exceed rounding; 0:
+ * there are no such meshes. */
 static int telling(const element_measure *one)
 {
     int last = 0;
@@ -309,7 +308,7 @@ static int telling(const element_measure *one)
     return last;
 }
 
-/* Requires that the observed order is not lower than the declared minimum. */
+/* Requires that the observed order is at least the declared minimum. */
 static void hold_against_declared(const orders_question *q, int last, const element_measure *one,
                                   claims *c)
 {

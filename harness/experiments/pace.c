@@ -54,9 +54,9 @@ static double balance_at(const track *t, int i, scene_balance what)
     return t->record[i].at.balance[what];
 }
 
-/* Returns the index of the first step that ends after all loads have ended. When loads end,
- * accelerations and massless coordinates are computed again; the end of the previous step
- * therefore does not count. */
+/* Returns the index of the first step that ends after all loads have ended. At the end of the
+ * loads, accelerations and massless coordinates are computed again. Therefore the end of the
+ * previous step does not count. */
 static int first_alone(const track *t, double from)
 {
     int i = 0;
@@ -65,8 +65,8 @@ static int first_alone(const track *t, double from)
     return i;
 }
 
-/* Computes the energies relative to that of the first step, because the run may have stopped
- * before the last step. */
+/* Computes the energies relative to the energy of the first step. The run may have stopped before
+ * the last step. */
 static void take_energy(const track *t, int first, pace_run *r)
 {
     const double before = balance_at(t, first, SCENE_ENERGY);
@@ -79,7 +79,7 @@ static void take_energy(const track *t, int first, pace_run *r)
     }
 }
 
-/* Returns the magnitude of a momentum, or of its change since `first`. */
+/* Returns the magnitude of a momentum, or of its change since step `first`. */
 static double vector_at(const track *t, scene_balance x, int i, int first)
 {
     double square = 0;
@@ -91,8 +91,8 @@ static double vector_at(const track *t, scene_balance x, int i, int first)
     return sqrt(square);
 }
 
-/* Returns the largest change of both momenta relative to their initial size; 0 for a structure at
- * rest. */
+/* Returns the largest change of both momenta relative to their initial magnitudes, or 0 for a
+ * structure at rest. */
 static double momentum_drift(const track *t, int first)
 {
     static const scene_balance both[] = {SCENE_PX, SCENE_LX};
@@ -105,7 +105,7 @@ static double momentum_drift(const track *t, int first)
     return largest;
 }
 
-/* Returns the energy that is not explained by work, relative to the largest energy. */
+/* Returns the largest difference between energy and work, relative to the largest energy. */
 static double unexplained(const track *t)
 {
     double most = 0, size = 0;
@@ -146,7 +146,7 @@ void pace_drift(const pace *p, pace_run *r)
 
 const double pace_order_slack = 0.3;
 
-/* Factors on the uncertainty of the reference and on rounding; smaller errors are unknown. */
+/* Factors of the uncertainty of the reference and of rounding. Smaller errors are not reliable. */
 static const double floor_of_reference = 10, floor_of_rounding = 1e-11;
 
 const char *pace_order_name(pace_order_kind kind)
@@ -174,7 +174,7 @@ void pace_order_fill(pace *p)
                               : NAN;
 }
 
-/* Returns the verdict from two orders. If they differ much, the order is not yet known. */
+/* Returns the verdict for two orders. If they differ much, the order is not known yet. */
 static pace_order_kind judge(const pace_ladder *l)
 {
     const double least = l->method->order - pace_order_slack;
@@ -223,8 +223,8 @@ int pace_order_is_stopped(const pace_group *g)
 
 const double pace_levels[PACE_LEVELS] = {1e-2, 1e-4, 1e-6};
 
-/* Returns 1 when both runs belong to one integrator, by steps or by tolerances, and a is the
- * coarser one. */
+/* Returns 1 if both runs use the same integrator, both with steps or both with tolerances, and a is
+ * the coarser run. */
 static int is_coarser(const pace_run *a, const pace_run *b)
 {
     return a->group == b->group && strcmp(a->method.name, b->method.name) == 0 &&
@@ -240,8 +240,8 @@ static int is_reached_from(const pace *p, const pace_run *r, double level)
     return 1;
 }
 
-/* Returns the cost at an error level. Between two runs, errors and costs are interpolated as
- * powers of the step size. */
+/* Returns the cost at an error level. Between two runs, error and cost are interpolated as powers
+ * of the step size. */
 static double cost_at(const pace *p, const pace_run *r, double level)
 {
     const pace_run *before = r > p->run ? r - 1 : NULL;
@@ -281,7 +281,7 @@ int pace_reach_methods(const pace *p, const char *name[PACE_METHODS_MOST])
 
 enum { NAME = 16, NUMBER = 9 };
 
-/* Prints the reference solution and its uncertainty. */
+/* Prints the origin of the reference solution, and its uncertainty. */
 static void print_reference(FILE *to, const pace *p, const pace_group *g)
 {
     char stopped[160] = "";
@@ -337,7 +337,7 @@ static void print_run(FILE *to, const pace_run *r)
     fputc('\n', to);
 }
 
-/* Prints the reasons why runs ended early, each once. */
+/* Prints the reasons why runs ended prematurely, without repetition. */
 static void print_reasons(FILE *to, const pace *p, const pace_group *g)
 {
     const char *last = "";
@@ -365,8 +365,8 @@ static void print_orders(FILE *to, const pace *p, const pace_group *g)
     }
 }
 
-/* Prints the integrators for which the error of a quantity does not decrease with the step size;
- * returns their number. */
+/* Prints the integrators for which the error of a quantity does not decrease with the step size,
+ * and returns the number of these integrators. */
 static int write_standing(FILE *text, const pace *p, const pace_group *g, int quantity)
 {
     int count = 0;

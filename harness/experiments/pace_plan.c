@@ -8,8 +8,8 @@
 
 /* Returns the list first, first/ratio, first/ratio^2, ... */
 static pace_list pace_list_divided(double first, double ratio, int count);
-/* Returns the time after which no load acts [s]; INFINITY: the structure is fixed, prescribed,
- * or always loaded. */
+/* Returns the time [s] from which no load acts; INFINITY: the structure is fixed, prescribed, or
+ * always loaded. */
 static double pace_alone_from(const scene *s);
 
 enum {
@@ -18,8 +18,10 @@ enum {
     USUAL_TOLERANCES = 3,
     PARTS = 100 /* ratio of consecutive tolerances */
 };
-static const double usual_tolerance = 1e-4, same = 1e-9 /* usual tolerance of a step; relative
-                                                           difference of equal times */
+static const double
+    usual_tolerance = 1e-4,
+    same =
+        1e-9 /* default tolerance of a step, and relative difference of times that count as equal */
     ;
 
 static int motion_of(const scene *s)
@@ -52,8 +54,8 @@ status pace_plan_usual(pace_plan_request *r, fault *f)
     return outcome;
 }
 
-/* Sets the stations, where steps of all runs end: the multiples of `spacing` before the end, and
- * the end itself. */
+/* Sets the stations, which are the multiples of `spacing` before the end, and the end. Steps of all
+ * runs end at the stations. */
 static status stations_of(double spacing, double end, scene_path *out, fault *f)
 {
     const int before = (int)ceil(end / spacing * (1 - same)) - 1;
@@ -68,14 +70,14 @@ static status stations_of(double spacing, double end, scene_path *out, fault *f)
     return STATUS_OK;
 }
 
-/* Changes the last point of the sweep to that motion. */
+/* Replaces the motion of the last point of the sweep. */
 static status set_motion(pace *p, const pace_group *g, const pace_run *r, double spacing, fault *f)
 {
     sweep_point *at = &p->sweep.point[p->sweep.points - 1];
     scene_motion *how = &at->scene.analysis[g->analysis].of.motion;
     how->scheme = r->method.scheme;
-    if (how->mass == SCENE_MASS_USUAL) /* errors are those of time integration only; therefore
-                                          all runs have the same mass */
+    if (how->mass == SCENE_MASS_USUAL) /* all runs have the same mass, so errors are due to time
+                                          integration only */
         how->mass = SCENE_LUMPED;
     how->alpha = r->method.alpha;
     how->step = r->step;
@@ -83,8 +85,8 @@ static status set_motion(pace *p, const pace_group *g, const pace_run *r, double
     return stations_of(spacing, g->end, &how->path, f);
 }
 
-/* Returns the number of instants at which steps of all runs end, provided that the spacing
- * divides the duration. */
+/* Returns the number of times at which steps of all runs end, provided that the spacing divides the
+ * duration. */
 static int frames_of(const pace_group *g, double spacing)
 {
     const int parts = (int)ceil(g->end / spacing * (1 - same));
@@ -108,8 +110,8 @@ static status add_motion(pace *p, const pace_group *g, const pace_plan_request *
     return STATUS_OK;
 }
 
-/* Returns the spacing of the instants at which errors are examined between stations. All steps
- * must end there, which requires a whole number of the coarsest steps. */
+/* Returns the spacing of the times at which errors are examined between stations. Steps of all runs
+ * must end at these times, so the spacing is a whole number of the coarsest steps. */
 static double spacing_of(const pace_group *g, const pace_plan_request *q)
 {
     const double coarsest = q->steps.count > 0 ? q->steps.value[0] : g->step,
@@ -140,8 +142,8 @@ static status add_run(pace *p, const pace_plan_request *q, const pace_run *what,
     return STATUS_OK;
 }
 
-/* If energies are read, requests a separate step to every station, because the reference must
- * not be interpolated between steps. */
+/* If energies are read, requests that steps end at every station, because the reference must not be
+ * interpolated between steps. */
 static void read_exactly(scene *s, int analysis)
 {
     scene_set_curve(scene_add_quantity(s, "energy at all stations", "J", analysis,
@@ -228,7 +230,7 @@ const char pace_method_all[] = "alpha,alpha:rho=0.5,hht,trapezoidal,conserving,r
 
 enum { SCHEME_WORDS = 6, ORDER_OF_EXPLICIT = 8 };
 
-/* Name of an integrator, and the parameters that it accepts. */
+/* Name of an integrator, and its parameters. */
 static const struct {
     const char *word, *value;
     double usual, most;
@@ -248,7 +250,7 @@ static status refuse(const char *name, fault *f)
     return fault_set(f, STATUS_REFUSED, "--integrator '%.31s': give one of " PACE_METHODS, name);
 }
 
-/* Reads "KEY=NUMBER" of a scheme. *value is the default if the key is not given. */
+/* Reads "KEY=NUMBER" of a scheme. *value is the default value if the key is missing. */
 static int read_value(const char *text, const char *key, double most, double *value)
 {
     const size_t length = key != NULL ? strlen(key) : 0;
@@ -320,14 +322,15 @@ static status list_refuse(const char *option, const char *text, fault *f)
                      option, text, PACE_LIST_MOST);
 }
 
-/* Returns the end of a positive number; NULL: there is none. */
+/* Returns the end of a positive number; NULL: the text does not start with a positive number. */
 static const char *positive(const char *at, double *out)
 {
     const char *end;
     if (!number_read(at, &end, out) || *out <= 0)
         return NULL;
-    return *end == '.' && end[-1] == '.' ? end - 1
-                                         : end; /* 1..2: the first point is not a decimal point */
+    return *end == '.' && end[-1] == '.'
+               ? end - 1
+               : end; /* in "1..2", the first point is not a decimal point */
 }
 
 static status read_range(const char *option, const char *text, double from, double to, double ratio,
@@ -368,7 +371,7 @@ static int is_held(const scene_node *n)
     return n->rotation != SCENE_ROTATION_SPATIAL;
 }
 
-/* Returns 1 when the function is zero wherever it is examined after `from`. */
+/* Returns 1 if the function is zero at all examined times after `from`. */
 static int is_over(const scene_function *f, double from)
 {
     static const double later[] = {0, 0.37, 1, 7.3, 61};
@@ -420,7 +423,8 @@ static double apart(const double a[3], const double b[3])
     return sqrt(square);
 }
 
-/* Returns the angle between two unit quaternions of any sign; also accurate for small angles. */
+/* Returns the angle between the rotations of two unit quaternions, whose signs do not matter. The
+ * result is accurate even for small angles. */
 static double angle(const double a[4], const double b[4])
 {
     double less = 0, more = 0;

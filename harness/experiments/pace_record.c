@@ -64,7 +64,7 @@ static const schema_field fields_of_run[] = {
 const record_type record_pace_run = {
     "run", "runs", "a motion by one integrator with one step or tolerance", {KEYS, fields_of_run}};
 
-/* Returns the error of a quantity of a run, by its index. */
+/* Returns the error of a quantity of a run. The quantity is given by its index. */
 static void get_quantity_error(const subject *s, field_value *out)
 {
     out->numbers = &((const pace_run *)s->record)->values[s->index];
@@ -294,7 +294,7 @@ static void gather_ladders(const pace *p, const pace_group *g, subjects *out)
     }
 }
 
-/* Collects the lowest cost for each error level, by integrator. */
+/* Collects the lowest cost of each integrator for each error level. */
 static void gather_reached(const pace *p, const pace_group *g, subjects *out)
 {
     const char *name[PACE_METHODS_MOST];
@@ -377,7 +377,7 @@ static status plan_axis(const motion_request *r, motions *m, const pace_plan_req
     return STATUS_OK;
 }
 
-/* Plans all values of the parameter that varies; if there is none, the point itself. */
+/* Plans all values of the varied parameter, or a single point if no parameter is varied. */
 static status plan_points(const motion_request *r, motions *m, pace_plan_request *q, fault *f)
 {
     sweep_axis a;

@@ -6,7 +6,7 @@
 
 #include "elements/shared/choice.h"
 
-/* Allowed difference of a decimal logarithm: a factor of two. */
+/* Allowed difference of decimal logarithms, which corresponds to a factor of two. */
 static const double same_decade = 0.3;
 
 static void say(pace_verdict *v, const char *word)
@@ -20,8 +20,8 @@ static double drift_of(const pace_verdict *v, const pace_run *r)
     return v->kind == PACE_ENERGY_KEPT ? r->energy : r->momentum;
 }
 
-/* Returns the order of a drift at halved steps, from the last two pairs of steps; 0: the two
- * orders differ. */
+/* Returns the order of a drift at halved steps, from the last two pairs of steps; 0: the two pairs
+ * give different orders. */
 static int drift_order(const pace_verdict *v, const pace_run r[])
 {
     double order[2];
@@ -76,7 +76,7 @@ static void reach_one(const pace *p, pace_verdict *v)
             say(v, r[i].fate != PACE_UNJUDGED ? pace_fate_name(r[i].fate) : "unjudged");
 }
 
-/* Returns 1 when two lists have the same length and nearly equal numbers. */
+/* Returns 1 if two lists have the same length and nearly equal numbers. */
 static int is_near(const char *a, const char *b)
 {
     while (*a != '\0' && *b != '\0') {
@@ -87,7 +87,7 @@ static int is_near(const char *a, const char *b)
     return *a == *b;
 }
 
-/* Returns 1 when the verdict agrees with the table. */
+/* Returns 1 if the verdict agrees with the table. */
 static int pace_verdict_is_expected(const pace_verdict *v)
 {
     return v->kind == PACE_TOLERANCE ? v->found[0] != '\0' && is_near(v->found, v->expected)
@@ -119,7 +119,7 @@ enum { JUDGED, CASE, PARAMETERS, FORMULATION, ELEMENTS, INTEGRATOR, STEPS, EXPEC
 static const char *const judged_names[PACE_JUDGED] = {"order", "energy", "momentum", "tolerance",
                                                       "fate"};
 
-/* A row, and its planned runs. */
+/* A row of the table, and its planned runs. */
 typedef struct planned {
     pace_plan_request request;
     double parameter[CASE_MAX_PARAMETERS];
@@ -182,8 +182,8 @@ static status read_row(const own_table_row *row, pace_verdict *v, planned *out, 
     return STATUS_OK;
 }
 
-/* Returns 1 when the rows differ only in the integrator. Such rows are consecutive and share
- * their reference. */
+/* Returns 1 if the rows differ only in the integrator. Such rows are consecutive and share a
+ * reference. */
 static int is_same(const pace_verdict *a, const pace_verdict *b)
 {
     return (a->kind == PACE_FATE) == (b->kind == PACE_FATE) &&
@@ -201,7 +201,7 @@ static int known_method(const planned *p, const pace_method list[], int count)
     return -1;
 }
 
-/* Plans rows [first, end) as one group. */
+/* Plans the rows [first, end) as a group. */
 static status plan_block(pace *p, pace_verdicts *all, planned row[], int first, int end, fault *f)
 {
     pace_method list[PACE_LIST_MOST];
@@ -224,7 +224,7 @@ static status plan_block(pace *p, pace_verdicts *all, planned row[], int first, 
     return STATUS_OK;
 }
 
-/* Returns the outcome of an invalid row; the message contains its position. */
+/* Returns REFUSED for an invalid row. The message contains the line of the row. */
 static status refuse(const char *path, const own_table_row *row, status outcome, const fault *why,
                      fault *f)
 {
@@ -273,8 +273,8 @@ static double distance_of_check(const pace *p, const pace_group *g, int check)
                          g->analysis);
 }
 
-/* Returns the order with which the error of the reference decreases with the number of steps,
- * from its checks. */
+/* Returns the order with which the error of the reference decreases with the number of steps. The
+ * order is computed from the checks of the reference. */
 static double order_of_reference(const pace *p, const pace_group *g, double near, double far)
 {
     const double steps = (double)pace_cell_of(p, g->reference + 1)->solve.steps /
@@ -282,9 +282,9 @@ static double order_of_reference(const pace *p, const pace_group *g, double near
     return steps > 1 && near > 0 ? log(far / near) / log(steps) : NAN;
 }
 
-/* Sets the uncertainty and the order of the reference. The errors of the two checks decrease by
- * a ratio. The same ratio, with a safety factor of three, gives the uncertainty of the
- * reference, which is at most the distance of the nearer check. */
+/* Sets the uncertainty and the order of the reference. The errors of the two checks have a ratio.
+ * The error of the reference is assumed to decrease by the same ratio, with a safety factor of
+ * three. The uncertainty is at most the distance from the nearer check. */
 static void judge_reference(const pace *p, pace_group *g)
 {
     static const double safety = 3;

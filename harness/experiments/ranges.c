@@ -6,8 +6,9 @@
 
 #include "harness/model/model.h"
 
-/* Writes the columns: the varied parameters, then formulation, elements, quantity, unit, value,
- * reference, reference_kind, error, status, cost, seconds. Missing values are empty. */
+/* Writes the names of the columns: the varied parameters, then formulation, elements, quantity,
+ * unit, value, reference, reference_kind, error, status, cost, seconds. Missing values are empty.
+ * */
 static void ranges_csv_head(FILE *to, const parameter_ranges *r);
 /* Adds the results of points from `first` on. FAULT: out of memory. */
 static status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *,
@@ -16,7 +17,7 @@ static status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, co
 static const double batch_cost = 0.5; /* [s] largest estimated cost of a batch */
 enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };
 
-/* Rejects parameters that are given twice, as axes or otherwise. */
+/* Rejects parameters that are given twice, as an axis or by --set. */
 static status add_axis(parameter_ranges *r, const char *text, fault *f)
 {
     if (r->design.axes == CASE_MAX_PARAMETERS)
@@ -46,7 +47,7 @@ static status read_axes(parameter_ranges *r, fault *f)
     const int axes = r->design.axes;
     const status outcome = design_make(r->request.design, axes, r->axis, r->request.points,
                                        r->request.seed, &r->design, f);
-    r->design.axes = axes; /* so that it is freed */
+    r->design.axes = axes; /* set now, so the caller frees the axis */
     return outcome;
 }
 
@@ -88,7 +89,7 @@ rows_shape ranges_shape(const parameter_ranges *r)
     return (rows_shape){r->formulations, r->meshes, r->quantities};
 }
 
-/* Finds the points of a batch, from *first on. Returns their number. */
+/* Finds the points of a batch, starting with *first. Returns their number. */
 static int ranges_batch(const parameter_ranges *r, int batch, long *first)
 {
     *first = batch * r->points_in_batch;
@@ -103,7 +104,7 @@ typedef struct making {
     rows *out;
 } making;
 
-/* Returns the index of a quantity in the scene, or -1. */
+/* Returns the index of a quantity in the scene; -1: none. */
 static int quantity_of(const scene *s, const char *name)
 {
     for (int i = 0; i < s->quantities; i++)
@@ -186,8 +187,8 @@ static void fill_cells(const making *m, int at, int which)
     }
 }
 
-/* Computes the errors of one formulation with respect to its reference, and the coarsest
- * sufficient mesh. */
+/* Computes the errors of a formulation with respect to the reference, and the coarsest mesh within
+ * the tolerance. */
 static void fill_errors(const making *m, int at, int which, int q, int quantity,
                         const point_reference *against)
 {
@@ -209,8 +210,8 @@ static int is_known(const point_reference *r)
     return r->kind != ROWS_NONE && r->kind != ROWS_DISPUTED;
 }
 
-/* Computes one quantity at one point. Its reference is that of the first formulation that has
- * one. */
+/* Computes one quantity at one point. The reference is that of the first formulation that has a
+ * reference. */
 static void fill_quantity(const making *m, int at, int q, const known_truths *k)
 {
     const sweep_point *p = &m->s->point[at];
@@ -263,8 +264,8 @@ static status solve(const parameter_ranges *r, int batch, sweep *s, rows *out, f
 }
 
 /* Computes all points of a batch and stores them in rows, which the caller frees, even after a
- * failure. The failure of a point, a cell or a reference value counts as a result. FAULT: an error
- * of the memory or of processes. */
+ * failure. The failure of a point, a cell or a reference value counts as a result. FAULT: out of
+ * memory, or a failed process. */
 static status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f)
 {
     sweep s = {.values_only = 1};
@@ -381,7 +382,7 @@ static void put(FILE *to, double value)
     fputc(',', to);
 }
 
-/* Writes one cell; options of a formulation are joined by commas. */
+/* Writes a cell of the table. Commas separate the options of a formulation. */
 static void put_cell(FILE *to, const parameter_ranges *r, const rows *w, const char *where, int at,
                      int which, int mesh)
 {

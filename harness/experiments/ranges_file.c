@@ -10,13 +10,13 @@
 enum { MOST_RANKS = 4, LEVEL = 3, LINE = 1024 };
 static const double piece_bytes = 256 * 1024, cache_bytes = 4 << 20;
 
-/* A column of the file: its position in rows, and its dimensions in addition to the points. */
+/* A column of the file: its position in `rows`, and its dimensions after the points. */
 typedef struct file_column {
     const char *name, *unit;
     hid_t type;
     int ranks, size[MOST_RANKS - 1];
-    const void *first; /* address of the first value in these rows; NULL for columns of points */
-    int missing;       /* for whole numbers: the value where nothing was computed */
+    const void *first; /* address of the first value in these rows; NULL: a column of points */
+    int missing;       /* value of missing entries in columns of whole numbers */
 } file_column;
 
 static int columns_of(const parameter_ranges *r, const rows *w,
@@ -49,7 +49,8 @@ static hsize_t line_of(const file_column *c)
     return line;
 }
 
-/* Returns the number of points in a compressed chunk: whole batches, as long as they are small. */
+/* Returns the number of points in a compressed chunk, which contains whole batches if these are
+ * small. */
 static hsize_t piece_of(const parameter_ranges *r, const file_column *c)
 {
     const double most = fmax(1, piece_bytes / (double)(line_of(c) * H5Tget_size(c->type)));
@@ -91,7 +92,7 @@ static hid_t make_column(ranges_file *file, const file_column *c)
     return set;
 }
 
-/* Writes names in the order of their numbers, one per line. */
+/* Writes names in the order of their numbers, in one line each. */
 static void put_names(record_file *r, hid_t set, const char *name, const char *(*of)(int),
                       int count)
 {
@@ -109,7 +110,8 @@ static const char *name_of_bit(int bit)
     return words;
 }
 
-/* Writes the words of an axis; its values in the file are their numbers. */
+/* Writes the words of an axis. The values of the axis in the file are the numbers of these words.
+ * */
 static void put_words(record_file *r, hid_t points, const sweep_axis *a)
 {
     char *text = NULL;
@@ -181,7 +183,7 @@ static void write_piece(record_file *r, hid_t set, const file_column *c, long fi
     H5Sclose(file);
 }
 
-/* Returns the number of the word in the list. */
+/* Returns the index of the word in the list. */
 static double place_of(const sweep_axis *a, double value)
 {
     int i = 0;
@@ -235,8 +237,8 @@ static void write_text(FILE *to, const void *text)
     fputs(text, to);
 }
 
-/* Writes the scene of a point as a string, which the caller frees; "" if a scene file cannot
- * express it. */
+/* Writes the scene of a point as a string, which the caller frees. The string is "" if a scene file
+ * cannot express the scene. */
 static status text_of(const parameter_ranges *r, long index, char **text, fault *f)
 {
     double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];
@@ -255,7 +257,7 @@ static status text_of(const parameter_ranges *r, long index, char **text, fault 
     return *text != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a scene");
 }
 
-/* Returns the name of the scene of the point if the point occurs earlier in the list; else NULL. */
+/* Returns the name of the scene if the point occurs earlier in the list; otherwise NULL. */
 static const char *name_known(const tally *t, int which, int k, long index)
 {
     for (int i = 0; i <= which; i++)

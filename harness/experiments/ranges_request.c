@@ -95,8 +95,8 @@ void ranges_file_request(record_file *r, hid_t at, const parameter_ranges *of, c
     if (q->select != NULL)
         record_text(r, at, "selection", q->select);
     snprintf(noise, sizeof noise, "%.15g", price_noise);
-    record_text(r, at, "cost_noise", noise); /* costs whose ratio is below this value count as a
-                                                tie */
+    /* costs count as equal if their ratio is below this value */
+    record_text(r, at, "cost_noise", noise);
     record_count(r, at, "axes", of->design.axes);
     record_number(r, at, "tolerance", q->tolerance);
     H5Dclose(record_array(r, at, "meshes", H5T_NATIVE_INT, 1, &meshes, of->mesh));
@@ -157,7 +157,8 @@ void ranges_points_text(const parameter_ranges *r, const double at[], char *text
 
 enum { LAST_KNOWN = 2 /* kind of reference */ };
 
-/* Names the formulations to which the reference does not apply, and the number of such points. */
+/* Names the formulations to which the reference does not apply, and prints the number of such
+ * points. */
 static void say_unmeasured(const tally *t, int q, char *text, size_t size)
 {
     enum { NAMED = 3 };
@@ -210,7 +211,7 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
     say_unmeasured(t, q, text + used, RANGES_TABLE_LINE - used);
 }
 
-/* Writes quantities in groups with the same kind of reference. */
+/* Writes the kinds of references. Quantities with the same kind are written together. */
 static void write_reference(FILE *to, const tally *t, int q, char told[])
 {
     char text[RANGES_TABLE_LINE], other[RANGES_TABLE_LINE];
@@ -229,7 +230,7 @@ static void write_reference(FILE *to, const tally *t, int q, char told[])
     paragraph_end(&words, begun, 6);
 }
 
-/* Prints why the first point without a scene has none. */
+/* Prints the reason why a point has no scene, for the first such point. */
 static void write_without_scene(FILE *to, const tally *t)
 {
     const parameter_ranges *r = t->of;
@@ -260,8 +261,9 @@ void ranges_table_known(FILE *to, const tally *t)
         write_without_scene(to, t);
 }
 
-/* Returns 1 when the row mixes errors with respect to reference values and errors with respect
- * to limits. Only the former show the effect of physics that a theory omits. */
+/* Returns 1 if the row contains both errors with respect to reference values and errors with
+ * respect to limits. Only errors of the first kind show the effect of physics that a theory omits.
+ * */
 static int is_mixed(const tally *t, int which, int q)
 {
     const tally_series *s = tally_of(t, which, q);
@@ -295,7 +297,7 @@ static void edge_text(const tally *t, int index, int place, char *text, int size
         snprintf(text, (size_t)size, "%.3g", tally_edge(t, index, place));
 }
 
-/* Prints the values of the first axis as headings of the columns of the map. */
+/* Prints the values of the first axis as headings of columns. */
 static void write_columns(FILE *to, const tally *t)
 {
     char edge[ASSIGNMENT_VALUE];
@@ -315,7 +317,7 @@ static void write_fields(FILE *to, const tally *t, const char *label, int which,
     fputc('\n', to);
 }
 
-/* Prints, for each formulation, a map over two axes or a line over one axis. */
+/* Prints a map over two axes or a line over one axis for each formulation. */
 static void write_maps_of(FILE *to, const tally *t, int q)
 {
     const parameter_ranges *r = t->of;
@@ -356,8 +358,8 @@ static int has_other(const tally *t)
     return others > 0;
 }
 
-/* Returns 1 when a field has no reference; with `parts`, when a field contains points both with
- * and without one. */
+/* Returns 1 if a field contains a point without a reference. parts 1: the field must also contain a
+ * point with a reference. */
 static int has_unknown(const tally *t, int parts)
 {
     const parameter_ranges *r = t->of;
@@ -369,7 +371,7 @@ static int has_unknown(const tally *t, int parts)
     return unknown;
 }
 
-/* Returns 1 when some fields contain several values. */
+/* Returns 1 if some fields contain several values of an axis. */
 static int is_coarse(const tally *t)
 {
     const int shown[] = {t->columns, t->lines};

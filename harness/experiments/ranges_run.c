@@ -9,7 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Replaces the ending: "sweep.worst" for "sweep.h5", and so on. REFUSED: the name is too long. */
+/* Replaces the ending of a path: "sweep.h5" becomes "sweep.worst", for example. REFUSED: the name
+ * is too long. */
 static status beside(const char *path, const char *ending, char out[PATH_MAX], fault *f)
 {
     const char *leaf = strrchr(path, '/'), *dot = strrchr(path, '.');
@@ -20,7 +21,7 @@ static status beside(const char *path, const char *ending, char out[PATH_MAX], f
                : fault_set(f, STATUS_REFUSED, "%.200s: the name is too long", path);
 }
 
-/* Returns 1 for names of files that worst_write writes. */
+/* Returns 1 if worst_write writes files with such a name. */
 static int is_ours(const char *name)
 {
     int end = 0;
@@ -29,7 +30,7 @@ static int is_ours(const char *name)
            (sscanf(name, "point_%ld.yaml%n", &index, &end) == 1 && end > 0 && name[end] == '\0');
 }
 
-/* Returns 1 when the folder contains only files of an earlier sweep. */
+/* Returns 1 if the folder contains only files of an earlier sweep. */
 static int is_former(const char *folder)
 {
     DIR *at = opendir(folder);
@@ -76,7 +77,6 @@ static status write_scenes(const char *folder, tally *t, fault *f)
     return STATUS_OK;
 }
 
-/* Determines the output of the results. */
 static status place_output(const range_sweep_request *r, range_sweep *s, fault *f)
 {
     if (r->output == NULL)
@@ -90,12 +90,11 @@ static status place_output(const range_sweep_request *r, range_sweep *s, fault *
     return check_folder(s->worst, f);
 }
 
-/* Locks the folder until this process ends, so the second of two runs with the same output is
- * rejected. */
+/* Locks the folder until this process ends. A second run with the same output is then rejected. */
 static status hold_batches(const char *folder, fault *f)
 {
     struct stat there = {.st_nlink = 0};
-    while (there.st_nlink == 0) { /* the previous owner has removed the folder meanwhile */
+    while (there.st_nlink == 0) { /* the previous owner of the lock has removed the folder */
         const int made = mkdir(folder, 0777),
                   held = made == 0 || errno == EEXIST
                              ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
@@ -116,7 +115,7 @@ static status hold_batches(const char *folder, fault *f)
     return STATUS_OK;
 }
 
-/* Chooses the folder for batches until all are complete: a folder next to the output, or a
+/* Chooses the folder for the batches of an incomplete sweep: a folder next to the output, or a
  * temporary folder. */
 static status place_batches(const char *path, char folder[PATH_MAX], fault *f)
 {
@@ -155,8 +154,8 @@ static status run(const void *asked, void *found, fault *f)
     return shard_run(&s->all, &request, &done, f);
 }
 
-/* Starts the summary and the file. All batches read from now on are added to both, with one at a
- * time in memory. */
+/* Starts the summary and the file. Every batch that is read is added to both. Only one batch is in
+ * memory at a time. */
 static status begin(range_sweep *s, fault *f)
 {
     TRY(tally_alloc(&s->ranges, &s->tally, f));
@@ -169,8 +168,8 @@ static status begin(range_sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Finishes after the last batch: writes the scenes of the worst points and closes the file. If
- * `taken` is not OK, the file is removed. */
+/* Writes the scenes of the worst points and closes the file. If `taken` is not OK, the file is
+ * removed. */
 static status end(range_sweep *s, status taken, fault *f)
 {
     char content[DIGEST_TEXT];
@@ -185,7 +184,7 @@ static status end(range_sweep *s, status taken, fault *f)
     return taken;
 }
 
-/* Reads the batches of the stock. NULL: reads those that the caller supplies. */
+/* Reads the batches of the stock. stock NULL: reads the batches that the caller supplies. */
 static status take_all(range_sweep *s, const stock *there, fault *f)
 {
     const range_sweep_request *r = s->asked;
@@ -195,7 +194,7 @@ static status take_all(range_sweep *s, const stock *there, fault *f)
     return end(s, outcome, f);
 }
 
-/* Removes the batches from the folder, and the folder if it is then empty. */
+/* Removes the batches from the folder, and removes the folder if it is empty. */
 static status remove_batches(const stock *there, const char *folder, fault *f)
 {
     char path[PATH_MAX];
@@ -209,8 +208,8 @@ static status remove_batches(const stock *there, const char *folder, fault *f)
     return STATUS_OK;
 }
 
-/* Reads the batches that were computed by this process, unless some are missing. Batches next to
- * an output are then kept. */
+/* Reads the batches that this process has computed, unless some are missing, and removes them. If
+ * batches are missing, a folder next to the output is kept. */
 static status collect(range_sweep *s, fault *f)
 {
     const char *const folder[] = {s->batches};
@@ -235,7 +234,7 @@ static status judge(const void *asked, void *found, fault *f)
     return outcome == STATUS_NO_VALUE ? STATUS_OK : outcome;
 }
 
-/* Writes the table. Values and the file were written while the batches were read. */
+/* Writes the table. The CSV values and the file were written while the batches were read. */
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const range_sweep *s = found;

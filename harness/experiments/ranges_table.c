@@ -51,7 +51,7 @@ void ranges_table_head(FILE *to, const parameter_ranges *r)
         paragraph_say(to, fprintf(to, "  omitted: "), 4, "%s", r->left_out);
 }
 
-/* Writes a percentage, without rounding 99.96 % to 100 %. */
+/* Writes a percentage. 99.96 % is not rounded to 100 %. */
 static void write_share(FILE *to, long part, long all)
 {
     if (part == all)
@@ -92,14 +92,14 @@ static void write_line(FILE *to, const tally *t, int which, int q)
         const int cell = which * r->meshes + mesh;
         const double cost = t->cost[cell] / (double)(t->ran[cell] > 0 ? t->ran[cell] : 1);
         fprintf(to, "   n = %-6d", s->everywhere);
-        if (isfinite(cost)) /* with finite differences or another process, the counted work has
-                               no cost */
+        if (isfinite(cost)) /* the counted work has no cost if it includes finite differences or
+                               another process */
             fprintf(to, " %.2g ms", 1e3 * cost);
     }
     fprintf(to, s->asked < t->points ? ", %ld points\n" : "\n", s->asked);
 }
 
-/* Prints one quantity, with a line for each formulation. */
+/* Prints the shares for a quantity, with a line for each formulation. */
 static void write_shares(FILE *to, const tally *t, int q)
 {
     const parameter_ranges *r = t->of;
@@ -115,7 +115,7 @@ static void write_shares(FILE *to, const tally *t, int q)
         write_line(to, t, i, q);
 }
 
-/* Prints the number of elements with which a formulation is within the tolerance at all points. */
+/* Prints the number of elements for which a formulation is within the tolerance at all points. */
 static void write_least(FILE *to, const tally *t, int which, int q, int width)
 {
     const tally_series *s = tally_of(t, which, q);
@@ -131,7 +131,7 @@ static void write_least(FILE *to, const tally *t, int which, int q, int width)
         fprintf(to, "%*d", width, s->everywhere);
 }
 
-/* Prints formulations side by side, a few at a time. */
+/* Prints a few formulations per line. */
 static void write_leasts(FILE *to, const tally *t)
 {
     enum { BESIDE = 3, WIDTH = 24 };
@@ -177,7 +177,7 @@ static void write_all_shares(FILE *to, const tally *t, int every)
     }
 }
 
-/* Prints the physics that formulations omit, if they then solve another model. */
+/* Prints the physics that formulations omit and that lead to another model. */
 static void write_others(FILE *to, const tally *t)
 {
     for (int i = 0; i < t->of->formulations; i++) {
@@ -205,7 +205,7 @@ static void write_failures(FILE *to, const tally *t)
     }
 }
 
-/* Writes the values on the axes of the point with few digits. */
+/* Writes the values on the axes of a point with few digits. */
 static void short_point(const parameter_ranges *r, const double at[], char *text, int size)
 {
     int used = 0;

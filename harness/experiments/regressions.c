@@ -6,15 +6,15 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Allowed increase of an error. On different processors, the kernels of LAPACK change errors
- * near rounding in some series by up to 1.2 %. */
+/* Allowed increase of an error. The kernels of LAPACK for different processors change small errors
+ * of some series by up to 1.2 %. */
 static const double LARGER = 0.02;
 
-/* Allowed relative change of a limit that no reference value checks as closely. With 1e-5, a
- * fault of 1e-3 is detected wherever a limit changes by a hundredth of the fault. */
+/* Allowed relative change of a limit, unless a reference value checks the limit as closely. With
+ * 1e-5, a fault of 1e-3 is detected if a limit changes by a hundredth of the fault. */
 static const double MOVED = 1e-5;
 
-/* Reads back the run as it will be stored, so both sides are treated in the same way. */
+/* Writes the run to a file and reads the file, so both runs are treated in the same way. */
 static status read_back(const sweep *s, const judgement *j, stored_results *out, fault *f)
 {
     const char *folder = getenv("TMPDIR");
@@ -87,7 +87,8 @@ static status compare(const stored_results *former, const char *name, const stor
     return outcome;
 }
 
-/* Returns the limit of a quantity of a series at its default point in the former run, or NULL. */
+/* Returns the limit of a quantity of a series at the default point of the former run; NULL: none.
+ * */
 static const result_limit *limit_of_former(const stored_results *former, const sweep *s,
                                            const verdict *v)
 {
@@ -104,8 +105,8 @@ static const result_limit *limit_of_former(const stored_results *former, const s
     return NULL;
 }
 
-/* Returns 1 when a reference value checks the limit as closely. It does not if it is an
- * estimate, if the limit has a larger uncertainty, or if a known deviation allows the limit to
+/* Returns 1 if a reference value checks the limit as closely. Returns 0 if the reference value is
+ * an estimate, if the limit has a larger uncertainty, or if a known deviation allows the limit to
  * differ. */
 static int is_judged_closely(const verdict *v, double slack)
 {

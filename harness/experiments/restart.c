@@ -8,10 +8,10 @@
 #include "cases/scene/scene.h"
 
 /* Writes the scene as the text of a scene file, which the caller frees. REFUSED: a scene file
- * cannot express it. */
+ * cannot express the scene. */
 static status restart_text(const scene *, char **out, fault *);
-/* REFUSED: the scene differs from the stored text; the message gives the first line that
- * differs. */
+/* Compares the scene with the stored text. REFUSED: they differ; the message gives the first
+ * different line. */
 static status restart_text_check(const char *former, const scene *, fault *);
 
 status restart_possible(const scene *s, fault *f)
@@ -53,7 +53,7 @@ static status check_chosen(const restart *r, const solution_request *of, fault *
     return STATUS_OK;
 }
 
-/* Removes stations at past instants. */
+/* Removes the stations before the stored state. */
 static status drop_stations(const outcome_end *e, scene *s, fault *f)
 {
     const double same_instant = 1e-9;
@@ -90,7 +90,7 @@ status restart_begin(const restart *r, solution_request *of, scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* The file of a restart: `scene` and `formulation` as text, `run` (elements, keep_all, ends), and
+/* Contents of the file: `scene` and `formulation` as text, `run` (elements, keep_all, ends), and
  * for each end its `numbers` and, in `value_K`, the settings of the motion. */
 
 static const char kind[] = "beamwork-motion-end-4";
@@ -198,9 +198,9 @@ typedef struct source {
     const char *path;
 } source;
 
-/* Returns the contents of a data set of rank 1, followed by a zero; NULL: the data set does not
- * exist or has another form. *count: number of values; a negative number on entry accepts any
- * number. */
+/* Returns the contents of a one-dimensional data set, followed by a zero; NULL: the data set does
+ * not exist or has another form. *count: required number of values on entry (negative: any number),
+ * number of values on return. */
 static void *take(const source *from, const char *name, hid_t type, size_t size, long *count)
 {
     const hid_t set =
@@ -308,7 +308,7 @@ status restart_read(const char *path, restart *out, fault *f)
     return outcome;
 }
 
-/* Replaces the stations of all motions by the same single station. */
+/* Replaces the stations of all motions by one common station. */
 static void equal_stations(scene *plain, double *zero)
 {
     for (int i = 0; i < plain->analyses; i++)
@@ -341,14 +341,15 @@ static status restart_text(const scene *s, char **out, fault *f)
                      "express this scene: remove --save-state and --restart");
 }
 
-/* Returns the length of the line without leading spaces, which are skipped. */
+/* Skips leading spaces and returns the length of the line. */
 static int line_of(const char **text)
 {
     *text += strspn(*text, " ");
     return (int)strcspn(*text, "\n");
 }
 
-/* Length of the common text before a difference, and of the text that is reported of each line. */
+/* Length of the common text that is reported before a difference, and length of the text that is
+ * reported from each line. */
 enum { BEFORE = 30, TOLD = 70 };
 static int told(int length)
 {

@@ -28,7 +28,7 @@ status shard_parse(const char *text, int *index, int *count, fault *f)
 
 typedef struct shard_hand {
     pid_t process;
-    int from; /* -1: no process is running */
+    int from; /* end of the pipe that is read; -1: no process is running */
 } shard_hand;
 
 typedef struct crew {
@@ -64,7 +64,7 @@ static status hire(crew *c, int self, fault *f)
     return STATUS_OK;
 }
 
-/* Waits for the end of a process, or ends it. Returns its status from waitpid. */
+/* Waits for the end of a process, or kills it. Returns its status from waitpid. */
 static int dismiss(crew *c, int self)
 {
     close(c->hand[self].from);
@@ -83,7 +83,7 @@ static void tell_lost(const crew *c, int batch, int how)
                 WIFSIGNALED(how) ? words : "ended before it was done");
 }
 
-/* Deletes the partly written files of a batch. batch -1: there are none. */
+/* Deletes the incomplete files of a batch. batch -1: there are none. */
 static void clean(const crew *c, int batch, int gone)
 {
     char stem[BATCH_STEM], name[BATCH_NAME];
@@ -94,7 +94,7 @@ static void clean(const crew *c, int batch, int gone)
     batch_clean(c->todo.request->into, name, gone);
 }
 
-/* Handles one process that has sent a message or ended. */
+/* Handles a process that has sent a message or has ended. */
 static status attend(crew *c, int self, fault *f)
 {
     labour_notice said;
@@ -146,7 +146,7 @@ static status work_off(crew *c, int asked, fault *f)
     return STATUS_OK;
 }
 
-/* Ends all processes; partly written files are deleted. */
+/* Kills all processes and deletes incomplete files. */
 static void end_all(crew *c)
 {
     for (int i = 0; i < c->jobs; i++)
@@ -181,7 +181,8 @@ static status make_folder(const char *into, fault *f)
                      strerror(errno));
 }
 
-/* Lists the batches of the shard that are not done yet, the most expensive first; mine[batches]. */
+/* Lists the missing batches of the shard, the most expensive first. mine[batches]: 1 for
+ * the batches of the shard. */
 static status make_list(crew *c, char mine[], fault *f)
 {
     const shard_work *w = c->todo.w;

@@ -82,7 +82,8 @@ status solution_plan(const solution_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Stores the changes of values that were found while the mesh was chosen. */
+/* Stores the relative changes that were found while the mesh was chosen. Returns the status of the
+ * solution, or NOT_CONVERGED if the requested error was not reached. */
 static status tell_change(const solution_request *r, const solution_choice *why, solve_result *out,
                           fault *f)
 {
@@ -107,7 +108,7 @@ status solution_run(const solution_request *r, const solution_choice *why, sweep
     request.solve.systems = r->systems;
     request.solve.reduce = r->reduce;
     request.solve.keep_ends = r->keep_ends;
-    /* analyses are also run for shapes, matrices and stored final states */
+    /* analyses are also run if only shapes, matrices or final states are needed */
     request.solve.all_analyses = r->shapes > 0 || r->systems || r->keep_ends;
     request.solve.looks = 1;
     request.solve.restarts = r->restarts;
@@ -129,8 +130,8 @@ static point_reference of_truth(const scene_quantity *q, const truth *t, rows_re
     return (point_reference){kind, t->value, t->uncertainty / scale_of(q, t->value)};
 }
 
-/* Returns 1 when series b solves the same problem as series a. Different shear theories in
- * stability are different problems. */
+/* Returns 1 if the series a and b solve the same problem. Stability problems with different shear
+ * theories are different problems. */
 static int same_physics(const sweep *s, int a, int b)
 {
     const series *one = &s->series[a], *other = &s->series[b];
@@ -200,8 +201,8 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
     return found.doubt <= tolerance / 2 ? found : of_limits(s, series_index, quantity, tolerance);
 }
 
-/* Finds the rows of the request that apply at the point. These are few of many, and the search
- * for every quantity is then short. */
+/* Finds the rows of the request that apply at the point. They are few, so the search for each
+ * quantity is short. */
 static status borrow(const truths *all, const sweep_point *p, known_truths *out, fault *f)
 {
     out->borrowed = 1;
@@ -225,12 +226,13 @@ static status find_stored(const parameter_ranges *r, const sweep_point *p, known
         return STATUS_OK;
     if (scene_truths_add(q->file, p->parameter, &out->stored, &why) == STATUS_OK)
         return STATUS_OK;
-    truths_free(&out->stored); /* removes reference values whose expressions have no value here */
+    /* removes reference values whose expressions have no value at this point */
+    truths_free(&out->stored);
     out->stored = (truths){0};
     return STATUS_OK;
 }
 
-/* Returns the shear theory that the scene follows for critical loads. */
+/* Returns the shear theory that the scene requires for critical loads. */
 static const char *theory_of(const scene *s, const char *quantity)
 {
     const unsigned both = FEATURE_ENGESSER | FEATURE_HARINGX, needs = features_needed(s) & both;
@@ -290,7 +292,7 @@ static status derive(const parameter_ranges *r, const sweep_point *p, known_trut
     fault why;
     parameters_source_text(p->type, p->parameter, text, sizeof text);
     if (case_omits_nothing(p->type, p->parameter))
-        return STATUS_OK; /* the derived values belong to the model of the original source */
+        return STATUS_OK; /* the derived values are those of the model of the original source */
     const status outcome =
         r->request.file != NULL
             ? ask_scene(r->request.derive, p, &value, &count, &why)
@@ -307,7 +309,7 @@ static status derive(const parameter_ranges *r, const sweep_point *p, known_trut
     return added;
 }
 
-/* Returns 1 when every requested quantity has a reference value of the same model. */
+/* Returns 1 if every requested quantity has a reference value of the same model. */
 static int all_stored(const parameter_ranges *r, const sweep_point *p, const truths *t)
 {
     for (int i = 0; i < r->quantities; i++)

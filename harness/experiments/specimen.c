@@ -58,7 +58,8 @@ unsigned specimen_features(const element_type *t, unsigned without)
     return t->offers & ~(unsigned)(FEATURE_CURVATURE | FEATURE_COUPLED) & ~without;
 }
 
-/* Pseudo-random numbers by splitmix64 (Steele, Lea, Flood, OOPSLA 2014). */
+/* Returns the next pseudo-random number of the generator splitmix64 (Steele, Lea, Flood, OOPSLA
+ * 2014). */
 static double number(unsigned long long *state)
 {
     unsigned long long z = (*state += 0x9e3779b97f4a7c15ULL);
@@ -74,7 +75,7 @@ void specimen_numbers(int count, unsigned seed, double out[])
         out[i] = number(&state);
 }
 
-/* Computes the undeformed state: nodes along the arc of the initial curvature. */
+/* Computes the undeformed state, in which the nodes lie on the arc of the initial curvature. */
 static void at_rest(const specimen *s, node_state x[])
 {
     static const double ahead[3] = {1, 0, 0};
@@ -183,8 +184,8 @@ typedef struct way {
 
 static const char failure[] = "its functions return results";
 
-/* Returns 1 when the element gives results at all. If the code of the formulation fails, only
- * this failure is reported, because it causes all other deviations. */
+/* Returns 1 if the element gives results. If the code of the formulation fails, only this failure
+ * is reported, because it causes all other deviations. */
 static int gives_answers(const specimen *s, claims *c)
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -226,7 +227,7 @@ static void one_way(const way *w, claims *c, specimens_check *check)
     specimen_free(&s);
 }
 
-/* Checks test elements with every section that the type supports, straight and curved. */
+/* Checks straight and curved test elements with every section that the type supports. */
 static void all_forms(const formulation *chosen, claims *c, specimens_check *check)
 {
     const element_type *t = chosen->type;
@@ -258,7 +259,7 @@ static void all_forms(const formulation *chosen, claims *c, specimens_check *che
     }
 }
 
-/* Checks each choice of an option, with the other options unchanged. */
+/* Checks each choice of an option. The other options are unchanged. */
 static void other_choices(const formulation *chosen, int option, claims *c, specimens_check *check)
 {
     const assignment_list list = formulation_options(chosen->type);
@@ -284,7 +285,7 @@ void specimens_each(const formulation *chosen, claims *c, specimens_check *check
         other_choices(chosen, i, c, check);
 }
 
-/* Test elements for types that are defined by forces or an energy of their nodes. */
+/* Test elements for types that define forces or an energy of their nodes. */
 
 enum { N = SPECIMEN_COORDINATES };
 
@@ -314,7 +315,8 @@ static int force_at(const void *context, int i, double si, int j, double sj, dou
     return (int)call(at->s, x, &(force_output){.F = values});
 }
 
-/* Computes forces times the units of their coordinates [J]. Returns the largest magnitude. */
+/* Multiplies the forces by the units of their coordinates [J]. Returns the largest absolute value.
+ * */
 static double works(const specimen *s, const double F[], double out[])
 {
     double largest = 0;
@@ -342,7 +344,7 @@ static void check_force(const specimen_place *at, const double F[], claim *one)
     }
 }
 
-/* Checks only the symmetric part of K, which is that of the exponential chart. */
+/* Checks the symmetric part of K, which corresponds to the exponential chart. */
 static void check_stiffness(const specimen_place *at, const double K[], claim *one)
 {
     const specimen *s = at->s;

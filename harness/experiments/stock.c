@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Returns 1 when processor and BLAS are the same. Hosts may differ. */
+/* Returns 1 if processor and BLAS library are the same. Host names may differ. */
 static int node_same_kind(const machine *, const machine *);
 
 static status path_of(const char *folder, const char *name, char out[PATH_MAX], fault *f)
@@ -39,7 +39,7 @@ static status add_kind(stock *s, const machine *of, fault *f)
     return STATUS_OK;
 }
 
-/* Compares the label of another file of a batch with that of the first file, which is read
+/* Compares the label of another file of a batch with the label of the first file, which is read
  * again. */
 static status hold_against(stock *s, const batch_label *label, const char *path, fault *f)
 {
@@ -94,7 +94,7 @@ static status look_inside(stock *s, const shard_work *w, const char *path, int b
     return outcome;
 }
 
-/* Returns REFUSED; the message names the other work to which a batch belongs. */
+/* Returns REFUSED. The message names the other work to which a batch belongs. */
 static status refuse_other(const shard_work *w, const char *path, fault *f)
 {
     batch_label label;
@@ -165,7 +165,7 @@ void stock_free(stock *s)
     *s = (stock){.batches = 0};
 }
 
-/* Writes the ranges of missing batches; a long list ends with dots. */
+/* Writes the ranges of missing batches. A long list ends with dots. */
 static void write_ranges(FILE *to, const stock *s)
 {
     enum { MOST = 20 };
@@ -187,8 +187,8 @@ static void write_ranges(FILE *to, const stock *s)
     }
 }
 
-/* Writes the shards to which missing batches belong, if all plans have the same number of
- * shards. */
+/* Writes the shards to which missing batches belong, if all labels give the same number of shards.
+ * */
 static void write_shards(FILE *to, const stock *s, const shard_work *w)
 {
     int *shard = malloc(((size_t)s->batches + 1) * sizeof *shard);
@@ -291,8 +291,8 @@ void deal_order(int batches, const double cost[], int order[])
     qsort_r(order, (size_t)batches, sizeof *order, dearest, (void *)cost);
 }
 
-/* Work of a shard so far. In a heap of these, the one with the lowest cost is at the top; if
- * costs are equal, the one with the lowest number. */
+/* Work of a shard so far. In a heap, the shard with the lowest cost is at the top. If costs are
+ * equal, the shard with the lowest number is at the top. */
 typedef struct hand {
     double sum;
     int shard;
@@ -303,7 +303,7 @@ static int is_before(const hand *a, const hand *b)
     return a->sum < b->sum || (a->sum == b->sum && a->shard < b->shard);
 }
 
-/* Restores the heap after its top has changed. */
+/* Restores the heap order after the top entry has changed. */
 static void sift(hand heap[], int count)
 {
     const hand moved = heap[0];
@@ -365,7 +365,8 @@ status merge_take(const shard_work *w, const stock *s, fault *f)
     return STATUS_OK;
 }
 
-/* Calls a function without arguments that returns a string, if the library has such a function. */
+/* Calls a function of the library that has no arguments and returns a string. Returns NULL if the
+ * library does not have this function. */
 static const char *answer_of(const char *name)
 {
     char *(*function)(void);
@@ -376,8 +377,8 @@ static const char *answer_of(const char *name)
     return function();
 }
 
-/* Finds the name of the BLAS library. OpenBLAS has a function for this; for other libraries the
- * name of the file is used. */
+/* Finds the name of the BLAS library. OpenBLAS has a function for this purpose. Other libraries are
+ * identified by their file names. */
 static void name_blas(char *out, size_t size)
 {
     const char *config = answer_of("openblas_get_config"),

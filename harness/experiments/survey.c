@@ -9,15 +9,14 @@
 
 enum { LOOKED_AT = 9 };
 
-/* Series and quantities that are selected. */
 typedef struct survey_wanted {
     const char *select;
     select_words words;
-    char formulation[RANGES_FORMULATIONS]; /* 1: the selection includes at least one of its
-                                              quantities */
+    /* [formulations] 1: the selection includes at least one quantity of the formulation */
+    char formulation[RANGES_FORMULATIONS];
     char runs[RANGES_FORMULATIONS];
-    const char *missing[RANGES_FORMULATIONS]; /* reason why the formulation does not run, at the
-                                                 first point where it does not */
+    /* reason why the formulation does not run, at the first point where this happens */
+    const char *missing[RANGES_FORMULATIONS];
 } survey_wanted;
 
 static status add_point(const parameter_ranges *r, long index, sweep *s, fault *f)
@@ -44,7 +43,7 @@ static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *
     return STATUS_OK;
 }
 
-/* Records the selected quantities of one series, and whether the series runs. */
+/* Records the selected quantities of a series, and records if the series runs. */
 static status look_at(parameter_ranges *r, const sweep *s, int index, survey_wanted *w, fault *f)
 {
     const series *one = &s->series[index];
@@ -87,7 +86,7 @@ static status check_words(const survey_wanted *w, const sweep_point *p, fault *f
                      word, near);
 }
 
-/* REFUSED: a named formulation cannot run. If none is named, those that cannot run are omitted. */
+/* Removes formulations that cannot run. REFUSED: the user named a formulation that cannot run. */
 static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f)
 {
     int kept = 0, told = 0;
@@ -148,7 +147,7 @@ static status judge(parameter_ranges *r, const sweep *s, fault *f)
     return keep_running(r, &w, f);
 }
 
-/* Includes all formulations, before it is known which of them run. */
+/* Includes all formulations. Formulations that do not run are removed later. */
 static void take_formulations(parameter_ranges *r)
 {
     const ranges_request *q = &r->request;
@@ -160,11 +159,11 @@ static void take_formulations(parameter_ranges *r)
             formulation_default(formulations_at(i), &r->formulation[r->formulations++]);
 }
 
-/* [s] for a point in addition to its cells: for its scene; for computing a reference value for a
- * case; for a scene */
+/* estimated times [s] for a point in addition to its cells: building the scene; deriving a
+ * reference value for a case; deriving a reference value for a scene */
 static const double scene_cost = 5e-5, derive_cost = 0.5, derive_scene_cost = 4;
 
-/* Returns the estimated cost of all cells [s]. */
+/* Returns the estimated cost [s] of all cells. */
 static double cost_of(const sweep *s)
 {
     double all = scene_cost * s->points;
@@ -197,7 +196,7 @@ status survey(parameter_ranges *r, fault *f)
     return outcome;
 }
 
-/* Rounds to 15 decimal digits, as in tables of reference values. */
+/* Rounds a value to 15 decimal digits, as in the tables of reference values. */
 static double to_15_digits(double value)
 {
     char text[32];
@@ -232,8 +231,8 @@ static scene_edit edit_of(const extreme *e, double x)
     return (scene_edit){SCENE_EDIT_NONE, 0};
 }
 
-/* Returns 1 when the selection includes the formulation. In any case it records the words of the
- * selection that match. */
+/* Returns 1 if the selection includes the formulation. Always records the words of the selection
+ * that match. */
 static int is_selected(const extreme_request *request, const extreme *e, const formulation *chosen,
                        select_words *words)
 {
@@ -271,7 +270,7 @@ static int quantity_index(const scene *s, const char *name)
     return -1;
 }
 
-/* Adds one outcome for every quantity of the last planned series. */
+/* Adds an outcome for every quantity of the last planned series. */
 static status add_outcomes(extreme_sweep *out, int extreme_index, int value, int formulation_index,
                            fault *f)
 {

@@ -9,7 +9,7 @@ static int least_of(long a, long b)
     return (int)(a < b ? a : b);
 }
 
-/* Returns the number of places of an axis in the map, at most `most`. */
+/* Returns the number of fields along an axis of the map, at most `most`. */
 static int places_of(const parameter_ranges *r, int index, int most)
 {
     if (index >= r->design.axes)
@@ -17,7 +17,7 @@ static int places_of(const parameter_ranges *r, int index, int most)
     const sweep_axis *a = &r->axis[index];
     if (a->count > 0)
         return least_of(a->count, most);
-    /* so that each field contains a few points */
+    /* each field then contains a few points */
     const double fields =
         r->design.axes > 1 ? sqrt((double)r->design.points / 4) : (double)r->design.points / 2;
     return least_of((long)fmax(1, fields), most);
@@ -77,7 +77,7 @@ double tally_edge(const tally *t, int axis_index, int place)
     return axis_at(a, (double)place / places);
 }
 
-/* Returns the position of a value in the map. */
+/* Returns the index of the field that contains a value of an axis. */
 static int place_of(const tally *t, int axis_index, double value)
 {
     const int places = axis_index == 0 ? t->columns : t->lines;
@@ -105,13 +105,13 @@ typedef struct seen {
     int asked;  /* 1: the point has a reference */
     int proven; /* 1: the reference is a stored or computed reference value */
     int open;   /* 1: there is a value without a reference */
-    int other;  /* 1: the value belongs to another model */
-    int least;  /* number of elements of the coarsest sufficient mesh; 0: none */
+    int other;  /* 1: the formulation solves another model */
+    int least;  /* number of elements of the coarsest mesh within the tolerance; 0: none */
     char within[SERIES_MAX_MESHES];
 } seen;
 
-/* Examines one formulation and quantity. A value without an error has no reference, for example
- * because it belongs to another theory. */
+/* Examines a formulation and a quantity. A value without an error has no reference, for example
+ * because the value belongs to another theory. */
 static seen look_at(const tally *t, const rows *w, int here, int which, int quantity)
 {
     const int kind = w->kind[rows_quantity(w, here, quantity)];
@@ -171,7 +171,7 @@ static void join(const tally *t, seen *all, const seen *one)
         all->least = one->least;
 }
 
-/* Completes the counts: points that are undecided may be within the tolerance or not. */
+/* Completes the counts. Undecided points may or may not be within the tolerance. */
 static void close_counts(seen *all)
 {
     if (!all->open)
@@ -181,7 +181,7 @@ static void close_counts(seen *all)
     memset(all->within, 0, sizeof all->within);
 }
 
-/* Returns 1 when a is worse than b. A missing value is worse than any error. */
+/* Returns 1 if a is worse than b. A missing value is worse than any error. */
 static int is_worse(const tally_worst *a, const tally_worst *b)
 {
     if (isnan(a->error) || isnan(b->error))
@@ -203,8 +203,8 @@ static void keep_worst(tally *t, int which, const tally_worst *one)
     list[at] = *one;
 }
 
-/* Finds the worst result at the point on the finest mesh: no solution, or the largest error of
- * all quantities. */
+/* Finds the worst result at the point on the finest mesh: a cell without a solution, or the largest
+ * error of all quantities. */
 static void look_for_worst(tally *t, const rows *w, int here, long index, int which)
 {
     const int finest = t->of->meshes - 1;
@@ -296,7 +296,8 @@ status tally_add(tally *t, long first, const rows *w, fault *f)
     return outcome;
 }
 
-/* Divides the block into columns, the widest numbers first. Returns its size [bytes]. */
+/* Divides the block into columns, the widest numbers first. Returns the size of the block [bytes].
+ * */
 static size_t lay_out(rows *r)
 {
     const size_t points = (size_t)r->points, f = (size_t)r->shape.formulations,

@@ -8,7 +8,7 @@
 #include "harness/numerics/numerics.h"
 #include "harness/terminal/terminal.h"
 
-/* State of an evaluation of series as they arrive. */
+/* State of the evaluation of a run. */
 typedef struct judging {
     truths *truths;
     judgement *judgement;
@@ -27,7 +27,7 @@ static const case_type *case_of(const sweep *s, int series_index)
     return s->point[s->series[series_index].point].type;
 }
 
-/* Reports that a case is complete if this series is its last one. */
+/* Reports that a case is complete if this is its last series. */
 static void hand_over(judging *v, const sweep *s, int series_index)
 {
     const case_type *type = case_of(s, series_index);
@@ -39,7 +39,7 @@ static void hand_over(judging *v, const sweep *s, int series_index)
     v->reader->judged(v->reader->context, type);
 }
 
-/* Evaluates the series before index `end`, whose points are all complete. */
+/* Evaluates the series before index `end`. All points of these series must be complete. */
 static status judge_to(judging *v, const sweep *s, int end, fault *f)
 {
     int of = -1;
@@ -53,14 +53,14 @@ static status judge_to(judging *v, const sweep *s, int end, fault *f)
     return STATUS_OK;
 }
 
-/* Evaluates the series of a point together, since the agreement of formulations depends on all
- * of them. */
+/* Evaluates the series of a point together, because agreements depend on all of them. */
 static status whole(void *context, const sweep *s, int series_index, fault *f)
 {
     judging *v = context;
     const int here = s->series[series_index].point;
     if (v->judged < series_index && s->series[v->judged].point != here)
-        TRY(judge_to(v, s, series_index, f)); /* the rest of the previous point is not run */
+        /* the remaining series of the previous point are not run */
+        TRY(judge_to(v, s, series_index, f));
     if (series_index + 1 < s->seriess && s->series[series_index + 1].point == here)
         return STATUS_OK;
     TRY(judge_to(v, s, series_index + 1, f));
@@ -70,7 +70,7 @@ static status whole(void *context, const sweep *s, int series_index, fault *f)
 
 enum { MOST_OWN = 64 };
 
-/* Finds the formulations that were named or loaded, each once. */
+/* Lists the formulations that were named or loaded, without repetition. */
 static int find_own(const sweep *s, formulation out[MOST_OWN])
 {
     int count = 0;
@@ -97,8 +97,8 @@ static status add_breach(const certificate *c, judgement *out, fault *f)
     return memory_append(&out->breach, &out->breaches, &one, sizeof one, "broken contracts", f);
 }
 
-/* Checks these formulations against the interface requirements before anything is run. The
- * results of a formulation that violates them are meaningless. */
+/* Checks the named and loaded formulations against the interface requirements before any cell is
+ * run. The results of a formulation that violates them are meaningless. */
 static status hold_contracts(const sweep *s, int jobs, int time_limit, judgement *out, fault *f)
 {
     formulation own[MOST_OWN];
@@ -125,8 +125,7 @@ static status begin(judging *v, const sweep *s, int jobs, int time_limit, fault 
     return hold_contracts(s, jobs, time_limit, v->judgement, f);
 }
 
-/* Evaluates the remaining series, which belong to a point that an interrupted run did not
- * finish. */
+/* Evaluates the remaining series of a point that an interrupted run did not complete. */
 static status end(judging *v, const sweep *s, int everything, fault *f)
 {
     TRY(judge_to(v, s, s->seriess, f));
@@ -186,7 +185,7 @@ static void files_case(void *files, const case_type *type)
         json_part_add(&to->part, to->sweep, to->judged);
 }
 
-/* Computes the path of an output file; for an interrupted run the name says so. */
+/* Determines the path of an output file. The name says so if the run was interrupted. */
 static status name_place(const verification_files *files, const char *path, char out[PATH_MAX],
                          fault *f)
 {
@@ -247,7 +246,7 @@ static status write_texts(verification_files *to, const overview *o, const envir
     return to->propose != NULL ? write_proposal(to, f) : STATUS_OK;
 }
 
-/* Writes the store, and closes it even after a failure. */
+/* Completes and closes the store. The store is closed even after a failure. */
 static status write_store(verification_files *to, const environment *e, fault *f)
 {
     char where[PATH_MAX];
@@ -279,7 +278,7 @@ static void files_drop(verification_files *to)
     to->open = 0;
 }
 
-/* Adds other programs to the comparison; reports series that match no point of this run. */
+/* Adds other programs to the comparison, and reports series that match no point of this run. */
 static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
 {
     import_left left;
@@ -302,7 +301,7 @@ static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 when there is a verdict on another program that affects the exit status. */
+/* Returns 1 if a verdict on another program affects the exit status. */
 static int imported_was_judged(const sweep *s, const judgement *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
@@ -351,14 +350,13 @@ static status judge(const void *asked, void *found, fault *f)
     return overview_make(&v->sweep, &v->judgement, &v->overview, f);
 }
 
-/* Returns 1 when all limits are shown: with --verbose, or if cases or formulations were
- * selected. */
+/* Returns 1 if all limits are shown: with --verbose, or if cases or formulations were selected. */
 static int shows_limits(const verification *v)
 {
     return v->asked->verbose || v->asked->cells.select != NULL || v->overview.rows == 1;
 }
 
-/* Prints one screen: the matrix, the counts, unexpected results, and the conclusion. */
+/* Prints the matrix, the counts, unexpected results and the conclusion. They fit on one screen. */
 static void print(FILE *to, const verification *v)
 {
     const screen look = screen_of(to);

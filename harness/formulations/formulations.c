@@ -57,7 +57,7 @@ void formulations_accept(const char *name)
         accepted[count] = t;
 }
 
-/* Returns 1 when the word is reserved and cannot be the name of a formulation. */
+/* Returns 1 if the word is reserved and cannot be the name of a formulation. */
 static int is_reserved(const char *name)
 {
     static const char *const words[] = {"all", "cases", "formulations"};
@@ -255,7 +255,7 @@ static int next_is(scanner *s, const char *word)
 
 static int expression_holds(scanner *s);
 
-/* Returns 1 when the word matches. It may occur anywhere in the text; "=NAME" must be one of the
+/* Returns 1 if the word matches. It may occur anywhere in the text; "=NAME" must be one of the
  * parts between slashes. */
 static int is_called(const char *text, const char *word)
 {

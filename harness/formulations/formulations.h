@@ -56,7 +56,7 @@ status assignment_parse(const assignment_list *, const char *text, double value[
  * order of the tables. */
 void assignment_text(const assignment_list *, const double value[], char *text, int size);
 
-/* Reads a number of any size, or the name of a choice as its index. Returns 0 when the text is
+/* Reads a number of any size, or the name of a choice as its index. Returns 0 if the text is
  * neither. */
 int assignment_value(const parameter_type *, const char *text, double *value);
 /* Writes the shortest text that gives the same value when read, or the name of the choice. */
@@ -124,7 +124,7 @@ status formulation_parse(const char *text, formulation *out, fault *f);
 /* Finds the type for "name" or "name:key=value,...". Returns NULL when there is none. */
 const element_type *formulation_find(const char *key);
 void formulation_default(const element_type *type, formulation *out);
-/* Builds the default formulation with choice `choice` of option `index`. Returns 0 when there is no
+/* Builds the default formulation with choice `choice` of option `index`. Returns 0 if there is no
  * such choice, or when it is the default. */
 int formulation_choice(const element_type *type, int index, int choice, formulation *out);
 /* Returns the features that are affected by the options with non-default values
@@ -145,7 +145,7 @@ enum { FORMULATIONS_MOST_LOADED = 16 };
 const element_type *formulations_at(int i);
 /* Returns the element type of this name, or NULL. */
 const element_type *formulations_named(const char *name, size_t length);
-/* Returns 1 when the type was loaded at run time. */
+/* Returns 1 if the type was loaded at run time. */
 int formulations_is_loaded(const element_type *t);
 /* Returns 1 for a formulation that the project has not accepted: it was loaded at run time, or
  * formulations_accept has accepted others but not this one. The verdicts on such a formulation
@@ -163,7 +163,7 @@ const char *formulations_element(const element_type *t);
 
 enum { PROCESS_MOST = 16 };
 
-/* Returns 1 when another process computes this type. */
+/* Returns 1 if another process computes this type. */
 int process_serves(const element_type *);
 /* Sets the time limit of an answer [s], initially 120; 0: no limit. */
 void process_limit(int seconds);
@@ -226,8 +226,8 @@ enum { SELECT_WORDS = 256, SELECT_WORD = 128, SELECT_DEPTH = 64 };
  * and brackets. A word matches anywhere in the text; =NAME matches a whole part between slashes.
  * Returns 1 or 0; -1: the expression is malformed. */
 int select_matches(const char *expression, const char *text);
-/* Returns 1 when the expression is true for every text that contains `part`, and for expression
- * NULL; 0 for an expression with `not`. */
+/* Returns 1 if the expression is true for every text that contains `part`, and for expression NULL;
+ * 0 for an expression with `not`. */
 int select_covers(const char *expression, const char *part);
 
 /* Records which words of an expression have matched a name, so a misspelt word is reported. */
@@ -239,7 +239,7 @@ typedef struct select_words {
  * no run has them. REFUSED: the expression is malformed. */
 status select_begin(const char *expression, select_words *, fault *);
 void select_meet(const char *expression, const char *text, select_words *);
-/* Finds the first word that matched no name. Returns 0 when all words did. */
+/* Finds the first word that matched no name. Returns 0 if all words did. */
 int select_unmet(const char *expression, const select_words *, char word[SELECT_WORD]);
 /* REFUSED: a word matched no name; the message names the first such word and the nearest name. */
 status select_all_met(const char *expression, const select_words *, fault *);

@@ -86,7 +86,7 @@ status channel_init(channel *, const char *command, fault *);
 /* Starts the process, again if it has ended, and reads its first line: line[HANDSHAKE_MOST + 1],
  * ended by '\0'. REFUSED: the process writes no line. */
 status channel_start(channel *, char line[], fault *);
-/* Returns 1 when the child was started by this process and is running. */
+/* Returns 1 if the child was started by this process and is running. */
 int channel_runs(const channel *);
 /* channel_begin empties the body of the next request. channel_add adds `count` bytes to it and
  * returns their address; NULL: out of memory. */

@@ -221,7 +221,7 @@ void assignment_text(const assignment_list *l, const double value[], char *text,
     }
 }
 
-/* Returns 1 when the program has added the parameter, so the original source of the case does not
+/* Returns 1 if the program has added the parameter, so the original source of the case does not
  * have it. */
 static int is_shared(const parameter_type *p)
 {

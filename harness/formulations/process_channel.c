@@ -103,7 +103,7 @@ static status child_start(char *const words[], child *out, fault *f)
                      strerror(number));
 }
 
-/* Returns 1 when the child is still running. */
+/* Returns 1 if the child is still running. */
 static int child_runs(const child *c)
 {
     siginfo_t how = {.si_pid = 0};
@@ -341,7 +341,7 @@ int channel_runs(const channel *c)
     return child_runs(&c->process);
 }
 
-/* Enlarges the buffer to at least `count` bytes in total. Returns 0 when out of memory. */
+/* Enlarges the buffer to at least `count` bytes in total. Returns 0 if out of memory. */
 static int make_room(channel_bytes *b, size_t count)
 {
     if (count <= b->room)

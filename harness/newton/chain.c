@@ -46,7 +46,7 @@ void chain_begin(chain *s)
         s->A[i * s->c + i] = 1;
 }
 
-/* Returns 1 when a bound shows that all eigenvalues of 1 + F B are positive. For positive F the
+/* Returns 1 if a bound shows that all eigenvalues of 1 + F B are positive. For positive F the
  * eigenvalues of F B are real and bounded by the row sums of F B, scaled with the diagonal of F. */
 static int small_product(int n, const double F[], const double W[])
 {

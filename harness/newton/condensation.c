@@ -11,8 +11,8 @@ static int condensation_number(condensation *s, int count, const int released[])
 /* Builds the patterns of both matrices. */
 static status condensation_patterns(condensation *s, int ends, fault *f);
 
-/* Returns 1 when loads have a stiffness only at the ends of members, and all nodes in between
- * are free. */
+/* Returns 1 if loads have a stiffness only at the ends of members, and all nodes in between are
+ * free. */
 static int applies(const equations *eq, int from)
 {
     const model *m = eq->m;

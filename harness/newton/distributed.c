@@ -79,7 +79,7 @@ static void load_at(const distributed_loads *of, const scene_load *load, double 
 
 enum { MOST = FIELD_MOST_POINTS };
 
-/* Returns 1 when a load along an element is constant. one: its value at one point. */
+/* Returns 1 if a load along an element is constant. one: its value at one point. */
 static int same(const distributed_loads *of, const scene_load *load, const field_load *one)
 {
     return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&

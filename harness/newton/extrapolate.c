@@ -106,7 +106,7 @@ static void lagrange(int count, const model_state *const at[], double path, doub
     }
 }
 
-/* Returns 1 when the next value of a prescribed function, value[count], agrees with its
+/* Returns 1 if the next value of a prescribed function, value[count], agrees with its
  * extrapolation. */
 static int continues(int count, const double weight[], const double value[])
 {
@@ -185,7 +185,7 @@ static void extrapolate_rotation(const model *m, int vertex, int count, const do
     rotation_normalise(&out->q[4 * vertex]);
 }
 
-/* Returns 1 when the vertex has an orientation that is not given by angles. */
+/* Returns 1 if the vertex has an orientation that is not given by angles. */
 static int turns_by_itself(const model *m, int vertex)
 {
     const mesh_release *r = release_of(m, vertex);

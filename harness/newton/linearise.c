@@ -249,7 +249,7 @@ static void add_discrete(const equations *eq, const model_state *s, model_linear
     }
 }
 
-/* Adds the content of a slot. Returns 0 when an element cannot be evaluated. */
+/* Adds the content of a slot. Returns 0 if an element cannot be evaluated. */
 static int take_piece(void *context, int piece, int slot)
 {
     shared_loop *loop = context;

@@ -335,7 +335,7 @@ static void name_what_moves(const linkage *l, int *node, int *member, double mot
     }
 }
 
-/* Assembles S of all parts. Returns 1 when some motion is not prevented. */
+/* Assembles S of all parts. Returns 1 if some motion is not prevented. */
 static int is_loose(linkage *l)
 {
     const int n = N * l->count;

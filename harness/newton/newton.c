@@ -88,8 +88,8 @@ void newton_free(newton_run *n)
     kinematics_state_free(n->backup);
 }
 
-/* Returns 1 when the effect of a driver on its coordinate exceeds the round-off of all its
- * effects. */
+/* Returns 1 if the effect of a driver on its coordinate exceeds the round-off of all its effects.
+ * */
 static int drives(const newton_run *n, int count, const model_condition condition[],
                   const double column[])
 {

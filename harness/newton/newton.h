@@ -166,8 +166,8 @@ typedef struct arrival {
  * convergence, so the iteration ends at the first small correction. elements: with many elements
  * rounding of the positions limits the size of corrections. */
 void arrival_start(double criterion, int differences, int elements, arrival *);
-/* Returns 1 when the last change of the state was so small that the tangent of the last
- * linearisation is still exact up to rounding. */
+/* Returns 1 if the last change of the state was so small that the tangent of the last linearisation
+ * is still exact up to rounding. */
 int arrival_tangent_stands(const arrival *);
 
 typedef struct condensation condensation;
@@ -180,8 +180,8 @@ typedef struct mode_shape {
 } mode_shape;
 status modes_identify(const model *, const scene *, const double mode[], mode_shape *, fault *);
 int modes_in_family(const scene_mode *,
-                    const mode_shape *); /* Returns 1 when the mode belongs to the family that the
-                                            quantity requests. */
+                    /* Returns 1 if the mode belongs to the family that the quantity requests. */
+                    const mode_shape *);
 const char *modes_family_name(scene_family);
 /* Sets *kind to flexural, torsional or flexural-torsional: it depends on whether shear centres
  * move across their members and whether sections twist. */
@@ -730,7 +730,7 @@ typedef struct analysis_context {
     const struct analysis_context *const *sides;
 } analysis_context;
 
-/* Returns 1 when the analysis is required by quantities, by other analyses or by the options. */
+/* Returns 1 if the analysis is required by quantities, by other analyses or by the options. */
 int context_runs(const analysis_context *, int analysis);
 /* Returns the context of an analysis, with its loading. In a motion, loads without a function of
  * time keep the value that they have in the initial state. */
@@ -857,7 +857,7 @@ void loads_add_temperature(const equations *, const model_state *, const scene_l
                            double out[]);
 /* out[free + driven]: derivative of the loads with respect to the path parameter in a state. */
 void loads_rate(const equations *, const model_state *, double path, double out[]);
-/* Returns 1 when a load or a known driver is not zero at path parameter 0. */
+/* Returns 1 if a load or a known driver is not zero at path parameter 0. */
 int loads_begin(const equations *);
 
 /* Unknown driver: the prescribed coordinate `unknown` moves so that the free coordinate
@@ -954,7 +954,7 @@ int chunk_next(const model *m, int first, int end, unsigned char done[], int ind
  * one at a node that is fixed about one axis only, whose moment keeps its direction
  * (coordinates_held_turn), else the semitangential one. */
 
-/* Returns 1 when the convention changes the stiffness given by the tangent. One column of the
+/* Returns 1 if the convention changes the stiffness given by the tangent. One column of the
  * compliance then depends on all others. */
 int convention_changes(scene_moments of_tangent, scene_moments convention, const double m[3]);
 
@@ -1010,8 +1010,8 @@ typedef struct identity {
 identity identity_begin(void);
 void identity_add(identity *, const void *bytes, size_t size);
 /* Adds the functions of a model's elements, their data and the eliminated coordinates. If two
- * models of one scene have the same identity, their results are bit-for-bit equal. Returns 0
- * when the identity is unknown, because a formulation in another process may fail. */
+ * models of one scene have the same identity, their results are bit-for-bit equal. Returns 0 if the
+ * identity is unknown, because a formulation in another process may fail. */
 int identity_add_model(identity *, const model *);
 
 /* Resultants of the stresses on the sections of a member.
@@ -1265,7 +1265,7 @@ double quantity_scaled(const scene_quantity *, double value);
 
 /* As quantity_scaled, for the abscissa of its curve. */
 double quantity_abscissa(const scene_quantity *, double x);
-/* Allocates a curve with the given number of points. Returns 0 when out of memory, and records this
+/* Allocates a curve with the given number of points. Returns 0 if out of memory, and records this
  * in the result. */
 int quantity_curve(quantity_result *, int points);
 
@@ -1309,8 +1309,8 @@ status rotating_frame_inertia(const equations *, const model_state *, double pat
 /* Returns x^T B x of the undeformed structure for x[free + driven]: the effect of the mass
  * inside elements on a mode, k = lambda m + lambda^2 b (elements/field/field.h). */
 double rotating_frame_inner(const model *, const double x[]);
-/* Computes B on the pattern of a symmetric K. Returns 0 when B is zero because no element has
- * such a matrix. */
+/* Computes B on the pattern of a symmetric K. Returns 0 if B is zero because no element has such a
+ * matrix. */
 int rotating_frame_inner_matrix(const equations *, sparse *out);
 
 /* Explains why a stiffness matrix cannot be factored. */

@@ -29,11 +29,11 @@ int applied_with_mass(const scene_load *);
  * element. */
 void applied_element(const model *, const model_state *, const scene_load *, double scale,
                      int element, void (*take)(void *context, const applied *), void *context);
-/* Finds the range [from, to] of an element on which a load along its member acts. For a point
- * load both limits are its position; a load between two elements belongs to the second one.
- * Returns 0 when the load acts on other elements only. */
+/* Finds the range [from, to] of an element on which a load along its member acts. For a point load
+ * both limits are its position; a load between two elements belongs to the second one. Returns 0 if
+ * the load acts on other elements only. */
 int applied_part(const model *, int element, const scene_load *, double part[2]);
-/* Returns 1 when x is inside the element, not at an end. */
+/* Returns 1 if x is inside the element, not at an end. */
 int applied_inside(double x);
 /* Vector of a load along the member at x in [0, 1] of an element, in the components of the
  * scene. */
@@ -110,12 +110,12 @@ typedef struct distributed_loads {
     double path;
 } distributed_loads;
 
-/* Returns 1 when the load acts by its work inside elements. Otherwise half of the load is lumped
- * at each end of an element. */
+/* Returns 1 if the load acts by its work inside elements. Otherwise half of the load is lumped at
+ * each end of an element. */
 int distributed_spreads(const equations *, const scene_load *);
 
-/* Returns 1 when the element includes the load in its own equilibrium (element_type.along). This
- * is supported only for dead forces along the whole line of an element, and not in a motion. */
+/* Returns 1 if the element includes the load in its own equilibrium (element_type.along). This is
+ * supported only for dead forces along the whole line of an element, and not in a motion. */
 int distributed_takes(const equations *, int element, const scene_load *);
 /* Sum of the loads that an element includes in its own equilibrium. */
 typedef struct distributed_taken {
@@ -133,9 +133,9 @@ void distributed_add_taken(const model *, const along_output *out, const double 
                            const double gap[], double forces[], double K[]);
 
 /* forces[7 nodes] += forces of a load along a member on one of its elements, times `scale`; K[7
- * nodes x 7 nodes] -= their derivative (K may be NULL). Returns 0 when the load exerts none. If
- * the element includes the load in its own equilibrium, the forces added are their derivative
- * with respect to the load, and K does not change. */
+ * nodes x 7 nodes] -= their derivative (K may be NULL). Returns 0 if the load exerts none. If the
+ * element includes the load in its own equilibrium, the forces added are their derivative with
+ * respect to the load, and K does not change. */
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
 /* As distributed_add_one, for all loads at `path`. For loads in the element's own equilibrium it
@@ -153,7 +153,7 @@ int distributed_stress(const equations *, const model_state *, const node_state 
 int distributed_add_field(const equations *, const node_state x[], int element, double path,
                           double forces[], double K[]);
 
-/* Returns 1 when any load acts along the element. */
+/* Returns 1 if any load acts along the element. */
 int distributed_acts(const distributed_loads *);
 /* Returns the index of a load that starts, ends or acts at a point inside the element;
  * SCENE_NONE: there is none. */
@@ -281,8 +281,8 @@ status refinement_refuse(const solution_refinement *, const char *what, fault *)
 double refinement_part(int n, const double weight[], const double change[], const double x[],
                        double least);
 
-/* Returns 1 when mass is lumped at nodes, as specified by the scene or by a motion that starts
- * from this state. */
+/* Returns 1 if mass is lumped at nodes, as specified by the scene or by a motion that starts from
+ * this state. */
 int rotating_frame_lumps(const equations *);
 
 /* Computes the stiffness of the loads, for example on offsets and of moments. */
@@ -510,10 +510,10 @@ status link_of(const link_element *, chain_link *, fault *);
 
 /* Finds mechanisms: members are the rigid parts of a linkage with joints at released ends. */
 
-/* Returns 1 when released ends make the undeformed structure with its supports a mechanism. Sets
+/* Returns 1 if released ends make the undeformed structure with its supports a mechanism. Sets
  * *node to the node that moves most; if all nodes are at rest, sets *node to -1 and *member to a
- * member that moves. motion: displacement [m] and rotation [rad], with arbitrary scale.
- * Structures of more than 200 parts are not searched. */
+ * member that moves. motion: displacement [m] and rotation [rad], with arbitrary scale. Structures
+ * of more than 200 parts are not searched. */
 int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
 
 /* Small symmetric matrices whose rows may have different units. */

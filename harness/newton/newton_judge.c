@@ -51,7 +51,7 @@ static void arrival_take(double correction, const advance_stress *stress, int fi
     a->remaining = a->contraction * correction * correction;
 }
 
-/* Returns 1 when a further correction would change nothing. */
+/* Returns 1 if a further correction would change nothing. */
 static int arrival_reached(const arrival *a)
 {
     if (a->criterion > 0)
@@ -212,7 +212,7 @@ static status judge_elements(const model *m, const model_state *s, fault *f)
                      model_type(m)->name, quarter ? "quarter" : "half");
 }
 
-/* Returns 1 when this end of a member is free to rotate about both transverse axes. */
+/* Returns 1 if this end of a member is free to rotate about both transverse axes. */
 static int swings(const model *m, const mesh_element *el, int node)
 {
     const mesh_release *r = release_of(m, el->vertex[node]);
@@ -271,8 +271,8 @@ status newton_judge_rest(const model *m, fault *f)
         model_type(m)->name, most, floor(count * sqrt(rise / most)) + 1);
 }
 
-/* Returns 1 when a moment acts normal to the axis of a rotation near a full revolution, where
- * its effect is unbounded. */
+/* Returns 1 if a moment acts normal to the axis of a rotation near a full revolution, where its
+ * effect is unbounded. */
 static int across(const mesh_discrete *d, const double turn[3])
 {
     const double near = 1e-3, size = vec3_norm(turn);

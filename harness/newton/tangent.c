@@ -109,7 +109,7 @@ static status factor_inside(analysis_context *c, node_tangent *t, fault *f)
     return outcome;
 }
 
-/* Returns 1 when the condition number requires refinement. */
+/* Returns 1 if the condition number requires refinement. */
 static int asks_refinement(node_tangent *t)
 {
     const double apart = factor_count(t->factor).condition;
@@ -181,7 +181,7 @@ status tangent_take_condensed(analysis_context *c, const scene_compliance *a, co
     return complete(c, a, s, reaction, t, f);
 }
 
-/* Returns 1 when a coordinate of the node can move, because it is free or released. */
+/* Returns 1 if a coordinate of the node can move, because it is free or released. */
 static int moves(const node_tangent *t, int k)
 {
     return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;

@@ -36,7 +36,7 @@ static status begin(const equations *eq, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 when element i is like the last stored one. Its triads are those of chords between
+/* Returns 1 if element i is like the last stored one. Its triads are those of chords between
  * rounded positions. */
 static int alike(const equations *eq, int i)
 {
@@ -309,7 +309,7 @@ static void *part(char **from, size_t count, size_t size)
     return here;
 }
 
-/* Allocates all arrays in one block. Returns 0 when out of memory. */
+/* Allocates all arrays in one block. Returns 0 if out of memory. */
 static int allocate(const equations *eq)
 {
     const model *m = eq->m;

@@ -181,8 +181,8 @@ static unsigned absent_in_sections(const scene *s)
     return absent;
 }
 
-/* Returns 1 when removing the physics from an element shows its effect. Sections given by
- * matrices cannot be split. */
+/* Returns 1 if removing the physics from an element shows its effect. Sections given by matrices
+ * cannot be split. */
 static int can_be_shown(const scene *s)
 {
     int can = 1;
@@ -268,7 +268,7 @@ static double change_of(const scene *s, const solve_result *with, const solve_re
     return relative(fabs(b->value - a->value), fmax(fabs(a->value), least));
 }
 
-/* Returns 1 when all requested quantities have a value; otherwise `why` gives the reason. */
+/* Returns 1 if all requested quantities have a value; otherwise `why` gives the reason. */
 static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
 {
     if (c->solve.status != STATUS_OK || c->solve.quantities < s->quantities) {
@@ -307,7 +307,7 @@ static double change_on(const scene *s, const element_type *type, int elements, 
     return largest;
 }
 
-/* Returns 1 when two meshes give the same change. Changes below the noise count as rounding. */
+/* Returns 1 if two meshes give the same change. Changes below the noise count as rounding. */
 static int agree(double coarse, double fine)
 {
     const double noise = 1e-9, apart = 2;

@@ -100,7 +100,7 @@ static double physical_scale(const scene *s, const scene_quantity *q)
     }
 }
 
-/* Returns 1 when the value is the time or the number of an event. */
+/* Returns 1 if the value is the time or the number of an event. */
 static int is_of_time(const scene_quantity *q)
 {
     return q->reduction >= SCENE_MAX_TIME && q->reduction <= SCENE_PER_SECOND;
@@ -160,7 +160,7 @@ void change_between(const scene *s, const cell_result *before, const cell_result
         out->largest = INFINITY;
 }
 
-/* Returns 1 when the points of the curve are those of steps, which differ between meshes. */
+/* Returns 1 if the points of the curve are those of steps, which differ between meshes. */
 static int has_own_points(const scene *s, const scene_quantity *q)
 {
     return s->analysis[q->analysis].kind == SCENE_CONTINUATION;

@@ -186,7 +186,7 @@ status derive_scene(const char *path, FILE *scene_text, derived_value **out, int
 #define BEAMWORK_DATA "/usr/local/share/beamwork"
 #endif
 
-/* Returns 1 when the folder contains the data. */
+/* Returns 1 if the folder contains the data. */
 static int is_in(const char *folder, const char *below, const char *name, char path[PATH_MAX])
 {
     const int length = snprintf(path, PATH_MAX, "%s/%s%s", folder, below, name);

@@ -17,8 +17,8 @@ typedef struct families_known_limit {
     double value, uncertainty;
 } families_known_limit;
 
-/* Returns 1 when the formulation is known to have a biased or wrong limit for a feature of the
- * scene. */
+/* Returns 1 if the formulation is known to have a biased or wrong limit for a feature of the scene.
+ * */
 static int is_known_wrong(const truths *t, unsigned features, const char *key)
 {
     for (int i = 0; i < t->rules; i++) {
@@ -30,7 +30,7 @@ static int is_known_wrong(const truths *t, unsigned features, const char *key)
     return 0;
 }
 
-/* Returns 1 when the formulation may take part in the agreement. */
+/* Returns 1 if the formulation may take part in the agreement. */
 static int may_vote(const sweep *s, const series *one, const truths *t)
 {
     const element_type *type = one->formulation.type;
@@ -374,7 +374,7 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
     return STATUS_OK;
 }
 
-/* Returns 1 when agreements may become reference values at this point. */
+/* Returns 1 if agreements may become reference values at this point. */
 static int is_open(const sweep_point *p, int files_only)
 {
     return p->status == STATUS_OK && (!files_only || p->type->file != NULL);

@@ -169,7 +169,7 @@ static int unfinished_step(const solve_result *r, double promised)
     return -1;
 }
 
-/* Returns 1 when the solution consists only of Newton iterations without rejected steps, so each
+/* Returns 1 if the solution consists only of Newton iterations without rejected steps, so each
  * iteration evaluates every element once and factors once. */
 static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
 {

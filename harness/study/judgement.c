@@ -19,8 +19,8 @@ static int missed_rules(const sweep *s, truths *t, int whole);
  * only for a few instants and structures; `make lab L=motions` evaluates all of them. */
 static void missed_truths(const sweep *s, truths *t, judgement *out);
 
-/* Returns 1 when the limit is outside the range that the rule covers. If a limit was derived,
- * the distance from that limit counts. */
+/* Returns 1 if the limit is outside the range that the rule covers. If a limit was derived, the
+ * distance from that limit counts. */
 static int is_beyond(const rule *r, const verdict *v)
 {
     return isfinite(v->departure) && isfinite(r->largest_error) &&
@@ -122,7 +122,7 @@ static status check_units(const sweep *s, const truths *t, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 when an imported series has any value of the quantity. */
+/* Returns 1 if an imported series has any value of the quantity. */
 static int is_imported(const series *one, int quantity)
 {
     for (int i = 0; i < one->meshes; i++)
@@ -131,7 +131,7 @@ static int is_imported(const series *one, int quantity)
     return 0;
 }
 
-/* Returns 1 when the limit is known to be within the tolerance, whatever the verdict. */
+/* Returns 1 if the limit is known to be within the tolerance, whatever the verdict. */
 static int is_within(const verdict *v)
 {
     return v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED ||
@@ -171,7 +171,7 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
              v->kind != VERDICT_SKIP && v->kind != VERDICT_OTHER_MODEL);
 }
 
-/* Returns 1 when noise could account for the whole last change, or when the verdict is open. */
+/* Returns 1 if noise could account for the whole last change, or when the verdict is open. */
 static int noise_may_decide(const sweep *s, const truths *t, int index, int quantity)
 {
     const double small_change = 1e-7;
@@ -302,7 +302,7 @@ static int is_run(const sweep *s, const case_type *type, const element_type *ele
     return 0;
 }
 
-/* Returns 1 when the run includes a formulation of that name with options. */
+/* Returns 1 if the run includes a formulation of that name with options. */
 static int key_is_run(const sweep *s, const char *word)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -311,7 +311,7 @@ static int key_is_run(const sweep *s, const char *word)
     return 0;
 }
 
-/* Returns 1 when the run includes every formulation that the word of a list can match. */
+/* Returns 1 if the run includes every formulation that the word of a list can match. */
 static int formulations_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;
@@ -325,8 +325,8 @@ static int formulations_are_run(const sweep *s, const char *word)
     return all && found;
 }
 
-/* Returns 1 when all points and quantities of the cases are included, so the word selects only
- * cases. */
+/* Returns 1 if all points and quantities of the cases are included, so the word selects only cases.
+ * */
 static int cases_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;

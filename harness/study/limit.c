@@ -118,8 +118,8 @@ static void few(const meshes *m, mesh_limit *out)
             end_factor * m->noise;
 }
 
-/* Sets the limit and returns 1 when the last change is within the noise and the previous one was
- * not small by accident. */
+/* Sets the limit and returns 1 if the last change is within the noise and the previous one was not
+ * small by accident. */
 static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const double a = fabs(m->change[m->count - 2]), b = fabs(m->change[m->count - 3]),
@@ -164,15 +164,15 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     return measured ? change : fmax(change, doubted_step * fabs(value - m->f[k + 2]));
 }
 
-/* Returns 1 when the middle order is the smallest or the largest, by more than the scatter of
- * orders of a single error term. */
+/* Returns 1 if the middle order is the smallest or the largest, by more than the scatter of orders
+ * of a single error term. */
 static int turns(double a, double b, double c)
 {
     static const double scatter = 0.1;
     return (a - b) * (b - c) < 0 && fmin(fabs(a - b), fabs(b - c)) > scatter;
 }
 
-/* Sets the limit and returns 1 when two orders agree; the change of the limit then bounds the
+/* Sets the limit and returns 1 if two orders agree; the change of the limit then bounds the
  * remaining error. */
 static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {

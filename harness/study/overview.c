@@ -171,7 +171,7 @@ const overview_cell *overview_at(const overview *o, int row, int column)
     return &o->cell[row * o->columns + column];
 }
 
-/* Returns 1 when the row contains only passes and runs that are not evaluated. */
+/* Returns 1 if the row contains only passes and runs that are not evaluated. */
 static int overview_passes(const overview *o, int row)
 {
     int passes = 1;

@@ -71,7 +71,7 @@ static void check_case(findings_reader *r, const char *word)
               own_names_near_case(r->run, word, near));
 }
 
-/* Returns 1 when the case has the quantity, at its defaults or at points with reference values. */
+/* Returns 1 if the case has the quantity, at its defaults or at points with reference values. */
 static int case_has(const findings_reader *r, const case_type *type, const char *quantity,
                     scene *defaults)
 {
@@ -356,8 +356,7 @@ const char *own_names_near_quantity(const scene *s, const char *name, char text[
                            "; 'beamwork list CASE' shows them", text);
 }
 
-/* Returns 1 when all quotes end in the line. Otherwise the field would continue on the next
- * line. */
+/* Returns 1 if all quotes end in the line. Otherwise the field would continue on the next line. */
 static int quotes_are_even(const char *line)
 {
     int quotes = 0;

@@ -11,7 +11,7 @@ typedef struct standing {
     int against[REASONS];
 } standing;
 
-/* Returns 1 when the rule applies to a quantity of the scene. */
+/* Returns 1 if the rule applies to a quantity of the scene. */
 static int holds_here(const rule *r, const scene *s, rule_subject at)
 {
     for (int q = 0; q < s->quantities; q++)
@@ -76,8 +76,8 @@ static int is_better(const standing *a, const standing *b)
     return 0;
 }
 
-/* Returns 1 when the type supports the whole scene or, with `other`, enough of it to run as
- * another model. */
+/* Returns 1 if the type supports the whole scene or, with `other`, enough of it to run as another
+ * model. */
 static int can_run(const scene *s, const element_type *type, int other)
 {
     char words[OMIT_WORDS];
@@ -95,7 +95,7 @@ typedef struct preference_candidates {
     standing here[CANDIDATES];
 } preference_candidates;
 
-/* Returns 1 when the type is already a candidate, or when its family has enough candidates. */
+/* Returns 1 if the type is already a candidate, or when its family has enough candidates. */
 static int is_taken(const preference_candidates *all, const element_type *type)
 {
     int same = 0;
@@ -115,8 +115,8 @@ static int as_sound(const standing *a, const standing *b)
     return 1;
 }
 
-/* Appends the best candidate that has not been chosen yet. Returns 0 when none is ranked equal
- * to the first one. */
+/* Appends the best candidate that has not been chosen yet. Returns 0 if none is ranked equal to the
+ * first one. */
 static int take_next(const scene *s, const rule_subject *where, const rule *rules, int count,
                      int other, preference_candidates *all)
 {
@@ -248,7 +248,7 @@ static int settled(const scene *s, const runner *r)
     return r->last.largest <= r->asked && (sure || r->tried >= s->meshes);
 }
 
-/* Returns 1 when the next mesh is too expensive. */
+/* Returns 1 if the next mesh is too expensive. */
 static int exhausted(const scene *s, const runner *r)
 {
     const int tells =

@@ -42,8 +42,7 @@ static double count_of(const cell_result *c, price_count which)
     }
 }
 
-/* Returns 1 when "key=value", of the given length, is one of the options in
- * "name:key=value,...". */
+/* Returns 1 if "key=value", of the given length, is one of the options in "name:key=value,...". */
 static int has_option(const char *key, const char *option, size_t length)
 {
     const char *at = strchr(key, ':');
@@ -144,8 +143,8 @@ const char *reach_defect_words(verdict_kind kind)
     }
 }
 
-/* Returns 1 when the quantity is part of the question: it is the named one, or some formulation
- * has a reference value for it. */
+/* Returns 1 if the quantity is part of the question: it is the named one, or some formulation has a
+ * reference value for it. */
 static int is_asked(const reach_question *q, int quantity)
 {
     int known = 0;
@@ -223,7 +222,7 @@ static int reach_one(const reach_question *q, int series_index, reached *out)
     return 1;
 }
 
-/* Returns 1 when a ranks before b. */
+/* Returns 1 if a ranks before b. */
 static int is_before(const sweep *s, const reached *a, const reached *b)
 {
     if ((a->defect != NULL) != (b->defect != NULL))

@@ -43,7 +43,7 @@ typedef struct rules_term {
     char parameter[WORD], sign[3], values[WORD];
 } rules_term;
 
-/* Parses a term. Returns 0 when the text is not a term. */
+/* Parses a term. Returns 0 if the text is not a term. */
 static int term_parse(const char *text, rules_term *out)
 {
     char copy[WORD];
@@ -152,7 +152,7 @@ int rules_is_observed(const rule *r)
     return r->observed > 0 && r->foretold == all;
 }
 
-/* Returns 1 when a case of the rule has the parameter of the term, with a possible value. */
+/* Returns 1 if a case of the rule has the parameter of the term, with a possible value. */
 static int term_means_something(const rule *r, const rules_term *t, const case_type *const cases[])
 {
     int found = t->feature != 0;

@@ -38,7 +38,7 @@ static status attend(progress *p, workload *w, int self, worker *one, int *runni
     return STATUS_OK;
 }
 
-/* Waits for workers or a request to stop. Returns 1 when the run must stop. */
+/* Waits for workers or a request to stop. Returns 1 if the run must stop. */
 static int wait_for_any(const workload *w, int jobs, const worker workers[], int asked,
                         struct pollfd ends[])
 {

@@ -94,8 +94,8 @@ typedef struct cell_request {
     int keep_all;
     unsigned omit; /* physics that the model omits: model_request */
     int threads;   /* threads for the loop over elements; 0, 1: one */
-    /* Called when the model is complete. Returns 1 when the same problem has already been
-     * solved. May be NULL. */
+    /* Called when the model is complete. Returns 1 if the same problem has already been solved. May
+     * be NULL. */
     int (*is_known)(void *context, const model *);
     void *context;
 } cell_request;
@@ -153,7 +153,7 @@ typedef struct imported {
     element_type type; /* placeholder for a formulation that supports nothing */
 } imported;
 
-/* Returns 1 when the values belong to the continuum model of the beams. */
+/* Returns 1 if the values belong to the continuum model of the beams. */
 int imported_same_model(const imported *);
 void imported_free(imported *); /* may be NULL */
 
@@ -211,7 +211,7 @@ typedef struct rule_subject {
     const char *formulation, *quantity, *verdict;
 } rule_subject;
 
-/* Returns 1 when the formulation (given by its key) is among those of the rule. */
+/* Returns 1 if the formulation (given by its key) is among those of the rule. */
 int rules_speak_of(const rule *, const char *formulation);
 
 /* The packed reference values and findings (reference/pack.py). */
@@ -324,7 +324,7 @@ typedef struct sweep {
 /* Observer of a run. The process that runs the sweep calls both functions between two results. */
 typedef struct sweep_follower {
     void *context;
-    /* Returns 1 when the finest mesh of this completed series must be run again to measure its
+    /* Returns 1 if the finest mesh of this completed series must be run again to measure its
      * scatter. NULL: no scatter is measured. */
     int (*doubts)(void *context, const sweep *, int series_index);
     /* Called once for every series in order, when this series and all previous ones are complete
@@ -368,8 +368,8 @@ enum { SWEEP_TEXT = PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT };
 void sweep_text(const sweep_point *, const formulation *, const char *quantity,
                 char text[SWEEP_TEXT]);
 
-/* Returns 1 when the verdicts of a series affect the exit status. This holds for accepted, named
- * or loaded formulations and, on request, for other programs. */
+/* Returns 1 if the verdicts of a series affect the exit status. This holds for accepted, named or
+ * loaded formulations and, on request, for other programs. */
 int sweep_gates(const sweep *, const series *);
 /* Returns the request for one mesh of a series. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
@@ -523,8 +523,8 @@ typedef struct judgement {
                    evaluate (complete runs only) */
 } judgement;
 
-/* Returns 1 when verdicts on the series may depend on the scatter of its finest mesh, which must
- * then be measured. */
+/* Returns 1 if verdicts on the series may depend on the scatter of its finest mesh, which must then
+ * be measured. */
 int judgement_doubts(const sweep *s, const truths *t, int series_index);
 /* Starts an evaluation; the planned series are evaluated in order after they have run. FAULT: the
  * unit of a reference value is not that of its quantity. */
@@ -573,13 +573,13 @@ status checksum_check(const char *path, fault *f);
 void child_begin(pid_t parent);
 /* Sets the remaining time of the child [s]; 0: no limit. */
 void child_alarm(int seconds);
-/* Call in the parent. Returns 1 when the child has ended; the child is not reaped. */
+/* Call in the parent. Returns 1 if the child has ended; the child is not reaped. */
 int child_is_gone(pid_t process);
 /* Call in the parent. Waits for at most two seconds, then kills the child. Reaps the child and
  * returns its status from waitpid. */
 int child_reap(pid_t process);
 /* Call in the parent. Describes how the child ended. how: status from waitpid. late 1: the child
- * was killed after the time limit. Returns 1 when the time limit was the reason. */
+ * was killed after the time limit. Returns 1 if the time limit was the reason. */
 int child_ended(int how, int late, int seconds, char *words, size_t size);
 
 typedef struct claims claims;
@@ -740,9 +740,9 @@ void glossary_free(glossary *);
 /* Finds the entry with this term or alternative name. Case is ignored, and '_' and '-' count as
  * blanks. NULL: none. */
 const glossary_entry *glossary_find(const glossary *, const char *word);
-/* Returns 1 when glossary_find treats the two words as equal. */
+/* Returns 1 if glossary_find treats the two words as equal. */
 int glossary_same(const char *a, const char *b);
-/* Copies part number `index` of "a|b|c"; returns 0 when there are not that many parts. */
+/* Copies part number `index` of "a|b|c"; returns 0 if there are not that many parts. */
 int glossary_part(const char *list, int index, char word[GLOSSARY_WORD]);
 
 /* HDF5 handles. */
@@ -778,14 +778,14 @@ typedef struct meeting {
     double error[2]; /* largest relative error on that mesh; NAN: none */
 } meeting;
 
-/* Returns 1 when the comparison includes the quantity. Both series need a reference value or an
+/* Returns 1 if the comparison includes the quantity. Both series need a reference value or an
  * agreement, and the quantity must not be a curve. */
 int meeting_asks(const sweep *s, const truths *t, int quantity);
 /* Returns the number of quantities in the comparison. */
 int meeting_asked(const sweep *s, const truths *t);
 /* Compares at the relative error target `level`, for all quantities in the comparison. */
 meeting meeting_at(const sweep *s, const truths *t, double level);
-/* Returns 1 when both series meet the target. */
+/* Returns 1 if both series meet the target. */
 int meeting_holds(const meeting *);
 
 /* Reduces the last point of a planned sweep to the selected quantities and formulations. */
@@ -840,9 +840,9 @@ enum { OVERVIEW_TEXT = 24 };
 status overview_make(const sweep *s, const judgement *j, overview *out, fault *f);
 void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
-/* Returns 1 when the row has an evaluated run. */
+/* Returns 1 if the row has an evaluated run. */
 int overview_judged(const overview *, int row);
-/* Returns 1 when the row gets a line of its own. All rows do if there are few. Otherwise passing
+/* Returns 1 if the row gets a line of its own. All rows do if there are few. Otherwise passing
  * cases share lines, so the table fits on one screen. */
 int overview_shown(const overview *, int row);
 /* Writes the mark as "ok", "~3" or "!#2", which is readable without colour. utf8 1: uses
@@ -985,7 +985,7 @@ extern const double price_noise;
 
 /* As price_of with the committed coefficients. */
 double price_cost(const formulation *chosen, const cell_result *cell);
-/* Returns 1 when the formulation has its own cost coefficients, 0 when the common ones apply. */
+/* Returns 1 if the formulation has its own cost coefficients, 0 when the common ones apply. */
 int price_own(const price_row *rows, const formulation *chosen);
 
 /* Progress of a long run, in one terminal line that is overwritten and removed at the end. */
@@ -1001,7 +1001,7 @@ typedef struct progress {
 
 /* now: present time [s] of clock_wall_seconds; likewise below. */
 progress progress_begin(FILE *to, const char *things, int count, double now);
-/* Returns 1 when the next output is due. */
+/* Returns 1 if the next output is due. */
 int progress_is_due(const progress *, double now);
 /* Prints "cells 12 of 40, 25 %, about 3 min left: WHAT". share: completed fraction of the work, 0
  * to 1; the remaining time is estimated from it once it is large enough. */

@@ -22,10 +22,10 @@ extern const double omission_safety;
  * omitted. NAN: a value is missing, or no formulation supports all physics of the scene. */
 double omission_on_mesh(const scene *, unsigned what, int elements);
 
-/* Returns 1 when the condition is true. A term is a feature that the scene requires ("shear",
- * "not shear"), or compares a parameter of the case ("omega>0", "load=tip|mid",
- * "tip_deflection!=0.015"; the operators <, <= and >= are also supported). A term with a
- * parameter that the case does not have is false. */
+/* Returns 1 if the condition is true. A term is a feature that the scene requires ("shear", "not
+ * shear"), or compares a parameter of the case ("omega>0", "load=tip|mid", "tip_deflection!=0.015";
+ * the operators <, <= and >= are also supported). A term with a parameter that the case does not
+ * have is false. */
 int rules_hold(const rule *, const rule_subject *);
 
 /* Returns the features in the condition of the rule; 0: none. */
@@ -33,13 +33,13 @@ unsigned rules_features(const rule *);
 /* Records that a verdict confirmed a derived limit that the rule names. */
 void rules_foretell(rule *, const rule_subject *);
 /* Finds the first term of the condition that is neither a feature nor a parameter of the rule's
- * cases, and copies it to `word`. cases: the cases, NULL-terminated. Returns 0 when there is no
- * such term. */
+ * cases, and copies it to `word`. cases: the cases, NULL-terminated. Returns 0 if there is no such
+ * term. */
 enum { RULES_WORD = 128 };
 int rules_bad_condition(const rule *, const case_type *const cases[], char word[RULES_WORD]);
 /* Copies the next word of a list. Returns the rest of the list; NULL: there is no further word. */
 const char *rules_next_word(const char *list, char word[RULES_WORD]);
-/* Returns 1 when a verdict has shown this deviation and verdicts have confirmed all its derived
+/* Returns 1 if a verdict has shown this deviation and verdicts have confirmed all its derived
  * limits. */
 int rules_is_observed(const rule *);
 
@@ -50,14 +50,14 @@ void rules_free(rule *, int count);
 /* Allocates memory, so rows do not move while `more` rows are added. FAULT: out of memory. */
 status truths_reserve(truths *, int more, fault *f);
 
-/* Returns 1 when the selection of the sweep includes the quantity. */
+/* Returns 1 if the selection of the sweep includes the quantity. */
 int sweep_selects(const sweep *s, const sweep_point *p, const formulation *chosen,
                   const char *quantity);
 
 /* Verdicts for a limit that differs from the reference value. */
 enum { VERDICT_DEFECTS = 4 };
 extern const verdict_kind verdict_defects[VERDICT_DEFECTS];
-/* Returns 1 when the rule explains one of these verdicts. */
+/* Returns 1 if the rule explains one of these verdicts. */
 int verdict_tells_defect(const rule *);
 /* Returns the kind of analysis that determines the order of a quantity. */
 element_analysis verdict_analysis(const scene *, const scene_quantity *);
@@ -161,7 +161,7 @@ void workload_same(workload *, int task, int same);
 /* Returns the completed fraction of the known work, weighted by the cost of the cells: 0 to 1. */
 double workload_share(const workload *);
 
-/* Returns 1 when the next series, in order, is complete and can be passed to the observer. */
+/* Returns 1 if the next series, in order, is complete and can be passed to the observer. */
 int workload_can_tell(const workload *);
 /* Passes the next series to the observer. */
 status workload_tell(workload *, fault *);
@@ -212,7 +212,7 @@ void expense_count(const scene *s, int steps, double times[EXPENSE_KINDS]);
  * decreasing order of cost, so only small ones remain at the end. The others follow in the order of
  * the series, so series are completed one after the other. Within a series the finest mesh comes
  * first. A series is expensive if it needs more than a hundredth of the work of one process.
- * Returns 0, or -1 when out of memory. */
+ * Returns 0, or -1 if out of memory. */
 int expense_order(const sweep *s, int jobs, workload_task tasks[]);
 
 /* Cross-formulation agreement, for structures without a reference value: the limit on which
@@ -272,13 +272,13 @@ double price_of(const price_row *rows, const formulation *chosen, const cell_res
 /* Placeholder until the cause is found. */
 #define PROPOSAL_CAUSE "to be found: why is this not a pass?"
 
-/* Returns 1 when the verdict means that the formulation is wrong, or is not known to be right. */
+/* Returns 1 if the verdict means that the formulation is wrong, or is not known to be right. */
 int reach_is_defect(verdict_kind kind);
 
 /* The reference value with which a quantity is compared. */
 
-/* Returns 1 when a verdict may depend on the row; 0 for an agreement of formulations, and for a
- * value that cannot be reproduced. */
+/* Returns 1 if a verdict may depend on the row; 0 for an agreement of formulations, and for a value
+ * that cannot be reproduced. */
 int truth_gates(const truth *row);
 /* As truth_of, but only reference values for one of the shear theories (words separated by |) or
  * independent of them; NULL: any. */
@@ -313,7 +313,7 @@ enum { WORKER_ENDED = -1, WORKER_NOTHING = -2, WORKER_NO_MEMORY = -3 };
  * their tasks; WORKER_NOTHING: nothing is complete yet. A worker that writes anything else is
  * ended. */
 int worker_receive(workload *, worker *);
-/* Handles a worker that ended during a task: its cell failed. Returns 1 when the worker must be
+/* Handles a worker that ended during a task: its cell failed. Returns 1 if the worker must be
  * replaced. */
 int worker_bury(workload *, int self, worker *);
 /* Ends a worker whose cell exceeds the time limit, in case it cannot end itself; its pipe
@@ -399,9 +399,9 @@ const char *own_names_near_quantity(const scene *s, const char *name, char text[
 /* Checks the consistency of the run record of a cell, without any reference value. An inconsistent
  * record is an error of the program. */
 
-/* Returns 1 when counters, steps and corrections of a cell agree with each other and with the
- * properties of every solution. Otherwise returns 0, and `why` describes the contradiction.
- * newton: form of Newton's method. A cell without a solution is not checked. */
+/* Returns 1 if counters, steps and corrections of a cell agree with each other and with the
+ * properties of every solution. Otherwise returns 0, and `why` describes the contradiction. newton:
+ * form of Newton's method. A cell without a solution is not checked. */
 int sound_cell(const cell_result *cell, const scene *s, newton_form newton, char why[FAULT_TEXT]);
 
 /* Index of rows by case and quantity, because each verdict requires thousands of look-ups. */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns 1 when the quantity depends on features that the options of the formulation change. */
+/* Returns 1 if the quantity depends on features that the options of the formulation change. */
 static int option_matters(const sweep_point *p, const formulation *chosen, const char *quantity)
 {
     const unsigned features = formulation_bears_on(chosen);
@@ -277,7 +277,7 @@ static void choose_all(const truths *t, const sweep_point *p, chosen_cells *out)
     choose_stored(t, p, out);
 }
 
-/* Returns 1 when any quantity of the series is selected. Records all words of the selection that
+/* Returns 1 if any quantity of the series is selected. Records all words of the selection that
  * match. asked[quantities or 1]: set to 1 for selected quantities. */
 static int is_selected(const sweep *s, const sweep_point *p, const formulation *one,
                        select_words *words, char asked[])

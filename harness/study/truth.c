@@ -13,8 +13,8 @@ const char truth_kinds[] =
     "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|"
     "unrepeatable";
 
-/* Returns 1 when the row also applies to other values of the parameter: lumped and consistent
- * masses have the same limit, and only their discrete values differ. */
+/* Returns 1 if the row also applies to other values of the parameter: lumped and consistent masses
+ * have the same limit, and only their discrete values differ. */
 static int may_differ(const truth *row, const parameter_type *p)
 {
     return row->formulation[0] == '\0' && case_is_mass(p);
@@ -31,7 +31,7 @@ static int same_point(const truth *row, const case_type *type, const double valu
     return 1;
 }
 
-/* Returns 1 when the pattern matches the key of a formulation, or its name without options. */
+/* Returns 1 if the pattern matches the key of a formulation, or its name without options. */
 static int is_of_formulation(const char *pattern, const char *key)
 {
     char bare[64];
@@ -216,7 +216,7 @@ static int is_known_or_empty(const char *word, const char *choices)
     return word[0] == '\0' || is_known(word, choices);
 }
 
-/* Returns 1 when formulation and number of elements are given as the kind requires. */
+/* Returns 1 if formulation and number of elements are given as the kind requires. */
 static int elements_fit(const truth *row)
 {
     const int of_formulation = row->formulation[0] != '\0';
@@ -271,7 +271,7 @@ static status read_columns(const table_columns *r, loose_columns *loose, truth *
     return columns_strings(r, "parameters", loose->parameters);
 }
 
-/* Returns 1 when row i repeats the parameters of the previous row. */
+/* Returns 1 if row i repeats the parameters of the previous row. */
 static int is_of_same_point(const loose_columns *loose, int i)
 {
     return i > 0 && loose->hash[i] == loose->hash[i - 1] &&

@@ -120,10 +120,10 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     return limit_of(&sequence);
 }
 
-/* Returns 1 when the order is known and too low. Two low orders may agree by accident: if error
- * terms of opposite sign cancel, or if elements are as long as a boundary layer. Therefore, with
- * five meshes or more, the previous order must also be below the nominal one, and the three
- * orders must be monotonic. Changes below the uncertainty of the reference value are ignored. */
+/* Returns 1 if the order is known and too low. Two low orders may agree by accident: if error terms
+ * of opposite sign cancel, or if elements are as long as a boundary layer. Therefore, with five
+ * meshes or more, the previous order must also be below the nominal one, and the three orders must
+ * be monotonic. Changes below the uncertainty of the reference value are ignored. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
     const double least = q->least_order - order_slack, nominal = ceil(q->least_order);
@@ -132,7 +132,7 @@ static int order_is_low(const scene_quantity *q, const verdict *v)
            v->fit.last_change > v->truth->uncertainty;
 }
 
-/* Returns 1 when the limit equals the derived one within both uncertainties. The criterion is the
+/* Returns 1 if the limit equals the derived one within both uncertainties. The criterion is the
  * same as for a bias, so a significantly different limit is not the derived one. */
 static int is_predicted(const verdict *v)
 {
@@ -323,7 +323,7 @@ static const char *quantity_of(const sweep *s, const verdict *v)
     return s->point[series_of(s, v)->point].scene.quantity[v->quantity].name;
 }
 
-/* Returns 1 when one rule explains both verdicts. */
+/* Returns 1 if one rule explains both verdicts. */
 static int same_rule(const sweep *s, const verdict *a, const verdict *b)
 {
     return a->needs_finding && b->needs_finding && a->kind == b->kind &&

@@ -117,7 +117,7 @@ static int write_all(int to, const char *bytes, size_t count)
     return 0;
 }
 
-/* Returns 0, or -1 when the pipe has no reader. */
+/* Returns 0, or -1 if the pipe has no reader. */
 static int tell(int to, int i, int same, const cell_result *cell)
 {
     heading head = {.task = i, .same = same};
@@ -209,8 +209,8 @@ static int take_result(workload *w, const heading *head, char *bytes)
     return bad;
 }
 
-/* Returns 1 when this is the header of an unfinished task. A worker with corrupted memory may
- * write anything. */
+/* Returns 1 if this is the header of an unfinished task. A worker with corrupted memory may write
+ * anything. */
 static int is_heading(const workload *w, const heading *head)
 {
     enum { LARGEST = 1 << 30 }; /* [bytes] */

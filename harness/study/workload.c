@@ -9,9 +9,9 @@
 
 /* Returns the edit that makes equivalent scene number `repetition`. */
 static scene_edit noise_words(const formulation *, int repetition);
-/* Sets series.noise to twice the larger of the two differences, relative to the value or
- * near_zero. If the formulation uses finite differences and their error is larger, noise is that
- * error. NAN: a value or a repetition is missing. Returns -1 when out of memory. */
+/* Sets series.noise to twice the larger of the two differences, relative to the value or near_zero.
+ * If the formulation uses finite differences and their error is larger, noise is that error. NAN: a
+ * value or a repetition is missing. Returns -1 if out of memory. */
 static int noise_take(const sweep_point *, const cell_result again[NOISE_REPETITIONS], series *);
 
 static int is_run(const sweep *s, int i)
@@ -378,8 +378,8 @@ void claims_free(claims *c)
         munmap(c, c->size);
 }
 
-/* Returns 1 when the claim is for the same problem. A claim that is still being written counts
- * as a different problem. */
+/* Returns 1 if the claim is for the same problem. A claim that is still being written counts as a
+ * different problem. */
 static int is_same(process_claim *at, const identity *what)
 {
     return atomic_load(&at->task) != 0 && atomic_load(&at->check) == what->part[1];

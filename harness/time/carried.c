@@ -283,7 +283,7 @@ double account_size(const account *a)
     return fmax(a->largest, a->turned);
 }
 
-/* Returns 1 when the request explains a loss of energy: fixed steps, or generalized-alpha with more
+/* Returns 1 if the request explains a loss of energy: fixed steps, or generalized-alpha with more
  * damping than rho_inf = 0.9. For all its parameters alpha_f - alpha_m = (1 - rho)/(1 + rho), where
  * rho is the spectral radius. */
 static int account_loses(const scene_motion *how)

@@ -466,8 +466,8 @@ static void conserving_released_rates(const conserving *s, const instant *from, 
     to->ends_known = 1;
 }
 
-/* Returns 1 when a vertex follows the rotations of another one, or when others follow its
- * rotations. */
+/* Returns 1 if a vertex follows the rotations of another one, or when others follow its rotations.
+ * */
 static int turns_with(const model *m, int vertex)
 {
     int with = 0;

@@ -221,7 +221,7 @@ static status explicit_accelerate(const model *m, const carried_masses *masses,
     return STATUS_OK;
 }
 
-/* Returns 1 when every motion of the coordinates has kinetic energy. */
+/* Returns 1 if every motion of the coordinates has kinetic energy. */
 static int is_heavy(int n, double M[])
 {
     const double rounding = 1e-13;

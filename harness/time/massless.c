@@ -213,7 +213,7 @@ status massless_accelerate(const model *m, const carried_masses *all, const mode
 
 enum { BLOCK = 9, BLOCKS = 2 };
 
-/* Returns 1 when all three coordinates of a rotation (or translation) are free and belong to one
+/* Returns 1 if all three coordinates of a rotation (or translation) are free and belong to one
  * body, or to bodies that move as one. */
 static int is_whole(const model *m, int i, int block)
 {
@@ -257,7 +257,7 @@ static void own_axes(const model *m, const model_state *s, massive *h)
     }
 }
 
-/* Returns 1 when a motion dx[free] without inertia moves this component, or any of the three
+/* Returns 1 if a motion dx[free] without inertia moves this component, or any of the three
  * translations or rotations to which it belongs. */
 static int is_moved(const model *m, const model_state *s, const scene_component *what,
                     const double dx[])
@@ -278,7 +278,7 @@ static int is_moved(const model *m, const model_state *s, const scene_component 
     return most > 1e-9;
 }
 
-/* Returns 1 when nothing is left to compute: the analysis has no other quantity, and no other
+/* Returns 1 if nothing is left to compute: the analysis has no other quantity, and no other
  * analysis follows it. */
 static int is_all(const scene *s, int analysis, const unsigned char undefined[])
 {

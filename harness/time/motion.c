@@ -106,8 +106,8 @@ static double end_of_all(const motion_course *w)
     return path->value[path->stations - 1];
 }
 
-/* Returns 1 when the error allows the step, and sets the size of the next step from this error.
- * If the errors of steps add up to the error of the motion, the allowed error of a step is
+/* Returns 1 if the error allows the step, and sets the size of the next step from this error. If
+ * the errors of steps add up to the error of the motion, the allowed error of a step is
  * proportional to its size. */
 static int allowed(motion_course *w, double step, double error)
 {
@@ -124,8 +124,8 @@ static int allowed(motion_course *w, double step, double error)
     return of <= most;
 }
 
-/* Returns 1 when the balance is checked. The first alpha steps after a jump of the loads gain
- * energy, however short they are. */
+/* Returns 1 if the balance is checked. The first alpha steps after a jump of the loads gain energy,
+ * however short they are. */
 static int looks(const motion_course *w)
 {
     return w->how->tolerance > 0 && (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);

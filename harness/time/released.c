@@ -426,8 +426,8 @@ rotation_form forms_of(const model *m, int vertex)
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
 
-/* Returns 1 when at most one rotation axis is free, counting fixed rotations that are kept as
- * rows. */
+/* Returns 1 if at most one rotation axis is free, counting fixed rotations that are kept as rows.
+ * */
 static int keeps_axis(const model *m, int vertex)
 {
     int moving = 0;

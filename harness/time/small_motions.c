@@ -74,8 +74,8 @@ static void add(const sparse *a, double times, sparse *to)
         to->value[i] += times * a->value[i];
 }
 
-/* Returns 1 when the rotation of a vertex is given by its angular velocity and has coordinates
- * of its own. */
+/* Returns 1 if the rotation of a vertex is given by its angular velocity and has coordinates of its
+ * own. */
 static int turns_freely(const model *m, int vertex)
 {
     const int own = vertex >= model_first_release(m) ||

@@ -145,7 +145,7 @@ struct complement {
         settled; /* size of the correction after which all elements agreed; 0: none in this step */
 };
 
-/* Returns 1 when the stiffness C depends on the strains. */
+/* Returns 1 if the stiffness C depends on the strains. */
 static int curved(const model *m, const element_data *data, double length)
 {
     double e[MOST] = {0}, sigma[MOST], rest[MOST * MOST] = {0}, C[MOST * MOST] = {0};
@@ -371,8 +371,7 @@ static void settled(const complement *c, const model_state *s, int count, const 
                                                 near_of(model_strains(m), goal[k]));
 }
 
-/* Updates the strains of elements [first, end). Returns 1 when the stresses of all of them
- * agree. */
+/* Updates the strains of elements [first, end). Returns 1 if the stresses of all of them agree. */
 static int follow_stresses(const complement *c, model_state *s, int first, int end)
 {
     const size_t n = (size_t)model_strains(c->m);

@@ -340,7 +340,7 @@ static status keep(stations *s, const instant *at, const double balance[SCENE_BA
     return outcome_keep(&s->out->path, m, at->state, 1, next_of(s), f);
 }
 
-/* Returns 1 when quantities at this station need more than positions and rates. */
+/* Returns 1 if quantities at this station need more than positions and rates. */
 static int reads_forces(const stations *s, double time)
 {
     const scene *what = s->c->scene;

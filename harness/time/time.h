@@ -153,7 +153,7 @@ void account_take(account *, int steps, const double balance[SCENE_BALANCES]);
 /* Returns the largest energy so far or the total absolute work so far, whichever is larger [J]. */
 double account_size(const account *);
 
-/* Returns 1 when a member or a spring of the scene is damped. */
+/* Returns 1 if a member or a spring of the scene is damped. */
 int damping_acts(const scene *);
 int damping_of_members(const scene *);
 /* Computes S0 of all kinds of elements. After this call the stresses of the run include damping,
@@ -200,13 +200,13 @@ typedef struct reading {
     const double *x, *sigma;
 } reading;
 
-/* Returns 1 when the quantity depends on positions and rates only. */
+/* Returns 1 if the quantity depends on positions and rates only. */
 int reading_is_kinematic(const scene_quantity *);
 /* Returns the value without factor and offset, for kinematic kinds only; for a jerk, the
  * acceleration. v, a[free + driven]: rates of a motion and their derivatives; NULL: at rest. */
 double reading_of(const model *, const scene_quantity *, const model_state *, const double v[],
                   const double a[]);
-/* Returns 1 when the quantity is the slope of a reading, which is known only inside steps. */
+/* Returns 1 if the quantity is the slope of a reading, which is known only inside steps. */
 int reading_is_slope(const scene_quantity *);
 /* Computes the value, without factor and offset, for every kind of quantity with a `read`
  * function. */

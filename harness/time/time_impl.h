@@ -602,9 +602,9 @@ double extent_error(const extent *, const motion_scheme *, double h, double erro
 /* Returns the allowed error of a part of the motion, given the tolerance of the whole motion. It
  * is at least the rounding error of the coordinates. */
 double extent_allows(const extent *, double part, double tolerance);
-/* Returns 1 when three conditions hold: the completed motion was less than half of the estimate,
- * its steps are too long for a tolerance relative to its size, and the motion exceeds the
- * rounding of its initial state. *scale: a better estimate. */
+/* Returns 1 if three conditions hold: the completed motion was less than half of the estimate, its
+ * steps are too long for a tolerance relative to its size, and the motion exceeds the rounding of
+ * its initial state. *scale: a better estimate. */
 int extent_is_less(const extent *, double tolerance, double *scale);
 
 /* States of a motion for pictures, at equal intervals, including times inside steps. */
@@ -656,11 +656,11 @@ double kinks_before(const model *, double time);
  * Strains and stresses of elements are unknowns, so stiff elements need no additional
  * iterations. */
 
-/* Returns 1 when the last factors may be used again. The error that they cause is the product of
- * two successive corrections; in stiff members the corrections of the stresses (newton.h) show
- * it. Measured with members that are 1e6 times stiffer in elongation: above 2e-4 corrections
- * stop contracting and steps of 0.2 s fail; below, the number of iterations is the same as with
- * new factors. */
+/* Returns 1 if the last factors may be used again. The error that they cause is the product of two
+ * successive corrections; in stiff members the corrections of the stresses (newton.h) show it.
+ * Measured with members that are 1e6 times stiffer in elongation: above 2e-4 corrections stop
+ * contracting and steps of 0.2 s fail; below, the number of iterations is the same as with new
+ * factors. */
 int stage_stands(const arrival *);
 
 typedef struct motion_stage {
@@ -799,8 +799,8 @@ typedef struct frame_place {
                                    conjugates of the forces */
 } frame_place;
 
-/* Returns 1 when the frame moves by its own dr and c; then nothing else is set. F[6]: force on
- * the frame; NULL: zero. */
+/* Returns 1 if the frame moves by its own dr and c; then nothing else is set. F[6]: force on the
+ * frame; NULL: zero. */
 int place_plain(const model *, int vertex);
 void place_of(const conserving *, const model_state *from, const model_state *now, int vertex,
               const double F[6], frame_place *);

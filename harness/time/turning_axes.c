@@ -69,7 +69,7 @@ static int vector_of(const turning_axes *t, int vertex, int turns, turning_vecto
     return 1;
 }
 
-/* Returns 1 when the rotation mixes a component of the vector with one that is not free to move. */
+/* Returns 1 if the rotation mixes a component of the vector with one that is not free to move. */
 static int is_tied(const turning_axes *t, int vertex, int turns, const turning_vector *v)
 {
     double size = 0;

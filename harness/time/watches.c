@@ -133,7 +133,7 @@ static status crossed(watches *s, watched *one, const instant *from, double time
     return STATUS_OK;
 }
 
-/* Returns 1 when a crossing to this side is counted. */
+/* Returns 1 if a crossing to this side is counted. */
 static int counts(const watched *one, int side)
 {
     const scene_direction way = one->q->passing.direction;
