@@ -9,7 +9,7 @@
 #include "elements/section/section.h"
 #include "elements/shared/masses.h"
 
-/* Multiplies a factor by that of the load case. */
+/* Multiplies a factor by the factor of the load case. */
 static double combined(const equations *eq, const scene_load *load, double factor)
 {
     return load->load_case == SCENE_NONE
@@ -58,8 +58,8 @@ void applied_member_axes(const double triad[9], const section *of, double R[9])
     }
 }
 
-/* Returns a load on one vertex. axes: axes of its components; NULL: global axes. beside: offset
- * of its point of application from the vertex, in global axes. */
+/* Returns a load on one vertex. axes: axes of the components of the load; NULL: global axes.
+ * beside: vector from the vertex to the point of application, in global axes. */
 static applied of_vertex(const model_state *s, int vertex, const scene_load *load, double scale,
                          const double axes[9], const double beside[3])
 {
@@ -86,7 +86,7 @@ static applied of_vertex(const model_state *s, int vertex, const scene_load *loa
     return out;
 }
 
-/* Returns the weight of a body: m g at its centre of mass. */
+/* Returns the weight m g of a body at its centre of mass. */
 static applied of_weight(const model *m, const model_state *s, const scene_load *load, double scale)
 {
     const scene_body *body = &model_scene(m)->node[load->where].body;
@@ -96,15 +96,15 @@ static applied of_weight(const model *m, const model_state *s, const scene_load 
     return of_vertex(s, load->where, &force, scale, NULL, body->centre);
 }
 
-/* Returns the factor of the load vector per length of an element: 1; for gravity, the mass per
- * length. */
+/* Returns the factor of the load vector per length of an element: the mass per length for gravity,
+ * otherwise 1. */
 static double density_of(const model *m, const scene_load *load, const mesh_element *el)
 {
     const section *c = model_section(m, model_kind(m, el->kind)->section);
     return load->kind == SCENE_GRAVITY ? c->density * c->A : 1;
 }
 
-/* Computes the point of action of gravity: the centre of mass of the undeformed section. */
+/* Computes the point of application of gravity: the centre of mass of the undeformed section. */
 static void weight_centre(const model *m, const scene_load *load, const mesh_element *el, int node,
                           double centre[3])
 {
@@ -117,7 +117,7 @@ static void weight_centre(const model *m, const scene_load *load, const mesh_ele
     mat3_mul_vec(el->triad[node], at, centre);
 }
 
-/* A shorter part of an element carries no load, because such a part is due to rounding. */
+/* A shorter part of an element carries no load, because its length is due to rounding. */
 static const double least_part = 1e-12;
 
 int applied_inside(double x)
@@ -165,8 +165,8 @@ static double share_of(const model *m, int k, double x)
     return three[k];
 }
 
-/* Computes the points of a load on a part of an element, with weights. They are exact for a
- * shape function times a linear load. */
+/* Computes the points of a load on a part of an element, and their weights. The sum is exact for a
+ * linear load times a shape function. */
 static int points_of(const scene_load *load, const double part[2], double x[2], double weight[2])
 {
     const double half = (part[1] - part[0]) / 2, middle = (part[0] + part[1]) / 2;
@@ -187,8 +187,8 @@ int applied_with_mass(const scene_load *load)
     return !load->lumped && !load->varies && load->range[0] == 0 && load->range[1] == 1;
 }
 
-/* Computes the share of node k in the load on an element: the load vector times the shape
- * function, integrated over the part. */
+/* Computes the share of node k in the load on an element: the integral of the load vector times the
+ * shape function over the part. */
 static void share_at(const model *m, const scene_load *load, int element, const double part[2],
                      int k, double vector[3])
 {
@@ -232,7 +232,7 @@ void applied_element(const model *m, const model_state *s, const scene_load *loa
     }
 }
 
-/* Returns the distance between the nodes of a tension. e: direction from the first node to the
+/* Returns the distance between the nodes of a tension load. e: direction from the first node to the
  * second. */
 static double line_of(const model *m, const model_state *s, const scene_load *load, double e[3])
 {
@@ -274,7 +274,7 @@ void applied_each(const model *m, const model_state *s, const scene_load *load, 
         applied_element(m, s, load, scale, i, take, context);
 }
 
-/* Destination of the entries of the stiffness. */
+/* Function that receives the entries of the stiffness. */
 typedef struct entries {
     const model *m;
     const model_state *s;
@@ -282,8 +282,9 @@ typedef struct entries {
     void *to;
 } entries;
 
-/* Adds the derivative of the generalised load of a follower force F and moment F + 3 at rho with
- * respect to a rotation about b. The derivatives of force and moment are b x F and b x F[3..5]. */
+/* Adds the derivative of the generalised load of a follower force F and a follower moment F + 3 at
+ * rho with respect to a rotation about b. The derivatives of force and moment are b x F and b x
+ * F[3..5]. */
 static void add_following(const entries *all, const mesh_vertex *body, const double F[6],
                           const double rho[3], double b[3][3], const double moved[3], int column)
 {
@@ -305,16 +306,17 @@ static void add_following(const entries *all, const mesh_vertex *body, const dou
 /* Effect of one coordinate on a load on a released end. */
 typedef struct load_motion {
     int coordinate;
-    int own;        /* 1: coordinate of the end, 0: of its body */
-    int chart;      /* 1: rotation about a fixed axis, which does not depend on the order of the two
-                       others */
+    int own; /* 1: coordinate of the end; 0: coordinate of its body */
+    /* 1: rotation about a fixed axis, which does not depend on the order of the other two rotations
+     * */
+    int chart;
     double axis[3]; /* axis of a rotation */
-    double turn[3]; /* rotation of the load's frame */
+    double turn[3]; /* rotation of the frame of the load */
     double shift[3];
 } load_motion;
 
-/* Computes the motions in the order of the frame: position and rotations of the body, rotations
- * of the end, and its shifts. Returns their number. */
+/* Computes the motions in the order of the frame: position and rotations of the body, rotations of
+ * the end, and shifts of the end. Returns their number. */
 static int motions_at_release(const entries *all, const applied *what,
                               load_motion out[KINEMATICS_MOST])
 {
@@ -342,8 +344,8 @@ static int motions_at_release(const entries *all, const applied *what,
     return count;
 }
 
-/* Returns 1 if rotation e comes before l, so it rotates the axis of l; 0 if it does not; 1/2 if
- * neither comes first. */
+/* Returns 1 if rotation e precedes l and therefore rotates the axis of l; 0 if it follows l; 1/2 if
+ * the two have no order. */
 static double carries(const mesh_release *r, const load_motion *e, const load_motion *l)
 {
     if (r->turns == 3 && e->own != l->own)
@@ -425,8 +427,8 @@ static void add_stiffness(void *context, const applied *what)
             mat3_mul_vec(D, b[j], Db);
             vec3_cross(b[j], b[i], cross);
             double value = vec3_dot(b[i], Db);
-            if (body->angles > 0) /* symmetric for the conservative part; a spatial moment does work
-                                     only through earlier axes */
+            if (body->angles > 0) /* symmetric for the conservative part; the work of a spatial
+                                     moment depends only on earlier axes */
                 value += (i > j ? 1 : -1) * vec3_dot(moment, cross) / 2 +
                          (j < i ? vec3_dot(F + 3, cross) : 0);
             else
@@ -438,7 +440,7 @@ static void add_stiffness(void *context, const applied *what)
             add_following(all, body, F, rho, b, moved, j);
 }
 
-/* Adds the derivative of the forces of a tension with respect to the direction of its line. */
+/* Adds the derivative of the forces of a tension load with respect to the direction of its line. */
 static void add_turning(const entries *all, const scene_load *load, double tension)
 {
     const int node[] = {load->where, load->towards};

@@ -6,9 +6,9 @@
 
 #include "elements/math/dense.h"
 
-/* Returns the number of negative eigenvalues of A[n x n], which is overwritten; -1: A is
- * singular (a pivot is a rounding error). Uses LDL^T without pivoting, whose result does not
- * depend on the units of the rows. */
+/* Returns the number of negative eigenvalues of A[n x n], which is overwritten; -1: A is singular
+ * (a pivot is a rounding error). Uses LDL^T without pivoting. The result does not depend on the
+ * units of the rows. */
 static int symmetric_negative(int n, double A[]);
 
 status chain_alloc(int links, int joint, int y, chain **out, fault *f)
@@ -46,7 +46,7 @@ void chain_begin(chain *s)
         s->A[i * s->c + i] = 1;
 }
 
-/* Returns 1 if a bound shows that all eigenvalues of 1 + F B are positive. For positive F the
+/* Returns 1 if a bound shows that all eigenvalues of 1 + F B are positive. If F is positive, the
  * eigenvalues of F B are real and bounded by the row sums of F B, scaled with the diagonal of F. */
 static int small_product(int n, const double F[], const double W[])
 {
@@ -60,8 +60,8 @@ static int small_product(int n, const double F[], const double W[])
     return 1;
 }
 
-/* Returns the number of eigenvalues that become negative when the stiffness B is added at the
- * end of the chain. */
+/* Returns the number of eigenvalues that become negative if the stiffness B is added at the end of
+ * the chain. */
 static int more_negative(int n, const double F[], const double B[], const double W[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT];
@@ -181,14 +181,12 @@ status chain_stiffness(const chain *s, double K[], fault *f)
     return STATUS_OK;
 }
 
-/* Transfers loads to the ends of a chain, and motions of the ends to its interior.
- *
- * Two sweeps find the forces between the links. If w is the force on the joint before a link,
- * including that of the link,
- *   x = Z a + Z F w,   w - B x = Z^T w - B Z a.
- * The motions then follow link by link, so neighbours differ exactly by the deformation of a
- * link. Differences of independently computed motions would lose as many digits as an assembled
- * stiffness. Sizes are compile-time constants where a sweep is inlined. */
+/* Transfers loads to the ends of a chain, and motions of the ends to its interior. Two sweeps find
+ * the forces between the links. If w is the force on the joint before a link, including the force
+ * of the link, then x = Z a + Z F w and w - B x = Z^T w - B Z a. The motions then follow link by
+ * link, so the motions of neighbours differ exactly by the deformation of a link. Differences of
+ * motions that are computed independently would lose as many digits as an assembled stiffness.
+ * Sizes are compile-time constants where a sweep is inlined. */
 
 #define INLINED static inline __attribute__((always_inline))
 
@@ -203,7 +201,7 @@ INLINED void mul(int m, int n, const double M[], const double x[], double out[])
     }
 }
 
-/* out[n] = M^T x, M[m x n] */
+/* Computes out[n] = M^T x with M[m x n]. */
 INLINED void mul_transposed(int m, int n, const double M[], const double x[], double out[])
 {
     for (int j = 0; j < n; j++)
@@ -213,7 +211,7 @@ INLINED void mul_transposed(int m, int n, const double M[], const double x[], do
             out[j] += M[i * n + j] * x[i];
 }
 
-/* out[n] = S x, S packed */
+/* Computes out[n] = S x with a packed S. */
 INLINED void mul_packed(int n, const double S[], const double x[], double out[])
 {
     for (int i = 0; i < n; i++) {
@@ -224,7 +222,8 @@ INLINED void mul_packed(int n, const double S[], const double x[], double out[])
     }
 }
 
-/* Adds the load on the joint before a link to the forces w there. The ends have no such load. */
+/* Adds the load on the joint before a link to the forces w on this joint. The ends of the chain
+ * have no such load. */
 INLINED void add_load_before(int c, int y, const double r[], int link, double w[])
 {
     if (link > 0)
@@ -232,7 +231,7 @@ INLINED void add_load_before(int c, int y, const double r[], int link, double w[
             w[i] += r[(size_t)link * (size_t)y - (size_t)(c - i)];
 }
 
-/* Computes a for every joint, starting from that of the first joint. */
+/* Computes a for every joint, starting with a of the first joint. */
 INLINED void forward(chain *s, int c, int y, const double r[], const double first[])
 {
     const int in = y - c;
@@ -255,9 +254,9 @@ INLINED void forward(chain *s, int c, int y, const double r[], const double firs
     }
 }
 
-/* Computes the forces between the links when last[joint] acts on the last joint, and stores them
- * in s->a after its first entry. begin[joint]: force of the first joint on the chain. r NULL:
- * there are no other loads, and joints do not move without forces. */
+/* Computes the forces between the links, and stores them in s->a after its first entry.
+ * last[joint]: force on the last joint. begin[joint]: force of the first joint on the chain. r
+ * NULL: there are no other loads, and joints without forces do not move. */
 INLINED void backward(chain *s, int c, int y, const double r[], const double last[], double begin[])
 {
     const int in = y - c;
@@ -284,7 +283,7 @@ INLINED void backward(chain *s, int c, int y, const double r[], const double las
 }
 
 /* Computes the motions from the motion of the first joint and the forces, so the deformations of
- * links are exact to the last digit. Writes x[links x y]; r NULL: adds to x. x may be r. */
+ * links are accurate to the last digit. Writes x[links x y], which may be r. r NULL: adds to x. */
 INLINED void deform(const chain *s, int c, int y, const double r[], const double first[],
                     double x[])
 {
@@ -308,7 +307,7 @@ INLINED void deform(const chain *s, int c, int y, const double r[], const double
     }
 }
 
-/* Computes the forces on the last joint that move it from its force-free position to x. */
+/* Computes the forces on the last joint that move it from its position without forces to x. */
 static void force_to(const chain *s, const double x[], const double from[], double g[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT], moved[CHAIN_JOINT];
@@ -320,7 +319,7 @@ static void force_to(const chain *s, const double x[], const double from[], doub
 
 static const double still[CHAIN_JOINT] = {0};
 
-/* Returns the position of the last joint if no force acts on it. */
+/* Returns the position of the last joint for the case that no force acts on it. */
 static const double *last_of(const chain *s)
 {
     return s->a + (size_t)s->links * (size_t)s->c;
@@ -359,7 +358,7 @@ INLINED void expand(chain *s, int c, int y, const double r[], const double ends[
     close_gap(s, c, y, ends + c, x);
 }
 
-/* Uses compile-time sizes for elements of two nodes, with and without warping. */
+/* Uses compile-time sizes for elements with two nodes, with or without warping. */
 void chain_reduce(chain *s, const double r[], double ends[])
 {
     if (s->c == 7 && s->y == 7)

@@ -5,14 +5,14 @@
 
 #include "elements/math/dense.h"
 
-/* condensation.c: numbers the end coordinates, and the unknown ones among them. Returns the number
- * of end coordinates; s->unknown NULL: out of memory. */
+/* Numbers the end coordinates, and the unknown ones among them. Returns the number of end
+ * coordinates; s->unknown NULL: out of memory. */
 static int condensation_number(condensation *s, int count, const int released[]);
 /* Builds the patterns of both matrices. */
 static status condensation_patterns(condensation *s, int ends, fault *f);
 
-/* Returns 1 if loads have a stiffness only at the ends of members, and all nodes in between are
- * free. */
+/* Returns 1 if all loads with a stiffness act at the ends of members, and all nodes between the
+ * ends are free. */
 static int applies(const equations *eq, int from)
 {
     const model *m = eq->m;
@@ -74,7 +74,8 @@ static status member_of(const model *m, int index, condensed_member *out, fault 
     return chain_alloc(out->links, out->joint, out->y, &out->chain, f);
 }
 
-/* Sets the members and their loads, in arrays of this condensation or, if given, those of `of`. */
+/* Sets the members and their loads. The arrays belong to this condensation or, if given, to `of`.
+ * */
 static status find_members(condensation *s, const condensation *of, fault *f)
 {
     const model *m = s->m;
@@ -179,7 +180,7 @@ void condensation_free(condensation *s)
     free(s);
 }
 
-/* Makes a link of one element. force[7 nodes]: internal forces in the state. */
+/* Makes a link from an element. force[7 nodes]: internal forces in the state. */
 static status link_element_of(const equations *eq, const model_state *s, const condensed_member *of,
                               int i, double path, chain_link *link, double force[], fault *f)
 {
@@ -202,7 +203,7 @@ static status link_element_of(const equations *eq, const model_state *s, const c
     return link_of(&el, link, f);
 }
 
-/* Builds the chain of a member; force[14]: internal forces at its ends. */
+/* Builds the chain of a member. force[14]: internal forces at its ends. */
 static status fill_chain(const equations *eq, const model_state *s, condensed_member *of,
                          double path, double force[], fault *f)
 {
@@ -221,7 +222,7 @@ static status fill_chain(const equations *eq, const model_state *s, condensed_me
     return STATUS_OK;
 }
 
-/* Computes K of the ends of a member, in coordinates of the model. */
+/* Computes K of the ends of a member in coordinates of the model. */
 static status member_matrix(condensation *s, condensed_member *of, double path, double K[],
                             fault *f)
 {
@@ -289,8 +290,8 @@ status condensation_factor(condensation *s, fault *f)
     return factor_numeric(s->factor, &s->inside, f);
 }
 
-/* Coordinates of the ends of members, and the patterns of the system that remains when members are
- * condensed. */
+/* Coordinates of the ends of members, and patterns of the system that remains after members have
+ * been condensed. */
 
 static void note(const mesh_element *el, int number[])
 {
@@ -299,8 +300,6 @@ static void note(const mesh_element *el, int number[])
             number[el->index[k]] = 0;
 }
 
-/* Numbers the end coordinates, and the unknown ones among them. Returns the number of end
- * coordinates. */
 static int condensation_number(condensation *s, int count, const int released[])
 {
     const model *m = s->m;
@@ -333,8 +332,8 @@ static void couple(const condensation *s, const mesh_element *el, int ends, char
                 coupled[s->number[el->index[k]] * ends + s->number[el->index[i]]] = 1;
 }
 
-/* Builds the pattern of the coordinates list[count], numbered as in all coordinates or as in the
- * list. */
+/* Builds the pattern of the coordinates list[count]. The rows are numbered as in all coordinates,
+ * or as in the list. */
 static status pattern_of(const condensation *s, int count, const int list[], int ends,
                          const char coupled[], int own, sparse *out, fault *f)
 {
@@ -362,7 +361,7 @@ static status pattern_of(const condensation *s, int count, const int list[], int
     return STATUS_OK;
 }
 
-/* Finds the positions in K of the entries of the unknowns. */
+/* Finds the position in K of each entry of the matrix of the unknowns. */
 static status find_sources(condensation *s, fault *f)
 {
     const sparse *a = &s->inside;

@@ -48,8 +48,8 @@ static void undeformed(const distributed_loads *of, double x, double R[9])
     mat3_mul(el->triad[0], by, R);
 }
 
-/* Computes the load at x times `scale`, given the undeformed triad there: per length, or for
- * gravity per mass. */
+/* Computes the load at x times `scale`, given the undeformed triad at x. The load is per length, or
+ * per mass for gravity. */
 static void load_at(const distributed_loads *of, const scene_load *load, double scale, double x,
                     const double before[9], field_load *out)
 {
@@ -79,7 +79,7 @@ static void load_at(const distributed_loads *of, const scene_load *load, double 
 
 enum { MOST = FIELD_MOST_POINTS };
 
-/* Returns 1 if a load along an element is constant. one: its value at one point. */
+/* Returns 1 if a load along an element is constant. one: value of the load at a point. */
 static int same(const distributed_loads *of, const scene_load *load, const field_load *one)
 {
     return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&
@@ -87,7 +87,7 @@ static int same(const distributed_loads *of, const scene_load *load, const field
             vec3_norm(model_kind_of(of->m, of->element)->curvature) == 0);
 }
 
-/* Computes one load's values at the points of an element. Returns the number of points. */
+/* Computes the values of one load at the points of an element. Returns the number of points. */
 static int points_of(const distributed_loads *of, const scene_load *load, double scale,
                      const double part[2], field_rows rows[MOST], field_load acting[MOST])
 {
@@ -136,7 +136,7 @@ int distributed_takes(const equations *eq, int element, const scene_load *load)
     return applied_part(m, element, load, part) && taken(eq, element, load, part);
 }
 
-/* force[] += a load times `scale`. */
+/* Adds a load times `scale` to force[]. */
 static void gather(const equations *eq, int element, const scene_load *load, double scale,
                    double force[3 * ELEMENT_ALONG_POINTS])
 {
@@ -220,8 +220,9 @@ int distributed_add_own(const equations *eq, const model_state *s, const node_st
         of.out.inner = &s->inner[(size_t)element * (size_t)model_inner(m)];
     }
     const element_data *unstressed = linear ? data : free_strain_data(eq, element, path);
-    model_type(m)->along(1, &unstressed, x, &of.out,
-                         &outcome); /* cannot fail in a state that has been evaluated */
+    model_type(m)->along(
+        1, &unstressed, x, &of.out,
+        &outcome); /* this call cannot fail, because the state has been evaluated before */
     for (int k = 0; k < model_strains(m) && !linear; k++)
         D[k] -= s->e[first + (size_t)k];
     distributed_add_taken(m, &of.out, J, linear ? NULL : D, forces, K);
@@ -255,7 +256,7 @@ int distributed_stress(const equations *eq, const model_state *s, const node_sta
     return 1;
 }
 
-/* Adds the derivative of the forces with respect to the size of one load. */
+/* Adds the derivative of the forces with respect to the magnitude of one load. */
 static void add_rate(const equations *eq, const model_state *s, const node_state x[], int element,
                      const scene_load *load, double scale, double forces[])
 {
@@ -358,9 +359,9 @@ static void add_load(const distributed_loads *of, const scene_load *load, double
     }
 }
 
-/* As add_rotating, for a section given by matrices: with momentum p and angular momentum h per
- * length, velocity v of the line and omega, the load on the line is -omega x p, and the moment is
- * -omega x h - v x p. */
+/* Like add_rotating, for a section given by matrices. With momentum p and angular momentum h per
+ * length, velocity v of the line and angular velocity omega, the load on the line is -omega x p,
+ * and the moment is -omega x h - v x p. */
 static void add_rotating_matrices(const section *c, const double omega[3], const double speed[3],
                                   const double R[9], span_load *out)
 {
@@ -379,8 +380,8 @@ static void add_rotating_matrices(const section *c, const double omega[3], const
     }
 }
 
-/* Adds the centrifugal force on the mass at the centroid, and the moment on the inertia of the
- * section. */
+/* Adds the centrifugal force on the mass at the centroid, and the centrifugal moment of the inertia
+ * of the section. */
 static void add_rotating(const distributed_loads *of, const span_frame *at, span_load *out)
 {
     const model *m = of->m;

@@ -5,20 +5,20 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Computes error[k] for k = 1 ... most: the largest error of a displacement or strain [m] that
- * an extrapolation from k states would have had for at[most]. k = 1: the last state unchanged.
- * INFINITY: no extrapolation was possible. */
+/* Computes error[k] for k = 1 ... most: the largest error of a displacement or strain [m] if
+ * at[most] were extrapolated from k states. k = 1: the last state unchanged. INFINITY: the
+ * extrapolation is not possible. */
 static void extrapolate_errors(const equations *, int most, const model_state *const at[],
                                double error[]);
 
-/* Large models store fewer states. sheet_cantilever, spherical_joint and hexapod take the same
+/* Large models store fewer states. sheet_cantilever, spherical_joint and hexapod need the same
  * numbers of iterations with eight states as with twelve. */
 enum { MANY_ELEMENTS = 1000, OF_MANY = 8 };
-/* The second step is extrapolated linearly if the first one took at most this number of
+/* The second step is extrapolated linearly if the first step took at most this number of
  * iterations. */
 enum { EASY_ITERATIONS = 4 };
-/* Largest error of an extrapolation, relative to the error without extrapolation, for which
- * extrapolating saves iterations. */
+/* Largest error of an extrapolation, relative to the error without extrapolation, for which an
+ * extrapolation saves iterations. */
 static const double worthwhile = 0.3;
 
 /* Returns the last k of the first `count` states. */
@@ -67,8 +67,9 @@ status predictor_add(const equations *eq, const model_state *s, int iterations, 
     return STATUS_OK;
 }
 
-/* Returns the number of states that would have extrapolated the last state best, plus one if the
- * error was still decreasing with the number of states. 0: no extrapolation is better than none. */
+/* Returns the number of states from which the extrapolation of the last state would have had the
+ * smallest error, plus one if the error was still decreasing with the number of states. 0: no
+ * extrapolation is better than the last state. */
 static int states_of_least_error(const predictor *t)
 {
     int best = 2;
@@ -89,13 +90,13 @@ void predictor_guess(const equations *eq, const predictor *t, double path, model
             return;
 }
 
-/* Initial guess for the next state of a path: the polynomial through the last states. */
+/* Initial guess for the next state of a path, from the polynomial through the last states. */
 
-/* far: largest step for extrapolation, relative to the last step. bent: largest error of
- * extrapolated prescribed values, relative to the largest of their steps. */
+/* far: largest step for which the state is extrapolated, relative to the last step. bent: largest
+ * error of extrapolated prescribed values, relative to the largest of their steps. */
 static const double far = 1.5 * (1 + 1e-9), bent = 0.25;
 
-/* Computes the weights of the states in their interpolation polynomial at `path`. */
+/* Computes the weights of the states in the interpolation polynomial at `path`. */
 static void lagrange(int count, const model_state *const at[], double path, double weight[])
 {
     for (int i = 0; i < count; i++) {
@@ -106,8 +107,8 @@ static void lagrange(int count, const model_state *const at[], double path, doub
     }
 }
 
-/* Returns 1 if the next value of a prescribed function, value[count], agrees with its
- * extrapolation. */
+/* Returns 1 if the next value of a prescribed function agrees with the extrapolation of
+ * value[count]. */
 static int continues(int count, const double weight[], const double value[])
 {
     const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
@@ -119,7 +120,8 @@ static int continues(int count, const double weight[], const double value[])
 
 /* Extrapolations from the last k states of at[most], k = 2 ... most, for the state at `path`. */
 typedef struct guesses {
-    int most, good[MODEL_EXTRAPOLATED + 1]; /* good[k]: extrapolation from k states is possible */
+    /* good[k]: 1 if the extrapolation from k states is possible */
+    int most, good[MODEL_EXTRAPOLATED + 1];
     double weight[MODEL_EXTRAPOLATED + 1][MODEL_EXTRAPOLATED];
 } guesses;
 
@@ -129,7 +131,7 @@ static void keep_continuing(const double value[], guesses *g)
         g->good[k] = g->good[k] && continues(k, g->weight[k], value + g->most - k);
 }
 
-/* Rejects extrapolations that disagree with drivers and loads at the next path parameter. */
+/* Rejects extrapolations that disagree with the drivers and loads at the next path parameter. */
 static void keep_smooth(const equations *eq, const model_state *const at[], double path, guesses *g)
 {
     const model *m = eq->m;
@@ -150,8 +152,8 @@ static void keep_smooth(const equations *eq, const model_state *const at[], doub
     }
 }
 
-/* Sets the prescribed components of a spatial increment to the values of their drivers, so frame
- * and driver agree. */
+/* Sets the prescribed components of a spatial increment to the values of their drivers, so the
+ * frame agrees with the drivers. */
 static void prescribe(const model *m, const mesh_vertex *v, const model_state *last,
                       const model_state *out, double turn[3])
 {
@@ -166,8 +168,8 @@ static void prescribe(const model *m, const mesh_vertex *v, const model_state *l
     }
 }
 
-/* Extrapolates from the last orientation. The rotation vectors of the other states are relative
- * to it. */
+/* Extrapolates a rotation. The rotation vectors of all states are relative to the last orientation.
+ * */
 static void extrapolate_rotation(const model *m, int vertex, int count, const double weight[],
                                  const model_state *const at[], model_state *out)
 {
@@ -208,7 +210,7 @@ static void weigh(const equations *eq, int least, int most, const model_state *c
     keep_smooth(eq, at, path, g);
 }
 
-/* sum += weight x, one state after the other, for several coordinates together. */
+/* Adds weight x of one state to the sums of several coordinates. */
 static void add_weighted(double weight, size_t size, const double x[], double sum[])
 {
     for (size_t k = 0; k < size; k++)
@@ -217,8 +219,8 @@ static void add_weighted(double weight, size_t size, const double x[], double su
 
 enum { PART = 8 };
 
-/* Returns the maximum of `largest` and |sum_i weight[i] x_i - x_count|, where x_i = at[i]->block
- * + from, over `size` numbers. The numbers are processed in small groups whose sums stay in
+/* Returns the maximum of `largest` and |sum_i weight[i] x_i - x_count|, where x_i = at[i]->block +
+ * from, over `size` numbers. The numbers are processed in small groups, so that the sums stay in
  * registers. */
 static inline __attribute__((always_inline)) double largest_of(int count, const double weight[],
                                                                const model_state *const at[],

@@ -1,7 +1,7 @@
-/* Stress-free strains of elements, in addition to those of the undeformed state. Causes are
- * temperatures and initial strains of members. For all formulations they are the strains D(x) of
- * a free element, and the strains of a state are measured from them. A type whose stresses also
- * depend on the curvature itself provides element_type.unstressed. */
+/* Stress-free strains of elements, in addition to the strains of the undeformed state. They are due
+ * to temperatures and to initial strains of members. For all formulations, they are the strains
+ * D(x) of a free element, and the strains of a state are measured from them. A type whose stresses
+ * also depend on the total curvature provides element_type.unstressed. */
 #include "harness/newton/newton_impl.h"
 
 #include <math.h>
@@ -16,10 +16,10 @@
 
 enum {
     POINTS = 6
-}; /* number of points along a part of an arc; exact to round-off for rotations
-      up to 1 rad */
+}; /* number of points along a part of an arc; the result is accurate to rounding error for
+      rotations up to 1 rad */
 
-/* Elongation, and curvatures about the principal axes y and z [1/m]. */
+/* Elongation, and curvatures [1/m] about the principal axes y and z. */
 enum { ELONGATION, ABOUT_Y, ABOUT_Z, AMOUNTS };
 
 static int are_same(const double a[AMOUNTS], const double b[AMOUNTS])
@@ -27,7 +27,7 @@ static int are_same(const double a[AMOUNTS], const double b[AMOUNTS])
     return a[ELONGATION] == b[ELONGATION] && a[ABOUT_Y] == b[ABOUT_Y] && a[ABOUT_Z] == b[ABOUT_Z];
 }
 
-/* Adds the strain of a temperature on its part of the element. */
+/* Adds the strain due to a temperature on the part of the element that it heats. */
 static void add_amounts(const model *m, int element, const scene_load *load, double scale,
                         double out[AMOUNTS])
 {
@@ -62,7 +62,7 @@ static void heat_at(const equations *eq, int element, double path, double out[AM
             add_amounts(eq->m, element, &s->load[i], applied_factor(eq, &s->load[i], path), out);
 }
 
-/* Computes the amounts including the initial strains of the member. */
+/* Computes the amounts, including the initial strains of the member. */
 static void amounts_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const double *own = model_kind_of(eq->m, element)->free;
@@ -71,7 +71,7 @@ static void amounts_at(const equations *eq, int element, double path, double out
         out[i] += own[i];
 }
 
-/* Computes the derivative with respect to the path parameter or to time. */
+/* Computes the derivative with respect to the path parameter or time. */
 static void rates_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const scene *s = model_scene(eq->m);
@@ -85,7 +85,7 @@ static void rates_at(const equations *eq, int element, double path, double out[A
 
 /* A free element in the axes of its first node. */
 typedef struct free_element {
-    double length, rotation[3], strained[3]; /* length of its arc; R^T r' */
+    double length, rotation[3], strained[3]; /* length of the arc; rotation; R^T r' */
     node_state x[ELEMENT_MAX_NODES];
 } free_element;
 
@@ -143,7 +143,8 @@ static void moved(const free_element *of, const double amounts[AMOUNTS], double 
         out[i] *= of->length;
 }
 
-/* Computes the derivative of the strains of a free element in the direction of the amounts. */
+/* Computes the derivative of the strains of a free element with respect to the amounts, in a given
+ * direction. */
 static void strains_by(const model *m, int element, const free_element *of,
                        const double amounts[AMOUNTS], double out[])
 {
@@ -187,9 +188,9 @@ void free_strain_subtract(const equations *eq, int element, double path, double 
         e[i] -= own[i] - rest[i];
 }
 
-/* Element data as modified by their type for the most recent amounts. */
+/* Element data that the type has modified for the most recent amounts. */
 typedef struct run_free {
-    size_t size;     /* number of doubles per element: amounts, then data */
+    size_t size;     /* number of doubles per element: the amounts, followed by the data */
     double *element; /* [elements x size] */
 } run_free;
 
@@ -295,8 +296,8 @@ int free_strain_by_load(const equations *eq, const model_state *s, int element,
     return 1;
 }
 
-/* Returns the energy of an element in a state with other amounts, for a type that modifies its
- * data. */
+/* Returns the energy of an element in a state with other amounts. The type modifies its data for
+ * free strains. */
 static double energy_with(const equations *eq, const model_state *s, int element,
                           const double amounts[AMOUNTS], element_data *room)
 {
@@ -312,7 +313,7 @@ static double energy_with(const equations *eq, const model_state *s, int element
 }
 
 /* Returns the energy that an element in a state gains when its amounts change from `before` to
- * `after` at constant stresses, for a type whose strains are measured from the free strains. */
+ * `after` at constant stresses. The strains of the type are measured from the free strains. */
 static double counted(const equations *eq, const model_state *s, int element,
                       const double before[AMOUNTS], const double after[AMOUNTS])
 {
@@ -346,8 +347,8 @@ static double gained(const equations *eq, const model_state *s, int element,
 
 double free_strain_power(const equations *eq, const model_state *s, double time)
 {
-    const double small =
-        1e-4; /* strain; step of a difference that is exact for quadratic energies */
+    const double small = 1e-4; /* strain that is used as the step of a finite difference, which is
+                                  exact for quadratic energies */
     const model *m = eq->m;
     double power = 0;
     for (int i = 0; i < model_elements(m) && model_frees(m); i++) {

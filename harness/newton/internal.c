@@ -7,7 +7,7 @@
 #include "elements/math/rotation.h"
 #include "elements/section/section.h"
 
-/* A vertex, and the force from which the loads lumped there are subtracted. */
+/* A vertex, and the force on it from which the lumped loads are subtracted. */
 typedef struct share {
     int vertex;
     double *force; /* [6] */
@@ -37,7 +37,7 @@ static int lies_along(const model *m, int element, const scene_load *load)
            (!scene_load_within(load) || applied_inside(part[0]));
 }
 
-/* taken[] += the forces on the ends times `sign`. */
+/* Adds the forces on the ends times `sign` to taken[]. */
 static void note_taken(const model *m, const double force[], double sign, double taken[2][3])
 {
     for (int end = 0; end < 2; end++)
@@ -45,8 +45,8 @@ static void note_taken(const model *m, const double force[], double sign, double
             taken[end][i] += sign * force[NODE_COORDINATES * (end ? model_nodes(m) - 1 : 0) + i];
 }
 
-/* Records the parts of weight or centrifugal force that were subtracted at the ends of a
- * two-node element. The distributed load also has a couple, and so does its inertia
+/* Records the parts of weight or centrifugal force that were subtracted at the ends of a two-node
+ * element. The distributed load also has a couple, like the distributed inertia
  * (harness/time/deformable.c). */
 static void take_couple(const mesh_element *el, const node_state x[], double taken[2][3],
                         double ends[2][7])
@@ -66,8 +66,8 @@ static void take_couple(const mesh_element *el, const node_state x[], double tak
     }
 }
 
-/* Computes ends[2][7]: external forces on the first (0) and last (1) node of an element,
- * excluding loads along the element, in global axes. x: nodes of the element. */
+/* Computes the external forces on the first (0) and last (1) node of an element, excluding loads
+ * along the element, in global axes: ends[2][7]. x: nodes of the element. */
 static void ends_of(const equations *eq, const internal_state *s, int i, node_state x[],
                     double ends[2][7])
 {
@@ -83,7 +83,8 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
     double taken[2][3] = {{0}};
     if (rotating_frame_lumps(eq))
         note_taken(m, force, 1, taken);
-    rotating_frame_add(eq, x, i, s->path, force, NULL, NULL); /* cannot fail in an accepted state */
+    /* this call cannot fail in an accepted state */
+    rotating_frame_add(eq, x, i, s->path, force, NULL, NULL);
     if (rotating_frame_lumps(eq))
         note_taken(m, force, -1, taken);
     for (int l = 0; l < model_scene(m)->loads; l++) {
@@ -118,7 +119,7 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
         s->moving->ends(s->moving->context, i, ends);
 }
 
-/* Returns the angle [rad] between the axes of the element's constant section and those of a
+/* Returns the angle [rad] between the axes of the constant section of the element and the axes of a
  * tapered member at the position. */
 static double axes_turned(const model *m, int member, double place, const mesh_element *el)
 {
@@ -129,13 +130,13 @@ static double axes_turned(const model *m, int member, double place, const mesh_e
     if (!scene_member_tapers(sm))
         return 0;
     section_taper_at(&s->section[sm->section], &s->section[sm->section_q], place, &spec);
-    const int known = section_compute(&spec, &c, NULL) == STATUS_OK; /* the same result as for
-                                                                        neighbouring elements */
+    /* the result is the same for neighbouring elements */
+    const int known = section_compute(&spec, &c, NULL) == STATUS_OK;
     return known ? c.axes_angle - model_section(m, model_kind(m, el->kind)->section)->axes_angle
                  : 0;
 }
 
-/* Transforms components to axes rotated by an angle about x. */
+/* Transforms components to axes that are rotated by an angle about x. */
 static void turn_components(double angle, double v[3])
 {
     const double c = cos(angle), d = sin(angle), y = v[1];
@@ -164,7 +165,7 @@ void internal_at_end(const equations *eq, const internal_state *s, int member, i
         out[c] *= -1;
 }
 
-/* Sets the ends of an element in the form of section_forces.h. */
+/* Sets the end values of an element in the form of section_forces.h. */
 static void take_ends(const equations *eq, const internal_state *s, int i, span_end end[2])
 {
     const model *m = eq->m;
@@ -191,7 +192,7 @@ static void take_ends(const equations *eq, const internal_state *s, int i, span_
 /* Loads along an element. */
 typedef struct internal_between {
     distributed_loads loads;
-    int acts, nodes; /* nodes: number of nodes with inertia forces; 0: at rest */
+    int acts, nodes; /* nodes: number of nodes with inertia forces; 0: the structure is at rest */
     double density[ELEMENT_MAX_NODES][6];
 } internal_between;
 
@@ -220,7 +221,8 @@ static void between_at(void *context, double x, const span_frame *at, span_load 
         }
 }
 
-/* Computes the undeformed frames of the ends, and their displacements and rotations from there. */
+/* Computes the undeformed frames of the ends, and the displacements and rotations from these
+ * frames. */
 static void moves_of(const equations *eq, const internal_state *s, int i, span_frame begin[2],
                      span_move end[2])
 {
@@ -250,7 +252,8 @@ static void moves_of(const equations *eq, const internal_state *s, int i, span_f
     }
 }
 
-/* moved: receives the displacement and rotation of the section at x; NULL: not requested. */
+/* Recovers the resultants at x. moved: receives the displacement and rotation of the section at x;
+ * NULL: not requested. */
 static status recover_moved(const equations *eq, const internal_state *s, int i, const span_grid *g,
                             double x, span_move *moved, span_fields *out, fault *f)
 {
@@ -342,7 +345,7 @@ status internal_at(const equations *eq, const internal_state *s, const internal_
     return STATUS_OK;
 }
 
-/* Fields of one element and the measured quantity. */
+/* Fields of an element, and the quantity that is computed from them. */
 typedef struct measured {
     const span_grid *g;
     const span_fields *fields;
@@ -358,8 +361,8 @@ static double measure_at(const measured *what, double x)
     return what->of(what->context, what->element, x, v);
 }
 
-/* Refines a maximum between a and b by golden-section search. A grid point between them is
- * larger than its neighbours. */
+/* Refines a maximum between a and b by golden-section search. A grid point between a and b has a
+ * larger value than its neighbours. */
 static double refined(const measured *what, double a, double b)
 {
     const double golden = (sqrt(5) - 1) / 2;
@@ -382,7 +385,7 @@ static double refined(const measured *what, double a, double b)
     return fmax(at_c, at_d);
 }
 
-/* Raises *largest to the maximum in the element, if this is larger. */
+/* Replaces *largest by the maximum in the element if the maximum is larger. */
 static void take_largest(const measured *what, double *largest)
 {
     double value[SPAN_GRID_POINTS];
@@ -455,7 +458,7 @@ static status take_local(member_points *of, double place, fault *f)
 }
 
 /* Transforms the resultants from the principal axes of the element's section to the axes of the
- * points; the twist follows from the local stiffness. */
+ * points. The twist follows from the local stiffness. */
 static stress_resultants local_resultants(const member_points *of, int element, const double v[])
 {
     const section *c = of->points.section,

@@ -1,4 +1,4 @@
-/* Linear analyses about the undeformed state, and quadratic forms computed from the strains, which
+/* Linear analyses about the undeformed state. Quadratic forms are computed from the strains, which
  * do not lose digits on fine meshes. */
 #include "harness/newton/newton_impl.h"
 
@@ -36,7 +36,7 @@ status linear_stiffness(const equations *eq, sparse *K, fault *f)
     return outcome;
 }
 
-/* Computes J x of one element. */
+/* Computes J x of an element. */
 static void linear_strains(const model *m, int i, const undeformed_element *l, const double x[],
                            double e[])
 {
@@ -71,7 +71,8 @@ double linear_initial(const model *m)
     return largest;
 }
 
-/* sigma += `times` the stresses due to the temperatures at `path` in elements with fixed nodes. */
+/* Adds `times` the stresses due to the temperatures at `path` in elements with fixed nodes to
+ * sigma. */
 static status add_free(const equations *eq, double path, double times, double sigma[], fault *f)
 {
     const model *m = eq->m;
@@ -130,7 +131,7 @@ void linear_forces(const equations *eq, const double sigma[], double f[])
     linear_springs_forces(m, sigma + model_elements(m) * model_strains(m), f);
 }
 
-/* Computes sum sigma_i H_i and G(sigma) of one element, in element coordinates, and force = J^T
+/* Computes sum sigma_i H_i and G(sigma) of an element in element coordinates, and force = J^T
  * sigma. */
 static void geometric_of(const equations *eq, int i, const double sigma[], double H[], double G[],
                          double J[])
@@ -178,7 +179,8 @@ status linear_geometric_stiffness(const equations *eq, const double sigma[], dou
     return STATUS_OK;
 }
 
-/* Computes the sums of the absolute terms of J x of one element, and of its stresses S J x. */
+/* Computes the sums of the absolute values of the terms of J x and of the stresses S J x of an
+ * element. */
 static void linear_terms(const equations *eq, int i, const double x[], double strain[],
                          double stress[])
 {
@@ -201,8 +203,8 @@ static void linear_terms(const equations *eq, int i, const double x[], double st
     }
 }
 
-/* Strains have the rounding errors of their terms, and S those of its entries. These errors are
- * similar in all elements and therefore add up. */
+/* Strains have the rounding errors of their terms, and S has the rounding errors of its entries.
+ * These errors are similar in all elements, so they add up. */
 double linear_strain_rounding(const equations *eq, const double x[])
 {
     const model *m = eq->m;
@@ -239,7 +241,7 @@ double linear_strain_energy2(const equations *eq, const double x[])
     return sum + linear_springs_energy2(m, x);
 }
 
-/* Returns x^T (sum sigma_i H_i + J^T G(sigma) J) x of one element. */
+/* Returns x^T (sum sigma_i H_i + J^T G(sigma) J) x of an element. */
 static double geometric_energy2(const equations *eq, int i, const double sigma[], const double x[])
 {
     const model *m = eq->m;
@@ -254,7 +256,8 @@ static double geometric_energy2(const equations *eq, int i, const double sigma[]
     const double inside = dense_quadratic(model_strains(m), G, e);
     if (model_element(m, i)->plain)
         return inside + dense_quadratic(model_own_coordinates(m), H, local);
-    /* Second derivatives of offsets and sequences act in the model's coordinates. */
+    /* Second derivatives of offsets and of sequences of angles act in the coordinates of the model.
+     * */
     const mesh_element *el = model_element(m, i);
     double own[MODEL_MAX_COORDINATES];
     for (int k = 0; k < el->columns; k++)
@@ -276,8 +279,8 @@ double linear_geometric_energy2(const equations *eq, const double sigma[], const
            linear_springs_geometric_energy2(m, sigma + model_elements(m) * model_strains(m), x);
 }
 
-/* The form is linear in the stresses. Their error is that of their terms: as large as the stress
- * `other` of all kinds together, in any direction. */
+/* The form is linear in the stresses, so its rounding error is found by adding a stress `other`
+ * with the size of the terms of all stresses, in an arbitrary direction. */
 double linear_geometric_rounding(const equations *eq, const double load_x[], const double sigma[],
                                  const double x[])
 {
@@ -343,9 +346,9 @@ void linear_system_free(linear_system *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Computes the residual: load minus K x, including prescribed coordinates, minus the forces of
- * initial strains. It is computed from element strains, so its error does not grow with the number
- * of elements. */
+/* Computes the residual: the load minus K x and minus the forces of initial strains, including
+ * prescribed coordinates. The residual is computed from element strains, so its error does not grow
+ * with the number of elements. */
 static status residual_of(analysis_context *c, double path, const double load[], const double x[],
                           double sigma[], double r[], fault *f)
 {
@@ -360,8 +363,9 @@ static status residual_of(analysis_context *c, double path, const double load[],
 typedef struct system_workspace {
     double *load, *r, *weight, *shaken; /* [free + driven] */
     double *sigma;                      /* [elements x strains] */
-    double path, strained; /* largest stress-free strain; if the strain is prevented, there is no
-                              displacement for comparison */
+    /* largest stress-free strain; a prevented strain causes no displacement with which errors could
+     * be compared */
+    double path, strained;
 } system_workspace;
 
 static status workspace_alloc(analysis_context *c, double path, system_workspace *w, fault *f)
@@ -388,7 +392,7 @@ static double part_of(const analysis_context *c, const system_workspace *w, cons
     return refinement_part(model_sizes(c->model).free, w->weight, change, x, w->strained);
 }
 
-/* x += K^-1 (load - K x); returns the size of the correction relative to x. */
+/* Computes x += K^-1 (load - K x) and returns the size of the correction relative to x. */
 static status correct(analysis_context *c, linear_system *s, system_workspace *w, double x[],
                       double *correction, fault *f)
 {
@@ -401,9 +405,9 @@ static status correct(analysis_context *c, linear_system *s, system_workspace *w
     return STATUS_OK;
 }
 
-/* Measures the error of x. A correction may be zero by accident, especially with one element.
- * Therefore x is perturbed in its last digits and corrected, and its distance from the old value
- * is measured. The work is not counted. */
+/* Measures the error of x. A correction may be zero by accident, especially for a single element.
+ * Therefore x is perturbed in its last digits and corrected, and the distance from the former x is
+ * measured. This work is not counted. */
 static status shake(analysis_context *c, linear_system *s, system_workspace *w, const double x[],
                     double *change, fault *f)
 {

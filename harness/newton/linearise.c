@@ -1,7 +1,6 @@
-/* Mixed linearisation (N section 4): with J = de/dx and the independent e and sigma,
- *   de = D(x) - e + J dx,   sigma + dsigma = P'(e) + P''(e) de.
- * The equations are condensed element by element, so stiff modes cause no large spurious
- * stresses during the iteration. */
+/* Mixed linearisation (N section 4). With J = de/dx and independent e and sigma: de = D(x) - e + J
+ * dx, sigma + dsigma = P'(e) + P''(e) de. The equations are condensed element by element, so stiff
+ * modes cause no large spurious stresses during the iteration. */
 #include "harness/newton/newton_impl.h"
 
 #include <stdlib.h>
@@ -11,7 +10,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/vec3.h"
 
-/* Displacement-only Newton: sets e and sigma of an element from D(x). */
+/* Sets e and sigma of an element from D(x), for Newton's method with displacements only. */
 static status compatible_element(const equations *eq, model_state *s, int i)
 {
     const model *m = eq->m;
@@ -59,7 +58,7 @@ static double incompatibility_of(const model *m, const model_slot *w, double len
     return largest;
 }
 
-/* Adds force and K (which contains H) of an evaluated element, minus centrifugal forces.
+/* Adds the force and K (which contains H) of an evaluated element, minus centrifugal forces.
  * present: forces conjugate to the stresses of the state, to which H belongs. */
 static status add_material(const equations *eq, const linear_memory *memory, const model_state *s,
                            const chunk_element *of, int tangent, double path, double present[],
@@ -104,7 +103,7 @@ static void subtract_loads(const equations *eq, const linear_memory *memory, chu
 }
 
 /* Computes the internal forces of an evaluated element, minus centrifugal forces and loads along
- * it, and optionally their tangent. Both are in model coordinates. */
+ * the element, and optionally their tangent. All results are in coordinates of the model. */
 static status element_equations(const equations *eq, const linear_memory *memory,
                                 const model_state *s, chunk_element *of, int tangent, double path,
                                 element_part *part)
@@ -126,7 +125,7 @@ static status element_equations(const equations *eq, const linear_memory *memory
     return STATUS_OK;
 }
 
-/* force += K drive for the prescribed coordinates of the element. */
+/* Adds K drive for the prescribed coordinates of the element to `force`. */
 static void add_driven(const model *m, const mesh_element *el, const double drive[],
                        const double K[], double force[])
 {
@@ -140,7 +139,7 @@ static void add_driven(const model *m, const mesh_element *el, const double driv
     }
 }
 
-/* Adds the columns of K that belong to the unknowns of conditions. */
+/* Adds the columns of K that belong to the unknown drivers of conditions. */
 static void add_columns(const model *m, const mesh_element *el, const double K[],
                         model_linearisation *lin)
 {
@@ -157,22 +156,22 @@ static void add_columns(const model *m, const mesh_element *el, const double K[]
     }
 }
 
-/* Data shared by the threads of a team: elements in batches of `window`, whose parts are added in
- * order. */
+/* Data shared by the threads of a team. Elements are evaluated in batches of `window`, and their
+ * parts are added in order. */
 typedef struct shared_loop {
     const equations *eq;
     const linear_memory *memory;
     const model *m;
     const model_state *s;
     model_linearisation *lin;
-    const mesh_pattern *pattern; /* NULL: K is not requested */
+    const mesh_pattern *pattern; /* pattern of K; NULL: K is not requested */
     int tangent, window;
     element_part *part; /* [slots of the team x window] */
     status outcome;
     fault *f;
 } shared_loop;
 
-/* Evaluates elements [first, end), at most CHUNK_WINDOW, into part[0], ... */
+/* Evaluates elements [first, end) into part[0], ... There are at most CHUNK_WINDOW elements. */
 static void fill_window(const shared_loop *loop, int first, int end, element_part part[])
 {
     unsigned char done[CHUNK_WINDOW] = {0};
@@ -206,8 +205,8 @@ static void fill_piece(void *context, int piece, int slot)
                 loop->part + (size_t)slot * (size_t)loop->window);
 }
 
-/* Returns the number of elements whose parts are stored in eq->run->part. 0: elements are added
- * one at a time, because memory is short or one thread is sufficient. */
+/* Returns the number of elements whose parts are stored in eq->run->part. 0: elements are added one
+ * at a time, because memory is short or a single thread is sufficient. */
 static int window_of(const equations *eq)
 {
     const model *m = eq->m;
@@ -249,7 +248,7 @@ static void add_discrete(const equations *eq, const model_state *s, model_linear
     }
 }
 
-/* Adds the content of a slot. Returns 0 if an element cannot be evaluated. */
+/* Adds the contents of a slot. Returns 0 if an element cannot be evaluated. */
 static int take_piece(void *context, int piece, int slot)
 {
     shared_loop *loop = context;
@@ -342,7 +341,7 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
             dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, J,
                                     &stress[(size_t)i * (size_t)model_strains(m)], force);
             rotating_frame_add(eq, x, i, s->path, force, NULL,
-                               NULL); /* cannot fail in an accepted state */
+                               NULL); /* this call cannot fail in an accepted state */
             kinematics_offset(m, s, el->vertex[k], rho);
             vec3_cross(rho, force + NODE_COORDINATES * k, moment);
             for (int c = 0; c < 3; c++) {
@@ -358,11 +357,11 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
                                   node, F);
 }
 
-/* relative to the moments at a node: a smaller sum counts as rounding */
+/* Smaller sums of moments at a node, relative to these moments, count as rounding. */
 static const double least_moment = 1e-12;
 
-/* Returns the reaction moment [N m] about the axis of a node that is fixed about one axis only;
- * 0 if it is rounding. sigma: as for internal_state. */
+/* Returns the reaction moment [N m] on a node that is fixed about one axis only, about this axis;
+ * 0: the moment is a rounding error. sigma: as for internal_state. */
 static double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],
                                     double path, int node, int axis)
 {

@@ -7,8 +7,8 @@
 #include "elements/element.h"
 #include "elements/math/dense.h"
 
-/* With fewer elements, the work is finished before a second thread has started (measured on the
- * joint and the hexapod). */
+/* With fewer elements, the work is finished before a second thread has started (measured for
+ * spherical_joint and hexapod). */
 enum { ELEMENTS_OF_A_THREAD = 32 };
 
 status linear_memory_alloc(const model *m, linear_memory *out, fault *f)
@@ -70,15 +70,15 @@ element_rotating_frame loading_frame(const loading *l, double path)
 
 enum { WIDE = ELEMENT_MAX_COORDINATES };
 
-/* Returns the index of coordinate i of the link among those of the element. The coordinates of
- * the first joint come first. */
+/* Returns the index in the element of coordinate i of the link, whose coordinates start with those
+ * of the first joint. */
 static int place(const link_element *el, int i)
 {
     return NODE_COORDINATES * (i / el->joint) + i % el->joint;
 }
 
-/* Copies the used columns of J: J_p[strains x joint] of the first node, J_y[strains x y] of the
- * others; H[used x used]. */
+/* Copies the columns of J that are used: J_p[strains x joint] of the first node, and J_y[strains x
+ * y] of the other nodes. Also copies H[used x used]. */
 static void take(const link_element *el, double J_p[], double J_y[], double H[])
 {
     const int c = el->joint, n = c * el->nodes, y = n - c, all = NODE_COORDINATES * el->nodes;
@@ -92,8 +92,8 @@ static void take(const link_element *el, double J_p[], double J_y[], double H[])
             H[i * n + j] = el->H[place(el, i) * all + place(el, j)];
 }
 
-/* Computes T[used x joint]: all nodes move with the first one as a rigid body, and the warping
- * amplitudes are zero. */
+/* Computes T[used x joint] for the motion of all nodes with the first node as a rigid body. The
+ * warping amplitudes are zero. */
 static void carry_along(const link_element *el, double T[])
 {
     const int c = el->joint;
@@ -139,7 +139,7 @@ status link_of(const link_element *el, chain_link *out, fault *f)
     take(el, J_p, J_y, H);
     carry_along(el, T);
     TRY(flexibility(el, J_y, H, out, f));
-    /* E, and the resulting forces */
+    /* E, and the forces due to E */
     dense_mul(s, y, c, J_y, T + c * c, E);
     for (int i = 0; i < s * c; i++)
         E[i] += J_p[i];
@@ -164,14 +164,16 @@ status link_of(const link_element *el, chain_link *out, fault *f)
 
 enum { N = 6 };
 
-/* Rigid parts joined by released ends and constraints. */
+/* Rigid parts that are connected by released ends and constraints. */
 typedef struct linkage {
     const model *m;
-    int *part, *number; /* [vertices]: root of each vertex; index of a root's part, NONE: the
-                           part has no element */
+    /* [vertices] root of each vertex; [vertices] index of the part of a root (NONE: the part has no
+     * element) */
+    int *part, *number;
     int count;
-    double *S; /* [6 count x 6 count]: sum of squares of the motions that joints, supports and
-                  springs prevent */
+    /* [6 count x 6 count] sum of squares of the motions that joints, supports and springs prevent
+     * */
+    double *S;
 } linkage;
 
 static void count_part(linkage *l, int mover)
@@ -181,7 +183,7 @@ static void count_part(linkage *l, int mover)
         l->number[root] = l->count++;
 }
 
-/* S[a, b] += sign C^T C */
+/* Adds sign C^T C to S[a, b]. */
 static void add_block(linkage *l, int a, int b, double sign, const double C[N * N])
 {
     double block[N * N] = {0};
@@ -224,7 +226,7 @@ static void add_joint(linkage *l, int vertex)
     add_block(l, b, a, -1, C);
 }
 
-/* Computes the motion of a node's coordinate with its part: row[6], to be multiplied by the
+/* Computes the motion of a coordinate of a node with its part: row[6], to be multiplied by the
  * motions of the part. Returns the part. */
 static int coordinate_row(const linkage *l, int node, int coordinate, double row[N])
 {
@@ -256,7 +258,7 @@ static int coordinate_row(const linkage *l, int node, int coordinate, double row
     return l->number[supports_root(l->part, node)];
 }
 
-/* Adds the constraint by which a node's coordinate follows the coordinate of another node. */
+/* Adds the constraint that couples a coordinate of a node to a coordinate of another node. */
 static void add_tie(linkage *l, int node, int coordinate)
 {
     const scene_tie *tie = model_tie(l->m, node, coordinate);
@@ -293,7 +295,7 @@ static void add_holds(linkage *l, int node)
 }
 
 /* Computes the motion [6: m, rad] of a point of a part in the eigenvector of the smallest
- * eigenvalue. Returns its magnitude [m]. */
+ * eigenvalue. Returns the magnitude of the motion [m]. */
 static double motion_of(const linkage *l, int part, const double position[3], double motion[N])
 {
     double at[3], G[N * N], of_part[N];
@@ -306,7 +308,7 @@ static double motion_of(const linkage *l, int part, const double position[3], do
     return vec3_norm(motion) + model_length(l->m) * vec3_norm(motion + 3);
 }
 
-/* Names the node that moves most, or a member if all nodes are at rest. */
+/* Names the node with the largest motion, or a member if all nodes are at rest. */
 static void name_what_moves(const linkage *l, int *node, int *member, double motion[N])
 {
     const model *m = l->m;
@@ -328,14 +330,14 @@ static void name_what_moves(const linkage *l, int *node, int *member, double mot
         const double size =
             part != NONE ? motion_of(l, part, model_vertex(m, i)->position, moved) : 0;
         if (size > most) {
-            most = size * (1 + 1e-9); /* take the first of equal values */
+            most = size * (1 + 1e-9); /* chooses the first of equal values */
             *node = i;
             memcpy(motion, moved, sizeof moved);
         }
     }
 }
 
-/* Assembles S of all parts. Returns 1 if some motion is not prevented. */
+/* Assembles S for all parts. Returns 1 if a motion is not prevented. */
 static int is_loose(linkage *l)
 {
     const int n = N * l->count;

@@ -8,12 +8,12 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Largest asymmetry of the stiffness of a moment, relative to the moment, that counts as
- * round-off. */
+/* Largest asymmetry of the stiffness of a moment, relative to the moment, that counts as rounding.
+ * */
 static const double potential = 1e-12;
 
-/* Returns which loads along members are lumped at the ends of elements: weights, if mass is
- * lumped there; all loads, if a motion must conserve energy (also in its initial states). */
+/* Returns which loads along members are lumped at the ends of elements: weights if mass is lumped,
+ * or all loads if a motion must conserve energy (including its initial states). */
 static int lumps_of(const model *m, int analysis)
 {
     const scene *s = model_scene(m);
@@ -73,7 +73,7 @@ void loads_driver_rates(const equations *eq, const scene_driver *d, double path,
         out[i] *= scene_acting_factor(model_scene(eq->m), eq->loading.acting, d->load_case);
 }
 
-/* Sum of one load's forces on vertices. */
+/* Sum of the forces of a load on vertices. */
 typedef struct sum_of_loads {
     const model *m;
     const model_state *s;
@@ -181,7 +181,8 @@ void loads_add_temperature(const equations *eq, const model_state *s, const scen
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, s, el, x);
         if (!free_strain_by_load(eq, s, i, load, scale, e) ||
-            tangent_of(eq, s, x, i, C) != STATUS_OK) /* cannot fail in an accepted state */
+            tangent_of(eq, s, x, i, C) !=
+                STATUS_OK) /* this call cannot fail in an accepted state */
             continue;
         dense_mul_vec(model_strains(m), model_strains(m), C, e, sigma);
         model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
@@ -241,8 +242,8 @@ void loads_subtract_stiffness(const equations *eq, const model_state *s, double 
     }
 }
 
-/* Entries of the stiffness of one load at free coordinates. There are few, since all belong to
- * one body. */
+/* Entries of the stiffness of a load at free coordinates. There are few entries, because all of
+ * them belong to one body. */
 enum { MOST_ENTRIES = 64 };
 typedef struct entries_of_load {
     int free, count, row[MOST_ENTRIES], column[MOST_ENTRIES];
@@ -314,7 +315,7 @@ void loads_release_moment(const model *m, const model_state *s, int node, const 
         }
 }
 
-/* Sum of the forces on the frame of one node. */
+/* Sum of the forces on the frame of a node. */
 typedef struct sum_at_node {
     const equations *eq;
     const model *m;
@@ -339,7 +340,7 @@ static void add_at_node(void *context, const applied *what)
         sum->F[k] += what->F[k] + (k >= 3 && away ? moment[k - 3] : 0);
 }
 
-/* Adds the contribution of the loads along an element to the force at one node. */
+/* Adds the contribution of the loads along an element to the force at a node. */
 static void add_element_at_node(sum_at_node *sum, int element, double path)
 {
     const model *m = sum->m;

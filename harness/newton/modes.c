@@ -24,7 +24,7 @@ static const char *component_of(const model *m, int vertex, int c)
     return c >= SCENE_RX && model_vertex(m, vertex)->angles > 0 ? angle[c - SCENE_RX] : plain[c];
 }
 
-/* Labels the coordinates of a vertex. label: contains its position. */
+/* Labels the coordinates of a vertex. On entry, label contains the position of the vertex. */
 static void put_vertex(const model *m, int vertex, row_label label, row_label out[])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -69,15 +69,15 @@ void rows_label(const model *m, row_label out[])
         put_element(m, model_element(m, i), out);
 }
 
-/* Determines the family of a mode: axial, along y, along z or twist. It is the one with the
- * largest sum of squares: of translations along the member, of translations across it in y or z,
- * or of the twist times the radius of gyration. The number of half-waves follows from sign
- * changes of the leading component along the first member. */
+/* Determines the family of a mode: axial, along y, along z or twist. The family has the largest sum
+ * of squares: of translations along the member, of translations across it in y or z, or of the
+ * twist times the radius of gyration. The number of half-waves follows from sign changes of the
+ * leading component along the first member. */
 
 enum { AXIAL, ALONG_Y, ALONG_Z, TWIST, MEASURES };
 
-/* Computes the components of the motion of a vertex in the member's axes: x, y, z, and twist
- * times r. */
+/* Computes the components of the motion of a vertex in the axes of the member: x, y, z, and the
+ * twist times r. */
 static void components(const double R[9], double radius, const double u[7], double out[MEASURES])
 {
     for (int k = 0; k < 3; k++)
@@ -85,8 +85,8 @@ static void components(const double R[9], double radius, const double u[7], doub
     out[TWIST] = radius * (R[0] * u[3] + R[3] * u[4] + R[6] * u[5]);
 }
 
-/* Computes the measures for modes in which vertices do not move: rotations of the section about
- * z and y times r, and warping times r^2. */
+/* Computes the measures for modes in which vertices do not move: rotations of the section about z
+ * and y times r, and warping times r^2. */
 static void turns(const double R[9], double radius, const double u[7], double out[MEASURES])
 {
     out[AXIAL] = 0;
@@ -114,9 +114,9 @@ static int count_half_waves(int vertices, const double *value)
 
 /* Components of a mode at the vertices of all members. */
 typedef struct motion {
-    int points, first_member; /* numbers of points of all members and of the first member */
+    int points, first_member; /* number of points of all members, and of the first member */
     double *part;             /* [points x MEASURES] */
-    double *turn;             /* likewise for rotations and warping amplitudes */
+    double *turn;             /* components of rotations and warping amplitudes */
 } motion;
 
 static int points_of(const model *m, const scene *s)
@@ -189,8 +189,8 @@ static int largest_of(const double sum[MEASURES])
     return leading;
 }
 
-/* If the translations of vertices are below this fraction of rotations and warping (in squares),
- * they are round-off. */
+/* If the squares of the translations of vertices are below this fraction of the squares of
+ * rotations and warping, the translations are rounding errors. */
 static const double in_place_part = 1e-16;
 
 status modes_identify(const model *m, const scene *s, const double mode[], mode_shape *out,
@@ -216,7 +216,7 @@ status modes_identify(const model *m, const scene *s, const double mode[], mode_
     return STATUS_OK;
 }
 
-/* Computes sums of squares of the translation of shear centres across members, and of the twist
+/* Computes the sums of squares of the translation of shear centres across members, and of the twist
  * times r. */
 static void bends_and_twists(const model *m, const scene *s, const motion *shape, int stays,
                              double *bends, double *twists)
@@ -293,7 +293,8 @@ static status motions_alloc(const model *m, const scene *s, int count, size_t n,
     return STATUS_OK;
 }
 
-/* Computes inner products of the motions [count x count]: along z, and in total. */
+/* Computes the inner products [count x count] of the motions along z, and of the complete motions.
+ * */
 static void products(int count, const motion shape[], double along_z[], double all[])
 {
     memset(along_z, 0, (size_t)(count * count) * sizeof *along_z);
@@ -307,7 +308,7 @@ static void products(int count, const motion shape[], double along_z[], double a
             }
 }
 
-/* mode[count x n] <- C mode, C[count x count] by rows. */
+/* Computes mode[count x n] <- C mode, where C[count x count] is stored by rows. */
 static void combine(int count, size_t n, const double C[], double *mode)
 {
     for (size_t k = 0; k < n; k++) {
@@ -322,8 +323,8 @@ static void combine(int count, size_t n, const double C[], double *mode)
     }
 }
 
-/* Replaces the modes by combinations with the smallest and the largest possible fraction of
- * motion along z. Modes that are equal at the vertices do not change. */
+/* Replaces the modes by combinations with the smallest and the largest possible fraction of motion
+ * along z. Modes that are equal at the vertices do not change. */
 static status separate_cluster(const model *m, const scene *s, int count, size_t n, double *mode,
                                fault *f)
 {
@@ -383,7 +384,7 @@ static void add_number(identity *out, long number)
     identity_add(out, &number, sizeof number);
 }
 
-/* Adds a type without its descriptive strings, and without the functions used only during
+/* Adds a type, except for its descriptive strings and for functions that are used only during
  * preparation. */
 static void add_type(identity *out, const element_type *type)
 {

@@ -1,5 +1,6 @@
-/* One Newton iteration: assembles and factors the equations, solves them and applies the
- * increment. The equations are condensed element by element or, for comparison, dense. */
+/* One Newton iteration: assembles and factors the equations, solves them and applies the increment.
+ * The equations are condensed element by element. For comparison, they can be solved as a dense
+ * system. */
 #include "harness/newton/newton_impl.h"
 
 #include <lapacke.h>
@@ -8,9 +9,9 @@
 
 #include "elements/math/dense.h"
 
-/* Gives up a symmetric factor for the pattern of the free coordinates. The factor is stored in
- * the context if a compliance may need it, which saves the ordering and the pattern; otherwise
- * it is freed. */
+/* Releases a symmetric factor for the pattern of the free coordinates. If a compliance may need the
+ * factor, it is stored in the context, which saves the ordering and the pattern. Otherwise it is
+ * freed. */
 static void context_leave_factor(analysis_context *, matrix_factor *);
 
 enum { MAX_ITERATIONS = 30 };
@@ -88,8 +89,8 @@ void newton_free(newton_run *n)
     kinematics_state_free(n->backup);
 }
 
-/* Returns 1 if the effect of a driver on its coordinate exceeds the round-off of all its effects.
- * */
+/* Returns 1 if the effect of a driver on its coordinate exceeds the rounding error of all its
+ * effects. */
 static int drives(const newton_run *n, int count, const model_condition condition[],
                   const double column[])
 {
@@ -104,8 +105,8 @@ static int drives(const newton_run *n, int count, const model_condition conditio
     return conditioned > round_off * round_off * all;
 }
 
-/* Computes the increments of unknown drivers from their conditions and known columns, then dx of
- * the free coordinates. */
+/* Computes the increments of unknown drivers from their conditions and columns, then dx of the free
+ * coordinates. */
 static status meet_conditions(newton_run *n, int count, const model_condition condition[], fault *f)
 {
     double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];

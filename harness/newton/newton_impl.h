@@ -8,10 +8,9 @@
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
 
-/* Loads along members that are lumped at the ends of elements. */
 enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
 
-/* Returns the strain rates of springs; NULL: the structure is at rest or has no dashpot. */
+/* Returns the strain rates of springs; NULL: the structure is at rest, or has no dashpot. */
 static inline const spring_rates *damping_of_springs(const run_damping *d)
 {
     return d != NULL ? &d->springs : NULL;
@@ -20,23 +19,23 @@ static inline const spring_rates *damping_of_springs(const run_damping *d)
 /* Returns the rotation of the frame at a path parameter. */
 element_rotating_frame loading_frame(const loading *, double path);
 
-/* Forces of a load on the vertices of a mesh, in a given state. */
+/* Forces of a load on the vertices of a mesh in a given state. */
 
-/* Returns 1 for a uniform load on the whole length of a member that specifies no lumping itself.
+/* Returns 1 for a uniform load on the whole length of a member that does not specify its lumping.
  * Such a load is distributed to the nodes in the same shares as the mass. */
 int applied_with_mass(const scene_load *);
-/* As applied_each for a load along the member of an element, but only for the part on this
- * element. */
+/* Like applied_each for a load along the member of an element, but only for the part of the load on
+ * this element. */
 void applied_element(const model *, const model_state *, const scene_load *, double scale,
                      int element, void (*take)(void *context, const applied *), void *context);
-/* Finds the range [from, to] of an element on which a load along its member acts. For a point load
- * both limits are its position; a load between two elements belongs to the second one. Returns 0 if
- * the load acts on other elements only. */
+/* Finds the range [from, to] of an element on which a load along its member acts. For a point load,
+ * both limits are its position. A load between two elements belongs to the second element. Returns
+ * 0 if the load acts only on other elements. */
 int applied_part(const model *, int element, const scene_load *, double part[2]);
-/* Returns 1 if x is inside the element, not at an end. */
+/* Returns 1 if x is inside the element and not at an end. */
 int applied_inside(double x);
-/* Vector of a load along the member at x in [0, 1] of an element, in the components of the
- * scene. */
+/* Computes the vector of a load along the member at x in [0, 1] of an element, in the components of
+ * the scene. */
 void applied_vector(const model *, int element, const scene_load *, double x, double vector[3]);
 /* Computes the axes of the undeformed member, with y as given in the scene. triad: axes on the
  * member whose y and z are the principal axes of the section. */
@@ -48,59 +47,59 @@ typedef void (*loads_entry)(void *context, int row, int column, double value);
 void applied_stiffness(const model *, const model_state *, const scene_load *, double scale,
                        loads_entry take, void *context);
 
-/* Condenses members to their ends before the tangent is solved, and expands the solution.
- *
- * For members with many elements the assembled tangent loses accuracy in proportion to the
- * fourth power of the number of elements. Flexibilities of members (chain.c) do not, and the
- * remaining system is as small as with one element per member. */
+/* Condenses members to their ends before the tangent is solved, and expands the solution. For
+ * members with many elements, the assembled tangent loses accuracy in proportion to the fourth
+ * power of the number of elements. Flexibilities of members (chain.c) do not lose accuracy in this
+ * way. The remaining system is as small as with one element per member. */
 
 /* Minimum number of elements of a condensed member. With fewer elements, the assembled tangent
- * costs less and is accurate enough. */
+ * costs less and is sufficiently accurate. */
 enum { CONDENSATION_ELEMENTS = 1000 };
 
-/* *out is NULL if all members have fewer elements than `from`, if a load between the ends of a
- * member has a stiffness, or if frames rotate. released[count]: prescribed coordinates that are
- * also unknowns. */
+/* Allocates a condensation. *out is NULL if all members have fewer elements than `from`, if a load
+ * between the ends of a member has a stiffness, or if frames rotate. released[count]: prescribed
+ * coordinates that are also unknowns. */
 status condensation_alloc(const equations *, int from, int count, const int released[],
                           condensation **out, fault *);
-/* Allocates a condensation with the members of `of`, which must outlive it, and other released
- * coordinates; see condensation_take. */
+/* Allocates a condensation with other released coordinates and the members of `of`, which must
+ * outlive the condensation. See condensation_take. */
 status condensation_alloc_like(const condensation *of, int count, const int released[],
                                condensation **out, fault *);
 void condensation_free(condensation *);
 
-/* Computes the tangent of the last linearise_state with the same arguments, with members
- * condensed. */
+/* Computes the tangent of the last linearise_state with the same arguments. Members are condensed.
+ * */
 status condensation_at(condensation *, const model_state *, double path, fault *);
 /* Computes the tangent in the state of `of`, which owns the members. */
 void condensation_take(condensation *, const condensation *of, const model_state *);
 /* Returns the matrix on all end coordinates, which the caller may change before it is factored. */
 sparse *condensation_ends(condensation *);
-/* Factors the matrix of the unknowns. SINGULAR: see factor_numeric; or a member is in a critical
+/* Factors the matrix of the unknowns. SINGULAR: as for factor_numeric, or a member is in a critical
  * state. */
 status condensation_factor(condensation *, fault *);
-/* x[free + driven] := K^-1 x on the unknowns; transposed: K^-T x. */
+/* Solves for the unknowns in place, x[free + driven] := K^-1 x. transposed 1: x := K^-T x. */
 void condensation_solve(condensation *, int transposed, double x[]);
 factor_counts condensation_count(const condensation *);
 /* Creates a factor that solves by means of the condensation and owns it. */
 status condensation_as_factor(condensation *, matrix_factor **, fault *);
 
-/* Condenses members with many elements (see condensation_alloc). *out is NULL if there are none,
- * or if the condition of the tangent of all coordinates was requested. */
+/* Condenses members with many elements (see condensation_alloc). *out is NULL if there are no such
+ * members, or if the condition of the tangent of all coordinates was requested. */
 status context_condensation(const analysis_context *, int count, const int released[],
                             condensation **out, fault *);
-/* As context_factor, for a tangent with condensed members. */
+/* Like context_factor, for a tangent with condensed members. */
 status context_factor_condensed(analysis_context *, condensation *, fault *);
-/* Returns a factor that an earlier analysis left for reuse; NULL: there is none. */
+/* Returns a factor that an earlier analysis left for reuse; NULL: none. */
 matrix_factor *context_take_factor(analysis_context *);
 
-/* Finds the released coordinates of the node of the analysis; allocates matrices without values. */
+/* Finds the released coordinates of the node of the analysis, and allocates matrices without
+ * values. */
 status border_alloc(const analysis_context *, const scene_compliance *, border *, fault *);
 void border_free(border *);
 
-/* Loads along members between vertices, and loads that act through sections. Their work on the
- * displacements inside elements (elements/field) gives nodal forces, or they enter the element's
- * own equilibrium. */
+/* Loads along members between vertices, and loads that act through sections. Nodal forces follow
+ * from the work of such loads on the displacements inside elements (elements/field), or the element
+ * includes the loads in its equilibrium. */
 
 /* Loads along one element at a path parameter. */
 typedef struct distributed_loads {
@@ -114,63 +113,64 @@ typedef struct distributed_loads {
  * each end of an element. */
 int distributed_spreads(const equations *, const scene_load *);
 
-/* Returns 1 if the element includes the load in its own equilibrium (element_type.along). This is
- * supported only for dead forces along the whole line of an element, and not in a motion. */
+/* Returns 1 if the element includes the load in its equilibrium (element_type.along). This is
+ * supported only for dead forces along the whole line of an element, and not during motions. */
 int distributed_takes(const equations *, int element, const scene_load *);
-/* Sum of the loads that an element includes in its own equilibrium. */
+/* Sum of the loads that an element includes in its equilibrium. */
 typedef struct distributed_taken {
     int acts;
     double force[3 * ELEMENT_ALONG_POINTS], mixed[3 * ELEMENT_MAX_STRAINS],
         H[ELEMENT_ALONG_COORDINATES * ELEMENT_ALONG_COORDINATES];
-    along_output out; /* output that points to the arrays above; its stresses are added to those
-                         of a slot */
+    /* output that points to the arrays above; its stresses are added to the stresses of a slot */
+    along_output out;
 } distributed_taken;
-/* Computes *out for the loads at `path`; out->acts is 0 if there are none. */
+/* Computes *out for the loads at `path`. out->acts is 0 if there are no such loads. */
 void distributed_take(const equations *, int element, double path, distributed_taken *out);
-/* forces[14] += the part of the loads that J^T sigma does not contain; K[14 x 14] -= its
- * derivative. Both follow from `out`. gap[strains]: D(x) - e. */
+/* Adds the part of the loads that J^T sigma does not contain to forces[14], and subtracts its
+ * derivative from K[14 x 14]. Both follow from `out`. gap[strains]: D(x) - e. */
 void distributed_add_taken(const model *, const along_output *out, const double J[],
                            const double gap[], double forces[], double K[]);
 
-/* forces[7 nodes] += forces of a load along a member on one of its elements, times `scale`; K[7
- * nodes x 7 nodes] -= their derivative (K may be NULL). Returns 0 if the load exerts none. If the
- * element includes the load in its own equilibrium, the forces added are their derivative with
- * respect to the load, and K does not change. */
+/* Adds the forces of a load along a member on one of its elements, times `scale`, to forces[7
+ * nodes], and subtracts their derivative from K[7 nodes x 7 nodes] (may be NULL). Returns 0 if the
+ * load exerts no force on the element. If the element includes the load in its equilibrium, the
+ * added forces are their derivative with respect to the load, and K does not change. */
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
-/* As distributed_add_one, for all loads at `path`. For loads in the element's own equilibrium it
- * adds only the part that J^T sigma does not contain; in a linear solution about `rest` it adds
- * their full forces. field 1: excludes these loads. */
+/* Like distributed_add_one, for all loads at `path`. For loads that the element includes in its
+ * equilibrium, it adds only the part that J^T sigma does not contain, or the full forces in a
+ * linear solution about `rest`. field 1: excludes these loads. */
 int distributed_add(const equations *, const model_state *, const node_state x[], int element,
                     double path, double forces[], double K[]);
-/* As distributed_add, but only for loads in the element's own equilibrium. */
+/* Like distributed_add, but only for loads that the element includes in its equilibrium. */
 int distributed_add_own(const equations *, const model_state *, const node_state x[], int element,
                         double path, double forces[], double K[]);
 /* Computes the stresses of a state under the loads at `path` (sigma and C of stress_output).
- * Returns 0 if the element includes no loads in its own equilibrium. */
+ * Returns 0 if the element includes no loads in its equilibrium. */
 int distributed_stress(const equations *, const model_state *, const node_state x[], int element,
                        double path, const stress_output *, status *outcome);
 int distributed_add_field(const equations *, const node_state x[], int element, double path,
                           double forces[], double K[]);
 
-/* Returns 1 if any load acts along the element. */
+/* Returns 1 if a load acts along the element. */
 int distributed_acts(const distributed_loads *);
-/* Returns the index of a load that starts, ends or acts at a point inside the element;
- * SCENE_NONE: there is none. */
+/* Returns the index of a load that starts, ends or acts at a point inside the element; SCENE_NONE:
+ * none. */
 int distributed_jumps(const distributed_loads *);
-/* Load per initial length on the section with this frame at x in [0, 1] of the element: loads of
- * its member and inertia of a rotating frame (with active rotary inertia). context: a
- * distributed_loads. */
+/* Computes the load per initial length on the section with this frame at x in [0, 1] of the
+ * element: loads on its member, and inertia of a rotating frame (with active rotary inertia).
+ * context: a distributed_loads. */
 void distributed_at(void *context, double x, const span_frame *, span_load *out);
 
 /* Functions shared by the files of harness/newton. */
 
-/* rotating_frame.c: force -= centrifugal force, K += its stiffness (may be NULL), in element
- * coordinates; does nothing without a rotating frame. */
+/* Subtracts the centrifugal force from `force` and adds its stiffness to K (may be NULL), in
+ * element coordinates. Does nothing if there is no rotating frame. See rotating_frame.c. */
 status rotating_frame_add(const equations *eq, const node_state x[], int element, double path,
                           double force[], double K[], fault *f);
 
-/* loads.c: out[free + driven] += all loads; loads_add_at_vertices adds only those on vertices. */
+/* Adds all loads to out[free + driven] (loads.c). loads_add_at_vertices adds only the loads on
+ * vertices. */
 void loads_add(const equations *eq, const model_state *s, double path, double out[]);
 void loads_add_at_vertices(const equations *eq, const model_state *s, double path, double out[]);
 /* Calls the function for each entry of the stiffness of the loads on vertices. */
@@ -179,33 +179,35 @@ void loads_stiffness_at_vertices(const equations *eq, const model_state *s, doub
 void loads_subtract_at_vertices(const equations *eq, const model_state *s, double path, sparse *K);
 /* Subtracts the stiffness of all loads from K, which has a pattern of model.h. */
 void loads_subtract_stiffness(const equations *eq, const model_state *s, double path, sparse *K);
-/* REFUSED: the stiffness of a moment is not symmetric, so a symmetric matrix cannot contain it. */
+/* Checks that the loads have a potential. REFUSED: the stiffness of a moment is not symmetric, so a
+ * symmetric matrix cannot contain it. */
 status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f);
 
-/* Elements and loads give derivatives of work in the exponential chart of a node's rotation. At
- * a node fixed about one axis h, only the moments about the other two axes are in equilibrium.
- * The derivatives of these moments differ by the reaction moment R: K_ij += R/2, K_ji -= R/2,
- * with h, i, j in cyclic order. */
+/* Adds the effect of moments that nodes with a fixed axis exert. Elements and loads give
+ * derivatives of work in the exponential chart of a node's rotation. At a node that is fixed about
+ * one axis h, only the moments about the other two axes i and j are in equilibrium. The derivatives
+ * of these moments differ by the reaction moment R: K_ij += R/2, K_ji -= R/2, with h, i, j in
+ * cyclic order. */
 void linearise_add_held_moments(const equations *eq, const model_state *s, double path, sparse *K);
-/* REFUSED: such a reaction moment exists; it has no potential. */
+/* Checks that no such reaction moment exists. REFUSED: it exists, and it has no potential. */
 status linearise_held_have_potential(const equations *eq, const double sigma[], double path,
                                      fault *f);
 
-/* f[free + driven]: loads at `path` on the undeformed state. */
+/* Computes the loads at `path` on the undeformed state: f[free + driven]. */
 void loads_reference(const equations *, double path, double f[]);
 
-/* Increments of the prescribed coordinates (dx[free .. free+driven)) from the state to `path`;
- * other entries of dx do not change. */
+/* Computes the increments of the prescribed coordinates (dx[free .. free + driven)) from the state
+ * to `path`. Other entries of dx do not change. */
 void loads_drive(const equations *, const model_state *, double path, double dx[]);
 
 /* Changes K for a node that rotates by a sequence of angles when the moment M of the prescribed
- * angles becomes a load. This load is conservative in the exponential chart; therefore the
- * second derivatives of the angles are removed. */
+ * angles becomes a load. This load is conservative in the exponential chart, so the second
+ * derivatives of the angles are removed. */
 void loads_release_moment(const model *, const model_state *, int node, const double M[3],
                           sparse *K);
 
 /* Batches of a few elements that are evaluated together. If the type has lanes
- * (element_type.lanes), a batch contains elements of one kind; otherwise it contains a single
+ * (element_type.lanes), a batch contains elements of the same kind. Otherwise it contains a single
  * element. */
 
 /* Evaluation of one element. */
@@ -216,68 +218,70 @@ typedef struct chunk_element {
     node_state x[ELEMENT_MAX_NODES];
     distributed_taken along; /* loads that the stresses include */
     status outcome;
-    int complete; /* 1: force is J^T sigma of the slot, and K also contains J^T C J ... */
-    double present[ELEMENT_MAX_COORDINATES]; /* ... and `present` is J^T sigma of the state */
+    int complete; /* 1: `force` is J^T sigma of the slot, and K also contains J^T C J */
+    double present[ELEMENT_MAX_COORDINATES]; /* J^T sigma of the state, if `complete` is 1 */
 } chunk_element;
 
 /* Evaluates strains and stresses of `count` elements into their slots (linearise_slot), and sets
- * the outputs of chunk_element. */
+ * the outputs of each chunk_element. */
 void chunk_evaluate(const equations *eq, const linear_memory *memory, const model_state *s,
                     double path, int count, chunk_element element[]);
 
-/* Adds an iteration of the present trial step. energy = |r . K^-1 r| of its residual r [J]; NAN:
+/* Adds an iteration of the present trial step. energy: |r . K^-1 r| of the residual r [J]; NAN:
  * unknown. */
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
                              double energy, fault *f);
 
-/* Stress-free strains of elements, in addition to those of the undeformed state. Causes are
- * temperatures, which are loads, and initial strains of members. Either the strains of a state
- * are measured from them, or stresses are computed with element data that include them. In both
- * cases the strains are mechanical strains. */
+/* Stress-free strains of elements, in addition to the strains of the undeformed state. They are due
+ * to temperatures, which are loads, and to initial strains of members. Either the strains of a
+ * state are measured from the stress-free strains, or stresses are computed with element data that
+ * include them. In both cases, stresses depend on the mechanical strains. */
 
-/* Adds the elongation and the curvatures about principal axes of the free strain. */
+/* Adds the free strain: the elongation, and the curvatures about the principal axes. */
 void free_strain_amounts(const equations *, int element, double path, double strain[3],
                          double curvature[3]);
-/* out[strains]: free strains to first order about the undeformed state, due to temperatures at
- * `path` (free_strain_linear), or due to initial strains of members (free_strain_own). */
+/* Compute the first-order free strains about the undeformed state: out[strains].
+ * free_strain_linear: due to temperatures at `path`. free_strain_own: due to initial strains of
+ * members. */
 void free_strain_linear(const equations *, int element, double path, double out[]);
 void free_strain_own(const model *, int element, double out[]);
-/* Returns the largest strain due to temperatures; curvatures are multiplied by the length of the
+/* Returns the largest strain due to temperatures. Curvatures are multiplied by the length of the
  * model. */
 double free_strain_size(const equations *, double path);
-/* out[strains]: change of the free strains in a state due to a temperature load times `scale`.
- * Returns 0 if the load does not act on the element. */
+/* Computes the change of the free strains in a state due to a temperature load times `scale`:
+ * out[strains]. Returns 0 if the load does not act on the element. */
 int free_strain_by_load(const equations *, const model_state *, int element, const scene_load *,
                         double scale, double out[]);
 
 /* Linear stresses and forces about the undeformed state. */
 
 status linear_stresses(const equations *, const double x[], double sigma[],
-                       fault *); /* sigma = S J x, [model_stresses] */
-/* Stresses due to the loads that increase from path 0 to `path`, temperatures included; x:
- * displacements due to these loads. */
+                       fault *); /* computes sigma = S J x, [model_stresses] */
+/* Computes the stresses due to the loads (including temperatures) that increase from path 0 to
+ * `path`. x: displacements due to these loads. */
 status linear_growing_stresses(const equations *, const double x[], double path, double sigma[],
                                fault *);
 void linear_forces(const equations *, const double sigma[],
-                   double f[]); /* f[free + driven] = sum J^T sigma */
-/* Quadratic forms from the element strains, without the cancellation of x^T (K x): error eps n^2
- * instead of eps n^4. */
-double linear_strain_energy2(const equations *, const double x[]); /* x^T K x = sum (Jx)^T S (Jx) */
+                   double f[]); /* computes f[free + driven] = sum J^T sigma */
+/* Quadratic forms from the element strains. They avoid the cancellation in x^T (K x): the error is
+ * eps n^2 instead of eps n^4. */
+/* returns x^T K x = sum (J x)^T S (J x) */
+double linear_strain_energy2(const equations *, const double x[]);
 double linear_strain_rounding(const equations *,
-                              const double x[]); /* bound of the rounding error */
+                              const double x[]); /* returns a bound of the rounding error */
 double linear_geometric_energy2(const equations *, const double sigma[], const double x[]);
 /* Returns the size of the rounding error of the geometric form, for the stresses sigma of the
  * displacements load_x[free + driven]. */
 double linear_geometric_rounding(const equations *, const double load_x[], const double sigma[],
                                  const double x[]);
 
-/* Returns REFINEMENT_ENDS if the accuracy is sufficient, else REFINEMENT_LOST. correction: the
+/* Returns REFINEMENT_ENDS if the accuracy is sufficient, otherwise REFINEMENT_LOST. correction: the
  * last correction, or another measure of the error. */
 refinement_state refinement_judge(solution_refinement *, double correction);
-/* Returns SINGULAR; the message contains the remaining accuracy of `what` and a remedy. */
+/* Returns SINGULAR. The message contains the remaining accuracy of `what` and a remedy. */
 status refinement_refuse(const solution_refinement *, const char *what, fault *);
-/* Returns |change|/|x| in a metric of n weights, where |x| is taken as at least `least`; 0: no
- * change. */
+/* Returns |change|/|x| in the norm with n weights; 0: there is no change. |x| is taken as at least
+ * `least`. */
 double refinement_part(int n, const double weight[], const double change[], const double x[],
                        double least);
 
@@ -285,18 +289,19 @@ double refinement_part(int n, const double weight[], const double change[], cons
  * this state. */
 int rotating_frame_lumps(const equations *);
 
-/* Computes the stiffness of the loads, for example on offsets and of moments. */
+/* Computes the stiffness of the loads, for example of moments and of loads on offsets. */
 void rotating_frame_load_stiffness(const equations *, const model_state *, double path,
                                    sparse *out);
 
-/* Strains and stresses of all elements are evaluated before the loop that uses them, for types that
- * evaluate all elements in one call (element_type.strain_many, stress_many, without lanes). For
- * other types, and when memory is short, every element is evaluated in the loop; elements with
- * lanes are evaluated in small batches (chunk.c). */
+/* Evaluates the strains and stresses of all elements before the loop that uses them, if the type
+ * evaluates all elements in one call (element_type.strain_many, stress_many, without lanes). For
+ * other types, and if memory is short, every element is evaluated in the loop. Elements with lanes
+ * are evaluated in small batches (chunk.c). */
 
 /* Strains and stresses evaluated for all elements in one call. */
 typedef struct run_ahead {
-    int what, stresses; /* AHEAD_* bits of the valid strain outputs; 1: the stresses are valid */
+    /* `what`: AHEAD_* bits of the valid strain outputs; `stresses` 1: the stresses are valid */
+    int what, stresses;
     const element_data **data;
     const double **at, **inner;
     node_state *x;
@@ -308,18 +313,19 @@ typedef struct run_ahead {
 
 enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* values of `what` */
 
-/* Evaluates strains of all elements at the nodes of s. sigma[elements x strains] is used for H.
+/* Evaluates the strains of all elements at the nodes of s. sigma[elements x strains] is used for H.
  * The values are valid until ahead_end. */
 void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[]);
-/* Evaluates sigma and C at e[elements x strains]; NULL: at the strains evaluated before. */
+/* Evaluates sigma and C at e[elements x strains]; e NULL: at the strains that were evaluated last.
+ * */
 void ahead_stresses(const equations *eq, const double e[], const double inner[]);
 void ahead_end(const equations *eq);
 
 void ahead_copy_strain(const equations *eq, int i, const strain_output *out);
 status ahead_copy_stress(const equations *eq, int i, const stress_output *out);
 
-/* Return the values of element i at x or e, in loops between ahead_strains or ahead_stresses and
- * ahead_end: from the batch, or from the functions of the type. */
+/* Return the values of element i at x or e, from the batch or from the functions of the type. They
+ * are called in loops between ahead_strains or ahead_stresses and ahead_end. */
 static inline void ahead_strain(const equations *eq, int i, const node_state x[],
                                 strain_output *out)
 {
@@ -337,11 +343,11 @@ static inline status ahead_stress(const equations *eq, int i, const element_data
     return model_type(eq->m)->stress(data, e, inner, out);
 }
 
-/* Allocates the data of a run: see free_strain_data. */
+/* Allocates the data of a run (see free_strain_data). */
 status free_strain_begin(const model *, struct run_free **, fault *);
 void free_strain_end(struct run_free *);
 
-/* Solutions with the tangent bordered by released coordinates (tangent.c). */
+/* Solutions of the tangent bordered by released coordinates (tangent.c). */
 
 /* Factors of the bordered system. */
 typedef struct bordered {
@@ -352,22 +358,21 @@ typedef struct bordered {
     double *x, *load, *rest, *weight; /* [all] work space for refinement */
 } bordered;
 
-/* SINGULAR: the structure is not supported when the prescribed motion is released. Call
- * bordered_free in either case. */
+/* Allocates and factors the bordered system. SINGULAR: the structure is not supported if the
+ * prescribed motion is released. Call bordered_free even after a failure. */
 status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f);
 void bordered_free(bordered *s);
 
 /* A chain of links, condensed to its two ends, and the expansion of solutions.
  *
- * A link joins joint p to joint q; y are the coordinates inside, followed by those of q. For forces
- * g on the link,
- *   y = A x_p + F g_y,   g_p = B x_p - A^T g_y:
- * where A is its rigid motion with p, F its flexibility with p clamped, and B the stiffness of that
- * motion (prestress, warping). Joined links form a link (the star product of R. Redheffer, J. Math.
- * Phys. 41, 1962): with F of the row before joint m and B, A of the next link
- *   x_m = Z (a_m + F (r_m + A^T g_y)),   Z = (1 + F B)^-1,   F <- F_qq + A_q Z F A_q^T.
- * Flexibilities add without cancellation. Rounding therefore grows about in proportion to the
- * number of links, and not to its fourth power as for assembled stiffnesses. */
+ * A link connects joint p to joint q. The vector y contains the coordinates inside the link,
+ * followed by those of q. Forces g on the link give y = A x_p + F g_y and g_p = B x_p - A^T g_y,
+ * where A is the rigid motion of the link with p, F is its flexibility with p clamped, and B is the
+ * stiffness of the rigid motion (prestress, warping). Two joined links form another link (the star
+ * product of R. Redheffer, J. Math. Phys. 41, 1962). With F of the links before joint m, and B and
+ * A of the next link: x_m = Z (a_m + F (r_m + A^T g_y)), Z = (1 + F B)^-1, F <- F_qq + A_q Z F
+ * A_q^T. Flexibilities add without cancellation. Therefore rounding errors grow roughly in
+ * proportion to the number of links, and not to its fourth power as for assembled stiffnesses. */
 
 enum { CHAIN_JOINT = 7, CHAIN_LINK = 2 * CHAIN_JOINT };
 
@@ -381,50 +386,54 @@ typedef struct chain_link {
 
 typedef struct chain chain;
 
-/* joint: number of coordinates of each joint; y: number of coordinates of a link without its first
- * joint. */
+/* Allocates a chain. joint: number of coordinates of each joint. y: number of coordinates of a link
+ * without its first joint. */
 status chain_alloc(int links, int joint, int y, chain **out, fault *);
 void chain_free(chain *);
 
 void chain_begin(chain *);
-/* Adds the next link. SINGULAR: the chain so far, clamped at its start, is in a critical state. */
+/* Adds the next link. SINGULAR: the chain up to this link, clamped at its start, is in a critical
+ * state. */
 status chain_add(chain *, const chain_link *, fault *);
-/* K[2 joint x 2 joint] of the ends after all links have been added. SINGULAR: the chain, clamped at
- * both ends, is in a critical state. */
+/* Computes K[2 joint x 2 joint] of the ends, after all links have been added. SINGULAR: the chain,
+ * clamped at both ends, is in a critical state. */
 status chain_stiffness(const chain *, double K[], fault *);
-/* Number of negative eigenvalues of the inner coordinates, with both ends clamped. */
+/* Returns the number of negative eigenvalues for the inner coordinates, with both ends clamped. */
 int chain_negative(const chain *);
 
-/* Loads r[links x y] on all coordinates except those of the ends (the last joint is not read), in
- * the order of the links; ends[2 joint]: resulting forces on the ends. */
+/* Reduces loads to the ends. r[links x y]: loads on all coordinates except those of the ends, in
+ * the order of the links (the last joint is not read). ends[2 joint]: resulting forces on the ends.
+ * */
 void chain_reduce(chain *, const double r[], double ends[]);
-/* Computes x[links x y] for these loads and for the motions ends[2 joint] of the ends; the last
+/* Computes x[links x y] for these loads and for the motions ends[2 joint] of the ends. The last
  * joint is an end. x may be r. */
 void chain_expand(chain *, const double r[], const double ends[], double x[]);
 
-/* Internals of a chain: chain.c builds the chain and solves with it. */
+/* Internals of a chain. chain.c builds the chain and solves with it. */
 
-/* Size of a symmetric matrix whose rows are stored up to the diagonal. */
+/* Returns the size of a symmetric matrix of which only the lower triangle is stored. */
 static inline int chain_packed(int n)
 {
     return n * (n + 1) / 2;
 }
 
-/* Stored values: A and F of each link; Z, B Z and Z F of its junction with the preceding row. */
+/* Stored values: A and F of each link, and Z, B Z and Z F of its junction with the previous links.
+ * */
 struct chain {
-    int links, count; /* count: number of links added so far */
+    int links, count; /* `links`: number of links in all; `count`: number of links added so far */
     int c, y, inside; /* c, y: number of coordinates of a joint and of a link; inside = y - c */
     int negative;
     double *kept;
-    double *a; /* [(links + 1) x c] displacements of the joints without later forces; afterwards
-                  the forces on the joints */
-    double F[CHAIN_JOINT * CHAIN_JOINT]; /* flexibility of the links joined so far */
+    /* [(links + 1) x c] displacements of the joints without the forces of later links; afterwards
+     * the forces on the joints */
+    double *a;
+    double F[CHAIN_JOINT * CHAIN_JOINT]; /* flexibility of the links that have been joined so far */
     double A[CHAIN_JOINT * CHAIN_JOINT], B[CHAIN_JOINT * CHAIN_JOINT];
 };
 
 typedef struct kept_link {
     double *A, *Z;         /* [y x c], [c x c] */
-    double *own, *BZ, *ZF; /* packed: F of the link, [y x y]; [c x c] */
+    double *own, *BZ, *ZF; /* F of the link, packed; [y x y]; [c x c] */
 } kept_link;
 
 static inline int chain_kept_size(int c, int y)
@@ -445,13 +454,14 @@ static inline kept_link chain_kept(const chain *s, int link, int c, int y)
 
 /* Internals of a condensation. */
 
-/* Structures with more end coordinates than this are not condensed, because the pattern is built
- * densely. */
+/* Structures with more end coordinates are not condensed, because the pattern is built as a dense
+ * matrix. */
 enum { MOST_ENDS = 2000, MEMBER_COLUMNS = 2 * NODE_COORDINATES + 2 * SCENE_RELEASED };
 
 typedef struct condensed_member {
     mesh_element
-        ends; /* element from the first node of the first element to the last node of the last */
+        /* element from the first node of the first element to the last node of the last element */
+        ends;
     mesh_triad triad[2];
     int first, links, joint, y;
     chain *chain;
@@ -464,35 +474,34 @@ struct condensation {
     int members, all, unknowns;
     int lent; /* 1: another condensation owns `chains` and `r` */
     condensed_member *member;
-    int *number;   /* [all] index of a coordinate among the end coordinates; NONE: not an end
-                      coordinate */
+    int *number;   /* [all] index among the end coordinates; NONE: not an end coordinate */
     int *unknown;  /* [unknowns] coordinates of the reduced system */
     sparse K;      /* matrix on all end coordinates */
     sparse inside; /* matrix of the unknowns */
     int *from;     /* [entries of inside] positions in K */
     matrix_factor *factor;
-    double *r;      /* work space for the longest member: loads, then displacements, [links x y] */
+    double *r; /* [links x y] work space for the longest member: first loads, then displacements */
     double *small;  /* [unknowns] */
     double *driven; /* [driven] */
-    double *end;    /* [members x MEMBER_COLUMNS] forces of the ends */
+    double *end;    /* [members x MEMBER_COLUMNS] forces on the ends */
     int negative;   /* number of negative eigenvalues of the condensed coordinates */
     long factorisations;
 };
 
-/* Springs about the undeformed state, as linear_stresses for elements: sigma[6 x springs] is the
+/* Springs about the undeformed state, like linear_stresses for elements. sigma[6 x springs] is the
  * last part of the stresses. */
 
 void linear_springs_stiffness(const model *, sparse *K); /* += */
 void linear_springs_stresses(const model *, const double x[], double sigma[]);
 void linear_springs_forces(const model *, const double sigma[], double f[]); /* += */
-/* F[6] += forces of springs on the frame of a node. */
+/* Adds the forces of springs on the frame of a node to F[6]. */
 void linear_springs_node_force(const model *, const double sigma[], int node, double F[6]);
 void linear_springs_geometric_stiffness(const model *, const double sigma[], sparse *G); /* += */
 double linear_springs_energy2(const model *, const double x[]);
 double linear_springs_rounding(const model *, const double x[]);
 double linear_springs_geometric_energy2(const model *, const double sigma[], const double x[]);
 
-/* Makes an element a link of a chain. */
+/* Makes a link of a chain from an element. */
 
 /* Tangent J^T C J + H of an element in the coordinates of its nodes (element.h). */
 typedef struct link_element {
@@ -501,19 +510,19 @@ typedef struct link_element {
     const double *r;           /* [nodes x 3] positions of the nodes [m] */
 } link_element;
 
-/* Makes the element a link. The rigid motion R of the element causes strains E = J R, which are
- * rounding errors except for warping. The element follows by R + d with d = -F (J_y^T C E + (H
- * R)_y), and B = (E + J_y d)^T C (E + J_y d) + (R + d)^T H (R + d). No entries of the size of K
- * are subtracted from each other. SINGULAR: the element, clamped at its first node, is in a
- * critical state. */
+/* Makes the element a link. The rigid motion R of the element causes strains E = J R. Apart from
+ * warping, they are rounding errors. The element then moves by R + d with d = -F (J_y^T C E + (H
+ * R)_y), and B = (E + J_y d)^T C (E + J_y d) + (R + d)^T H (R + d). No entries of the size of K are
+ * subtracted from each other. SINGULAR: the element, clamped at its first node, is in a critical
+ * state. */
 status link_of(const link_element *, chain_link *, fault *);
 
-/* Finds mechanisms: members are the rigid parts of a linkage with joints at released ends. */
+/* Finds mechanisms. Members are the rigid parts of a linkage, whose joints are released ends. */
 
 /* Returns 1 if released ends make the undeformed structure with its supports a mechanism. Sets
- * *node to the node that moves most; if all nodes are at rest, sets *node to -1 and *member to a
- * member that moves. motion: displacement [m] and rotation [rad], with arbitrary scale. Structures
- * of more than 200 parts are not searched. */
+ * *node to the node with the largest motion. If all nodes are at rest, sets *node to -1 and *member
+ * to a member that moves. motion: displacement [m] and rotation [rad] with an arbitrary scale.
+ * Structures of more than 200 parts are not examined. */
 int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
 
 /* Small symmetric matrices whose rows may have different units. */
@@ -523,20 +532,22 @@ enum { SYMMETRIC_MOST = 14 };
 /* Computes inverse[n x n]. Returns the number of negative eigenvalues, or -1 if A is singular. */
 int symmetric_inverse(int n, const double A[], double inverse[]);
 
-/* Derivatives of elements in the undeformed state. This state never changes; therefore they are
- * evaluated once and stored. */
+/* Derivatives of elements in the undeformed state. They do not change, so they are evaluated once
+ * and stored. */
 
-/* de/dx [strains x 7 nodes], dsigma/de [strains x strains] and, for a member with initial strains,
- * the stresses [strains] of an element with fixed nodes, to first order (NULL: none). Valid until
- * the next request. */
+/* Derivatives of an element: de/dx [strains x 7 nodes] and dsigma/de [strains x strains]. For a
+ * member with initial strains, also the first-order stresses [strains] of the element with fixed
+ * nodes (NULL: none). Valid until the next request. */
 typedef struct undeformed_element {
     const double *J, *C, *initial;
 } undeformed_element;
 
-/* In large models, consecutive elements of one kind with equal orientation, up to the rounding of
- * their positions, share one set of derivatives. FAULT: out of memory. */
+/* Returns the derivatives of an element. In large models, consecutive elements of the same kind
+ * share one set of derivatives if their orientations are equal up to rounding of their positions.
+ * FAULT: out of memory. */
 status undeformed_of(const equations *, int element, undeformed_element *, fault *);
-/* Evaluates missing elements together, if the formulation supports it; valid until ahead_end. */
+/* Evaluates missing elements together if the formulation supports this. The values are valid until
+ * ahead_end. */
 void undeformed_begin(const equations *);
 
 #endif

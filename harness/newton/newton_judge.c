@@ -1,6 +1,7 @@
-/* Convergence of Newton's method. The corrections converge quadratically, and so do those of the
- * stresses. In stiff elements the relative error of the stresses is larger than that of the
- * motions by orders of magnitude. A test of the motions alone is therefore not sufficient. */
+/* Convergence of Newton's method. The corrections of the motions converge quadratically, and so do
+ * those of the stresses. In stiff elements, the relative error of the stresses is orders of
+ * magnitude larger than that of the motions. Therefore a test of the motions alone is not
+ * sufficient. */
 #include "harness/newton/newton_impl.h"
 
 #include <stdio.h>
@@ -11,19 +12,22 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-/* Convergence: two successive corrections are smaller than this (those of the geometrically exact
- * element reach 3e-11 with 1000 elements, 6e-9 with 40 000) ... */
+/* Newton's method has converged after two successive corrections below `small`. With the
+ * geometrically exact element, corrections reach 3e-11 with 1000 elements and 6e-9 with 40 000
+ * elements. */
 static const double small = 1e-8;
 static const double many_elements =
-    1e4; /* number of elements above which `small` increases in proportion */
-/* ... or one correction is so small that the next is below rounding ... */
+    1e4; /* number of elements above which `small` increases in proportion to it */
+/* It has also converged after a correction below `arrival_near` if the predicted size of the next
+ * correction is negligible. */
 static const double arrival_near = 1e-6, negligible = 1e-15;
-/* ... or its square is negligible even if stresses are 1e10 times as sensitive. */
+/* It has also converged after a correction below `rounding`, whose square is negligible even if
+ * stresses are 1e10 times as sensitive. */
 static const double rounding = 1e-12;
-/* Corrections larger than this need not converge quadratically. */
+/* Corrections above this limit need not converge quadratically. */
 static const double quadratic = 0.1;
-/* Relative change of stresses below which a tangent is reused. Reuse changes compliances by at
- * most half of this value (measured on the mechanisms of cases/), usually by less than their
+/* Relative change of stresses below which a tangent is reused. Reuse changes compliances by at most
+ * half of this value (measured on the mechanisms of cases/), and usually by less than their
  * scatter. */
 static const double same_tangent = 3e-11;
 
@@ -38,8 +42,8 @@ void arrival_start(double criterion, int differences, int elements, arrival *a)
 }
 
 /* Records a correction and the resulting change of stresses. first 1: the first correction of a
- * step. Changes of stresses are relative to the largest stress on the path so far, since
- * stresses may pass through zero. */
+ * step. Changes are relative to the largest stress on the path so far, because stresses may pass
+ * through zero. */
 static void arrival_take(double correction, const advance_stress *stress, int first, arrival *a)
 {
     a->before = first ? INFINITY : a->correction;
@@ -51,7 +55,7 @@ static void arrival_take(double correction, const advance_stress *stress, int fi
     a->remaining = a->contraction * correction * correction;
 }
 
-/* Returns 1 if a further correction would change nothing. */
+/* Returns 1 if a further correction would not change the result. */
 static int arrival_reached(const arrival *a)
 {
     if (a->criterion > 0)
@@ -65,8 +69,8 @@ int arrival_tangent_stands(const arrival *a)
     return a->correction <= same_tangent && a->stress_change <= same_tangent;
 }
 
-/* Computes the changes of stresses and inner unknowns due to the rotation of an element's frame,
- * for an element that includes loads along it in its equilibrium. */
+/* Computes the changes of stresses and inner unknowns due to the rotation of an element's frame.
+ * The element includes loads along it in its equilibrium. */
 static void follow_turn(const model *m, const double along[], const double local[], double sigma[],
                         double inner[])
 {
@@ -79,8 +83,8 @@ static void follow_turn(const model *m, const double along[], const double local
         inner[k] += vec3_dot(along + slot_followed(m) + (ptrdiff_t)3 * k, turn);
 }
 
-/* Updates the strains, stresses and inner unknowns of one element. Returns the largest change of
- * an inner unknown. */
+/* Updates the strains, stresses and inner unknowns of an element. Returns the largest change of an
+ * inner unknown. */
 static double advance_element(const model *m, const linear_memory *memory, model_state *s, int i,
                               const double dx[], advance_stress *stress)
 {
@@ -174,8 +178,8 @@ void advance_settle(const model *m, const linear_memory *memory, const model_sta
     }
 }
 
-/* Decides whether a step has converged, continues or fails, and whether the formulation is valid in
- * the final state. */
+/* Decides if a step has converged, continues or fails, and if the formulation is valid in the final
+ * state. */
 
 static status judge_twist(const model *m, const model_state *s, fault *f)
 {
@@ -194,8 +198,8 @@ static status judge_twist(const model *m, const model_state *s, fault *f)
         s->path);
 }
 
-/* Checks the rotation within an element [rad]: between neighbouring nodes, or relative to the chord
- * for formulations that use sines. */
+/* Checks the rotation [rad] within an element: between neighbouring nodes, or relative to the chord
+ * if the formulation uses sines. */
 static status judge_elements(const model *m, const model_state *s, fault *f)
 {
     const int quarter = (model_type(m)->limits & LIMIT_QUARTER_TURN) != 0;
@@ -212,7 +216,7 @@ static status judge_elements(const model *m, const model_state *s, fault *f)
                      model_type(m)->name, quarter ? "quarter" : "half");
 }
 
-/* Returns 1 if this end of a member is free to rotate about both transverse axes. */
+/* Returns 1 if this end of a member can rotate about both transverse axes. */
 static int swings(const model *m, const mesh_element *el, int node)
 {
     const mesh_release *r = release_of(m, el->vertex[node]);
@@ -224,7 +228,7 @@ static int swings(const model *m, const mesh_element *el, int node)
            (fabs(vec3_dot(r->turn[0], x)) < across && fabs(vec3_dot(r->turn[1], x)) < across);
 }
 
-/* Checks that elements are not longer than their axial force allows; bars without bending are not
+/* Checks that elements are not too long for their axial force. Bars without bending are not
  * limited. */
 static status judge_tension(const model *m, const model_state *s, fault *f)
 {
@@ -302,7 +306,7 @@ static status judge_springs(const model *m, const model_state *from, const model
     return STATUS_OK;
 }
 
-/* Returns the largest change of a node's orientation by prescribed angles [rad]. */
+/* Returns the largest change [rad] of the orientation of a node by prescribed angles. */
 static double driven_by(const model *m, const model_state *from, const model_state *s, int node)
 {
     const mesh_vertex *v = model_vertex(m, node);
@@ -342,15 +346,15 @@ status newton_accept(const model *m, const model_state *from, model_state *s, fa
     return STATUS_OK;
 }
 
-/* Sizes of the corrections of one step. */
+/* Sizes of the corrections of a step. */
 typedef struct watch {
-    double last, first, largest; /* largest: the largest of the corrections after the first one */
+    double last, first, largest; /* largest: the largest correction after the first correction */
     int growing;                 /* number of successive growing corrections */
 } watch;
 
-/* Size of a correction, in radians or lengths, that does not lead to convergence; it is larger
- * for the first corrections of a step. Corrections that grow repeatedly do not lead to
- * convergence either. */
+/* Sizes of corrections, in radians or lengths, from which an iteration does not converge. The limit
+ * is larger for the first corrections of a step. An iteration with repeatedly growing corrections
+ * does not converge either. */
 static const double wild = 4, wild_at_first = 16;
 enum { AT_FIRST = 3, GROWING = 4, MOST_IN_TIME = 20 };
 

@@ -298,8 +298,8 @@ status history_add_step(solve_result *r, const step_record *record, fault *f)
 }
 
 /* Returns the stability of a state with an unsymmetric tangent. The state is unstable if
- * eigenvalues have crossed zero (with mass, an odd number of them); otherwise the frequencies
- * decide. */
+ * eigenvalues have crossed zero (if there is mass, an odd number of eigenvalues). Otherwise the
+ * frequencies decide. */
 static step_stability without_symmetry(const scene *s, const step_record *one)
 {
     const int massive = scene_has_mass(s);
@@ -323,11 +323,11 @@ void history_judge_steps(solve_result *r, const scene *s, int analysis, int firs
             one->stability = STEP_STABLE;
         else if (a->kind != SCENE_ROTATION && !scene_rotates(a))
             one->stability =
-                STEP_UNSTABLE; /* in rotating axes, gyroscopic forces may stabilise the state,
-                                  ... */
+                STEP_UNSTABLE; /* in rotating axes, gyroscopic forces may stabilise the state */
         else if (one->negative_pivots % 2 != 0)
-            one->stability = STEP_GROWS; /* ... unless the number is odd: det(s^2 M + s G + K) is
-                                            then negative at s = 0 and positive for large s */
+            /* an odd number cannot be stabilised: det(s^2 M + s G + K) is negative at s = 0 and
+             * positive for large s */
+            one->stability = STEP_GROWS;
     }
 }
 

@@ -123,8 +123,8 @@ int shapes_frames(int most)
 
 enum { N = 6 };
 
-/* Computes B = A^-1, both [n x n], and destroys A. Returns nonzero when A is singular to working
- * precision. */
+/* Computes B = A^-1, both [n x n], and overwrites A. Returns a nonzero value if A is singular to
+ * working precision. */
 static int invert(int n, double A[], double B[])
 {
     int pivot[N];
@@ -137,7 +137,7 @@ static int invert(int n, double A[], double B[])
     return failed;
 }
 
-/* K -= m~/2 on the rotations, multiplied by `times`; of: m. */
+/* Subtracts m~/2 of the moment `of`, multiplied by `times`, from the rotations of K. */
 static void subtract_half_skew(const movable *v, double times, const double of[3], double K[])
 {
     const double m[3] = {times * of[0], times * of[1], times * of[2]},
@@ -171,13 +171,13 @@ int convention_changes(scene_moments of_tangent, scene_moments convention, const
            (convention != of_tangent && vec3_norm(m) > 0);
 }
 
-/* Returns how often m~/2 is subtracted. */
+/* Returns the number of times that m~/2 is subtracted. */
 static int times_of(scene_moments of_tangent, scene_moments convention)
 {
     return (convention != SCENE_MOMENTS_SEMITANGENTIAL) - (of_tangent == SCENE_MOMENTS_SPATIAL);
 }
 
-/* to[m x m] = T A T^T, T [m x n]; m, n at most N. */
+/* Computes to[m x m] = T A T^T with T[m x n]; m and n are at most N. */
 static void congruence(int m, int n, const double T[], const double A[], double to[])
 {
     double half[N * N];
@@ -187,7 +187,7 @@ static void congruence(int m, int n, const double T[], const double A[], double 
             to[i * m + j] = dense_dot(n, half + i * n, T + j * n);
 }
 
-/* to = dual C dual^T: C restricted to the possible motions. */
+/* Computes to = dual C dual^T, which is C for the possible motions. */
 static void gather(const movable *v, const double C[36], double to[])
 {
     const int n = v->count;
@@ -198,7 +198,7 @@ static void gather(const movable *v, const double C[36], double to[])
             to[i * n + j] = C[N * v->component[i] + v->component[j]];
 }
 
-/* Expands a matrix to all components; avoids negative zeros. */
+/* Expands a matrix to all components, without negative zeros. */
 static void scatter(const movable *v, const double from[], double to[36])
 {
     const int n = v->count;
@@ -208,7 +208,7 @@ static void scatter(const movable *v, const double from[], double to[36])
             to[N * v->component[i] + v->component[j]] += from[i * n + j];
 }
 
-/* C = span from span^T */
+/* Computes C = span from span^T. */
 static void scatter_compliance(const movable *v, const double from[], double C[36])
 {
     if (v->whole)
@@ -217,7 +217,7 @@ static void scatter_compliance(const movable *v, const double from[], double C[3
         congruence(N, v->count, v->span, from, C);
 }
 
-/* K = dual^T from dual */
+/* Computes K = dual^T from dual. */
 static void scatter_stiffness(const movable *v, const double from[], double K[36])
 {
     const int n = v->count;

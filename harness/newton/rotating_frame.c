@@ -1,5 +1,5 @@
 /* A frame that rotates at a constant rate: its effect on elements, and the matrices of small
- * motions in the frame (J Eq. 76). */
+ * motions in this frame (J Eq. 76). */
 #include "harness/newton/newton_impl.h"
 
 #include <string.h>
@@ -83,7 +83,8 @@ status rotating_frame_inertia(const equations *eq, const model_state *state, dou
     return STATUS_OK;
 }
 
-/* Transforms a vector from global axes to the axes of an element between its ends. */
+/* Transforms a vector from global axes to the axes of an element, the mean of the axes at its ends.
+ */
 static void in_axes(const mesh_element *el, const double v[3], double out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -114,7 +115,7 @@ double rotating_frame_inner(const model *m, const double x[])
     return sum;
 }
 
-/* Transforms B to global axes. */
+/* Transforms the inner-mass matrix B to global axes. */
 static void turn_inner(const mesh_element *el, const double B[], double out[])
 {
     double T[FIELD_INNER * FIELD_INNER] = {0}, half[FIELD_INNER * FIELD_INNER];
@@ -175,8 +176,8 @@ typedef struct uncondensed {
     const model_condition *condition;
 } uncondensed;
 
-/* Adds a coefficient of coordinate `column`, which may be an unknown, a prescribed coordinate,
- * or the unknown of a condition. */
+/* Adds a coefficient of the coordinate `column`, which is an unknown, a prescribed coordinate, or
+ * an unknown driver. */
 static void put(const model *m, uncondensed *s, int row, int column, double value)
 {
     if (row < 0 || column < 0)

@@ -9,26 +9,28 @@
 
 #include "elements/math/dense.h"
 
-/* Returns the index of a released coordinate, or -1. */
+/* Returns the index of a released coordinate; -1: none. */
 static int border_place(const border *, int coordinate);
 /* Sets the values of the border from K of all coordinates. */
 static void border_fill(border *, int free_count, const sparse *K);
-/* Solves in place; fixed and prescribed coordinates do not change. x: [columns x all] */
+/* Solves the bordered system in place: x[columns x all]. Fixed and prescribed coordinates do not
+ * change. */
 static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns,
                            double x[]);
-/* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
- * strains (refinement_judge). SINGULAR: round-off leaves insufficient accuracy. */
+/* Refines s->x iteratively for s->load. The stiff part of the residuals is computed from the
+ * element strains (refinement_judge). SINGULAR: the accuracy is insufficient because of rounding.
+ * */
 static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
 
-/* Condition above which solutions are refined, because round-off would leave less than eight
+/* Condition number above which solutions are refined, because rounding would leave fewer than eight
  * digits. */
 static const double harmless_condition = 1e8;
-/* A condition number is not estimated again if it differed from harmless_condition by at least
- * the factor `clear`, and the ratio of the largest to the smallest pivot has changed by less
- * than the factor `alike`. */
+/* A condition number is not estimated again if it differed from harmless_condition by at least the
+ * factor `clear`, and the ratio of the largest to the smallest pivot has changed by less than the
+ * factor `alike`. */
 static const double clear = 30, alike = 2;
 
-/* Copies the free block from the whole matrix. */
+/* Copies the block of the free coordinates from the whole matrix. */
 static void copy_inside(node_tangent *t)
 {
     if (t->inside.value != t->K.value)
@@ -123,7 +125,7 @@ static int asks_refinement(node_tangent *t)
     return t->condition > harmless_condition;
 }
 
-/* Completes the tangent from K and the factors of its free block. */
+/* Completes the tangent from K and the factors of its block of free coordinates. */
 static status complete(analysis_context *c, const scene_compliance *a, const model_state *s,
                        const double reaction[6], node_tangent *t, fault *f)
 {
@@ -187,8 +189,8 @@ static int moves(const node_tangent *t, int k)
     return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;
 }
 
-/* load_of computes the loads on the moving coordinates due to a unit load on a component.
- * motion_of returns the motion of a component due to the motions x of these coordinates. */
+/* load_of computes the loads on the moving coordinates due to a unit load on a component of the
+ * node. motion_of returns the motion of a component due to the motions x of these coordinates. */
 static void load_of(const node_tangent *t, const int moving[], int component, double x[])
 {
     memset(x, 0, (size_t)t->all * sizeof *x);
@@ -215,7 +217,7 @@ static status refine(const equations *eq, node_tangent *t, const bordered *s, co
     return STATUS_OK;
 }
 
-/* Computes the columns of C for unit loads on the requested components that can move. The
+/* Computes the columns of C due to unit loads on the requested components that can move. The
  * caller, tangent_compliance, frees the memory. */
 static status respond_all(const equations *eq, node_tangent *t, bordered *s, unsigned wanted,
                           unsigned components, double C[36], fault *f)
@@ -251,7 +253,7 @@ status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
     return outcome;
 }
 
-/* Copies the columns of T of the requested coordinates: [6 x n]. Returns n. */
+/* Copies the columns of T for the requested coordinates: [6 x n]. Returns n. */
 static int columns_of(const node_tangent *t, int (*wanted)(const node_tangent *, int), double out[])
 {
     int n = 0;
@@ -271,7 +273,7 @@ static int is_free(const node_tangent *t, int k)
     return t->index[k] < t->free;
 }
 
-/* Computes the moment that does the work g_k per unit rate of each angle. It has no component at
+/* Computes the moment whose work per unit rate of each angle is g_k. The moment has no component at
  * right angles to all axes b. */
 static void moment_of(int angles, double b[3][3], const double g[3], double moment[3])
 {
@@ -282,7 +284,7 @@ static void moment_of(int angles, double b[3][3], const double g[3], double mome
         for (int j = 0; j < angles; j++)
             A[i * angles + j] = vec3_dot(b[i], b[j]);
     if (dense_lu_regular(angles, A, pivot) != 0)
-        return; /* two axes are parallel: the tangent is singular, too */
+        return; /* two axes are parallel, so the tangent is singular as well */
     dense_lu_solve(angles, 1, A, pivot, factor);
     for (int k = 0; k < angles; k++)
         for (int i = 0; i < 3; i++)
@@ -424,7 +426,7 @@ void bordered_free(bordered *s)
     free(s->solution);
 }
 
-/* Computes the released coordinates z and adds their contribution to a solution without them. */
+/* Computes the released coordinates z, and adds their contribution to a solution with z = 0. */
 static void add_released(const node_tangent *t, const bordered *s, double x[])
 {
     const border *b = &t->border;
@@ -460,7 +462,8 @@ static void residual_of(const equations *eq, const node_tangent *t, const border
 
 static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f)
 {
-    /* x is the first solution; with condensed members it is as accurate as a second one would be */
+    /* x is the first solution; with condensed members, a second solution would not be more accurate
+     * */
     solution_refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
     refinement_state state = REFINEMENT_GOES_ON;
     metric_of(eq->m, s->weight);
@@ -477,10 +480,10 @@ static status bordered_refine(const equations *eq, node_tangent *t, const border
 enum { LEAST = 2, MOST = 30 };
 
 /* Relative sizes of a correction. If a correction is below sure_digits, no further correction is
- * made. enough_digits is a thousandth of the tolerance of quantities (SCENE_TOLERANCE), since
- * quantities derived from the solution may lose further digits. With the error level of
- * newton.h, 2.5 eps (L/side)^2, bars exceed the first beyond L/side = 1300 and the second beyond
- * 42000. In a run of verify no correction exceeded 2e-12. */
+ * made. enough_digits is a thousandth of the tolerance of quantities (SCENE_TOLERANCE), because
+ * quantities derived from the solution may lose further digits. With the error level of newton.h,
+ * 2.5 eps (L/side)^2, bars exceed sure_digits for L/side > 1300, and enough_digits for L/side >
+ * 42000. In a run of verify, no correction exceeded 2e-12. */
 static const double sure_digits = 1e-9, enough_digits = 1e-6;
 
 refinement_state refinement_judge(solution_refinement *r, double correction)

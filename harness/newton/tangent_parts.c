@@ -1,4 +1,4 @@
-/* Solutions on all coordinates, computed from those at the ends of members. */
+/* Solutions for all coordinates, computed from the solutions for the ends of members. */
 #include "harness/newton/newton_impl.h"
 
 #include <float.h>
@@ -6,7 +6,6 @@
 
 #include "elements/math/dense.h"
 
-/* Gathers the loads between the ends of a member, in the order of its links. */
 static void gather_loads(const condensation *s, const condensed_member *of, const double x[])
 {
     const int c = of->joint, nodes = model_nodes(s->m);
@@ -118,8 +117,8 @@ factor_counts condensation_count(const condensation *s)
     return counts;
 }
 
-/* Products with the tangent of the last linearisation as a stiff and a soft part, for accurate
- * residuals. */
+/* Products with the tangent of the last linearisation as the sum of a stiff and a soft part, which
+ * give accurate residuals. */
 
 void stiffness_parts_material_product(const model *m, const linear_memory *memory,
                                       const model_state *s, const double x[], double y[])
@@ -139,8 +138,8 @@ void stiffness_parts_material_product(const model *m, const linear_memory *memor
     discrete_material_product(m, s, x, y);
 }
 
-/* Strains have the rounding errors of their terms, and P'' those of its entries. These errors are
- * similar in all elements and therefore add up. */
+/* Strains have the rounding errors of their terms, and P'' has the rounding errors of its entries.
+ * These errors are similar in all elements, so they add up. */
 double stiffness_parts_material_rounding(const model *m, const linear_memory *memory,
                                          const model_state *s, const double x[])
 {

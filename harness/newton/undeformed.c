@@ -7,7 +7,7 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 
-/* With more elements than this, saving memory is more important than the last digits of each J. */
+/* Above this number of elements, memory is more important than the last digits of each J. */
 enum { LARGE = 1000, FIRST_ROOM = 16 };
 
 static size_t size_of(const model *m)
@@ -24,7 +24,7 @@ static status begin(const equations *eq, fault *f)
     u->room = model_elements(m) < LARGE ? model_elements(m) : FIRST_ROOM;
     u->of = malloc(((size_t)model_elements(m) + 1) * sizeof *u->of);
     u->value = malloc((size_t)u->room * size_of(m) * sizeof *u->value + 1);
-    if (u->of == NULL || u->value == NULL) { /* may be allocated already by another analysis */
+    if (u->of == NULL || u->value == NULL) { /* another analysis may have allocated the memory */
         free(u->of);
         free(u->value);
         u->of = NULL;
@@ -36,8 +36,8 @@ static status begin(const equations *eq, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if element i is like the last stored one. Its triads are those of chords between
- * rounded positions. */
+/* Returns 1 if element i has the same derivatives as the last stored element. The triads may differ
+ * by rounding, because they follow from chords between rounded positions. */
 static int alike(const equations *eq, int i)
 {
     const model *m = eq->m;
@@ -60,8 +60,8 @@ static int is_strained(const model *m, int i)
     return vec3_norm(model_kind_of(m, i)->strain) + vec3_norm(model_kind_of(m, i)->free) > 0;
 }
 
-/* Computes C at zero strain; the contribution of initial stresses is included in geometric
- * stiffnesses. */
+/* Computes C at zero strain. The effect of initial stresses is included in geometric stiffnesses.
+ * */
 static status evaluate_strained(const model *m, int i, const double e[], const double inner[],
                                 double C[], double initial[])
 {
@@ -168,7 +168,6 @@ static void springs_evaluate(const model *m, const mesh_discrete *d, const doubl
     spring_strain(d->el.nodes, x, NULL, &(strain_output){.J = J, .s = sigma, .H = H});
 }
 
-/* Computes e = J x. */
 static void strains(const model *m, const mesh_discrete *d, const double x[], double e[SIX])
 {
     double J[SIX * X], local[X];
@@ -231,7 +230,7 @@ void linear_springs_node_force(const model *m, const double sigma[], int node, d
     }
 }
 
-/* Computes sum sigma_i H_i in model coordinates. */
+/* Computes sum sigma_i H_i in coordinates of the model. */
 static void geometric(const model *m, const mesh_discrete *d, const double sigma[], double H[])
 {
     double J[SIX * X], force[X] = {0};
@@ -261,7 +260,7 @@ double linear_springs_energy2(const model *m, const double x[])
     return sum;
 }
 
-/* Returns a bound of the rounding of the terms of J x, as for elements. */
+/* Returns a bound of the rounding error of the terms of J x, as for elements. */
 double linear_springs_rounding(const model *m, const double x[])
 {
     double sum = 0;
