@@ -536,6 +536,16 @@ status second_order_list(const scene *, system_matrices *, fault *);
  * ratios; G: gyroscopic matrix, or NULL. */
 status second_order_keep(const vibration *v, const sparse *G, const system_matrices *,
                          state_matrices *, fault *);
+/* Stores the reduced model and its errors (second_order_reduced.c). */
+status second_order_keep_reduced(const vibration *, const system_matrices *,
+                                 const second_order *whole, reduced_model *, fault *);
+/* Lists the nonzero entries by columns (this and the next two: second_order_store.c). */
+status second_order_triplets(int rows, int columns, const double value[], triplets *, fault *);
+/* Stores the model with its first `outputs` outputs. */
+status second_order_take(const second_order *, int outputs, linear_model *, fault *);
+/* Stores the state space. reduced 1: the state space of the whole model already exists. */
+status second_order_state_space(const vibration *, const system_matrices *, const second_order *,
+                                int reduced, linear_model *, fault *);
 
 /* Computes damped modes. */
 status damped_modal(analysis_context *, int analysis, analysis_outcome *, fault *);

@@ -2,7 +2,6 @@
  * and its loads. */
 #include "harness/analysis/analysis_impl.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -175,40 +174,6 @@ static void fill_measured(const vibration *v, const system_matrices *s, const in
                                (size_t)at[i]] += v->loop[l].measured[i];
 }
 
-static int input_of(const system_matrices *s, int load, int reference)
-{
-    int i = 0;
-    while (s->input[i].load != load || s->input[i].reference != reference)
-        i++;
-    return i;
-}
-
-/* Computes the state space of m and closes the loops. */
-static status close_loops(const vibration *v, const system_matrices *s, int inputs,
-                          state_space *space, fault *f)
-{
-    state_space_loop *loop = calloc((size_t)v->loops + 1, sizeof *loop);
-    if (loop == NULL)
-        return no_memory(f);
-    for (int l = 0; l < v->loops; l++) {
-        const scene_feedback *b = v->loop[l].gains;
-        const int load = v->loop[l].load, first = s->outputs + 2 * l;
-        loop[l] =
-            (state_space_loop){.input = input_of(s, load, 0),
-                               .measured = first,
-                               .rate = first + 1,
-                               .reference = input_of(s, load, 1),
-                               .times = scene_acting_factor(v->c->scene, v->c->eq.loading.acting,
-                                                            v->c->scene->load[load].load_case),
-                               .proportional = b->proportional,
-                               .derivative = b->derivative,
-                               .integral = b->integral};
-    }
-    const status outcome = state_space_close(space, inputs, s->outputs, v->loops, loop, f);
-    free(loop);
-    return outcome;
-}
-
 /* Adds C of the damping ratios, U U^T, which acts on the motion relative to the static motion of
  * the base. */
 static void add_ratios(const vibration *v, const system_matrices *s, second_order *m, double r[])
@@ -311,215 +276,6 @@ static status fill_model(const vibration *v, const sparse *G, const system_matri
     return STATUS_OK;
 }
 
-/* Lists the nonzero entries by columns. */
-static status triplets_of_rows(int rows, int columns, const double value[], triplets *out, fault *f)
-{
-    double *turned = calloc((size_t)rows * (size_t)columns + 1, sizeof *turned);
-    if (turned == NULL)
-        return no_memory(f);
-    for (size_t i = 0; i < (size_t)rows; i++)
-        for (size_t j = 0; j < (size_t)columns; j++)
-            turned[j * (size_t)rows + i] = value[i * (size_t)columns + j];
-    const status outcome = triplets_of_columns(rows, columns, turned, out, f);
-    free(turned);
-    return outcome;
-}
-
-/* Stores the model with its first `outputs` outputs. */
-static status keep_second_order(const second_order *m, int outputs, linear_model *out, fault *f)
-{
-    const int N = m->n + m->motions;
-    TRY(triplets_of_rows(N, N, m->K, &out->K, f));
-    TRY(triplets_of_rows(N, N, m->C, &out->C, f));
-    TRY(triplets_of_rows(N, N, m->M, &out->M, f));
-    TRY(triplets_of_rows(N, m->inputs, m->B, &out->B, f));
-    for (int i = 0; i < 3; i++)
-        TRY(triplets_of_rows(outputs, N, m->L[i], &out->L[i], f));
-    return triplets_of_rows(outputs, m->inputs, m->D, &out->D, f);
-}
-
-/* Stores the state space. reduced 1: the state space of the whole model already exists. */
-static status keep_state_space(const vibration *v, const system_matrices *of, const second_order *m,
-                               int reduced, linear_model *out, fault *f)
-{
-    const analysis_context *c = v->c;
-    state_space s = {0};
-    fault why = {""};
-    status outcome = state_space_of(m, &s, &why);
-    if (outcome == STATUS_OK && v->loops > 0)
-        outcome = close_loops(v, of, m->inputs, &s, &why);
-    if (outcome != STATUS_OK && s.improper >= of->outputs)
-        fault_set(
-            f, outcome,
-            "state space: %s (feedback) has a derivative gain, but what it measures follows "
-            "an input at once, without a mass between them; add a mass there",
-            scene_called(c->scene, SCENE_LOADS, v->loop[(s.improper - of->outputs) / 2].load).text);
-    else if (outcome != STATUS_OK && s.improper >= 0 && reduced)
-        fault_set(f, outcome,
-                  "--reduce %.60s: quantity %s has no state space with the modes of coordinates "
-                  "without mass; give fewer modes",
-                  c->options->reduce, c->scene->quantity[of->output[s.improper].quantity].name);
-    else if (outcome != STATUS_OK && s.improper >= 0)
-        fault_set(f, outcome, "state space: quantity %s: %s; remove it, or add a mass",
-                  c->scene->quantity[of->output[s.improper].quantity].name, why.text);
-    else if (outcome != STATUS_OK && reduced)
-        fault_set(f, outcome, "--reduce %.60s: %s; give fewer modes", c->options->reduce, why.text);
-    else if (outcome != STATUS_OK)
-        fault_set(f, outcome, "state space: %s", why.text);
-    if (outcome == STATUS_OK)
-        outcome = triplets_of_rows(s.states, s.states, s.A, &out->state.A, f);
-    if (outcome == STATUS_OK)
-        outcome = triplets_of_rows(s.states, m->inputs, s.B, &out->state.B, f);
-    if (outcome == STATUS_OK)
-        outcome = triplets_of_rows(of->outputs, s.states, s.C, &out->state.C, f);
-    if (outcome == STATUS_OK)
-        outcome = triplets_of_rows(of->outputs, m->inputs, s.D, &out->state.D, f);
-    out->loops = v->loops;
-    out->eliminated = s.eliminated;
-    state_space_free(&s);
-    return outcome;
-}
-
-/* Reads the node name from `at` to the next comma. REFUSED: a node is named twice. */
-static status read_node(const scene *s, const char *text, const char *list, const char *at,
-                        int *node, fault *f)
-{
-    const size_t length = strcspn(at, ",");
-    if (length == 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "--reduce %.60s: an interface node has no name; name it, as in "
-                         "10:base,tip, or remove the colon or comma before it",
-                         text);
-    *node = SCENE_NONE;
-    for (int i = 0; i < s->nodes; i++) {
-        const scene_words name = scene_name(s, SCENE_NODES, i);
-        if (strlen(name.text) == length && strncmp(name.text, at, length) == 0)
-            *node = i;
-    }
-    if (*node == SCENE_NONE)
-        return fault_set(f, STATUS_REFUSED,
-                         "--reduce %.60s: the scene has no node %.*s; name nodes of the scene",
-                         text, (int)length, at);
-    for (const char *one = list; one < at; one += strcspn(one, ",") + 1)
-        if (strcspn(one, ",") == length && strncmp(one, at, length) == 0)
-            return fault_set(f, STATUS_REFUSED,
-                             "--reduce %.60s: node %.*s is named twice; name it once", text,
-                             (int)length, at);
-    return STATUS_OK;
-}
-
-/* Reads "MODES:NODE,NODE" into *modes, and sets edge to 1 for the coordinates of these nodes. */
-static status read_interface(const vibration *v, const char *text, int *modes, char edge[],
-                             fault *f)
-{
-    int index[KINEMATICS_MOST], node = SCENE_NONE;
-    double T[6 * KINEMATICS_MOST];
-    char *at;
-    const long many = strtol(text, &at, 10);
-    const char *const list = at + 1;
-    *modes = many < INT_MAX ? (int)many : INT_MAX;
-    if (at == text || many < 0 || (*at != '\0' && *at != ':'))
-        return fault_set(f, STATUS_REFUSED,
-                         "--reduce %.60s: write the number of modes, then the interface nodes if "
-                         "there are any, as in 10:base,tip",
-                         text);
-    while (*at != '\0') {
-        TRY(read_node(v->c->scene, text, list, ++at, &node, f));
-        const int count =
-            kinematics_node_jacobian(v->c->model, v->state, node, KINEMATICS_MOST, index, T);
-        for (int k = 0; k < count; k++)
-            if (index[k] < v->free)
-                edge[index[k]] = 1;
-        at += strcspn(at, ",");
-    }
-    return STATUS_OK;
-}
-
-/* Computes the largest differences between the transfer functions of the two models at the
- * frequencies of a harmonic analysis. */
-static status compare_transfer(const vibration *v, const second_order *whole,
-                               const second_order *small, reduced_model *out, fault *f)
-{
-    const scene_path *path = scene_path_of(&v->c->scene->analysis[v->analysis]);
-    const size_t each = (size_t)whole->outputs * (size_t)whole->inputs;
-    double *room = calloc(5 * each + 1, sizeof *room), *one = room, *other = room + 2 * each,
-           *size = room + 4 * each;
-    status outcome = STATUS_OK;
-    out->apart = calloc(each + 1, sizeof *out->apart);
-    out->at = calloc(each + 1, sizeof *out->at);
-    if (room == NULL || out->apart == NULL || out->at == NULL)
-        outcome = no_memory(f);
-    for (int i = 0; outcome == STATUS_OK && i < path->stations; i++) {
-        const double w = 2 * PI * path->value[i];
-        if (w == 0 && whole->motions > 0)
-            continue; /* the response to a constant acceleration is infinite */
-        outcome = second_order_transfer(whole, w, one, f);
-        if (outcome == STATUS_OK)
-            outcome = second_order_transfer(small, w, other, f);
-        for (size_t k = 0; k < each && outcome == STATUS_OK; k++) {
-            const double off = hypot(one[2 * k] - other[2 * k], one[2 * k + 1] - other[2 * k + 1]);
-            size[k] = fmax(size[k], hypot(one[2 * k], one[2 * k + 1]));
-            if (off > out->apart[k]) {
-                out->apart[k] = off;
-                out->at[k] = path->value[i];
-            }
-        }
-    }
-    for (size_t k = 0; k < each && outcome == STATUS_OK; k++)
-        out->apart[k] /= size[k] > 0 ? size[k] : 1;
-    free(room);
-    return outcome;
-}
-
-static status compare_frequencies(const second_order *whole, const second_order *small, int modes,
-                                  reduced_model *out, fault *f)
-{
-    out->whole = calloc((size_t)whole->n + 1, sizeof *out->whole);
-    out->reduced = calloc((size_t)small->n + 1, sizeof *out->reduced);
-    if (out->whole == NULL || out->reduced == NULL)
-        return no_memory(f);
-    TRY(second_order_frequencies(whole, out->whole, f));
-    TRY(second_order_frequencies(small, out->reduced, f));
-    while (out->modes < modes && out->modes < small->n && isfinite(out->whole[out->modes]) &&
-           isfinite(out->reduced[out->modes]))
-        out->modes++;
-    return STATUS_OK;
-}
-
-static status keep_reduced(const vibration *v, const system_matrices *s, const second_order *whole,
-                           reduced_model *out, fault *f)
-{
-    second_order small = {0};
-    double *T = NULL;
-    int modes = 0;
-    char *edge = calloc((size_t)v->free + 1, sizeof *edge);
-    fault why = {""};
-    if (edge == NULL)
-        return no_memory(f);
-    status outcome = read_interface(v, v->c->options->reduce, &modes, edge, f);
-    if (outcome == STATUS_OK) {
-        outcome = second_order_reduce(whole, edge, modes, &small, &T, &why);
-        if (outcome != STATUS_OK)
-            fault_set(f, outcome, "--reduce %.60s: %s", v->c->options->reduce, why.text);
-    }
-    if (outcome == STATUS_OK)
-        outcome =
-            triplets_of_rows(whole->n + whole->motions, small.n + small.motions, T, &out->T, f);
-    if (outcome == STATUS_OK)
-        outcome = keep_second_order(&small, s->outputs, &out->of, f);
-    if (outcome == STATUS_OK)
-        outcome = keep_state_space(v, s, &small, 1, &out->of, f);
-    if (outcome == STATUS_OK)
-        outcome = compare_frequencies(whole, &small, modes, out, f);
-    if (outcome == STATUS_OK && v->analysis != SCENE_NONE &&
-        v->c->scene->analysis[v->analysis].kind == SCENE_HARMONIC)
-        outcome = compare_transfer(v, whole, &small, out, f);
-    second_order_free(&small);
-    free(T);
-    free(edge);
-    return outcome;
-}
-
 status second_order_keep(const vibration *v, const sparse *G, const system_matrices *s,
                          state_matrices *to, fault *f)
 {
@@ -544,11 +300,11 @@ status second_order_keep(const vibration *v, const sparse *G, const system_matri
     if (outcome == STATUS_OK)
         outcome = fill_model(v, G, s, at, room, &m, f);
     if (outcome == STATUS_OK)
-        outcome = keep_second_order(&m, s->outputs, out, f);
+        outcome = second_order_take(&m, s->outputs, out, f);
     if (outcome == STATUS_OK)
-        outcome = keep_state_space(v, s, &m, 0, out, f);
+        outcome = second_order_state_space(v, s, &m, 0, out, f);
     if (outcome == STATUS_OK && v->c->options->reduce != NULL)
-        outcome = keep_reduced(v, s, &m, &to->reduced, f);
+        outcome = second_order_keep_reduced(v, s, &m, &to->reduced, f);
     second_order_free(&m);
     free(room);
     free(at);

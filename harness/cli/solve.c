@@ -106,12 +106,33 @@ static void tell_apart(const scene *s, const state_matrices *m)
                 s->quantity[m->model.farthest].name);
 }
 
+static void tell_reduced_transfer(const scene *s, const system_matrices *all,
+                                  const reduced_model *r)
+{
+    double apart = 0;
+    int largest = 0, zeros = 0;
+    const int functions = all->outputs * all->inputs;
+    if (r->apart == NULL || functions == 0)
+        return;
+    for (int k = 0; k < functions; k++) {
+        zeros += isnan(r->apart[k]);
+        if (r->apart[k] > apart) {
+            apart = r->apart[k];
+            largest = k / all->inputs;
+        }
+    }
+    if (zeros < functions)
+        fprintf(stderr, "; transfer functions by at most %.1e of the largest (%s)", apart,
+                s->quantity[all->output[largest].quantity].name);
+    if (zeros > 0)
+        fprintf(stderr, "; %d of %d transfer functions are zero and not counted", zeros, functions);
+}
+
 /* Reports the errors of a reduced model. */
 static void tell_reduced(const scene *s, const system_matrices *all, const state_matrices *m)
 {
     const reduced_model *r = &m->reduced;
-    double frequency = 0, apart = 0;
-    int y = 0;
+    double frequency = 0;
     if (r->T.rows == 0)
         return;
     for (int i = 0; i < r->modes; i++)
@@ -120,18 +141,15 @@ static void tell_reduced(const scene *s, const system_matrices *all, const state
             m->analysis == SCENE_NONE ? "the undeformed structure"
                                       : scene_name(s, SCENE_ANALYSES, m->analysis).text,
             r->T.columns, r->T.rows);
+    if (r->taken > r->requested)
+        fprintf(stderr,
+                "%d modes instead of %d, so that modes with the same frequency stay together; ",
+                r->taken, r->requested);
     if (r->modes > 0)
         fprintf(stderr, "first %d natural frequencies off by at most %.1e", r->modes, frequency);
     else
         fputs("natural frequencies not compared (no modes, or free to move)", stderr);
-    for (int k = 0; r->apart != NULL && k < all->outputs * all->inputs; k++)
-        if (r->apart[k] > apart) {
-            apart = r->apart[k];
-            y = k / all->inputs;
-        }
-    if (r->apart != NULL && all->outputs > 0)
-        fprintf(stderr, "; transfer functions by at most %.1e of the largest (%s)", apart,
-                s->quantity[all->output[y].quantity].name);
+    tell_reduced_transfer(s, all, r);
     fprintf(stderr, "\n");
 }
 

@@ -476,6 +476,7 @@ static void reduced_model_free(reduced_model *m)
     triplets_free(&m->T);
     free(m->whole);
     free(m->reduced);
+    free(m->difference);
     free(m->apart);
     free(m->at);
 }

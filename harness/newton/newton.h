@@ -510,12 +510,14 @@ typedef struct linear_model {
 typedef struct reduced_model {
     linear_model of;
     triplets T;
+    int requested;           /* number of modes requested, and the larger number taken so that */
+    int taken;               /* ... modes with the same frequency stay together */
     int modes;               /* natural frequencies [Hz]: ... */
     double *whole, *reduced; /* ... [modes] */
-    /* [outputs x inputs] largest difference of the transfer functions at the frequencies of a
-     * harmonic analysis, relative to the largest value, and the frequency [Hz] of this difference;
-     * NULL: there is no harmonic analysis */
-    double *apart, *at;
+    /* [outputs x inputs] largest difference of transfer functions at the frequencies of a harmonic
+     * analysis in SI units, the same relative to the largest value (NAN: the function of the full
+     * model is zero, apart from round-off), and its frequency [Hz]; NULL: no harmonic analysis */
+    double *difference, *apart, *at;
 } reduced_model;
 
 /* An input of a linear model: a load with factor 1, a rate of 1 of the reference value of a

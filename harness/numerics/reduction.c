@@ -2,7 +2,6 @@
  * interface fixed (R. R. Craig, M. C. C. Bampton, AIAA Journal 6 (1968) 1313); without an
  * interface, modes and static shapes of forces. Shapes and modes are those of the symmetric part of
  * K. */
-#include <complex.h>
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
@@ -29,6 +28,7 @@ typedef struct reduction {
     double *V;       /* [columns x n] */
     double *r;       /* [motions x n] static shapes of motions */
     int columns;
+    int modes; /* in V: those requested, and those with the same frequency as the last one */
 } reduction;
 
 static double symmetric(const second_order *m, const double A[], int i, int j)
@@ -58,17 +58,23 @@ static status decompose(reduction *b, fault *f)
 }
 
 /* Checks that the number of modes does not exceed the number of coordinates with mass, apart from
- * round-off. */
-static status check_modes(const reduction *b, int modes, fault *f)
+ * round-off. Modes with the same frequency are kept together: one mode of a pair has an arbitrary
+ * direction, which would couple planes that are independent. */
+static status take_modes(reduction *b, int modes, fault *f)
 {
+    const double same = 1e-6; /* relative difference of frequencies */
     const int n = b->inner;
     int most = 0;
     while (most < n && b->mu[n - 1 - most] > n * DBL_EPSILON * b->mu[n - 1])
         most++;
-    return modes <= most
-               ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED, "more modes than the %d with mass%s; give at most %d",
-                           most, b->edge > 0 ? " while the interface is fixed" : "", most);
+    if (modes > most)
+        return fault_set(f, STATUS_REFUSED, "more modes than the %d with mass%s; give at most %d",
+                         most, b->edge > 0 ? " while the interface is fixed" : "", most);
+    b->modes = modes;
+    while (b->modes > 0 && b->modes < most &&
+           b->mu[n - 1 - b->modes] > (1 - 2 * same) * b->mu[n - b->modes])
+        b->modes++;
+    return STATUS_OK;
 }
 
 /* Sets out[n] to -K^-1 times the inner part of force[inner], multiplied by `sign`. */
@@ -108,7 +114,7 @@ static void add_shape(reduction *b, const double force[], double room[])
     b->columns++;
 }
 
-static void build(reduction *b, int modes, double room[])
+static void build(reduction *b, double room[])
 {
     const second_order *m = b->m;
     const size_t n = (size_t)m->n;
@@ -119,7 +125,7 @@ static void build(reduction *b, int modes, double room[])
         solve_inner(b, room, -1, v);
         v[b->of[b->inner + k]] = 1;
     }
-    for (int k = 0; k < modes && k < b->inner; k++) {
+    for (int k = 0; k < b->modes; k++) {
         double *v = b->V + (size_t)b->columns++ * n;
         for (int i = 0; i < b->inner; i++)
             v[b->of[i]] = b->mode[(size_t)(b->inner - 1 - k) * (size_t)b->inner + (size_t)i];
@@ -194,14 +200,15 @@ static void correct_output(const reduction *b, int y, double *L[3], double D[], 
             D[row * u + j] += z[i] * m->B[i * u + j];
 }
 
-static status reduce(reduction *b, int modes, second_order *out, double **T, double **room,
+static status reduce(reduction *b, int *modes, second_order *out, double **T, double **room,
                      fault *f)
 {
     const second_order *m = b->m;
     const size_t n = (size_t)m->n, motions = (size_t)m->motions, N = n + motions;
     TRY(decompose(b, f));
-    TRY(check_modes(b, modes, f));
-    build(b, modes, *room);
+    TRY(take_modes(b, *modes, f));
+    *modes = b->modes;
+    build(b, *room);
     const size_t R = (size_t)b->columns + motions, u = (size_t)m->inputs, y = (size_t)m->outputs;
     double *more = realloc(*room, (2 * N * R + 3 * y * N + 2 * n + 1) * sizeof **room);
     *T = calloc(N * R + 1, sizeof **T);
@@ -232,7 +239,7 @@ static status reduce(reduction *b, int modes, second_order *out, double **T, dou
     return STATUS_OK;
 }
 
-status second_order_reduce(const second_order *m, const char edge[], int modes, second_order *out,
+status second_order_reduce(const second_order *m, const char edge[], int *modes, second_order *out,
                            double **T, fault *f)
 {
     const size_t n = (size_t)m->n;
@@ -283,35 +290,4 @@ status second_order_frequencies(const second_order *m, double hertz[], fault *f)
             info == 0 && mu[n - 1 - i] > 0 ? 1 / sqrt(mu[n - 1 - i]) / (2 * PI) : (double)NAN;
     free(K);
     return STATUS_OK;
-}
-
-status second_order_transfer(const second_order *m, double w, double pairs[], fault *f)
-{
-    double complex *const out = (double complex *)pairs;
-    const size_t N = (size_t)m->n + (size_t)m->motions, u = (size_t)m->inputs,
-                 y = (size_t)m->outputs;
-    double complex *D = calloc(N * N + N * u + 1, sizeof *D), *x = D + N * N;
-    int *pivot = calloc(N + 1, sizeof *pivot);
-    int info = -1;
-    if (D != NULL && pivot != NULL) {
-        for (size_t i = 0; i < N * N; i++)
-            D[i] = m->K[i] + I * w * m->C[i] - w * w * m->M[i];
-        for (size_t i = 0; i < N * u; i++)
-            x[i] = m->B[i];
-        info = u == 0 ? 0
-                      : LAPACKE_zgesv(LAPACK_ROW_MAJOR, (int)N, m->inputs, D, (int)N, pivot, x,
-                                      m->inputs);
-        for (size_t i = 0; i < y * u; i++)
-            out[i] = m->D[i];
-        for (size_t i = 0; i < y; i++)
-            for (size_t k = 0; k < N; k++) {
-                const double complex L =
-                    m->L[0][i * N + k] + I * w * m->L[1][i * N + k] - w * w * m->L[2][i * N + k];
-                for (size_t j = 0; j < u && L != 0; j++)
-                    out[i * u + j] += L * x[k * u + j];
-            }
-    }
-    free(D);
-    free(pivot);
-    return info >= 0 ? STATUS_OK : no_memory(f);
 }

@@ -293,6 +293,22 @@ static void write_loads(FILE *to, const void *what)
 
 static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
+static const char *input_unit(const scene *s, const system_input *in)
+{
+    if (in->reference)
+        return s->load[in->load].feedback.component >= SCENE_RX ? "rad/s" : "m/s";
+    if (in->driver != SCENE_NONE)
+        return scene_driver_turns(s, in->driver) ? "rad/s^2" : "m/s^2";
+    return in->load != SCENE_NONE ? "1" : in->component >= SCENE_RX ? "N m" : "N";
+}
+
+static const char *output_unit(const scene_response *as)
+{
+    static const char *const unit[2][4] = {{"m", "m/s", "m/s^2", "N"},
+                                           {"rad", "rad/s", "rad/s^2", "N m"}};
+    return unit[as->component >= SCENE_RX][as->of];
+}
+
 /* Writes the inputs: "force", "moment", "load", "acceleration" of a motion, "reference rate" of a
  * load. */
 static void write_inputs(FILE *to, const void *what)
@@ -301,32 +317,23 @@ static void write_inputs(FILE *to, const void *what)
     fprintf(to, "column,kind,node,component,motion,load,unit\n");
     for (int i = 0; i < c->of->inputs; i++) {
         const system_input *in = &c->of->input[i];
-        const int turns = in->component >= SCENE_RX, moves = in->driver != SCENE_NONE;
         fprintf(to, "%d,%s,", i + 1,
-                in->reference            ? "reference rate"
-                : in->load != SCENE_NONE ? "load"
-                : moves                  ? "acceleration"
-                : turns                  ? "moment"
-                                         : "force");
+                in->reference               ? "reference rate"
+                : in->load != SCENE_NONE    ? "load"
+                : in->driver != SCENE_NONE  ? "acceleration"
+                : in->component >= SCENE_RX ? "moment"
+                                            : "force");
         name_cell(to, c->scene, SCENE_NODES, in->node);
         fprintf(to, "%s,", in->node != SCENE_NONE ? component[in->component] : "");
         name_cell(to, c->scene, SCENE_DRIVERS, in->driver);
         name_cell(to, c->scene, SCENE_LOADS, in->load);
-        if (in->reference)
-            fprintf(to, "%s/s\n",
-                    c->scene->load[in->load].feedback.component >= SCENE_RX ? "rad" : "m");
-        else if (moves)
-            fprintf(to, "%s/s^2\n", scene_driver_turns(c->scene, in->driver) ? "rad" : "m");
-        else
-            fprintf(to, "%s\n", in->load != SCENE_NONE ? "1" : turns ? "N m" : "N");
+        fprintf(to, "%s\n", input_unit(c->scene, in));
     }
 }
 
 static void write_outputs(FILE *to, const void *what)
 {
-    static const char *const of[] = {"displacement", "velocity", "acceleration", "reaction"},
-                             *const unit[2][4] = {{"m", "m/s", "m/s^2", "N"},
-                                                  {"rad", "rad/s", "rad/s^2", "N m"}};
+    static const char *const of[] = {"displacement", "velocity", "acceleration", "reaction"};
     const contents *c = what;
     fprintf(to, "row,quantity,of,node,component,from,unit\n");
     for (int i = 0; i < c->of->outputs; i++) {
@@ -337,7 +344,7 @@ static void write_outputs(FILE *to, const void *what)
         name_cell(to, c->scene, SCENE_NODES, as->node);
         fprintf(to, "%s,", component[as->component]);
         name_cell(to, c->scene, SCENE_NODES, as->from);
-        fprintf(to, "%s\n", unit[as->component >= SCENE_RX][as->of]);
+        fprintf(to, "%s\n", output_unit(as));
     }
 }
 
@@ -378,18 +385,46 @@ static status add_matrix(const output_folder *folder, const char *state, const c
     return output_folder_file(folder, file, write_matrix, &what, f);
 }
 
+/* Writes the unit, in parentheses if it is a product or a quotient. */
+static void write_unit(FILE *to, const char *unit)
+{
+    fprintf(to, strpbrk(unit, " /") != NULL ? "(%s)" : "%s", unit);
+}
+
+/* Writes the unit of the output divided by that of the input. */
+static void write_ratio_unit(FILE *to, const contents *c, int y, int u)
+{
+    const char *above = output_unit(&c->of->output[y].as),
+               *below = input_unit(c->scene, &c->of->input[u]);
+    if (strcmp(below, "1") == 0) {
+        fprintf(to, "%s\n", above);
+        return;
+    }
+    write_unit(to, above);
+    fputc('/', to);
+    write_unit(to, below);
+    fputc('\n', to);
+}
+
 /* Writes the errors of a reduced model. */
 static void write_errors(FILE *to, const void *what)
 {
     const contents *c = what;
     const reduced_model *m = c->reduced;
-    fprintf(to, "kind,mode,output,input,whole,reduced,error,at,unit\n");
+    fprintf(to, "kind,mode,output,input,whole,reduced,error,at,unit,difference,difference_unit\n");
     for (int i = 0; i < m->modes; i++)
-        fprintf(to, "natural frequency,%d,,,%.17g,%.17g,%.3g,,Hz\n", i + 1, m->whole[i],
-                m->reduced[i], m->reduced[i] / m->whole[i] - 1);
-    for (int i = 0; m->apart != NULL && i < c->of->outputs * c->of->inputs; i++)
-        fprintf(to, "transfer function,,%d,%d,,,%.3g,%.17g,Hz\n", i / c->of->inputs + 1,
-                i % c->of->inputs + 1, m->apart[i], m->at[i]);
+        fprintf(to, "natural frequency,%d,,,%.17g,%.17g,%.3g,,Hz,%.3g,Hz\n", i + 1, m->whole[i],
+                m->reduced[i], m->reduced[i] / m->whole[i] - 1, m->reduced[i] - m->whole[i]);
+    for (int i = 0; m->apart != NULL && i < c->of->outputs * c->of->inputs; i++) {
+        const int y = i / c->of->inputs, u = i % c->of->inputs;
+        fprintf(to, "transfer function,,%d,%d,,,", y + 1, u + 1);
+        if (isnan(m->apart[i])) /* the C library prints -nan for some NAN */
+            fputs("nan", to);
+        else
+            fprintf(to, "%.3g", m->apart[i]);
+        fprintf(to, ",%.17g,Hz,%.3g,", m->at[i], m->difference[i]);
+        write_ratio_unit(to, c, y, u);
+    }
 }
 
 /* Writes the title with the number of elements, and says whether feedback loops are closed. */
@@ -454,7 +489,7 @@ static status add_state(const output_folder *folder, const contents *c, const st
     TRY(add_model(folder, name, &s->model, NULL, c, f));
     if (s->reduced.T.rows == 0)
         return STATUS_OK;
-    const contents errors = {.of = c->of, .reduced = &s->reduced};
+    const contents errors = {.of = c->of, .scene = c->scene, .reduced = &s->reduced};
     char file[2 * NAME];
     TRY(add_model(folder, name, &s->reduced.of, &s->reduced.T, c, f));
     snprintf(file, sizeof file, "%s/reduced/errors.csv", name);
