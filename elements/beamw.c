@@ -1,6 +1,6 @@
-/* BEAMW as published, with misprints corrected. Its modified modes exclude shear deformation, so
- * that it follows neither shear theory in stability: it has its own theory and converges to the
- * limit of neither theory (reference/ERRATA.md). */
+/* BEAMW as published, with misprints corrected. The modified modes exclude shear deformation.
+ * Therefore, in stability problems, BEAMW converges to the limit of neither shear theory
+ * (reference/ERRATA.md). */
 #include "elements/beamw/variants.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)

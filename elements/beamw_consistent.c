@@ -1,8 +1,7 @@
-/* Corrected BEAMW: stiffness with the full matrix D, strains that represent uniform shear of any
- * size (elements/beamw/screw.h), and modified modes from the strains of the Simo-Reissner beam over
- * the full linear solution (elements/beamw/condensed.c). Bending, shear and warping inside the
- * element are internal modes, which are in equilibrium and condensed (elements/beamw/condensed.c).
- */
+/* Corrected BEAMW. The stiffness is computed with the full matrix D. The strains represent uniform
+ * shear of any size (elements/beamw/screw.h). The modified modes are derived from the strains of
+ * the Simo-Reissner beam in the full linear solution (elements/beamw/condensed.c). Bending, shear
+ * and warping inside the element are internal modes, which are condensed. */
 #include "elements/beamw/screw.h"
 #include "elements/beamw/variants.h"
 

@@ -1,4 +1,4 @@
-/* BEAMW without its second-order terms, to measure the effect of these terms. */
+/* BEAMW without its second-order terms, for comparisons that show the effect of these terms. */
 #include "elements/beamw/variants.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)

@@ -1,7 +1,7 @@
-/* The geometrically exact beam with warping solved inside the element by Gauss collocation, with
- * exact equilibrium of forces (elements/collocation/collocation.h). The variables of the stages are
- * inner unknowns of the element. The mixed Newton iteration of the structure solves for them
- * together with all other unknowns. */
+/* The geometrically exact beam with warping, solved inside the element by Gauss collocation, with
+ * exact equilibrium of forces (elements/collocation/collocation.h). The variables of the Gauss
+ * points are inner unknowns of the element. The mixed Newton iteration of the structure solves for
+ * these unknowns together with all others. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -34,8 +34,8 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
-/* Returns the orders of convergence. The order in statics also holds under dead forces along
- * members; under other loads along members it is 4 at large rotations. For frequencies see
+/* Returns the orders of convergence. The order in statics holds even under dead forces along
+ * members. Under other loads along members, the order is 4 at large rotations. For frequencies see
  * field/field.h. In linear buckling, the inner unknowns are those of the stress-free element
  * (elements/collocation/prestress.c). */
 static element_order order(element_analysis analysis, const double value[])
@@ -46,7 +46,7 @@ static element_order order(element_analysis analysis, const double value[])
     return (element_order){2, analysis == ELEMENT_STATICS ? collocated : 4};
 }
 
-/* Returns the number of inner unknowns: F (3), x of the inner nodes (3 each). */
+/* Returns the number of inner unknowns: F (3) and x (3 for each inner node). */
 static int inner_count(const double value[])
 {
     return 3 * stage_count(value);
@@ -118,7 +118,7 @@ static void stress_many(int count, const element_data *const data[], const doubl
     REAL_CHOSEN(exact_lanes_stages_stress)(count, data, e, inner, out, outcome);
 }
 
-/* Evaluates consecutive elements of one kind with equal requests together. */
+/* Evaluates consecutive elements of one kind that request the same outputs together. */
 static void along(int count, const element_data *const data[], const node_state x[],
                   along_output out[], status outcome[])
 {
@@ -149,15 +149,15 @@ static void geometric(const element_data *data, const double sigma[], double G[]
         exact_prestress_derivatives(&data->stages, own);
     for (int k = 0; k < OUTER; k++) {
         const double *Q = data->prestressed ? data->prestress[k] : own[k];
-        const double weight = sigma[k] / data->stages.line.l0; /* energy/l0^2 over energy/l0 */
+        const double weight = sigma[k] / data->stages.line.l0; /* (energy/l0^2)/(energy/l0) */
         for (int i = 0; i < OUTER * OUTER; i++)
             G[i] += weight * Q[i];
     }
 }
 
-/* Returns the force by which changes of force are divided. A force equal to a stiffness times an
- * elongation has a proportional rounding error. If this error exceeds 1e-9 of the unit of bending
- * forces, it must not prevent convergence. */
+/* Returns the force by which changes of force are divided. If a force equals a stiffness times an
+ * elongation, its rounding error is proportional to the stiffness. A rounding error above 1e-9 of
+ * the unit of bending forces must not prevent convergence. */
 static double force_scale(const beam_constants *c)
 {
     const double told = 1e-9, stiffness = c->coupled ? c->C[0] : c->EA;
@@ -175,8 +175,8 @@ static double update(const element_data *data, const double de[], const double m
             change -= memory[i * (OUTER + 1) + j] * de[j] / s->line.l0;
         inner[i] += change;
         if (i < 3)
-            force = fmax(force, fabs(inner[i])); /* because forces are divided by a scale, but
-                                                  * rotations are not */
+            force = fmax(force, fabs(inner[i])); /* because forces are divided by a scale, whereas
+                                                    rotations are not */
         largest = larger(largest, fabs(change) / (i < 3 ? force : 1));
     }
     return largest;

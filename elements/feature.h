@@ -1,12 +1,12 @@
-/* Features (physics): scenes require them, element types support them, and requests select them.
- * Their names in files. */
+/* Features: the physics that scenes require, element types support and requests select. Names of
+ * the features in files. */
 #ifndef BEAMWORK_FEATURE_H
 #define BEAMWORK_FEATURE_H
 
 #include <stdio.h>
 #include <string.h>
 
-/* Bits; feature_row_of has a row for each. */
+/* Feature bits. feature_row_of has a row for each bit. */
 enum element_feature {
     FEATURE_WARPING = 1 << 0,
     FEATURE_SHEAR = 1 << 1,
@@ -32,7 +32,8 @@ typedef struct feature_row {
     const char *summary; /* one line */
 } feature_row;
 
-/* Returns the row of a feature; its name is "unknown" if `bit` is not a single known bit. */
+/* Returns the row of a feature. The name in the row is "unknown" if `bit` is not a single known
+ * bit. */
 static inline const feature_row *feature_row_of(unsigned bit)
 {
     static const feature_row row[] = {
@@ -58,13 +59,13 @@ static inline const feature_row *feature_row_of(unsigned bit)
     return one;
 }
 
-/* Returns the name used in files and results. */
+/* Returns the name of a feature in files and results. */
 static inline const char *feature_name(unsigned bit)
 {
     return feature_row_of(bit)->name;
 }
 
-/* Returns the summary in one line. */
+/* Returns the one-line summary of a feature. */
 static inline const char *feature_summary(unsigned bit)
 {
     return feature_row_of(bit)->summary;
@@ -79,8 +80,8 @@ static inline unsigned feature_named(const char *name)
     return 0;
 }
 
-/* Writes the names of all bits into words[size], separated by commas; returns the number of
- * characters. */
+/* Writes the names of all features of `features` to words[size], separated by commas. Returns the
+ * number of characters. */
 static inline int feature_words(unsigned features, char *words, int size)
 {
     int used = 0;

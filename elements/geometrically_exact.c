@@ -1,5 +1,6 @@
-/* The geometrically exact beam (Reissner, Simo) with warping, as in general-purpose codes: two or
- * three nodes, reduced integration, strains at the integration points. */
+/* The geometrically exact beam with warping (Reissner, Simo), as in general-purpose codes. It has
+ * two or three nodes and reduced integration, and its strains are those at the integration
+ * points. */
 #include <math.h>
 #include <string.h>
 
@@ -9,10 +10,10 @@
 
 enum { OPTION_NODES };
 
-/* Transverse compliance of an element in a plane. An axial force N is too large for the element if
- * N times this compliance reaches 1. The compliance is the sum of the shear flexibility of the
- * section [1/N], a property of the beam, and of the bending flexibility that is treated as shear,
- * l^2/12EI or l^2/60EI (exact.h), a property of the mesh. */
+/* Transverse compliance of an element in a plane. The element cannot be used if the axial force N
+ * times this compliance reaches 1. The compliance is the sum of two terms [1/N]: the shear
+ * flexibility of the section, and l^2/12EI or l^2/60EI, the bending flexibility that the element
+ * treats as shear (exact.h). */
 typedef struct across {
     double shear, bending;
 } across;
@@ -21,7 +22,7 @@ struct element_data {
     exact_gauss gauss;
     field_mass mass;
     int nodes;
-    across plane[2]; /* y, z */
+    across plane[2]; /* transverse directions y and z */
 };
 
 static const parameter_type options[] = {

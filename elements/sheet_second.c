@@ -1,5 +1,5 @@
-/* The second-order element of N section 2, whose generalized strains omit the shear terms. With
- * shear flexibility, it converges to a biased limit (reference/ERRATA.md, N 37). */
+/* The second-order element of N section 2. Its generalized strains omit the shear terms, so with
+ * shear flexibility the element converges to a biased limit (reference/ERRATA.md, N 37). */
 #include "elements/sheet/sheet.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)

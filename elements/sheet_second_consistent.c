@@ -1,5 +1,5 @@
-/* The second-order element of N section 2 with the shear terms included in the generalized strains:
- * fourth order, with an exact limit if shear strains and elongation are small. */
+/* The second-order element of N section 2 with the shear terms included in the generalized strains.
+ * The order is four, and the limit is exact for small shear strains and elongations. */
 #include "elements/sheet/sheet.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)
@@ -12,8 +12,8 @@ const element_type element_sheet_second_consistent = {
     .summary = "second-order sheet-flexure element that includes shear in its deformation function",
     .source = "N Eqs. 7, 13-17, 33-36; reference/ERRATA.md, N 37",
     SHEET_SECOND_TYPE,
-    .offers = SHEET_BASE_OFFERS | FEATURE_HARINGX, /* Simo-Reissner: axial force acts on the
-                                                    * rotation of the section */
+    .offers = SHEET_BASE_OFFERS | FEATURE_HARINGX, /* Simo-Reissner: the axial force does work on
+                                                      the rotation of the cross-section */
     .shear_theories = SHEAR_HARINGX,
     .prepare = prepare,
 };

@@ -8,8 +8,7 @@
 /* Quadratic parts of the modified modes, as products of linear functionals of e. */
 
 typedef struct term {
-    int mode, i, j; /* ebar_mode += c e_i e_j; modes and strains are numbered from 1 as in the
-                     * paper */
+    int mode, i, j; /* the term c e_i e_j of ebar_mode, numbered from 1 as in the paper */
     double c;
 } term;
 
@@ -20,7 +19,7 @@ static void add_term(element_data *d, const term *t, double scale)
     beamw_variants_add_product(d->Q[t->mode - 1], t->c * scale, a, b);
 }
 
-/* Coefficients of the bilinear part of J Eq. 66 times l0. */
+/* Coefficients of the bilinear part of J Eq. 66, multiplied by l0. */
 static const term eq66[] = {
     {1, 3, 3, 2 / 30.0},  {1, 3, 4, 1 / 30.0},  {1, 4, 4, 2 / 30.0},  {1, 5, 5, 2 / 30.0},
     {1, 5, 6, 1 / 30.0},  {1, 6, 6, 2 / 30.0},  {2, 4, 5, 1},         {2, 3, 6, -1},
@@ -47,20 +46,20 @@ void beamw_modified_printed(const section *c, unsigned features, element_data *d
     beamw_variants_add_product(d->Q[0], -(c->ys * c->ys + c->zs * c->zs) / (10 * l3), e2, e2);
 }
 
-/* Choice of strains. For a given stress, the energy is correct to third order if the second-order
- * strains are evaluated on the linear solution and weighted with its stresses: e1 = int gx, e2 = l
+/* Choice of strains. For a given stress, the energy is accurate to third order if the second-order
+ * strains are evaluated for the linear solution and weighted with its stresses: e1 = int gx, e2 = l
  * int kx, e3 = int [(l-s) ky - gz], e4 = int [s ky + gz], e5 = int [(l-s) kz + gy], e6 = int [s kz
- * - gy]. Strains are those of the Simo-Reissner beam at the centroid (gamma, kappa); e7 and e8 are
- * not modified, because the amplitude at a node is the twist rate kx there minus the warping shear,
- * in any frame. The choice determines the closed form for uniform moment and axial load. gamma
- * rotates with the section, so that stress resultants couple through the rotation of the section
+ * - gy]. Here g = gamma and k = kappa are the strains of the Simo-Reissner beam at the centroid. e7
+ * and e8 are not modified, because in any frame the amplitude at a node is the twist rate kx minus
+ * the warping shear. This choice gives the closed form for uniform moment and axial load. gamma
+ * rotates with the section, so the stress resultants couple through the rotation of the section
  * (Haringx). The slope w' of the fibre (Engesser, J) appears only if the squares of the shear
  * strains are added to gamma_x, as in the kinematics of J (fibres_at below). Proof and reduction to
  * J Eq. 66: reference/derive/second_order.py. */
 
 enum { N = BEAMW_MODIFIED_VARIABLES, Z = BEAMW_STRAINS };
 
-/* Q += c (a b^T + b a^T). */
+/* Adds c (a b^T + b a^T) to Q. */
 static void add_product(double Q[N * N], double c, const double a[N], const double b[N])
 {
     for (int i = 0; i < N; i++)
@@ -68,15 +67,16 @@ static void add_product(double Q[N * N], double c, const double a[N], const doub
             Q[N * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
 }
 
-/* Linear fields of J section 3.2 at a point, as functionals of e and z: rotation of the section
- * relative to the middle of the element, twist rate and curvatures [1/m], shear at the centroid,
- * and extension. */
+/* Linear fields of J section 3.2 at a point, as functionals of e and z. They are the rotation of
+ * the section relative to the middle of the element, the twist rate and curvatures [1/m], the shear
+ * strains at the centroid, and the extension. */
 typedef struct point_fields {
     double rotation[3][N], rate[3][N], shear_y[N], shear_z[N], extension[N];
 } point_fields;
 
-/* Computes the fields. The rotation is its mean rate of change times x - 1/2, plus the parts due to
- * antisymmetric bending and nonuniform twist. The shear at the shear centre is constant. */
+/* Computes the fields. The rotation is the mean rotation rate times x - 1/2, plus the contributions
+ * of antisymmetric bending and nonuniform twist. The shear strain at the shear centre is
+ * constant. */
 static void fields_at(const section *c, double l, double x, const beamw_twist *t,
                       const beamw_stiffness_fields *s, point_fields *out)
 {
@@ -84,7 +84,7 @@ static void fields_at(const section *c, double l, double x, const beamw_twist *t
     const beamw_twist_shapes shape = beamw_twist_at(t, x);
     const double mean[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
     for (int k = 0; k < N; k++) {
-        const int own = k >= Z; /* for z: bending (y, z) and warping parts of h */
+        const int own = k >= Z; /* for z: bending parts (y, z) and warping part of h */
         const double bend[3] = {0, k == Z + 1 ? -6 : 0, k == Z ? 6 : 0},
                      tw = k == Z + 2 ? l * l : 0;
         const double A = own ? 0 : s->A[k],
@@ -102,10 +102,9 @@ static void fields_at(const section *c, double l, double x, const beamw_twist *t
     }
 }
 
-/* Second-order parts of the strains of the Simo-Reissner beam, where r' = R (e_x + gamma), R =
- * exp(w~) and w is the rotation: kappa = w' - 1/2 w x w', gamma = u' - w x e_x + 1/2 w x (w x e_x)
- * - w x u'.
- */
+/* Second-order parts of the strains of the Simo-Reissner beam. With r' = R (e_x + gamma), R =
+ * exp(w~) and the rotation w, the strains are kappa = w' - 1/2 w x w' and gamma = u' - w x e_x +
+ * 1/2 w x (w x e_x) - w x u'. */
 typedef struct point_strains {
     double gamma[3][N * N], kappa[3][N * N];
 } point_strains;
@@ -131,9 +130,9 @@ static void strains_at(const point_fields *f, point_strains *out)
 }
 
 /* Fibres elongate by gamma_x + z kappa_y - y kappa_z plus half the square of their inclination to
- * the section normal. For Engesser, this is the whole inclination, (shear_y - z kx, shear_z + y
- * kx). For Haringx, it is the part without shear, kx times the distance from the shear centre. The
- * mean and the first moments over the section are used. */
+ * the section normal. For Engesser's theory, the inclination is (shear_y - z kx, shear_z + y kx).
+ * For Haringx's theory, shear is excluded, and the inclination is kx times the distance from the
+ * shear centre. The function uses the mean and the first moments over the section. */
 static void fibres_at(const section *c, unsigned features, const point_fields *f,
                       point_strains *out)
 {
@@ -179,7 +178,7 @@ void beamw_modified_consistent(const section *c, unsigned features, double l, co
             Q[5][i] += ds * (from_p * strain.kappa[2][i] - strain.gamma[1][i]);
         }
     }
-    /* The helicoidal strains e already contain one second-order part, -1/24 psi x (psi x U), the
+    /* The helicoidal strains e already contain the second-order term -1/24 psi x (psi x U), the
      * difference between chord and arc. */
     const double psi[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
     add_product(Q[0], -l / 24, psi[1], psi[1]);
@@ -190,7 +189,7 @@ void beamw_modified_consistent(const section *c, unsigned features, double l, co
     }
 }
 
-/* Computes Q for e alone: T^T Q T with T = (1, hg). */
+/* Computes Q as a function of e alone: T^T Q T with T = (1, hg). */
 void beamw_modified_reduce(const beamw_stiffness_fields *fields, double Q[BEAMW_MODIFIED][N * N],
                            element_data *d)
 {
@@ -237,7 +236,7 @@ static void without_warping(beamw_condensed *out, parts *of)
     memset(out->hg + 2 * E, 0, E * sizeof(double));
 }
 
-/* Lists the terms with `inside` variables of z. */
+/* Lists the terms that contain `inside` variables of z. */
 static void list_terms(const parts *of, int inside, beamw_condensed *out)
 {
     static const short from[BEAMW_CONDENSED_ROWS] = {0, 1, 2, 3, EVEN, EVEN + 1};
@@ -290,7 +289,7 @@ void beamw_condensed_prepare(const section *c, double l, int shear, int warping,
             if (of.P[r][j] != 0)
                 for (int i = 0; i < N * N; i++)
                     of.Q[r][i] += of.P[r][j] * Q[j][i];
-    out->share = of.P[ALL - 1][1]; /* with modified modes, h_w depends on e2 only, and so does u2 */
+    out->share = of.P[ALL - 1][1]; /* with modified modes, h_w and u2 depend on e only through e2 */
     if (!warping)
         without_warping(out, &of);
     list(&of, out);

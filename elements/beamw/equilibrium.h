@@ -1,5 +1,5 @@
 /* The stress function of condensed internal modes (variants.h): evaluation of the modes, their
- * Hessian, and the solution of their equilibrium. */
+ * Hessian, and the solution of the equilibrium equations. */
 #ifndef BEAMWORK_BEAMW_EQUILIBRIUM_H
 #define BEAMWORK_BEAMW_EQUILIBRIUM_H
 
@@ -10,12 +10,12 @@
 #include "elements/math/dense.h"
 #include "elements/shared/lanes.h"
 
-/* Internal modes (variants.h) and the functions (u, h) of y = (e, z). D contains the quadratic
- * parts of their derivatives. For one element or several in lanes. */
+/* Internal modes (variants.h) and the functions (u, h) of y = (e, z), for one element or several in
+ * lanes. D contains the quadratic parts of the derivatives of (u, h). */
 
 enum {
     BEAMW_INTERNAL_Y = BEAMW_MODIFIED_VARIABLES,
-    BEAMW_INTERNAL_Z = BEAMW_STRAINS,   /* position of z */
+    BEAMW_INTERNAL_Z = BEAMW_STRAINS,   /* index of the first component of z */
     BEAMW_INTERNAL_U = 4,               /* number of components of u whose derivatives depend on
                                          * y */
     BEAMW_INTERNAL_H = BEAMW_INTERNAL_U /* row of h_y in D */
@@ -23,9 +23,10 @@ enum {
 
 typedef struct beamw_internal {
     real y[BEAMW_INTERNAL_Y], q[3];
-    real D[BEAMW_CONDENSED_ROWS * BEAMW_INTERNAL_Y + 1]; /* by rows; the last entry is not used */
+    real D[BEAMW_CONDENSED_ROWS * BEAMW_INTERNAL_Y +
+           1]; /* rows of D, one after the other; the last entry is not used */
     real u[BEAMW_CONDENSED_EVEN], h[3];
-    real reach[3]; /* sum of the absolute terms of h that are linear in e */
+    real reach[3]; /* sum of the absolute values of the terms of h that are linear in e */
 } beamw_internal;
 
 /* Returns row r of D at z. */
@@ -34,7 +35,7 @@ static inline const real *beamw_internal_inside(const beamw_internal *s, int r)
     return s->D + BEAMW_INTERNAL_Y * r + BEAMW_INTERNAL_Z;
 }
 
-/* Computes D dz for the columns of z. */
+/* Computes D dz in the columns of z. */
 static inline void beamw_internal_along(const beamw_internal *s, const real dz[3],
                                         real out[BEAMW_CONDENSED_ROWS])
 {
@@ -57,7 +58,7 @@ static inline void beamw_internal_add_half(const beamw_condensed *d,
     s->h[2] += d->share * (quadratic[1] / 2);
 }
 
-/* Adds to D the contributions of z to the terms that are quadratic in z. D is linear in z. */
+/* Adds the terms that are quadratic in z to D, which is linear in z. */
 static inline void beamw_internal_add_own(const beamw_condensed *d, const real z[BEAMW_INTERNAL_Y],
                                           beamw_internal *s)
 {
@@ -86,7 +87,7 @@ static inline void beamw_internal_linear(const beamw_condensed *d, beamw_interna
     }
 }
 
-/* Computes u, h and D for y, without the effect of z on the columns of e. */
+/* Computes u, h and D for y, but does not add the effect of z to the columns of e. */
 static inline void beamw_internal_evaluate(const beamw_condensed *d, beamw_internal *s)
 {
     enum { Y = BEAMW_INTERNAL_Y, Z = BEAMW_INTERNAL_Z };
@@ -130,7 +131,7 @@ static inline void beamw_internal_move(const beamw_condensed *d, const real dz[3
     beamw_internal_add_half(d, quadratic, s);
 }
 
-/* Adds the effect of z on the columns of e, once z is known. */
+/* Adds the effect of z to the columns of e, after z has been computed. */
 static inline void beamw_internal_finish(const beamw_condensed *d, beamw_internal *s)
 {
     for (int t = d->mixed; t < d->own; t++)
@@ -152,10 +153,10 @@ static inline void beamw_internal_weights(const beamw_condensed *d, const beamw_
  * state, while Kzz may have any sign. Therefore G is eliminated first: dz = H (q + f dq), X dq = z
  * - Kzz H q. */
 
-/* The Hessian and, after factorisation, H = G^-1, H f and X^-1, X = G^T + Kzz H f. */
+/* The Hessian. After factorisation, H = G^-1, H f and X^-1 with X = G^T + Kzz H f. */
 typedef struct beamw_hessian {
     real Kzz[9], G[9], H[9], Hf[9], inverse[9];
-    real_truth regular; /* 1: G and X are far from singular; 0: use pivots */
+    real_truth regular; /* 1: G and X are far from singular; 0: pivoting is required */
 } beamw_hessian;
 
 /* Computes dh/dz - 1 and Kzz. */
@@ -184,9 +185,9 @@ static inline void beamw_hessian_evaluate(const beamw_condensed *d, const beamw_
     }
 }
 
-/* Computes A^-1 by cofactors, which do not depend on the units of rows and columns. Returns the
- * lanes in which the determinant of A is below -1/10. G and X are minus the identity if there is no
- * stress or no flexibility. */
+/* Computes A^-1 by cofactors, whose accuracy does not depend on the units of rows and columns.
+ * Returns the lanes in which the determinant of A is below -1/10. G and X are minus the identity if
+ * there is no stress or no flexibility. */
 static inline real_truth beamw_hessian_invert(const real A[9], real inverse[9])
 {
     for (int i = 0; i < 3; i++) {
@@ -253,13 +254,13 @@ static inline int beamw_hessian_pivoted(const beamw_condensed *d, const beamw_he
     return 0;
 }
 
-/* The stress function of condensed internal modes (variants.h), of one element or of several in
+/* The stress function of condensed internal modes (variants.h) for one element or several in
  * lanes. */
 
-enum { BEAMW_EQUILIBRIUM_MOST = 30 }; /* iterations */
+enum { BEAMW_EQUILIBRIUM_MOST = 30 }; /* maximum number of iterations */
 
-/* Computes a step of Newton's method, which the caller subtracts: dz and dq. They are NaN if the
- * Hessian is singular. */
+/* Computes the step of Newton's method, dz and dq, which the caller subtracts. dz and dq are NaN if
+ * the Hessian is singular. */
 static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_internal *s,
                                           real dz[3], real dq[3])
 {
@@ -293,13 +294,13 @@ static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_
     }
 }
 
-/* Solves for z and q by Newton's method. Returns the lanes that have converged; these do not change
- * further. */
+/* Solves for z and q by Newton's method. Returns the lanes that have converged. Values of converged
+ * lanes do not change further. */
 static inline real_truth beamw_equilibrium_settle(const beamw_condensed *d, beamw_internal *s)
 {
     enum { Z = BEAMW_INTERNAL_Z };
-    const double close_enough =
-        1e-7; /* relative to z; the remaining error is of the order of its square */
+    const double close_enough = 1e-7; /* relative to z; the remaining error is of the order of the
+                                         square of this tolerance */
     real_truth left = real_true(), good = real_true();
     for (int count = 0; count < BEAMW_EQUILIBRIUM_MOST && real_any(left); count++) {
         real change = real_of(0), size = real_of(0), dz[3], dq[3];
@@ -312,14 +313,14 @@ static inline real_truth beamw_equilibrium_settle(const beamw_condensed *d, beam
             s->q[i] -= real_choose(left, dq[i], real_of(0));
         }
         beamw_internal_move(d, dz, s);
-        good &= change <= DBL_MAX; /* also true for converged lanes, which are evaluated again with
-                                    * unchanged z */
+        good &= change <= DBL_MAX; /* holds even for converged lanes, which are evaluated again with
+                                      unchanged z */
         left &= good & (change > close_enough * close_enough * size);
     }
     return good & (left == 0);
 }
 
-/* C_ee, half of C_ee, and the mixed second derivatives with respect to (z, e) and (q, e). */
+/* C_ee, half of C_ee, and the mixed second derivatives with respect to (z, e) and to (q, e). */
 typedef struct beamw_equilibrium_outside {
     real B[BEAMW_INTERNAL_U][BEAMW_STRAINS], C[BEAMW_STRAINS * BEAMW_STRAINS];
     real z[3 * BEAMW_STRAINS], q[3 * BEAMW_STRAINS];
@@ -464,7 +465,8 @@ static inline void beamw_equilibrium_forces(const beamw_condensed *d, const beam
         sigma[d->linear[t].i] += d->linear[t].c * dual[d->linear[t].row];
 }
 
-/* Like element_type.stress, but returns the lanes in which an equilibrium was found. */
+/* Computes the outputs of element_type.stress. Returns the lanes in which an equilibrium was
+ * found. */
 static inline real_truth beamw_equilibrium_stress(const beamw_condensed *d,
                                                   const real e[BEAMW_STRAINS], stress_real *out)
 {

@@ -7,15 +7,15 @@
 #include "elements/math/dense.h"
 #include "elements/math/scalar.h"
 
-/* The complementary energy of B odd about the middle, B = b sinh(lambda (x - 1/2))/sinh(lambda/2),
- * is 1/2 [(T - M)^2 l/(G It) + l (Q, M) f (Q, M) + M^2 l (1/(G It) + f_ww) excess], where M is the
- * mean of M_w. Bending, shear and warping are in series as for cubic functions, with the warping
- * stiffness E Iw lambda^2/(l excess). For even B, the energy follows from the products B a at the
- * ends. No expression here
- * overflows or cancels for any lambda > 0. */
+/* For a bimoment that is odd about the middle, B = b sinh(lambda (x - 1/2))/sinh(lambda/2), the
+ * complementary energy is 1/2 [(T - M)^2 l/(G It) + l (Q, M) f (Q, M) + M^2 l (1/(G It) + f_ww)
+ * excess], where M is the mean of M_w. Bending, shear and warping are in series as for cubic
+ * functions, with the warping stiffness E Iw lambda^2/(l excess). For even B, the energy follows
+ * from the products B a at the ends. No expression below overflows or loses digits by cancellation,
+ * for any lambda > 0. */
 
 enum { CUBIC_POINTS = 4, PANEL_POINTS = 16, LAYER_PANELS = 4 };
-/* Largest lambda times the width of a panel, for which 16 points integrate with an error below
+/* Largest product of lambda and panel width for which 16 points integrate with an error below
  * e^-20. */
 static const double panel_decay = 10;
 
@@ -32,7 +32,7 @@ static double sinh_excess(double h)
     return sum;
 }
 
-/* Returns sinh(lambda y)/sinh(lambda/2), |y| <= 1/2. */
+/* Returns sinh(lambda y)/sinh(lambda/2) for |y| <= 1/2. */
 static double sinh_ratio(double lambda, double y)
 {
     const double a = fabs(y),
@@ -100,7 +100,7 @@ static int panels_of(const beamw_twist *t, double edge[2 * LAYER_PANELS + 2])
             edge[i] = (double)i / panels;
         return panels;
     }
-    /* layers at the ends, polynomials between them */
+    /* boundary layers at the ends, polynomials between them */
     panels = 2 * LAYER_PANELS + 1;
     for (int i = 0; i <= LAYER_PANELS; i++) {
         edge[i] = i * panel_decay / t->lambda;
@@ -126,10 +126,10 @@ int beamw_twist_points(const beamw_twist *t, double from, double to,
     return count;
 }
 
-/* With h the antisymmetric part of the deformation and A = (e7 - e8)/2, the energy of the linear
+/* Let h be the antisymmetric part of the deformation and A = (e7 - e8)/2. The energy of the linear
  * fields of J section 3.2 is 1/2 [EA/l e1^2 + EIy/l^3 (e3+e4)^2 + EIz/l^3 (e5+e6)^2 + GIt/l^3 (e2^2
- * + A^2/3) + 4 EIw/l^5 A^2 + h^T K h], where K is the stiffness of bending and shear in series. In
- * this form there is no cancellation for Phi -> 0 or Phi -> inf. */
+ * + A^2/3) + 4 EIw/l^5 A^2 + h^T K h], where K is the stiffness of bending and shear in series.
+ * This form has no cancellation for Phi -> 0 or Phi -> inf. */
 
 enum { Y, Z, W };
 
@@ -148,7 +148,7 @@ static void antisymmetric_functionals(const section *c, double l, beamw_stiffnes
     f->A[7] = -0.5;
 }
 
-/* Computes M, which gives the bending part of h: hg = M h. */
+/* Computes M of hg = M h, where hg is the bending part of h. */
 static void split(const section *c, double l, beamw_stiffness_shear kind, const double stiffness[3],
                   double M[9])
 {
@@ -164,7 +164,7 @@ static void split(const section *c, double l, beamw_stiffness_shear kind, const 
         }
         return;
     }
-    /* (Ka + G l D)^-1 G l D = (I + F Ka/(G l))^-1, which also exists for F = 0 */
+    /* this form of (Ka + G l D)^-1 G l D = (I + F Ka/(G l))^-1 exists even for F = 0 */
     double A[9];
     int pivot[3];
     for (int i = 0; i < 3; i++)
@@ -172,11 +172,11 @@ static void split(const section *c, double l, beamw_stiffness_shear kind, const 
             A[3 * i + j] = (i == j) + c->F[3 * i + j] * stiffness[j] / (c->shear_modulus * l);
             M[3 * i + j] = i == j;
         }
-    dense_lu(3, A, pivot); /* cannot be singular: F and Ka are positive semidefinite */
+    dense_lu(3, A, pivot); /* not singular, because F and Ka are positive semidefinite */
     dense_lu_solve(3, 3, A, pivot, M);
 }
 
-/* Computes K of the energy 1/2 h^T K h. */
+/* Computes K, where 1/2 h^T K h is the energy. */
 static void series(const section *c, double l, beamw_stiffness_shear kind,
                    const double stiffness[3], const double M[9], double K[9])
 {
@@ -187,7 +187,7 @@ static void series(const section *c, double l, beamw_stiffness_shear kind,
             if (kind != BEAMW_STIFFNESS_DIAGONAL)
                 K[3 * i + j] = (stiffness[i] * M[3 * i + j] + stiffness[j] * M[3 * j + i]) / 2;
             else if (i == j) /* J App. A: bending and shear in series, plus Saint-Venant torsion of
-                              * the field with shear */
+                                the twist due to shear */
                 K[4 * i] = bend[i] * M[4 * i] + (i == W ? torsion * M[4 * i] * M[4 * i] : 0);
             else
                 K[3 * i + j] =

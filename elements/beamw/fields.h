@@ -7,10 +7,10 @@
 #include "elements/shared/status.h"
 
 /* Distribution of the twist rate along an element: cubic functions (J Eq. 38), or hyperbolic
- * functions, which are the exact linear solution with Saint-Venant torsion. If M_w = -B' is
- * constant apart from the effect of torsion, T = G It kx + M_w and kx - a = f (Q, M_w), B'' =
- * (lambda/l)^2 B, lambda^2 = l^2 G It/(E Iw (1 + r)), r = G It f_ww, l^2 kx = e2 + A odd(x) + tw
- * even(x); In the limit lambda -> 0, odd is 1 - 2x and even is 6x(1-x) - 1. */
+ * functions, which are the exact linear solution with Saint-Venant torsion. For the exact solution,
+ * M_w = -B' is constant apart from the effect of torsion: T = G It kx + M_w and kx - a = f (Q,
+ * M_w), B'' = (lambda/l)^2 B, lambda^2 = l^2 G It/(E Iw (1 + r)), r = G It f_ww, l^2 kx = e2 + A
+ * odd(x) + tw even(x). In the limit lambda -> 0, odd is 1 - 2x and even is 6x(1-x) - 1. */
 
 typedef enum beamw_twist_kind { BEAMW_TWIST_CUBIC, BEAMW_TWIST_HYPERBOLIC } beamw_twist_kind;
 
@@ -18,19 +18,19 @@ typedef struct beamw_twist {
     double uneven;   /* [N m^3] stiffness of hg_w, the even part of the warping */
     double opposite; /* [N/m] stiffness of A = (e7 - e8)/2, the odd part */
     double lambda;   /* 0: cubic */
-    double excess;   /* lambda/2 coth(lambda/2) - 1 */
+    double excess;   /* the value lambda/2 coth(lambda/2) - 1 */
     double soft;     /* 1 + r */
-    double lag[2]; /* G It (f_yw, f_zw) [m]: the part of kx above its mean reduces the shear strains
-                      by this factor */
+    double lag[2];   /* G It (f_yw, f_zw) [m]: ratio by which the part of kx above its mean reduces
+                        the shear strains */
 } beamw_twist;
 
-/* Returns the twist functions of an element of length l. shear: 0 if the section is rigid in shear.
- * If Iw = 0, there is no warping, and the functions are cubic for either kind. */
+/* Returns the twist functions of an element of length l. `shear` is 0 if the section is rigid in
+ * shear. If Iw = 0, there is no warping, and both kinds give cubic functions. */
 beamw_twist beamw_twist_of(const section *c, double l, int shear, beamw_twist_kind kind);
 
 typedef struct beamw_twist_shapes {
-    double odd, even;                   /* as above */
-    double odd_integral, even_integral; /* from 0 to x */
+    double odd, even;                   /* odd(x) and even(x), as defined above */
+    double odd_integral, even_integral; /* integrals of odd and even from 0 to x */
 } beamw_twist_shapes;
 
 beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x);
@@ -48,22 +48,22 @@ int beamw_twist_points(const beamw_twist *t, double from, double to,
 typedef enum beamw_stiffness_shear {
     BEAMW_STIFFNESS_RIGID,    /* Phi = 0: Vlasov */
     BEAMW_STIFFNESS_DIAGONAL, /* J App. A, where Phi depends only on the diagonal of D */
-    BEAMW_STIFFNESS_COUPLED /* uses the whole of D: nodally exact for any positive definite D if It
-                               = 0 or with hyperbolic twist */
+    BEAMW_STIFFNESS_COUPLED /* uses the whole matrix D: exact at the nodes for any positive definite
+                               D, provided that It = 0 or the twist is hyperbolic */
 } beamw_stiffness_shear;
 
 /* Linear functionals of e, used for stiffness, modified modes and inertia. */
 typedef struct beamw_stiffness_fields {
-    double h[3][8]; /* [1/m, 1/m, 1/m^2] mean antisymmetric deformation (y, z, omega) = bending part
-                       + shear strain */
+    double h[3][8];  /* [1/m, 1/m, 1/m^2] mean antisymmetric deformation (y, z, omega), the sum of
+                        the bending part and the shear strain */
     double hg[3][8]; /* bending part of h (warping part for omega) */
     double g[3][8];  /* shear strains g_y, g_z [1], g_w [1/m] */
     double A[8];     /* (e7 - e8)/2 */
     double tw[8];    /* l0^2 hg_w */
 } beamw_stiffness_fields;
 
-/* Computes the stiffness. t is the result of beamw_twist_of for the same section, length and
- * shear. */
+/* Computes the stiffness. `t` is the result of beamw_twist_of for the same section, length and
+ * value of `shear`. */
 void beamw_stiffness_of(const section *c, double l0, beamw_stiffness_shear kind,
                         const beamw_twist *t, beamw_stiffness_fields *fields, double S[8 * 8]);
 
@@ -79,23 +79,23 @@ enum {
 /* Data of a kind of element. */
 typedef struct beamw_spread {
     double l0;                                   /* [m] */
-    lumped_mass lumped;                          /* inertia of half of the element */
+    lumped_mass lumped;                          /* inertia of one half of the element */
     int points;                                  /* number of points of the consistent mass */
     double at[BEAMW_GAUSS], weight[BEAMW_GAUSS]; /* on [0, 1] */
     double field[BEAMW_GAUSS][BEAMW_FIELDS][BEAMW_FIELD_MODES]; /* functionals of e: inertia.c */
-    double share; /* fraction of consistent mass: 0 lumped, 1 consistent, 1/2 averaged */
+    double share; /* fraction of consistent mass; 0: lumped, 1: consistent, 1/2: average of both */
 } beamw_spread;
 
 status beamw_spread_inertia(const beamw_spread *, const node_state x[2],
                             const element_rotating_frame *, inertia_output *);
 
-/* Mass along a two-node element in transient analysis: inertia forces, with derivatives. The masses
- * follow the displacements above, except that the warping mass is at the nodes. Without rotary
- * inertia, the twist is linear between the nodes. A rigid motion of the nodes is a rigid motion of
- * all masses. */
+/* Mass along a two-node element in transient analysis: inertia forces and their derivatives. The
+ * masses follow the displacements defined above, but the warping mass is at the nodes. Without
+ * rotary inertia, the twist is linear between the nodes. If the nodes move as a rigid body, all
+ * masses do. */
 
-/* Adds M, taken, C and K at the rate in `out` to `out`; only the upper half of M is set. The second
- * function is for processors with AVX2 and gives bit-for-bit the same result
+/* Adds M, taken, C and K at the rate in `out` to `out`. Only the upper half of M is set. The second
+ * function is for processors with AVX2 and gives bit-for-bit identical results
  * (elements/math/real.h). */
 typedef void beamw_in_time(const beamw_spread *, const node_state x[2], inertia_output *out);
 beamw_in_time beamw_in_time_plain, beamw_in_time_avx2;

@@ -1,8 +1,9 @@
-/* Masses at quadrature points, attached to vectors of the section, y = lin(r + R a) + sum m_k (nu_k
- * . e) (inertia.c), where m_k is the mean of the unit vectors of the nodes:
+/* The masses are at quadrature points, which vectors of the section locate: y = lin(r + R a) + sum
+ * m_k (nu_k . e), where m_k is the mean of the unit vectors of the nodes (inertia.c). The
+ * acceleration of a mass is
  *   y'' = lin(r'') + sum over nodes A f + sum over k (2 m_k' (nu_k . e)' + m_k (nu_k . e)''),
- *   f = part R a + sum over k (nu_k . e)/2 n_k,   A = w'~ + w~ w~,   e'' = J x'' + x'.H x',
- * where f is fixed to a node with the angular velocity w. */
+ *   f = part R a + sum over k (nu_k . e)/2 n_k, A = w'~ + w~ w~, e'' = J x'' + x'.H x',
+ * where f is fixed to a node that rotates with the angular velocity w. */
 #include "elements/beamw/fields.h"
 
 #include <string.h>
@@ -11,13 +12,13 @@
 #include "elements/math/dense.h"
 
 enum { N = MODES_COORDINATES, MODES = BEAMW_FIELD_MODES, NODES = 2, AXES = 3 };
-enum { WIDE = 16, PARTS = 4 }; /* rows of N are padded with zeros to whole vectors */
+enum { WIDE = 16, PARTS = 4 }; /* rows of N are padded with zeros to SIMD vectors */
 typedef double part __attribute__((vector_size(32)));
 typedef union row {
     part part[PARTS];
     double of[WIDE];
 } row;
-enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z }; /* in the order of inertia.c */
+enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z }; /* numbered in the order of inertia.c */
 
 static const int turns[NODES] = {MODES_TP, MODES_TQ}, places[NODES] = {MODES_RP, MODES_RQ};
 
@@ -25,19 +26,18 @@ typedef struct moving_line {
     const beamw_spread *d;
     const node_state *x;
     inertia_output *out;
-    const double *w[NODES];   /* angular velocities */
-    double A[NODES][9];       /* for a vector f fixed to a node without angular acceleration, f'' =
-                               * A f */
+    const double *w[NODES]; /* angular velocities */
+    double A[NODES]
+            [9]; /* f'' = A f for a vector f that is fixed to a node without angular acceleration */
     double n[NODES][AXES][3]; /* unit vectors */
     double m[AXES][3], m_rate[AXES][3];
-    double e[MODES], rate[MODES], second[MODES]; /* modes and their first and second time
-                                                  * derivatives */
+    double e[MODES], rate[MODES], second[MODES]; /* modes and their time derivatives */
     double J[MODES * N], slope[MODES * N];
     row wide_J[MODES], wide_slope[MODES];
     row M[N], C[N], K[N];
     double s[MODES]; /* stresses of the modes */
     double mixed[NODES]
-                [3 * MODES]; /* derivatives with respect to the rotation of a node and a mode */
+                [3 * MODES]; /* derivatives with respect to the rotation of a node and to a mode */
 } moving_line;
 
 static void skew(double size, const double v[3], double A[9])
@@ -50,7 +50,7 @@ static void skew(double size, const double v[3], double A[9])
     A[7] += size * v[0];
 }
 
-/* A += size a~ b~ */
+/* Adds size a~ b~ to A. */
 static void add_crossed(double size, const double a[3], const double b[3], double A[9])
 {
     const double dot = vec3_dot(a, b);
@@ -59,7 +59,7 @@ static void add_crossed(double size, const double a[3], const double b[3], doubl
             A[3 * i + j] += size * (b[i] * a[j] - (i == j ? dot : 0));
 }
 
-/* Adds a block [3 x 3] to a matrix of the element. */
+/* Adds a block [3 x 3] to an element matrix. */
 static void add_block(double size, const double B[9], int first, int column, double A[N * N])
 {
     for (int i = 0; i < 3; i++)
@@ -113,15 +113,15 @@ static void set_modes(moving_line *c)
 
 /* A mass at a quadrature point. */
 typedef struct line_point {
-    double mass, part[NODES], shift; /* shift 1: a position, 0: a vector fixed to the section */
-    int axes, axis[AXES];            /* the m_k for which the point has functionals */
+    double mass, part[NODES], shift; /* shift 1: position; 0: vector fixed to the section */
+    int axes, axis[AXES];            /* axes k for which m_k has functionals at the point */
     double nu[AXES][MODES], value[AXES], rate[AXES];
     double f[NODES][3]; /* vectors fixed to the nodes */
     double F[3];        /* mass times acceleration */
 } line_point;
 
-/* Sets the functionals of a vector a that is fixed to the section and rotated by chi; those of a
- * position also include nu. */
+/* Sets the functionals of a vector a that is fixed to the section and rotated by chi. The
+ * functionals of a position also include nu. */
 static void set_functionals(const moving_line *c, int g, const double a[3], line_point *p)
 {
     static const int other[AXES][2] = {{1, 2}, {2, 0}, {0, 1}},
@@ -195,7 +195,7 @@ static void add_taken(moving_line *c, const line_point *p)
     }
 }
 
-/* Sets T: -v~ in the columns of a node's rotations. */
+/* Sets T to -v~ in the columns of the rotations of a node. */
 static void add_turn(double size, const double v[3], int node, row T[3])
 {
     double A[9] = {0};
@@ -205,7 +205,7 @@ static void add_turn(double size, const double v[3], int node, row T[3])
             T[i].of[turns[node] + j] += A[3 * i + j];
 }
 
-/* A += mass T^T U */
+/* Adds mass T^T U to A. */
 static void add_product(double mass, const row T[3], const row U[3], row A[N])
 {
     for (int i = 0; i < N; i++) {
@@ -215,7 +215,7 @@ static void add_product(double mass, const row T[3], const row U[3], row A[N])
     }
 }
 
-/* Returns the row nu . A of a matrix of the modes. */
+/* Returns the row nu . A, where the rows of A belong to the modes. */
 static row along_modes(const double nu[MODES], const row A[MODES])
 {
     row out;
@@ -276,15 +276,16 @@ static void add_gradients(moving_line *c, const line_point *p)
         add_product(p->mass, T, places_of, c->K);
 }
 
-/* Adds F . d2f/dtheta2 in the exponential chart, where f is fixed to a node. */
+/* Adds the second derivative of F . f with respect to the rotation of a node in the exponential
+ * chart, where f is fixed to that node. */
 static void add_chart(const double F[3], const double f[3], double B[9])
 {
     add_crossed(0.5, F, f, B);
     add_crossed(0.5, f, F, B);
 }
 
-/* Collects the second derivatives of F . d2y/dx2: rotations of the fixed vectors, and products of
- * rotations and modes. */
+/* Collects the second derivatives of F . y due to the rotations of fixed vectors, and due to
+ * products of rotations and modes. */
 static void gather_curvature(moving_line *c, const line_point *p)
 {
     for (int node = 0; node < NODES; node++) {
@@ -317,7 +318,7 @@ static void add_curvature(moving_line *c)
         c->out->K[i] += H[i];
 }
 
-/* Adds the moment of inertia about n_X, with the component w . n_X linear between the nodes. */
+/* Adds the moment of inertia about n_X; the component w . n_X is linear between the nodes. */
 static void add_twist(moving_line *c, double polar)
 {
     inertia_output *out = c->out;
@@ -366,7 +367,7 @@ static void add_mass(moving_line *c, double mass, const double a[3], int place)
     }
 }
 
-/* Adds rotary inertia, from unit vectors of the section or from its matrices. */
+/* Adds rotary inertia, either from unit vectors of the section or from section matrices. */
 static void add_rotary(moving_line *c)
 {
     static const double unit[AXES][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -14,11 +14,11 @@ enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* PSI: warping amplitude */
 
 /* State of the element, and sums over the points for the second derivatives. */
 typedef struct beamw_inertia_state {
-    double vector[2][3][3]; /* node, direction: unit vectors */
+    double vector[2][3][3]; /* unit vectors, by node and direction */
     double mean[3][3];      /* m_k */
     double e[8], J[8 * N];
     double s[8];       /* sums of F . m_k times the functionals, conjugate to the strains */
-    double turn[6][8]; /* derivatives d(F . m_k)/dtheta at p and q */
+    double turn[6][8]; /* derivatives of F . m_k with respect to the rotations of p and q */
     const node_state *x;
     const element_rotating_frame *frame;
     inertia_output *out;
@@ -33,9 +33,9 @@ typedef struct beamw_inertia_values {
 
 enum { POSITION = -1, NOTHING = -2, TERMS = 2 };
 
-/* A vector y = lin(a vector of the nodes) + sum of sign m_k field. */
+/* A vector y = lin(v) + sum of sign m_k field, where v is a vector of the nodes. */
 typedef struct beamw_inertia_vector {
-    int director; /* unit vector, or one of the above */
+    int director; /* index of a unit vector, or one of the constants above */
     int terms;
     struct {
         int k, field;
@@ -43,8 +43,8 @@ typedef struct beamw_inertia_vector {
     } term[TERMS];
 } beamw_inertia_vector;
 
-/* Computes the gradient of f . e from the nonzero entries of J: all modes except twist depend on
- * the position of q relative to p, and each node rotates two of the four bending modes. */
+/* Computes the gradient of f . e from the nonzero entries of J. All modes except twist depend on
+ * the position of q relative to p. Each node rotates two of the four bending modes. */
 static void gradient_of(const double J[8 * N], const double f[8], double out[N])
 {
     for (int i = 0; i < 3; i++) {
@@ -94,7 +94,8 @@ static void beamw_inertia_gradient(const beamw_inertia_state *c, const beamw_ine
     }
 }
 
-/* Computes y relative to the frame, and the vectors fixed to each node times their weights. */
+/* Computes y relative to the frame, and the vectors that are fixed to each node, multiplied by
+ * their weights. */
 static void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inertia_values *at,
                                 const beamw_inertia_vector *y, double r[3], double fixed[2][3])
 {
@@ -119,7 +120,7 @@ static void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inerti
     }
 }
 
-/* Functionals of the strains for the consistent mass; see the end of this file. */
+/* Functionals of the strains for the consistent mass, as defined at the end of this file. */
 
 enum { BEAMW_CUBIC_POINTS = 4 };
 
@@ -158,33 +159,34 @@ void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_ki
         for (int g = 0; g < s->points; g++) {
             functionals_at(c, d->l0, fields, s->at[g], s->field[g]);
             if (!(features & FEATURE_WARPING))
-                for (int k = 0; k < BEAMW_FIELDS; k++) { /* uniform torsion: e7 and e8 equal e2 */
+                for (int k = 0; k < BEAMW_FIELDS;
+                     k++) { /* uniform torsion, where e7 and e8 equal e2 */
                     s->field[g][k][1] += s->field[g][k][6] + s->field[g][k][7];
                     s->field[g][k][6] = s->field[g][k][7] = 0;
                 }
         }
 }
 
-/* Consistent mass. The fields are those of J section 3.2 (shear functionals as in fields.h),
+/* Consistent mass. The fields are those of J section 3.2, with the shear functionals of fields.h:
  *
  *   x = s/l, c = x (1 - x),
  *   v_s = chord - [(e5+e6)/2 c + l hg_y c (1-2x)],
  *   w_s = chord + [(e3+e4)/2 c - l hg_z c (1-2x)],
  *   l phi = l phi_p + e2 x + A c - tw c (1-2x),
- *   v_c = v_s + zs phi,  w_c = w_s - ys phi,
- *   theta_z = v_s' - g_y,  theta_y = -(w_s' - g_z),  a = phi' - g_w,
+ *   v_c = v_s + zs phi, w_c = w_s - ys phi,
+ *   theta_z = v_s' - g_y, theta_y = -(w_s' - g_z), a = phi' - g_w,
  *
- * written as interpolated nodal values plus functionals of the strains: v_c = lin(v) + nu_y . e and
- * so on. In the deformed state, the functionals are along m_k, the mean of the unit vectors of the
- * nodes (derived here):
+ * The code writes each field in the form of interpolated nodal values plus functionals of the
+ * strains, such as v_c = lin(v) + nu_y . e. In the deformed state, the functionals act along m_k,
+ * the mean of the unit vectors of the nodes (derived here):
  *
  *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),
  *   n_y = lin(n_y) + m_z (chi_x . e) - m_x (chi_z . e), ...
  *
- * and the warping displacement is along m_x, with the amplitude a. These vectors are linear in e
- * and in vectors fixed to the nodes. Therefore their first and second derivatives are exact, and so
- * are the quantities derived from the kinetic energy.
- * The error of the centrifugal force due to second-order terms of the fields is of order l^4. */
+ * The warping displacement is along m_x, with the amplitude a. These vectors are linear in e and in
+ * vectors fixed to the nodes. Therefore their first and second derivatives are exact. Second-order
+ * terms of the fields, which are neglected, cause an error of the centrifugal force of order
+ * l^4. */
 
 static const beamw_inertia_vector position = {POSITION, 2, {{1, NU_Y, 1}, {2, NU_Z, 1}}},
                                   director[3] = {{0, 2, {{1, CHI_Z, 1}, {2, CHI_Y, -1}}},
@@ -227,7 +229,8 @@ static void add_interpolated(beamw_inertia_state *c, const beamw_inertia_values 
     gather_curvature(c, F, at, y);
 }
 
-/* Adds the inertia of the twist rate about the axis, on which a rotating frame has no effect. */
+/* Adds the inertia of the twist rate about the axis. A rotating frame does not affect this
+ * inertia. */
 static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *at, double mass)
 {
     double row[N];
@@ -241,7 +244,7 @@ static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *
             c->out->M[N * i + j] += mass * row[i] * row[j];
 }
 
-/* Adds size times a vector of the field to y, and size times its gradient to T. */
+/* Adds size times a vector of the field to y, and size times the gradient of that vector to T. */
 static void add_part(const beamw_inertia_state *c, const beamw_inertia_values *at,
                      const beamw_inertia_vector *part, double size, moving_vector *y,
                      double T[3 * N], double fixed[2][3])
@@ -260,8 +263,8 @@ static void add_part(const beamw_inertia_state *c, const beamw_inertia_values *a
     }
 }
 
-/* Adds the vectors of a section given by matrices: the position of its centre of mass, and
- * directions in it. */
+/* Adds the vectors of a section given by matrices: the position of the centre of mass, and
+ * directions in the section. */
 static void add_vectors(beamw_inertia_state *c, const beamw_spread *d,
                         const beamw_inertia_values *at)
 {
@@ -310,8 +313,8 @@ static void add_point(beamw_inertia_state *c, const beamw_spread *d, int g)
         add_interpolated(c, &at, &warping, weight * d->lumped.warping);
 }
 
-/* Subtracts sum F . d2y/dx2 from N: the products of rotations with the gradients of the strains,
- * and the second derivatives of the strains. */
+/* Subtracts the sum of F . d2y/dx2 from N. The sum contains products of rotations with gradients of
+ * the strains, and second derivatives of the strains. */
 static void add_curvature(const beamw_spread *d, const beamw_inertia_state *c)
 {
     static const int row[6] = {TP, TP + 1, TP + 2, TQ, TQ + 1, TQ + 2};

@@ -9,7 +9,7 @@ enum { N = MODES_COORDINATES };
 
 /* The chord and its rate of change. */
 typedef struct chord {
-    double n[3], l, turns[3], grows; /* n' and l' */
+    double n[3], l, turns[3], grows; /* time derivatives n' and l' */
 } chord;
 
 static void chord_of(const node_state x[2], const double rate[N], chord *out)
@@ -53,7 +53,7 @@ static void bending(const chord *d, double c, const node_state *x, int k, int ro
     }
 }
 
-/* out += c (a x b)', with a' and b' given */
+/* Adds c (a x b)' to `out`, where a' and b' are given. */
 static void add_cross_rate(double c, const double a[3], const double a_rate[3], const double b[3],
                            const double b_rate[3], double out[3])
 {
@@ -77,7 +77,7 @@ static void torsion(double l0, const node_state x[2], const double rate[N], doub
         row[MODES_TQ + i] = -row[MODES_TP + i];
 }
 
-/* row -= 1/2 w x J, as the exponential chart requires */
+/* Subtracts 1/2 w x J from the row, as the exponential chart requires. */
 static void symmetrise(const double w[3], const double J[3], double row[3])
 {
     double half[3];
@@ -118,7 +118,7 @@ void beamw_screw_far_factors(double square, double f[SCREW_FACTORS])
     const double a = sqrt(square), s = sin(a), c = cos(a), tangent = tan(a / 2),
                  p = (s - a * c) / (s * s);
     const double slope = (a * s * s - 2 * c * (s - a * c)) /
-                         (s * s * s); /* derivative with respect to p, the derivative of a/sin a */
+                         (s * s * s); /* derivative of a/sin a with respect to p */
     double *nu = f + SCREW_NU, *mu = f + SCREW_MU, *tau = f + SCREW_TAU;
     mu[0] = a / s;
     mu[1] = p / (2 * a);

@@ -1,8 +1,9 @@
-/* Deformation modes of the two-node beam: eight generalized strains, all lengths, from the nodes'
- * positions and triads (J Eq. 7). e1 elongation, e2 torsion, e3 e4 bending in x-z, e5 e6 bending in
- * x-y, e7 e8 = l0^2 a. Their gradient (J Eq. 13, three rows of which are misprinted) and second
- * derivatives in the exponential chart: n is the unit vector from p to q; every bending mode is l0
- * times n . v with v a vector fixed to a node. For one element or several in lanes. */
+/* Deformation modes of the two-node beam: eight generalized strains [m] computed from the positions
+ * and triads of the nodes (J Eq. 7). e1 is the elongation, e2 torsion, e3 and e4 bending in x-z, e5
+ * and e6 bending in x-y, and e7 and e8 are l0^2 a. The header also provides their gradient (J Eq.
+ * 13, three rows of which are misprinted) and their second derivatives in the exponential chart. n
+ * is the unit vector from p to q. Every bending mode is l0 times n . v, where v is a vector fixed
+ * to a node. All functions evaluate one element or several in lanes. */
 #ifndef BEAMWORK_BEAMW_MODES_H
 #define BEAMWORK_BEAMW_MODES_H
 
@@ -74,8 +75,8 @@ static inline void beamw_modes_gradient(double l0, const beamw_modes *m,
     J[6 * N + MODES_AP] = J[7 * N + MODES_AQ] = real_of(l0 * l0);
 }
 
-/* B += c [sym(u v^T) - (u . v) I]: second derivative of c u . v with respect to the rotation of one
- * of the two vectors. */
+/* Adds c [sym(u v^T) - (u . v) I], the second derivative of c u . v with respect to the rotation of
+ * one of the two vectors, to B. */
 static inline void beamw_modes_turning(real c, const real u[3], const real v[3], real B[9])
 {
     const real dot = c * vec3_dot(u, v), half = c / 2;
@@ -86,8 +87,8 @@ static inline void beamw_modes_turning(real c, const real u[3], const real v[3],
     }
 }
 
-/* B += c [(u . v) I - v u^T]: mixed second derivative of c u . v with respect to the rotations of u
- * and v. */
+/* Adds c [(u . v) I - v u^T], the mixed second derivative of c u . v with respect to the rotations
+ * of u and v, to B. */
 static inline void beamw_modes_crossing(real c, const real u[3], const real v[3], real B[9])
 {
     const real dot = c * vec3_dot(u, v);
@@ -98,8 +99,8 @@ static inline void beamw_modes_crossing(real c, const real u[3], const real v[3]
     }
 }
 
-/* Computes the second derivative of n . v with respect to the position of q and a rotation of v:
- * (v~ - n (n x v)^T)/l */
+/* Computes the second derivative of n . v with respect to the position of q and a rotation of v,
+ * which is (v~ - n (n x v)^T)/l. */
 static inline void beamw_modes_mixed(const beamw_modes *m, const real v[3], real rt[9])
 {
     real across[3];
@@ -111,8 +112,8 @@ static inline void beamw_modes_mixed(const beamw_modes *m, const real v[3], real
             rt[3 * i + j] = (skew[3 * i + j] - m->n[i] * across[j]) / m->l;
 }
 
-/* Blocks of the second derivatives: with respect to the chord, to the chord and a rotation, and to
- * the rotations. */
+/* Blocks of the second derivatives: with respect to the chord, with respect to the chord and a
+ * rotation, and with respect to two rotations. */
 typedef struct beamw_modes_blocks {
     real rr[9], rp[9], rq[9], pp[9], qq[9], pq[9];
 } beamw_modes_blocks;
@@ -170,7 +171,7 @@ static inline void beamw_modes_place(const beamw_modes_blocks *b,
         }
 }
 
-/* Like element_type.strain; l0: initial length [m]. */
+/* Computes the outputs of element_type.strain; l0: initial length [m]. */
 static inline void beamw_modes_evaluate(double l0, const node_real x[2], strain_real *out)
 {
     beamw_modes m;
@@ -196,10 +197,10 @@ static inline void beamw_modes_evaluate(double l0, const node_real x[2], strain_
 
 /* Time derivatives of the gradients of the deformation modes. */
 
-/* Computes slope[8 x 14] = H x' of each mode at the rates x'[14], where H is its matrix of second
- * derivatives in the exponential chart. This is the rate of the gradient J minus 1/2 w x J at the
- * rotations of each node. Without accelerations, the second time derivative of a mode is slope .
- * x'. */
+/* Computes slope[8 x 14] = H x' of each mode at the rates x'[14]. H is the matrix of second
+ * derivatives of the mode in the exponential chart. The slope is the time derivative of the
+ * gradient J minus 1/2 w x J in the rotations of each node. Without accelerations, the second time
+ * derivative of a mode is slope . x'. */
 void beamw_modes_slopes(double l0, const node_state x[2], const double J[8 * 14],
                         const double rate[14], double slope[8 * 14]);
 

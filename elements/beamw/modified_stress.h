@@ -1,4 +1,4 @@
-/* The stress function of modified modes, for one element or several in lanes. With D = Q(e) and B =
+/* The stress function of modified modes for one element or several in lanes. With D = Q(e) and B =
  * 1 + D, sigma = B^T S ebar and dsigma/de = B^T S B + sum (S ebar)_i Q_i. */
 #ifndef BEAMWORK_BEAMW_MODIFIED_STRESS_H
 #define BEAMWORK_BEAMW_MODIFIED_STRESS_H
@@ -8,7 +8,7 @@
 #include "elements/beamw/variants.h"
 #include "elements/shared/lanes.h"
 
-/* y = S x. */
+/* Computes y = S x. */
 static inline void beamw_modified_stress_of(const element_data *d, const real x[BEAMW_STRAINS],
                                             real y[BEAMW_STRAINS])
 {
@@ -67,7 +67,7 @@ static inline void beamw_modified_stress_strains(const element_data *d, const re
     }
 }
 
-/* Like element_type.stress. */
+/* Computes the outputs of element_type.stress. */
 static inline void beamw_modified_stress_evaluate(const element_data *d,
                                                   const real e[BEAMW_STRAINS], stress_real *out)
 {

@@ -11,7 +11,6 @@ const parameter_type beamw_prepare_mass[] = {
     {0},
 };
 
-/* OPTION_TORSION, OPTION_INSIDE. */
 const parameter_type beamw_prepare_inside[] = {
     {"torsion", "", BEAMW_TWIST_CUBIC, 0, 0, "cubic|hyperbolic",
      "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion"},
@@ -44,8 +43,8 @@ static status length_of(const element_request *request, fault *f)
     return STATUS_OK;
 }
 
-/* Completes the data: mass, uniform torsion, and list of nonzero terms. REFUSED: the stiffness
- * overflows. */
+/* Completes the data: mass, uniform torsion, and list of nonzero terms. Returns REFUSED if the
+ * stiffness overflows. */
 static status finish(const element_request *request, const beamw_stiffness_fields *fields,
                      element_data *out, fault *f)
 {

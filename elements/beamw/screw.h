@@ -1,9 +1,8 @@
-/* The screw displacement from node p and its triad to node q, for one element or several in lanes.
- * R is the mean of the triads of the nodes, D the chord in the axes of R, psi the rotation vector,
- * and a = psi/2. In axes that rotate along the screw, the translation is U = V^-1 D, where V is the
- * integral of exp(x psi~) dx from -1/2 to 1/2 and V^-1 = mu + nu a a^T, mu = |a|/sin |a|, nu = (1 -
- * mu)/|a|^2.
- */
+/* The screw displacement that moves node p with its triad to node q with its triad, for one element
+ * or several in lanes. R is the mean of the triads of the nodes, D is the chord in the axes of R,
+ * psi is the rotation vector, and a = psi/2. In axes that rotate along the screw, the translation
+ * is U = V^-1 D, where V is the integral of exp(x psi~) dx from -1/2 to 1/2 and V^-1 = mu + nu a
+ * a^T, mu = |a|/sin |a|, nu = (1 - mu)/|a|^2. */
 #ifndef BEAMWORK_BEAMW_SCREW_H
 #define BEAMWORK_BEAMW_SCREW_H
 
@@ -13,25 +12,26 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/lanes.h"
 
-/* mu, nu, tau = tan(|a|/2)/|a| and their derivatives with respect to |a|^2. */
+/* Positions of mu, nu and tau = tan(|a|/2)/|a| in `factors`; the derivatives with respect to |a|^2
+ * follow each. */
 enum { SCREW_MU, SCREW_NU = 2, SCREW_TAU = 5, SCREW_FACTORS = 7 };
 
 typedef struct screw {
-    real R[9]; /* triad of the middle */
+    real R[9]; /* triad in the middle of the element */
     real D[3], a[3];
-    real U[3];  /* minus l0 along x */
+    real U[3];  /* U minus l0 along x */
     real along; /* a . D */
     real T[9];  /* dU/dpsi; dU/dD is V^-1 */
     real V[9];  /* V^-1 */
     real f[SCREW_FACTORS];
 } screw;
 
-/* Above this |a|^2 the factors use closed forms, which lose digits below it. */
+/* Value of |a|^2 above which the factors use closed forms, which lose digits for smaller values. */
 static const double beamw_screw_far = 0.25;
 void beamw_screw_far_factors(double square, double f[SCREW_FACTORS]);
 
 enum { SCREW_POWERS = 12 };
-/* a/sin a = 1 + sum power[k] t^(k + 1), t = 4 a^2 */
+/* Coefficients of a/sin a = 1 + sum power[k] t^(k + 1), where t = 4 a^2. */
 extern const double beamw_screw_power[SCREW_POWERS];
 
 static inline void beamw_screw_factors(real square, real f[SCREW_FACTORS])
@@ -49,7 +49,7 @@ static inline void beamw_screw_factors(real square, real f[SCREW_FACTORS])
     nu[2] = 64 * n[2];
     mu[0] = 1 - square * nu[0];
     mu[1] = -nu[0] - square * nu[1];
-    /* square tau^2 - 2 mu tau + 1 = 0 */
+    /* tau is a root of square tau^2 - 2 mu tau + 1 = 0 */
     const real cotangent = real_sqrt(mu[0] * mu[0] - square);
     tau[0] = 1 / (mu[0] + cotangent);
     tau[1] = tau[0] * (tau[0] - 2 * mu[1]) / (2 * cotangent);
@@ -63,7 +63,7 @@ static inline void beamw_screw_factors(real square, real f[SCREW_FACTORS])
     }
 }
 
-/* Computes the quaternion of a rotation, with w >= 0; from the trace if w is its largest
+/* Computes the quaternion of a rotation, with w >= 0, from the trace if w is the largest
  * component. */
 static inline void beamw_screw_quaternion(const real B[9], real q[4])
 {
@@ -95,7 +95,7 @@ static inline void beamw_screw_half_way(const node_real x[2], screw *w)
     mat3_transpose_mul(x[0].R, x[1].R, between);
     beamw_screw_quaternion(between, q);
     /* Half of the angle is atan2(v, w). Near 0, where w = 1, atan2(v, w)/v is 1/w (1 - (v/w)^2/3 +
-     * ..). */
+     * ...). */
     const real square = q[1] * q[1] + q[2] * q[2] + q[3] * q[3], v = real_sqrt(square),
                scale = real_choose(v > 1e-5, real_atan2(v, q[0]) / v, (1 - square / 3) / q[0]);
     const real cosine = real_sqrt((1 + q[0]) / 2), sines = 0.5 / cosine;
@@ -111,7 +111,7 @@ static inline void beamw_screw_half_way(const node_real x[2], screw *w)
     mat3_mul(x[0].R, half, w->R);
 }
 
-/* Computes the screw. l0 [m]: initial length; x[2]: states of the nodes. */
+/* Computes the screw. l0 is the initial length [m], and x[2] are the states of the nodes. */
 static inline void beamw_screw_of(double l0, const node_real x[2], screw *w)
 {
     real d[3], moved[3];
@@ -121,7 +121,7 @@ static inline void beamw_screw_of(double l0, const node_real x[2], screw *w)
         d[i] = x[1].r[i] - x[0].r[i];
     }
     mat3_transpose_mul_vec(w->R, d, w->D);
-    /* D_x^2 - l0^2 without subtracting lengths: |d|^2 - l0^2 = (2 d - moved) . moved */
+    /* computes D_x^2 - l0^2 without subtracting lengths: |d|^2 - l0^2 = (2 d - moved) . moved */
     const real squares =
         2 * vec3_dot(d, moved) - vec3_dot(moved, moved) - w->D[1] * w->D[1] - w->D[2] * w->D[2];
     const real extension =
@@ -143,11 +143,11 @@ static inline void beamw_screw_of(double l0, const node_real x[2], screw *w)
     }
 }
 
-/* First derivatives of a screw with respect to the coordinates of the nodes, along a path of
- * constant spatial velocities and spins. In the mean axes, v is the velocity of q relative to p, s
- * the mean of the spins of the nodes, and delta their difference. The mean axes rotate with w = s -
- * tau/2 a x delta and dpsi/dt = V^-1 delta, dD/dt = v - w x D, d(v, s, delta)/dt = -w x (v, s,
- * delta). */
+/* First derivatives of a screw with respect to the coordinates of the nodes, for constant spatial
+ * velocities and angular velocities. In the mean axes, v is the velocity of q relative to p, s is
+ * the mean of the angular velocities of the nodes, and delta is their difference. The mean axes
+ * rotate with w = s - tau/2 a x delta. The rates are dpsi/dt = V^-1 delta, dD/dt = v - w x D, d(v,
+ * s, delta)/dt = -w x (v, s, delta). */
 
 enum { SCREW_COORDINATES = 2 * NODE_COORDINATES };
 enum { SCREW_RP = 0, SCREW_TP = 3, SCREW_AP = 6, SCREW_RQ = 7, SCREW_TQ = 10, SCREW_AQ = 13 };
@@ -191,7 +191,7 @@ static inline void beamw_screw_rates_gradient(const screw *w, screw_gradient *ou
 {
     real mean[9], difference[9];
     for (int i = 0; i < 3; i++) {
-        screw_work k; /* of a unit force */
+        screw_work k; /* work conjugates of a unit force */
         memcpy(k.g, w->V + 3 * i, sizeof k.g);
         memcpy(k.t, w->T + 3 * i, sizeof k.t);
         beamw_screw_rates_complete(w, &k);
@@ -224,10 +224,10 @@ static inline void beamw_screw_rates_row(const screw_gradient *g, int translatio
 }
 
 /* Second derivatives of a screw with respect to the coordinates of the nodes, in the exponential
- * chart: symmetric forms in (v, s, delta) above, first in the mean axes, then in global axes. */
+ * chart. They are symmetric forms in (v, s, delta), first in the mean axes, then in global axes. */
 
-/* There is no block for v and v. The block for v and s is due to the rotation of g. ss and dd are
- * symmetric. */
+/* Blocks of a form. There is no block for v and v. The block for v and s is due to the rotation of
+ * g. ss and dd are symmetric. */
 typedef struct screw_form {
     real vd[9], ss[9], sd[9], dd[9];
 } screw_form;
@@ -260,7 +260,7 @@ static inline void beamw_screw_forms_translation(const screw *w, const real f[3]
         }
 }
 
-/* Transforms the second derivatives to v, w and delta; the blocks of w are stored in place of those
+/* Transforms the second derivatives to v, w and delta. The blocks of w are stored in place of those
  * of s. */
 static inline void beamw_screw_forms_middle(const screw *w, const screw_work *k, const real f[3],
                                             screw_form *out)
@@ -383,15 +383,15 @@ static inline void beamw_screw_forms_second(const screw *w, const real f[3], con
     beamw_screw_forms_nodal(w, &k, &second, H);
 }
 
-/* Helicoidal strains, which are those of a beam with uniform strains. The screw displacement from
- * node p and its triad to node q has the rotation vector psi and, in axes that rotate along the
- * screw, the translation U. Then e1 = U_x - l0, e2 = l0 psi_x, e3, e4 = l0 psi_y/2 -+ U_z, e5, e6 =
- * l0 psi_z/2 +- U_y, e7, e8 = l0^2 a. They agree with J Eq. 7 to first order, and do not change
- * when p and q are exchanged. Uniform strains of any size are represented exactly: U = l0 (e_x +
- * gamma), psi = l0 kappa. J Eq. 7, which uses sines of angles to the chord, does not represent them
- * exactly if there is shear deformation. */
+/* Helicoidal strains, which equal the strains of a beam if these are uniform. The screw
+ * displacement that moves node p with its triad to node q has the rotation vector psi and, in axes
+ * that rotate along the screw, the translation U. The strains are e1 = U_x - l0, e2 = l0 psi_x, e3,
+ * e4 = l0 psi_y/2 -+ U_z, e5, e6 = l0 psi_z/2 +- U_y, e7, e8 = l0^2 a. They agree with J Eq. 7 to
+ * first order, and do not change when p and q are exchanged. They represent uniform strains of any
+ * size exactly: U = l0 (e_x + gamma), psi = l0 kappa. J Eq. 7 uses sines of angles to the chord,
+ * and is not exact for uniform strains with shear deformation. */
 
-/* e1 .. e6 are sign U_translation + part l0 psi_rotation. */
+/* Each of e1 .. e6 is sign U_translation + part l0 psi_rotation. */
 static const struct {
     int translation, rotation;
     double sign, part;
@@ -399,7 +399,8 @@ static const struct {
                                {2, 1, 1, 0.5}, {1, 2, 1, 0.5}, {1, 2, -1, 0.5}};
 enum { BEAMW_HELICOIDAL_ALONG = 6 };
 
-/* Like element_type.strain, for one element or several in lanes; l0 [m]: initial length. */
+/* Computes the outputs of element_type.strain for one element or several in lanes; l0: initial
+ * length [m]. */
 static inline void beamw_helicoidal_evaluate(double l0, const node_real x[2], strain_real *out)
 {
     enum { N = SCREW_COORDINATES };

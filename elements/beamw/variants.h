@@ -7,18 +7,18 @@
 #include "elements/element.h"
 #include "elements/shared/lanes.h"
 
-/* Quadratic parts of functions of the strains, as lists of nonzero terms. */
+/* Quadratic parts of functions of the strains, in the form of lists of nonzero terms. */
 
-/* d2(row)/dy_i dy_j = c, i <= j. */
+/* A term: d2(row)/dy_i dy_j = c for i <= j. */
 typedef struct beamw_quadratic_term {
     double c;
     short row, i, j;
     short to, mirrored; /* positions of c y_j and c y_i in the derivatives of the rows, row-major.
-                         * For i = j, `mirrored` is a position after the end, which is not used */
+                           For i = j, `mirrored` is a position after the end, which is not used */
     short entry;        /* position in a matrix of second derivatives */
 } beamw_quadratic_term;
 
-/* Returns the term c y_i y_j of row `row` of `rows`, for n variables. */
+/* Returns the term c y_i y_j of row `row` of `rows` rows, for n variables. */
 static inline beamw_quadratic_term beamw_quadratic_of(double c, int rows, int n, int row, int i,
                                                       int j, int entry)
 {
@@ -31,8 +31,8 @@ static inline beamw_quadratic_term beamw_quadratic_of(double c, int rows, int n,
                                   .entry = (short)entry};
 }
 
-/* The stress function common to all BEAMW variants: energy 1/2 ebar^T S ebar of modified modes
- * ebar_i = e_i + 1/2 e^T Q_i e (J Eqs. 62-66). A variant defines only S and Q. */
+/* The stress function common to all BEAMW variants. The energy is 1/2 ebar^T S ebar of modified
+ * modes ebar_i = e_i + 1/2 e^T Q_i e (J Eqs. 62-66). A variant only defines S and Q. */
 
 enum {
     BEAMW_STRAINS = 8,
@@ -45,7 +45,8 @@ struct element_data {
     double S[8 * 8];                                  /* [N/m] */
     double Q[BEAMW_MODIFIED][8 * 8];                  /* [1/m], symmetric */
     int terms;                                        /* number of nonzero terms in Q ... */
-    beamw_quadratic_term term[BEAMW_QUADRATIC_TERMS]; /* ... entry: of [8 x 8], i <= j */
+    beamw_quadratic_term term[BEAMW_QUADRATIC_TERMS]; /* nonzero terms of Q; `entry` is a position
+                                                         in [8 x 8], i <= j */
     int springs;                                      /* number of nonzero terms in S */
     struct {
         double c;
@@ -55,14 +56,14 @@ struct element_data {
     double free[BEAMW_STRAINS]; /* modified strains of the stress-free element */
 };
 
-/* Q += c (a b^T + b a^T), which adds the quadratic term c (a . e)(b . e). */
+/* Adds c (a b^T + b a^T), which represents the quadratic term c (a . e)(b . e), to Q. */
 void beamw_variants_add_product(double Q[8 * 8], double c, const double a[8], const double b[8]);
 
-/* Impose uniform torsion without warping, where e7 and e8 equal e2. The first function replaces A[n
- * x n] by T^T A T; the second transforms all data of a variant. */
+/* Impose uniform torsion without warping, for which e7 and e8 equal e2. The first function replaces
+ * A[n x n] by T^T A T; the second function transforms all data of a variant. */
 void beamw_variants_merge_torsion(int n, double A[]);
 void beamw_variants_drop_warping(element_data *d);
-/* Lists the nonzero terms of S and Q, which must be complete. */
+/* Lists the nonzero terms of S and Q, which must have been computed completely. */
 void beamw_variants_list(element_data *d);
 
 size_t beamw_variants_data_size(const element_request *);
@@ -78,45 +79,45 @@ void beamw_variants_stress_many(int count, const element_data *const data[],
                                 stress_output out[], status outcome[]);
 void beamw_variants_geometric(const element_data *d, const double sigma[], double G[]);
 
-/* Second-order modified modes: the Q_i of a BEAMW variant. */
+/* Second-order modified modes: the matrices Q_i of a BEAMW variant. */
 
-/* Sets J Eq. 66 as printed, which is consistent only for Phi = 0 and the shear centre at the
- * centroid. */
+/* Sets the modes of J Eq. 66 as printed. They are consistent only if Phi = 0 and the shear centre
+ * is at the centroid. */
 void beamw_modified_printed(const section *c, unsigned features, element_data *d);
 
 enum {
     BEAMW_MODIFIED_VARIABLES = BEAMW_STRAINS + 3
-}; /* e, followed by z: the bending (y, z) and warping parts of h [3] */
+}; /* e, followed by z: the bending parts (y, z) and the warping part of h [3] */
 
 /* Sets modes derived from the full shear interpolation. They are consistent with shear and
- * eccentricity (reference/ERRATA.md), follow either shear theory in stability, and include the
- * monosymmetric Wagner moments if requested. ebar = e + 1/2 y^T Q y, y = (e, z). */
+ * eccentricity (reference/ERRATA.md), and follow either shear theory in stability. They include the
+ * monosymmetric Wagner moments if requested. ebar = e + 1/2 y^T Q y, where y = (e, z). */
 void beamw_modified_consistent(
     const section *c, unsigned features, double l0, const beamw_twist *t,
     const beamw_stiffness_fields *fields,
     double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES]);
 
-/* Inserts z = hg e, as in the unstressed element. The result is Q for e alone. */
+/* Inserts z = hg e, which holds in the unstressed element, and computes Q for e alone. */
 void beamw_modified_reduce(
     const beamw_stiffness_fields *fields,
     double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES], element_data *d);
 
-/* A stress function with condensed internal modes that depend on the stress: bending, shear and
- * warping share the antisymmetric deformation h according to equilibrium of the stressed element
- * instead of the unstressed element. With z the bending and warping part of h, energy = stationary
- * over z and q of 1/2 sum_r k_r u_r^2 + 1/2 z^T Ka z + q . (h - z) - 1/2 q^T F q/(G l), where u =
- * (e1, e2, e3 + e4, e5 + e6, (e7 - e8)/2) and h are those of ebar = e + 1/2 (e, z)^T Q (e, z). q is
- * conjugate to h, so that F = 0 is possible. */
+/* A stress function with condensed internal modes. Bending, shear and warping share the
+ * antisymmetric deformation h according to equilibrium of the stressed element, so the modes depend
+ * on the stress. z is the bending and warping part of h. The energy is the stationary value over z
+ * and q of 1/2 sum_r k_r u_r^2 + 1/2 z^T Ka z + q . (h - z) - 1/2 q^T F q/(G l). Here u = (e1, e2,
+ * e3 + e4, e5 + e6, (e7 - e8)/2) and h are computed from ebar = e + 1/2 (e, z)^T Q (e, z). q is
+ * conjugate to h, so F = 0 is possible. */
 
 enum {
     BEAMW_CONDENSED_EVEN = 5,
     BEAMW_CONDENSED_ALL = BEAMW_CONDENSED_EVEN + 3,
-    BEAMW_CONDENSED_ROWS = 6, /* u1 .. u4, h_y, h_z; u5 is linear, and h_w depends on u2 */
+    BEAMW_CONDENSED_ROWS = 6, /* u1 .. u4, h_y, h_z; u5 is linear, and h_w depends only on u2 */
     BEAMW_CONDENSED_TERMS =
         BEAMW_CONDENSED_ROWS * BEAMW_MODIFIED_VARIABLES * (BEAMW_MODIFIED_VARIABLES + 1) / 2
 };
 
-/* Term c e_i of a row of (u, h). */
+/* A term c e_i in a row of (u, h). */
 typedef struct beamw_condensed_linear {
     double c;
     short row, i;
@@ -126,32 +127,36 @@ typedef struct beamw_condensed {
     double k[BEAMW_CONDENSED_EVEN]; /* [N/m] */
     double Ka[3];                   /* [N m, N m, N m^3] */
     double f[3 * 3];                /* F/(G l) */
-    double hg[3 * BEAMW_STRAINS];   /* z = hg e without stress */
+    double hg[3 * BEAMW_STRAINS];   /* matrix hg of the unstressed element, where z = hg e */
     double share;                   /* coefficient of the quadratic part of u2 in h_w [1/m^2] */
-    double odd[BEAMW_STRAINS * BEAMW_STRAINS]; /* d2/de2 of 1/2 k5 u5^2 [N/m] */
-    int linears; /* linear terms of (u, h) in e; rows as in k, then those of h */
+    double odd[BEAMW_STRAINS *
+               BEAMW_STRAINS]; /* second derivative of 1/2 k5 u5^2 with respect to e [N/m] */
+    int linears; /* number of linear terms of (u, h) in e; the rows are those of k, then those of h
+                  */
     beamw_condensed_linear linear[BEAMW_CONDENSED_ALL * BEAMW_STRAINS];
     int mixed, own,
-        terms; /* terms of e alone: entries of [8 x 8]; from `mixed` on, terms of e_i and z_j: (j,
-                  i) in [3 x 8]; from `own` on, terms of z alone: [3 x 3] */
+        terms; /* list of quadratic terms. Terms of e alone are entries of [8 x 8]. Terms from
+                  `mixed` on contain e_i and z_j and are entries (j, i) of [3 x 8]. Terms from `own`
+                  on contain z alone and are entries of [3 x 3] */
     beamw_quadratic_term term[BEAMW_CONDENSED_TERMS];
 } beamw_condensed;
 
-/* Prepares condensed modes from Q of beamw_modified_consistent. warping: 0 for uniform torsion
- * without warping, e7 = e8 = e2. */
+/* Prepares condensed modes from Q of beamw_modified_consistent. `warping` is 0 for uniform torsion
+ * without warping, where e7 = e8 = e2. */
 void beamw_condensed_prepare(
     const section *c, double l0, int shear, int warping, const beamw_twist *t,
     const beamw_stiffness_fields *fields,
     double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES],
     beamw_condensed *out);
 
-/* Like element_type.stress; NOT_CONVERGED: no equilibrium of the internal modes was found. */
+/* Computes the outputs of element_type.stress. Returns NOT_CONVERGED if no equilibrium of the
+ * internal modes was found. */
 status beamw_condensed_stress(const beamw_condensed *d, const double e[BEAMW_STRAINS],
                               stress_output *out);
 
 /* Inertia of the two-node beam: lumped at the nodes (J Eq. 73), consistent with the linear fields
- * of J section 3.2 in the element's deformed state, or the mean of both. The effects of a rotating
- * frame derive from the same kinetic energy. */
+ * of J section 3.2 in the deformed state of the element, or the mean of both. The effects of a
+ * rotating frame derive from the same kinetic energy. */
 
 typedef enum beamw_inertia_kind {
     BEAMW_INERTIA_LUMPED,
@@ -159,18 +164,18 @@ typedef enum beamw_inertia_kind {
     BEAMW_INERTIA_AVERAGED
 } beamw_inertia_kind;
 
-/* Fills lumped, field and share. Without FEATURE_ROTARY_INERTIA, only the translations and the
- * twist (polar moment of inertia) have inertia, so that the matrix is singular in the other
- * rotations and in the warping. fields: NULL for lumped mass. */
+/* Sets the members lumped, field and share. Without FEATURE_ROTARY_INERTIA, only the translations
+ * and the twist (polar moment of inertia) have inertia. The mass matrix is then singular in the
+ * other rotations and in warping. `fields` is NULL for lumped mass. */
 void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_kind kind,
                            const beamw_stiffness_fields *fields, element_data *d);
 
 status beamw_inertia_of(const element_data *d, const node_state x[],
                         const element_rotating_frame *frame, inertia_output *out);
 
-/* Strains and stresses of several BEAMW elements at once, bit-for-bit as for single elements. The
- * second function of each pair is for processors with AVX2 (elements/math/real.h). Members of
- * element_type. */
+/* Strains and stresses of several BEAMW elements at once, with results bit-for-bit identical to
+ * those of single elements. These functions are members of element_type. The second function of
+ * each pair is for processors with AVX2 (elements/math/real.h). */
 
 typedef void beamw_lanes_strains(int count, const element_data *const data[], const node_state x[],
                                  strain_output out[]);
@@ -184,15 +189,16 @@ beamw_lanes_stresses beamw_lanes_modified_plain, beamw_lanes_modified_avx2;
  * stress. */
 beamw_lanes_stresses beamw_lanes_consistent_plain, beamw_lanes_consistent_avx2;
 
-/* Common preparation of the BEAMW variants: selects a stiffness, modified modes and a mass. */
+/* Common preparation of the BEAMW variants, which selects a stiffness, modified modes and a
+ * mass. */
 
 typedef enum beamw_prepare_modes {
     BEAMW_PREPARE_FIRST_ORDER, /* ebar = e */
     BEAMW_PREPARE_PRINTED      /* J Eq. 66 */
 } beamw_prepare_modes;
 
-/* Prepares a variant. Without FEATURE_SHEAR in the request, the stiffness is rigid in shear for any
- * `shear`. */
+/* Prepares a variant. If the request does not include FEATURE_SHEAR, the stiffness is rigid in
+ * shear for any value of `shear`. */
 status beamw_prepare_variant(const element_request *request, beamw_stiffness_shear shear,
                              beamw_prepare_modes modes, element_data *out, fault *f);
 
@@ -213,7 +219,7 @@ static inline const beamw_consistent_data *beamw_prepare_whole(const element_dat
 status beamw_prepare_consistent(const element_request *request, beamw_consistent_data *out,
                                 fault *f);
 
-/* Options: of beamw_prepare_variant, and the additional ones of beamw_prepare_consistent. */
+/* Options of beamw_prepare_variant, and the additional options of beamw_prepare_consistent. */
 extern const parameter_type beamw_prepare_mass[], beamw_prepare_inside[];
 /* Common to all variants. */
 int beamw_prepare_mass_of_field(const double options[]);
@@ -221,8 +227,8 @@ element_order beamw_prepare_order(element_analysis, const double options[]);
 /* Member element_type.judged of types with either list of options. */
 extern const unsigned beamw_prepare_judged[];
 
-/* For element_type: members common to types prepared by beamw_prepare_variant, and their features
- * without the shear theories. */
+/* Members of element_type that are common to types prepared by beamw_prepare_variant, and the
+ * features of these types without the shear theories. */
 #define BEAMW_VARIANT_TYPE                                                                         \
     .family = "beamw", .abi = ELEMENT_ABI, .limits = LIMIT_QUARTER_TURN | LIMIT_EIGHTH_TWIST,      \
     .options = {beamw_prepare_mass}, .judged = beamw_prepare_judged,                               \

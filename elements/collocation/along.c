@@ -38,7 +38,7 @@ static void add_lagrange(const load_points *p, double x, double factor, double o
     }
 }
 
-/* Computes the integrals of the polynomials from x to 1, minus half of their integrals from 0 to
+/* Computes the integrals of the polynomials from x to 1, minus half of the integrals from 0 to
  * 1. */
 static void weights_at(const load_points *p, double x, double out[POINTS])
 {
@@ -133,8 +133,8 @@ void exact_along_frame_of(const exact_stages *s, const exact_along *a, const nod
     }
 }
 
-/* Adds the derivative of the potential M : G with respect to a rotation of G in its axes to
- * `moment`. */
+/* Adds to `moment` the derivative of the potential M : G with respect to a rotation of G in the
+ * axes of G. */
 static void add_moment(const double M[9], const double G[9], double moment[3])
 {
     double A[9] = {0};
@@ -144,7 +144,8 @@ static void add_moment(const double M[9], const double G[9], double moment[3])
     moment[2] += A[3] - A[1];
 }
 
-/* Computes dQ of the mean quaternion Q due to a rotation of node k about axis j: 1/4 e_j o q_k. */
+/* Computes dQ, the derivative of the mean quaternion Q with respect to a rotation of node k about
+ * axis j: 1/4 e_j o q_k. */
 static void mean_gradient(const exact_along_frame *at, int k, int j, double out[4])
 {
     double axis[4] = {0};
@@ -167,7 +168,7 @@ static void turn_of(const exact_along_frame *at, double turn[3 * X])
         }
 }
 
-/* Computes B [4 x 4] of M : R(u) = u . B u for unit quaternions. */
+/* Computes B [4 x 4], where M : R(u) = u . B u for unit quaternions u. */
 static void quadratic_of(const double M[9], double B[4][4])
 {
     B[0][0] = M[0] + M[4] + M[8];
@@ -183,8 +184,7 @@ static void quadratic_of(const double M[9], double B[4][4])
 }
 
 /* Computes H, the second derivative of M : G with respect to rotations of the nodes in the
- * exponential chart. M : G is the quotient Q . B Q/Q . Q, with d2Q = -1/8 |theta|^2 q_k for each
- * node. */
+ * exponential chart. M : G equals (Q . B Q)/(Q . Q), and d2Q = -1/8 |theta|^2 q_k for each node. */
 static void second_of(const exact_along_frame *at, const double M[9], double H[X * X])
 {
     double B[4][4], Bu[4], value = 0, dQ[6][4], along[6], across[6], own[2] = {0};
@@ -243,7 +243,7 @@ void exact_along_finish(const exact_stages *s, const exact_along *a, const exact
         second_of(at, M, out->H);
 }
 
-/* Eliminates the unknowns. Returns 0, or the number of a failing pivot. */
+/* Eliminates the unknowns. Returns 0, or the number of the pivot that fails. */
 static int eliminate(int stages, exact_collocated *w)
 {
     exact_blocks_eliminate(stages, stages + 4, stages + 1, w->A, w->V, w->d);
@@ -263,8 +263,8 @@ status exact_along_linear(const exact_stages *s, const exact_along *a, const nod
     exact_collocated_load load;
     memcpy(rest + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof(double));
     exact_along_frame_of(s, a, x, out->force, &at);
-    /* first with respect to the size of the force, then, if stiffnesses are requested, to the
-     * rotation */
+    /* first with respect to the size of the force; if stiffnesses are requested, then with respect
+     * to the rotation */
     for (int pass = 0; pass < (out->H != NULL ? 2 : 1); pass++) {
         memset(&load, 0, sizeof load);
         for (int k = 0; k < s->stages; k++)
@@ -314,7 +314,7 @@ status exact_along_rate(const exact_stages *s, const exact_along *a, const node_
         e[i] = out->e[i] / l0;
     exact_along_frame_of(s, a, x, out->force, &at);
     exact_along_frame_of(s, a, x, out->rate, &more);
-    for (int pass = 0; pass < 2; pass++) { /* for two of the rotations, then for the third */
+    for (int pass = 0; pass < 2; pass++) { /* first for two of the rotations, then for the third */
         for (int k = 0; k < s->stages; k++) {
             memcpy(load.force[k], at.xi[k], sizeof load.force[k]);
             exact_along_column(at.xi[k], turned);

@@ -1,4 +1,4 @@
-/* The variables of a collocation element in the order of collocation.h: its unknowns F and x of the
+/* The variables of a collocation element in the order of collocation.h: the unknowns F and x of the
  * inner nodes, then the strains v, 2 X, a_p, a_q. */
 #ifndef BEAMWORK_COLLOCATION_COLLOCATED_H
 #define BEAMWORK_COLLOCATION_COLLOCATED_H
@@ -10,8 +10,9 @@
 
 enum { EXACT_VARIABLES_BLOCKS = EXACT_BLOCKS_MAX * (EXACT_BLOCKS_MAX + 1) / 2 };
 
-/* Returns the block of sums.h that contains variable i; `component` is its position in the block.
- * The constant 1 follows the last variable, and three parameters of a load follow the constant. */
+/* Returns the index of the block of sums.h that contains variable i, with the position in the block
+ * in `component`. The constant 1 follows the last variable, and three parameters of a load follow
+ * the constant. */
 static inline int exact_variables_block(int stages, int i, int *component)
 {
     const int outer = i - 3 * stages;
@@ -24,12 +25,13 @@ static inline int exact_variables_block(int stages, int i, int *component)
     return stages + outer / 3;
 }
 
-/* Computes the symmetric matrix A [n x n] of the blocks, n variables. */
+/* Computes the symmetric matrix [n x n] of n variables from the blocks A. */
 void exact_variables_matrix(int stages, double A[][9], int n, double matrix[]);
 
-/* Eliminates the unknowns with row exchange if the elimination of sums.h would lose digits: blocks
- * of the strains, of the constant 1 and the following ones (columns together) in S; X
- * [unknowns/3][9] for each of their block columns. Returns 0, or the number of a failing pivot. */
+/* Eliminates the unknowns with row exchange, for matrices for which the elimination of sums.h would
+ * lose digits. S contains the blocks of the strains, of the constant 1 and of the columns after the
+ * constant (`columns` columns in total). X [unknowns/3][9] contains the solution for each of these
+ * block columns. Returns 0, or the number of the pivot that fails. */
 int exact_variables_eliminate(int stages, int columns, double A[][9], double S[][9],
                               double X[][EXACT_STAGES_MAX][9]);
 
@@ -37,8 +39,8 @@ int exact_variables_eliminate(int stages, int columns, double A[][9], double S[]
 void exact_variables_change(const exact_stages *s, int i, const double change[], double x[3],
                             double slope[3]);
 
-/* Stresses of collocation elements: derivatives of the energy at the present values of the
- * unknowns, which are eliminated. Several elements are evaluated in lanes (real.h). */
+/* Stresses of collocation elements: derivatives of the energy for the present values of the
+ * unknowns, which are then eliminated. Several elements are evaluated in lanes (real.h). */
 
 /* Solution columns for the blocks 2 X, v and (a_p, a_q, 1), and for the rotation of loads along the
  * element. */
@@ -47,14 +49,15 @@ typedef struct exact_collocated {
         X[4][EXACT_STAGES_MAX][9];
 } exact_collocated;
 
-/* Loads along the element (collocation.h): contribution to F at the points, its derivative with
- * respect to three parameters, and, as output, the derivative of the energy with respect to the
- * contribution. */
+/* Loads along the element (collocation.h): the contribution to F at the points, the derivative of
+ * this contribution with respect to three parameters, and, as output, the derivative of the energy
+ * with respect to the contribution. */
 typedef struct exact_collocated_load {
     real force[EXACT_STAGES_MAX][3], column[EXACT_STAGES_MAX][9], moved[EXACT_STAGES_MAX][3];
 } exact_collocated_load;
 
-/* Evaluates the equations. e [8], inner [unknowns]: dimensionless; load: NULL for none. */
+/* Evaluates the equations. e [8] and inner [unknowns] are dimensionless. `load` is NULL if there is
+ * no load. */
 static inline __attribute__((always_inline)) void
 exact_collocated_evaluate(int stages, const exact_stages *s, const real e[], const real inner[],
                           exact_collocated_load *load, real A[][9])
@@ -106,9 +109,9 @@ exact_collocated_evaluate(int stages, const exact_stages *s, const real e[], con
     E[8] = twice;
 }
 
-/* Eliminates the unknowns with row exchange for one lane. columns: number of columns for the
- * strains, the constant 1 and the parameters after it. Returns 0, or the number of a failing pivot.
- */
+/* Eliminates the unknowns with row exchange for one lane. `columns` is the number of columns for
+ * the strains, the constant 1 and the parameters after the constant. Returns 0, or the number of
+ * the pivot that fails. */
 static inline int exact_collocated_exchange(int stages, int columns, int lane, exact_collocated *w)
 {
     const int outer = (columns + 2) / 3, blocks = exact_blocks_at(0, stages + outer);
@@ -132,8 +135,8 @@ static inline int exact_collocated_exchange(int stages, int columns, int lane, e
     return 0;
 }
 
-/* Returns the entry for strains i and j after elimination; 8: the constant 1, 9 to 11: rotation of
- * loads along the element. */
+/* Returns the entry for the strains i and j after elimination. Index 8 stands for the constant 1,
+ * and indices 9 to 11 for the rotation of loads along the element. */
 static inline double exact_collocated_entry(int stages, exact_collocated *w, int i, int j, int lane)
 {
     int row, column;
@@ -181,7 +184,7 @@ static inline void exact_collocated_write(int stages, const exact_stages *s, exa
         }
 }
 
-/* Evaluates with `stages` points. */
+/* Evaluates an element type with `stages` points. */
 static inline __attribute__((always_inline)) void
 exact_collocated_run(int stages, const exact_stages *s, int run, const double *const e[],
                      const double *const inner[], stress_output out[], status outcome[])
@@ -212,7 +215,8 @@ exact_collocated_run(int stages, const exact_stages *s, int run, const double *c
     }
 }
 
-/* Evaluates `run` elements of one kind, at most LANES, like element_type.stress_many. */
+/* Computes the outputs of element_type.stress_many for `run` elements of one kind, at most
+ * LANES. */
 static inline void exact_collocated_stress(const exact_stages *s, int run, const double *const e[],
                                            const double *const inner[], stress_output out[],
                                            status outcome[])
@@ -258,7 +262,7 @@ static inline void exact_loaded_write(int stages, const exact_stages *s, const e
     exact_along_finish(s, a, at, moved, out);
 }
 
-/* Evaluates with `stages` points. */
+/* Evaluates an element type with `stages` points. */
 static inline __attribute__((always_inline)) void
 exact_loaded_run(int stages, const exact_stages *s, const exact_along *a, int run,
                  const node_state x[], along_output out[], status outcome[])
@@ -301,7 +305,7 @@ exact_loaded_run(int stages, const exact_stages *s, const exact_along *a, int ru
     }
 }
 
-/* Evaluates `run` elements of one kind, at most LANES, like element_type.along. */
+/* Computes the outputs of element_type.along for `run` elements of one kind, at most LANES. */
 static inline void exact_loaded_along(const exact_stages *s, const exact_along *a, int run,
                                       const node_state x[], along_output out[], status outcome[])
 {

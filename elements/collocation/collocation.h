@@ -9,19 +9,21 @@
 /* One element of a geometrically exact beam with warping, solved by Gauss collocation (derived
  * here).
  *
- * In the mean axes of its ends the element has the strains e of exact.h (two nodes): v, the vector
- * from p to q, and 2 X, 8 tan(angle/8) about the axis of the rotation from p to q; and the end
- * amplitudes a. Orientation is given by a vector x (stage.h), a polynomial of degree p through -X,
- * p - 1 inner values and X. The force F is constant. The potential
+ * The strains e are those of the two-node element of exact.h, in the mean axes of the ends: v, the
+ * vector from p to q; 2 X, a vector of magnitude 8 tan(angle/8) along the axis of the rotation from
+ * p to q; and the warping amplitudes a at the ends. The vector x (stage.h) gives the orientation.
+ * It is a polynomial of degree p through -X, p - 1 inner values and X. The force F is constant. The
+ * potential
  *
  *   P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F (N_y, N_z)
  *                          + (ys N_z - zs N_y) k + 1/2 rho^2 N_x k^2 + 1/2 EI_y kappa_y^2
  *                          + 1/2 EI_z kappa_z^2 + 1/2 GJ k^2 + c k^4] + warping (exact.h),
  *   N = R^T F, k = kappa_x, over p Gauss points,
  *
- * is stationary in F and in the inner x. In a linear problem this is collocation of the moment
- * equilibrium m' = F x r' at the Gauss points; N = R^T F is in equilibrium exactly. The tangent is
- * symmetric, and the error is of order 2 p. All dimensionless (beam_constants.h). */
+ * is stationary with respect to F and the inner x. In a linear problem this is collocation of the
+ * moment equilibrium m' = F x r' at the Gauss points, and N = R^T F satisfies force equilibrium
+ * exactly. The tangent is symmetric, and the error is of order 2 p. All values are dimensionless
+ * (beam_constants.h). */
 
 enum {
     EXACT_STAGES_MAX = EXACT_WARPING_MAX_STAGES,
@@ -31,8 +33,8 @@ enum {
     EXACT_STAGES_ALL = EXACT_STAGES_UNKNOWNS + EXACT_STAGES_OUTER
 };
 
-/* First part of the element_data of collocation elements. Variables: x of the inner nodes, then 2
- * X, half of which belongs to each end node. */
+/* First part of the element_data of collocation elements. The variables are x of the inner nodes,
+ * then 2 X, half of which belongs to each end node. */
 typedef struct exact_stages {
     int stages, unknowns; /* unknowns: F (3), x of the inner nodes */
     beam_constants c;
@@ -49,26 +51,26 @@ typedef struct exact_stages {
 
 status exact_stages_prepare(const element_request *request, int count, exact_stages *out, fault *f);
 
-/* A dead force per length q(x) inside the equilibrium of a collocation element (derived here).
- * Between its nodes the force is F + g(x), where F is the force in the middle and
+/* A dead force per length q(x) inside the equilibrium of a collocation element (derived here). The
+ * internal force is F + g(x), where F is the force in the middle and
  *   g(x) = l0 (int_x^1 q - 1/2 int_0^1 q).
- * F + g replaces F in N above, and half of int q acts on each node; together this is the potential
- * with - int q . r. F is given in the mean axes G of the ends, and so is xi = G^T g: a rotation psi
- * of G in its own axes changes it by xi x psi. The potential depends on G only through xi, and is
- * linear in it except for the effect of the points. */
+ * F + g replaces F in N above, and half of int q acts on each node. Together, both terms represent
+ * the load potential - int q . r. F and xi = G^T g are given in the mean axes G of the ends. A
+ * rotation psi of G, in the axes of G, changes xi by xi x psi. The potential depends on G only
+ * through xi. */
 
-/* Data of a kind of element; q is given at the points of element.h. */
+/* Data of a kind of element. q is given at the points of element.h. */
 typedef struct exact_along {
     double at[EXACT_STAGES_MAX][ELEMENT_ALONG_POINTS]; /* g at the stages [m] */
     double missed[ELEMENT_ALONG_POINTS]
-                 [3]; /* correction of the work on the undeformed line, which the quadrature of the
-                         stages misses; rotates with G [m^2] */
-    double half[ELEMENT_ALONG_POINTS]; /* of int q [m] */
+                 [3]; /* correction of the work on the undeformed line that the quadrature at the
+                         stages does not include; the correction rotates with G [m^2] */
+    double half[ELEMENT_ALONG_POINTS]; /* weights of half of int q [m] */
 } exact_along;
 
-/* The frame G of an element in its present state, and g in it. */
+/* The frame G of an element in its present state, and g in the axes of G. */
 typedef struct exact_along_frame {
-    double q[2][4], u[4], size; /* quaternions of the nodes; their mean, and its length */
+    double q[2][4], u[4], size; /* quaternions of the nodes; mean quaternion and its length */
     double G[9], g[EXACT_STAGES_MAX][3], missed[9]; /* [N]; [N m], columns in axes of G */
     double xi[EXACT_STAGES_MAX][3];                 /* dimensionless */
 } exact_along_frame;
@@ -77,8 +79,8 @@ void exact_along_prepare(const element_request *, const exact_stages *, exact_al
 void exact_along_frame_of(const exact_stages *, const exact_along *, const node_state x[],
                           const double force[], exact_along_frame *);
 /* Computes the terms that depend on the evaluated stages: end forces, the effect of the rotation of
- * G, H, and the contribution of the undeformed line to `moment`. moved[stages][3]: derivative of
- * the energy with respect to xi. */
+ * G, H, and the contribution of the undeformed line to `moment`. moved[stages][3] is the derivative
+ * of the energy with respect to xi. */
 void exact_along_finish(const exact_stages *, const exact_along *, const exact_along_frame *,
                         double moved[][3], along_output *);
 /* Computes the output for the undeformed element, which is linear in the force. */
@@ -98,22 +100,22 @@ static inline void exact_along_column(const double xi[3], double column[9])
 
 /* Geometric stiffness of an undeformed collocation element due to a prestress. */
 
-/* Computes Q[i]: derivative of the condensed stiffness [8 x 8] with respect to stress i in the
- * undeformed geometry, where it is linear; dimensionless. */
+/* Computes Q[i], the derivative of the condensed stiffness [8 x 8] with respect to stress i in the
+ * undeformed geometry, where the stiffness is linear in the stresses. Q is dimensionless. */
 void exact_prestress_derivatives(
     const exact_stages *s, double Q[EXACT_STAGES_OUTER][EXACT_STAGES_OUTER * EXACT_STAGES_OUTER]);
 
-/* As above, for loads along the element with its nodes fixed, which add along[stages] to F at the
- * points. Q is [strains x strains]. */
+/* Computes Q [strains x strains] for loads along an element whose nodes are fixed. The loads add
+ * along[stages] to F at the points. */
 void exact_prestress_load(const exact_stages *s, double along[][3],
                           double Q[EXACT_STAGES_OUTER * EXACT_STAGES_OUTER]);
 
-/* Stresses of one element by collocation. The second function of each pair is for processors with
- * AVX2 and gives bit-for-bit the same result (elements/math/real.h). */
+/* Stresses of one collocation element. The second function of each pair is for processors with AVX2
+ * and gives bit-for-bit identical results (elements/math/real.h). */
 
 typedef status exact_alone_stresses(const exact_stages *, const double e[], const double inner[],
                                     stress_output *);
-/* Like element_type.along, for one element. */
+/* Computes the outputs of element_type.along for one element. */
 typedef status exact_alone_loads(const exact_stages *, const exact_along *, const node_state x[],
                                  along_output *);
 
@@ -129,7 +131,7 @@ typedef void exact_lanes_loads(const exact_stages *, const exact_along *, int co
 /* Strains and stresses for data that begin with exact_stages. */
 exact_lanes_strains exact_lanes_stages_strain_plain, exact_lanes_stages_strain_avx2;
 exact_lanes_stresses exact_lanes_stages_stress_plain, exact_lanes_stages_stress_avx2;
-/* Like element_type.along, for at most LANES_TOGETHER elements of one kind. */
+/* Computes the outputs of element_type.along for at most LANES_TOGETHER elements of one kind. */
 exact_lanes_loads exact_lanes_along_plain, exact_lanes_along_avx2;
 
 #endif

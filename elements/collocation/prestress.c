@@ -1,10 +1,11 @@
 /* The linear state under sigma determines the force, moments and warping torques at the points.
  * With these stresses and the undeformed geometry, the Hessian of the potential is a quadratic
- * polynomial of the prestress. Its linear part is the geometric stiffness; its quadratic part is
- * due to strains of the prestressed state, which linear buckling neglects. The inner unknowns
- * depend on the strains as in the stress-free element. The error of a critical load is therefore of
- * fourth order in the length of an element, or of second order with shear flexibility (c_column
- * with n = 4, 8, 16: 0.052, 0.0033, 0.00021 % if rigid in shear; otherwise 1.26, 0.31, 0.078 %). */
+ * polynomial of the prestress. The linear part of the Hessian is the geometric stiffness. The
+ * quadratic part is due to strains of the prestressed state and is neglected in linear buckling.
+ * The inner unknowns depend on the strains as in the stress-free element. Therefore the error of a
+ * critical load is of fourth order in the length of an element if the section is rigid in shear,
+ * and of second order otherwise. For c_column with n = 4, 8, 16, the error is 0.052, 0.0033,
+ * 0.00021 % if rigid in shear, and 1.26, 0.31, 0.078 % otherwise. */
 #include "elements/collocation/collocation.h"
 
 #include <string.h>
@@ -14,8 +15,8 @@
 
 enum { OUTER = EXACT_STAGES_OUTER };
 
-/* Computes the linear response to each stress alone: change [n x 8] of all variables, and
- * derivatives Z [unknowns x 8] of the unknowns. */
+/* Computes the linear response to a unit value of each stress: the change [n x 8] of all variables,
+ * and the derivatives Z [unknowns x 8] of the unknowns. */
 static void linear_states(const exact_stages *s, double change[], double Z[])
 {
     const int m = s->unknowns, n = m + OUTER;
@@ -31,21 +32,21 @@ static void linear_states(const exact_stages *s, double change[], double Z[])
         for (int j = 0; j < OUTER; j++)
             Z[i * OUTER + j] = -hessian[i * n + m + j];
     }
-    dense_lu(m, K, pivot); /* the undeformed element is stable */
+    dense_lu(m, K, pivot); /* not singular, because the undeformed element is stable */
     dense_lu_solve(m, OUTER, K, pivot, Z);
     memset(change, 0, (size_t)(n * OUTER) * sizeof *change);
     for (int i = 0; i < OUTER; i++)
         change[(m + i) * OUTER + i] = 1;
     if (!s->c.warping)
         for (int i = n - 2; i < n; i++)
-            hessian[i * (n + 1)] = 1; /* there are no amplitudes */
+            hessian[i * (n + 1)] = 1; /* there are no warping amplitudes */
     dense_lu(n, hessian, pivot);
     dense_lu_solve(n, OUTER, hessian, pivot, change);
 }
 
-/* At point i of the undeformed element, computes M times the change of (kappa, N) due to a change
- * of the variables (for N, the change itself is used in the terms that N stiffens in torsion).
- * Returns the change of the argument of the warping energy. */
+/* Computes M times the change of (kappa, N) due to a change of the variables, at point i of the
+ * undeformed element. The terms in which N stiffens torsion use the change of N itself. Returns the
+ * change of the argument of the warping energy. */
 static double moments(const exact_stages *s, int i, const exact_stage *p,
                       const exact_stage_material *M, const double change[], const double force[3],
                       double moment[3], double N[3])
@@ -65,7 +66,7 @@ static double moments(const exact_stages *s, int i, const exact_stage *p,
 }
 
 /* Computes the Hessian of the undeformed element with stresses `factor` times those of the linear
- * state. along[stages][3]: contribution of loads to F at the points, or NULL. */
+ * state. along[stages][3] is the contribution of loads to F at the points, or NULL. */
 static void stressed_hessian(const exact_stages *s, const double change[], double along[][3],
                              double factor, double hessian[])
 {

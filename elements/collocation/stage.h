@@ -1,6 +1,7 @@
-/* Rotations by Wiener-Milenkovic parameters x = 4 tan(angle/4) about the axis (Rodrigues' modified
- * vectors): regular up to a full revolution, and rational. R^T y, and the curvature kappa of a line
- * on which x varies with slope x', have the same form:
+/* Rotations by Wiener-Milenkovic parameters (Rodrigues' modified vectors). The vector x has the
+ * magnitude 4 tan(angle/4) and the direction of the rotation axis. It is regular up to a full
+ * revolution. The rotation matrix is a rational function of x. R^T y, and the curvature kappa of a
+ * line along which x varies with the slope x', have the same form:
  *   w . R^T y = B(w, y; x),  w . kappa = B(w, x'; x),
  *   B(w, y; x) = s w . y - p x . (y x w) + q [(x . w)(x . y) - t w . y],
  * where s, p, q are functions of t = |x|^2. */
@@ -10,7 +11,7 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/beam_constants.h"
 
-/* s, p, q, each with its first and second derivative. */
+/* The functions s, p, q with their first and second derivatives. */
 typedef struct exact_milenkovic_form {
     real s[3], p[3], q[3];
 } exact_milenkovic_form;
@@ -18,7 +19,7 @@ typedef struct exact_milenkovic_form {
 static inline void exact_milenkovic_forms(real t, exact_milenkovic_form *orientation,
                                           exact_milenkovic_form *curvature)
 {
-    /* u = cos^2(angle/4); u' = -u^2/16 */
+    /* u = cos^2(angle/4), and u' = du/dt = -u^2/16 */
     const real u = 16 / (16 + t), u2 = u * u, u3 = u2 * u;
     const real first[2] = {u2 * (-1.0 / 16), u3 * (-1.0 / 8)},
                second[2] = {u3 * (1.0 / 128), u2 * u2 * (3.0 / 128)};
@@ -34,7 +35,7 @@ static inline void exact_milenkovic_forms(real t, exact_milenkovic_form *orienta
     };
 }
 
-/* Computes the vector with components B(w, y; x) for w along each axis [3]. */
+/* Computes the vector whose components are B(w, y; x) with w along each axis [3]. */
 static inline void exact_milenkovic_vector(const exact_milenkovic_form *f, const real x[3],
                                            const real y[3], real out[3])
 {
@@ -45,8 +46,8 @@ static inline void exact_milenkovic_vector(const exact_milenkovic_form *f, const
         out[i] = f->s[0] * y[i] - f->p[0] * once[i] + f->q[0] * twice[i];
 }
 
-/* Computes the gradients of that vector with respect to x and y; each row belongs to a
- * component. */
+/* Computes the gradients of the vector of exact_milenkovic_vector with respect to x and y. Each row
+ * belongs to a component of the vector. */
 static inline void exact_milenkovic_gradients(const exact_milenkovic_form *f, const real x[3],
                                               const real y[3], real dx[9], real dy[9])
 {
@@ -87,7 +88,7 @@ static inline void exact_milenkovic_add_hessian(const exact_milenkovic_form *f, 
     const real level = 2 * (f->s[1] * wy - f->p[1] * once + f->q[1] * twice - q * wy);
     const real bent = 4 * (f->s[2] * wy - f->p[2] * once + f->q[2] * twice);
     const real turn = f->s[1] - f->q[1] * t - q, along = f->q[1] * xw;
-    for (int i = 0; i < 3; i++) { /* slope: conjugate to 2 x, the gradient of t */
+    for (int i = 0; i < 3; i++) { /* the gradient of t is 2 x, and `slope` is conjugate to it */
         slope[i] = 2 * (f->q[1] * (w[i] * xy + y[i] * xw - 2 * x[i] * wy) - f->p[1] * yw[i]) +
                    (0.5 * bent) * x[i];
         across[i] = 2 * (turn * w[i] - f->p[1] * wx[i] + along * x[i]);
@@ -106,8 +107,8 @@ static inline void exact_milenkovic_add_hessian(const exact_milenkovic_form *f, 
     }
 }
 
-/* One Gauss point of a collocation element: geometry, energy, and their derivatives with respect to
- * x, x' and F, in lanes (real.h). */
+/* One Gauss point of a collocation element: geometry, energy, and the derivatives of the energy
+ * with respect to x, x' and F, in lanes (real.h). */
 
 enum {
     EXACT_STAGE_MILENKOVIC = 0,
@@ -117,7 +118,7 @@ enum {
 }; /* positions of x, x' and F */
 
 typedef struct exact_stage {
-    real x[3], slope[3], kappa[3], N[3]; /* kappa: difference from the undeformed state */
+    real x[3], slope[3], kappa[3], N[3]; /* kappa: relative to the undeformed state */
     exact_milenkovic_form orientation, curvature;
 } exact_stage;
 
@@ -151,8 +152,8 @@ static inline real exact_stage_twist(const beam_constants *c, const exact_stage 
     return p->kappa[0] - c->F[6] * p->N[1] - c->F[7] * p->N[2];
 }
 
-/* Computes, for sections given by matrices, the extremum over gamma of the energy minus N . (e_x +
- * gamma). */
+/* Minimises or maximises the energy minus N . (e_x + gamma) over gamma, for sections given by
+ * matrices. */
 static inline void exact_stage_coupled(const beam_constants *c, const real kappa[3],
                                        const real N[3], exact_stage_material *m)
 {
@@ -284,7 +285,8 @@ static inline void exact_stage_rows_of(const exact_stage *p, const real force[3]
     exact_milenkovic_gradients(&p->orientation, p->x, force, D->Nx, D->NF);
 }
 
-/* Computes w times (D^T M D + second derivatives of kappa and N contracted with the gradient). */
+/* Computes w times the sum of D^T M D and the second derivatives of kappa and N contracted with the
+ * gradient. */
 static inline void exact_stage_terms_of(const beam_constants *c, const exact_stage *p,
                                         const real force[3], const exact_stage_material *m,
                                         double w, exact_stage_terms *t)

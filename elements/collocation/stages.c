@@ -22,8 +22,8 @@ static void weights(int count, const double at[], double x, double N[], double d
     dN[count - 1] = (slope[count] - slope[0]) / 2;
 }
 
-/* Subtracts from v the contribution of the initial strains, int R g in the mean axes, because
- * strains are measured from the arc without initial strains. */
+/* Subtracts the contribution int R g of the initial strains, in the mean axes, from v. Strains are
+ * measured from the arc without initial strains. */
 static void less_initial_strain(const element_request *request, double v[3])
 {
     double rotation[3], back[3], added[3], q[4], R[9], middle[3];
@@ -39,8 +39,8 @@ static void less_initial_strain(const element_request *request, double v[3])
         v[i] -= middle[i];
 }
 
-/* Computes, for the stress-free element, the curvatures at the points and the vector between the
- * ends. */
+/* Computes the curvatures at the points and the vector between the ends, for the stress-free
+ * element. */
 static void rest_of_points(const element_request *request, exact_stages *out)
 {
     const double strained[3] = {1 + request->strain[0], request->strain[1], request->strain[2]},
@@ -77,8 +77,8 @@ status exact_stages_prepare(const element_request *request, int count, exact_sta
     quadrature_points(count, point, out->w);
     const double angle = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {
-        at[k] = (1 - cos(PI * k / count)) / 2; /* any distinct points are valid; with Chebyshev
-                                                * points, the coefficients are of similar size */
+        at[k] = (1 - cos(PI * k / count)) / 2; /* any distinct points are valid; the Chebyshev
+                                                  points give coefficients of similar size */
         const double length = angle > 0 ? 4 * tan(angle * (at[k] - 0.5) / 4) / angle : 0;
         for (int i = 0; i < 3; i++)
             out->rest_x[k][i] = request->curvature[i] * request->length * length;
@@ -110,7 +110,7 @@ void exact_variables_matrix(int stages, double A[][9], int n, double matrix[])
     int row, column;
     for (int i = 0; i < n; i++) {
         const int I = exact_variables_block(stages, i, &row);
-        for (int j = 0; j < n; j += 3) { /* columns of one block; the last block has two */
+        for (int j = 0; j < n; j += 3) { /* columns of one block; the last block has only two */
             const int J = exact_variables_block(stages, j, &column), down = I > J,
                       at = down ? exact_blocks_at(J, I) : exact_blocks_at(I, J);
             for (int k = 0; k < 3 && j + k < n; k++)

@@ -1,7 +1,7 @@
-/* Symmetric matrices in blocks of 3 x 3, of which those on and above the diagonal are stored, and
- * the elimination of their first rows: K = L D L^T without exchange of rows, in lanes (real.h). The
- * elimination is accurate if those rows are positive definite except for a negative definite end,
- * for any condition number; exact_blocks_definite tests this. */
+/* Symmetric matrices in blocks of 3 x 3, in lanes (real.h). Only blocks on and above the diagonal
+ * are stored. The first rows K are eliminated by K = L D L^T without exchange of rows. The
+ * elimination is accurate for any condition number if K is positive definite except for its last
+ * block, which must be negative definite. exact_blocks_definite checks this condition. */
 #ifndef BEAMWORK_COLLOCATION_SUMS_H
 #define BEAMWORK_COLLOCATION_SUMS_H
 
@@ -11,13 +11,13 @@
 
 enum { EXACT_BLOCKS_MAX = 12 };
 
-/* Returns the position of block (i, j), i <= j. */
+/* Returns the position of block (i, j) for i <= j. */
 static inline int exact_blocks_at(int i, int j)
 {
     return j * (j + 1) / 2 + i;
 }
 
-/* Computes D of a diagonal block and overwrites the block with L^T above the diagonal. */
+/* Computes D of a diagonal block and overwrites the upper part of the block with L^T. */
 static inline void exact_blocks_pivot(real a[9], real d[3], real inverse[3])
 {
     d[0] = a[0];
@@ -33,10 +33,10 @@ static inline void exact_blocks_pivot(real a[9], real d[3], real inverse[3])
     a[5] = l12;
 }
 
-/* Eliminates the first `rows` block rows of a matrix of n block rows, A [n (n + 1)/2][9]. In the
- * result V, the eliminated rows contain L^T and D^-1 L^-1 A, and the others the Schur complement of
- * A. Block column `late` is zero above row rows - 1 (n: no such column). d [3 rows] is the diagonal
- * of D. */
+/* Eliminates the first `rows` block rows of a matrix A [n (n + 1)/2][9] of n block rows. In the
+ * result, the eliminated rows contain L^T and D^-1 L^-1 A, and the others contain the Schur
+ * complement. Block column `late` is zero above row rows - 1; n means that there is no such column.
+ * d [3 rows] is the diagonal of D. */
 static inline __attribute__((always_inline)) void
 exact_blocks_eliminate(int rows, int n, int late, real A[][9], real V[][9], real d[])
 {
@@ -69,8 +69,8 @@ exact_blocks_eliminate(int rows, int n, int late, real A[][9], real V[][9], real
     }
 }
 
-/* Computes X [rows][9] = K^-1 times block column j of A, for the eliminated rows. `late` is as
- * above. */
+/* Computes X [rows][9] = K^-1 times block column j of A, for the eliminated rows. `late` has the
+ * meaning given at exact_blocks_eliminate. */
 static inline __attribute__((always_inline)) void exact_blocks_solve(int rows, int late, int j,
                                                                      real V[][9], real X[][9])
 {
@@ -93,8 +93,8 @@ static inline __attribute__((always_inline)) void exact_blocks_solve(int rows, i
     }
 }
 
-/* Returns 1 if the pivots d of one lane are positive except for the last three, which are negative.
- * A pivot lost in round-off counts as neither. */
+/* Returns 1 if all pivots d of one lane are positive except for the last three, and these are
+ * negative. A pivot lost in round-off counts as neither positive nor negative. */
 static inline int exact_blocks_definite(int rows, real A[][9], const real d[], int lane)
 {
     const double lost = 1e-9;
@@ -109,11 +109,12 @@ static inline int exact_blocks_definite(int rows, real A[][9], const real d[], i
     return 1;
 }
 
-/* Sums over the Gauss points of a collocation element: the Hessian of its energy, bordered by the
+/* Sums over the Gauss points of a collocation element: the Hessian of the energy, bordered by the
  * gradient, in blocks of 3 x 3 and in lanes (real.h).
  *
- * Blocks: x of the inner nodes (stages - 1), F, then the strains 2 X, v, and last (a_p, a_q, 1).
- * The column of 1 contains the gradient, and its last entry twice the energy. */
+ * The order of the blocks is x of the inner nodes (stages - 1), F, the strains 2 X and v, and (a_p,
+ * a_q, 1). The column of the constant 1 contains the gradient; its last entry is twice the
+ * energy. */
 
 /* Computes x and x' at all points. `at` contains x of the inner nodes, then 2 X. */
 static inline void exact_sums_geometry(int stages, const exact_stages *s, real at[][3],
@@ -133,8 +134,8 @@ static inline void exact_sums_geometry(int stages, const exact_stages *s, real a
     }
 }
 
-/* Computes the gradient Sz of the warping energy with respect to its arguments, which are the twist
- * at the points and both amplitudes a. Returns twice the warping energy. */
+/* Computes Sz, the gradient of the warping energy with respect to the twist at the points and both
+ * amplitudes a. Returns twice the warping energy. */
 static inline real exact_sums_warping(int stages, const exact_stages *s, const exact_stage p[],
                                       const real a[2], real Sz[])
 {
@@ -278,7 +279,7 @@ static inline void exact_sums_force(int stages, const exact_stages *s, const exa
         Fv[4 * j] = real_of(1);
 }
 
-/* Fills the block column of three parameters on which F depends at the points: column[] contains
+/* Fills the block column of three parameters on which F depends at the points. column[] contains
  * the derivatives of F at the points [3 x 3]. */
 static inline void exact_sums_load(int stages, const exact_stages *s, const exact_stage_terms t[],
                                    real column[][9], real A[][9])
@@ -334,9 +335,9 @@ static inline void exact_sums_load(int stages, const exact_stages *s, const exac
     real_zero(9, A[exact_blocks_at(v, load)]);
 }
 
-/* Fills all blocks. In the blocks of the strains, only the contributions of the points and the
- * warping energy are set: those of v, and the column of 1 for v and the amplitudes, stay zero. t is
- * changed. */
+/* Fills all blocks and changes t. The blocks of the strains receive only the contributions of the
+ * points and of the warping energy. The blocks of v, and the column of 1 for v and the amplitudes,
+ * stay zero. */
 static inline void exact_sums_gather(int stages, const exact_stages *s, exact_stage_terms t[],
                                      real A[][9])
 {

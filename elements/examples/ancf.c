@@ -1,17 +1,17 @@
-/* A thin beam of the absolute nodal coordinate formulation, given by its energy; forces and
+/* A thin beam of the absolute nodal coordinate formulation, defined by its energy. Forces and
  * stiffness are computed by finite differences.
  *
- * As in that formulation, the line r(x) is a cubic with positions and slopes r' of two nodes
- * (Gerstmayr and Shabana, Nonlinear Dyn. 45 (2006)); its energy follows from the stretch |r'| - 1
- * and the curvature per undeformed length, |t x t'|, t = r'/|r'| (Gerstmayr and Irschik, J. Sound
- * Vib. 318 (2008)).
+ * As in the original formulation, the line r(x) is a cubic defined by the positions and slopes r'
+ * of two nodes (Gerstmayr and Shabana, Nonlinear Dyn. 45 (2006)). The energy depends on the stretch
+ * |r'| - 1 and the curvature per undeformed length, |t x t'|, t = r'/|r'| (Gerstmayr and Irschik,
+ * J. Sound Vib. 318 (2008)).
  *
- * Unlike that formulation, nodes have rotations instead of slopes. A slope has the direction of the
- * node's x axis, common to neighbouring elements, and a length that each element chooses to
- * minimise the energy of the stretch. Twist, which slopes cannot represent, is the angle between
- * the triads of both nodes after the smallest rotation to t (Meier, Popp and Wall, Comput. Methods
- * Appl. Mech. Engrg. 278 (2014)). The mass is that of the displacement field, not the constant mass
- * matrix of slopes.
+ * Unlike in the original formulation, nodes have rotations instead of slopes. A slope has the
+ * direction of the x axis of the node, which neighbouring elements share. Each element chooses the
+ * length of the slope that minimises the energy of the stretch. Twist, which slopes cannot
+ * represent, is the angle between the triads of the nodes after the smallest rotation of both to t
+ * (Meier, Popp and Wall, Comput. Methods Appl. Mech. Engrg. 278 (2014)). The mass is that of the
+ * displacement field, not the constant mass matrix of slopes.
  *
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK ancf.c -lm -o ancf.so
  *   beamwork verify --element ./ancf.so -f ancf */
@@ -20,7 +20,8 @@
 
 #include "elements/element.h"
 
-/* Gauss points: as many as there are independent stretches (two slopes and a chord). */
+/* Number of Gauss points, which equals the number of independent stretches (two slopes and a
+ * chord). */
 enum { POINTS = 3 };
 static const double abscissa[POINTS] = {0.11270166537925831, 0.5, 0.88729833462074169};
 static const double weight[POINTS] = {5. / 18, 8. / 18, 5. / 18};
@@ -55,14 +56,14 @@ static void cross(const double a[3], const double b[3], double c[3])
         c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/* Returns an axis of a node's triad, which is stored row-major. */
+/* Returns an axis of the triad of a node, which is stored row-major. */
 static void axis(const double R[9], int i, double a[3])
 {
     for (int k = 0; k < 3; k++)
         a[k] = R[3 * k + i];
 }
 
-/* Chord per length, and directions and lengths of the slopes. */
+/* Chord divided by the length, and the directions and lengths of the slopes. */
 typedef struct line {
     double chord[3], direction[2][3], slope[2];
 } line;
@@ -77,8 +78,8 @@ static void derivatives(const line *c, double s, double first[3], double second[
     }
 }
 
-/* Makes one step of Newton's method for the lengths of the slopes that minimise the energy of the
- * stretch. Returns the size of the step. */
+/* Makes one step of Newton's method for the slope lengths that minimise the energy of the stretch.
+ * Returns the size of the step. */
 static double correct(line *c)
 {
     double g[2] = {0}, H[2][2] = {{0}};
@@ -105,8 +106,8 @@ static double correct(line *c)
     return fabs(change[0]) + fabs(change[1]);
 }
 
-/* Computes y, the y axis of triad R after the smallest rotation to t. Returns the rate of rotation
- * of y about t as t changes by dt. */
+/* Computes y, the y axis of the triad R after the smallest rotation to t. Returns the rate of
+ * rotation of y about t for the rate dt of t. */
 static double carried(const double R[9], const double t[3], const double dt[3], double y[3])
 {
     double x[3], about[3];
@@ -134,7 +135,7 @@ static double density(const element_data *d, const node_state x[], const line *c
     cross(t, y[0], other);
     const double angle = atan2(dot(other, y[1]), dot(y[0], y[1]));
     const double twist = (1 - s) * turns[0] + s * turns[1] + angle / d->length;
-    for (int i = 0; i < 3; i++) /* axes of the section, rotated by a fraction of the angle */
+    for (int i = 0; i < 3; i++) /* axes of the cross-section, rotated by a fraction of the angle */
         section_y[i] = cos(s * angle) * y[0][i] + sin(s * angle) * other[i];
     cross(t, section_y, section_z);
     cross(t, dt, curvature);
@@ -154,7 +155,8 @@ static status force(const element_data *d, const node_state x[], force_output *o
         c.slope[k] = 1;
     }
     int rounds = 0;
-    while (correct(&c) > 1e-10) /* a step of Newton's method doubles the number of correct digits */
+    while (correct(&c) >
+           1e-10) /* each step of Newton's method doubles the number of correct digits */
         if (++rounds == 20)
             return STATUS_NOT_CONVERGED;
     *out->energy = 0;

@@ -1,16 +1,16 @@
 """A beam formulation in Python and numpy for beamwork --element 'exec:python3 my_beam.py'.
 
-serve(*functions, **words) implements the protocol of harness/formulations/protocol.md; see the example timoshenko.py in
-this folder. Arrays contain N elements at once, with n nodes and m strains; matrices are the last two axes. The first
+serve(*functions, **words) implements the protocol of harness/formulations/protocol.md. timoshenko.py in this folder is
+an example. Arrays contain N elements at once, with n nodes and m strains. Matrices are the last two axes. The first
 argument of each function is the kind of all N elements:
-  prepare(kind)           -> C[m, m], constant: sigma = C e; or None. Called once for each kind; may store
+  prepare(kind) -> C[m, m], constant: sigma = C e; or None. Called once for each kind; may store
                           results in it. kind.length, .curvature[3], .strain[3],
                           .section.young ..., .features (a set of words), .options (a dict)
   strain(kind, r, u, R, a) -> e[N, m] from r[N, n, 3], u[N, n, 3], R[N, n, 3, 3], a[N, n]
-  stress(kind, e)         -> energy[N], sigma[N, m], C[N, m, m]; if prepare returns None
+  stress(kind, e) -> energy[N], sigma[N, m], C[N, m, m]; if prepare returns None
   force(kind, r, u, R, a) -> energy[N], F[N, 7 n], K[N, 7 n, 7 n]: for gives="tangent", instead of
                           strain and stress; K or F and K may be None for "force" and "energy"
-  mass(kind, r, u, R, a)  -> M[N, 7 n, 7 n], optional: x' M x'/2 is the kinetic energy; x': velocity,
+  mass(kind, r, u, R, a) -> M[N, 7 n, 7 n], optional: x' M x'/2 is the kinetic energy; x': velocity,
                           angular velocity (both in fixed axes) and rate of warping of each node.
                           Everything else follows from it: rotating frames, motions in time
                           (not with inertia="vibration"). Default: the mass that all formulations share
@@ -36,16 +36,16 @@ SECTION = ("young shear_modulus density A Iy Iz It Iw ys zs Ip wagner_y wagner_z
 FUNCTIONS = ("prepare", "strain", "stress", "force", "mass")
 KEYS = ("name summary source family offers gives strains nodes order limits shear_theories "
         "inertia options").split()
-TINY, STEP = 1e-20, 2e-3  # sizes of complex steps, and of finite differences of their results
+TINY, STEP = 1e-20, 2e-3  # sizes of complex steps and of the finite differences that check complex steps
 
 
 class Refused(Exception):
-    """Raised with text for the user."""
+    """Request that is rejected, with the text for the user."""
 
 
 def checked(value, name, count, each, why, numbers="biuf"):
-    """Returns the result of a function as an array[count, *each] (count 0: [*each]); raises Refused if it has another
-    shape or type."""
+    """Returns the result of a function as an array[count, *each], or [*each] if count is 0. Raises Refused if the result
+    has another shape or type."""
     def words(shape):
         all_of = ["N" if count and (i, v) == (0, count) else str(v) for i, v in enumerate(shape)]
         return f"({', '.join(all_of)})" if shape else "one number"
@@ -65,7 +65,7 @@ def checked(value, name, count, each, why, numbers="biuf"):
 
 
 def cross_matrix(v):
-    """Returns the matrices [..., 3, 3] of vectors v[..., 3] with cross_matrix(v) @ w = v x w."""
+    """Returns the matrices [..., 3, 3] of the vectors v[..., 3], where cross_matrix(v) @ w = v x w."""
     return np.cross(v[..., None, :], np.eye(3), axisa=-1, axisb=-1, axisc=-2)
 
 
@@ -75,7 +75,7 @@ def sinc(x):
 
 
 def rotation_vector(T):
-    """Returns the rotation vectors, shorter than pi, of rotation matrices T[..., 3, 3]; T may be complex."""
+    """Returns the rotation vectors, shorter than pi, of the rotation matrices T[..., 3, 3], which may be complex."""
     axis = np.stack([T[..., 2, 1] - T[..., 1, 2], T[..., 0, 2] - T[..., 2, 0],
                      T[..., 1, 0] - T[..., 0, 1]], -1) / 2
     c, s = (np.trace(T, axis1=-2, axis2=-1) - 1) / 2, np.sqrt((axis * axis).sum(-1))
@@ -87,8 +87,7 @@ def rotation_vector(T):
 
 @functools.lru_cache
 def steps(n, second):
-    """Returns the real and imaginary increments [P, n, 7] of the coordinates for the P evaluations from which
-    derivatives are computed."""
+    """Returns the real and imaginary coordinate increments [P, n, 7] of the P evaluations from which derivatives are computed."""
     one = np.eye(7 * n)
     if not second:
         return np.zeros((7 * n, n, 7)), one.reshape(-1, n, 7)
@@ -96,7 +95,7 @@ def steps(n, second):
     size = STEP * np.array([1, -1, 2, -2])[:, None, None]
     real, imag = size * one[j], one[i] + 0 * size
     real, imag = real.reshape(-1, n, 7), imag.reshape(-1, n, 7)
-    psi, e = real[..., 3:6], imag[..., 3:6]  # spatial increment: dexp(psi) e
+    psi, e = real[..., 3:6], imag[..., 3:6]  # spatial increment dexp(psi) e
     t2 = (psi**2).sum(-1)[..., None]
     turn, twice = np.cross(psi, e), np.cross(psi, np.cross(psi, e))
     imag[..., 3:6] = e + turn * (1 / 2 - t2 / 24) + twice * (1 / 6 - t2 / 120)
@@ -104,8 +103,8 @@ def steps(n, second):
 
 
 def moved(kind, x, real, imag):
-    """Returns the states r, u, R, a [N P, n, ...] of elements x[N, n, 16] after P increments [P, n, 7]."""
-    unit = kind.length ** np.array([1, 1, 1, 0, 0, 0, -1])  # units that make the increments of order one
+    """Returns the states r, u, R, a [N P, n, ...] of the elements x[N, n, 16] after each of P increments [P, n, 7]."""
+    unit = kind.length ** np.array([1, 1, 1, 0, 0, 0, -1])  # units in which the increments are of order one
     move, (psi, e) = (real + 1j * TINY * imag) * unit, (real[..., 3:6], imag[..., 3:6])
     t, spin = np.linalg.norm(psi, axis=-1)[..., None, None] / np.pi, cross_matrix(psi)
     turn = np.eye(3) + spin * np.sinc(t) + spin @ spin * np.sinc(t / 2)**2 / 2
@@ -117,7 +116,7 @@ def moved(kind, x, real, imag):
 
 
 def derivatives(kind, strain, x, s):
-    """Returns J [N, m, 7 n] or, if s [N, m] is given, H [N, 7 n, 7 n] of s times the strains."""
+    """Returns J [N, m, 7 n]. If s [N, m] is given, returns H [N, 7 n, 7 n], the second derivative of s times the strains."""
     (N, n, _), (real, imag) = x.shape, steps(x.shape[1], s is not None)
     unit = np.tile(kind.length ** np.array([1, 1, 1, 0, 0, 0, -1]), n)
     rate = strain(kind, *moved(kind, x, real, imag)).imag.reshape(N, len(real), -1) / TINY
@@ -132,7 +131,7 @@ def derivatives(kind, strain, x, s):
 
 
 def is_analytic(kind, strain, x):
-    """Returns whether complex steps of strain or mass agree with finite differences near an element x[1, n, 16]."""
+    """Returns True if complex steps of strain or mass agree with finite differences near an element x[1, n, 16]."""
     n = x.shape[1]
     away = np.sin(np.arange(1, 7 * n + 1)).reshape(1, n, 7) / 20
     state = [v.real for v in moved(kind, x, away, 0 * away)]
@@ -146,7 +145,7 @@ def is_analytic(kind, strain, x):
 
 
 def described(body, said):
-    """Returns the number of a kind of elements, and the kind, from the body of the request to prepare it."""
+    """Returns the number of a kind of elements, and the kind, from the body of the prepare request."""
     (number, bits, _), rest = np.frombuffer(body, "<i8", 3), np.frombuffer(body, "<f8", offset=24)
     kind, at = SimpleNamespace(length=rest[0], curvature=rest[1:4], strain=rest[4:7]), 7
     kind.section = SimpleNamespace()
@@ -160,7 +159,7 @@ def described(body, said):
 
 
 def three(name, found, mask, parts, N, c, why):
-    """Returns those of energy[N], a vector [N, c] and a matrix [N, c, c] that the mask requests."""
+    """Returns the requested ones of energy[N], a vector [N, c] and a matrix [N, c, c]; the mask contains the requests."""
     if not isinstance(found, (tuple, list)) or len(found) != 3:
         raise Refused(f"{name} must return three values: energy, {parts[0]}, {parts[1]}")
     all_three = [None if v is None and not mask >> i & 1 else
@@ -170,10 +169,10 @@ def three(name, found, mask, parts, N, c, why):
 
 
 def turning(kind, M, x, frame):
-    """Returns potential, force, N and G of elements x[N, n, 16] in a rotating frame (omega, centre)."""
+    """Returns potential, force, N and G of the elements x[N, n, 16] in a rotating frame (omega, centre)."""
     N, n, c = len(x), x.shape[1], 7 * x.shape[1]
 
-    def momentum(kind, r, *state):  # M v and v M v for the velocity v due to the rotation of the frame
+    def momentum(kind, r, *state):  # M v and v M v, where v is the velocity due to the rotation of the frame
         v = np.zeros((len(r), n, 7), r.dtype)
         v[..., :3], v[..., 3:6] = np.cross(frame[0], r - frame[1]), frame[0]
         p = np.einsum("nij,nj->ni", M(kind, r, *state), v.reshape(-1, c))
@@ -189,7 +188,7 @@ def turning(kind, M, x, frame):
 
 
 def in_time(kind, M, x, rate, acceleration, tangents):
-    """Returns taken, C and K of elements x[N, n, 16], from Lagrange's equations for the energy x' M x'/2."""
+    """Returns taken, C and K of the elements x[N, n, 16], computed by Lagrange's equations for the energy x' M x'/2."""
     N, c = rate.shape
 
     def momentum(*at):
@@ -217,13 +216,12 @@ def in_time(kind, M, x, rate, acceleration, tangents):
 
 
 def states(x):
-    """Returns the positions r, displacements u, rotations R and amplitudes a of elements x[N, n, 16]."""
+    """Returns the positions r, displacements u, rotations R and amplitudes a of the elements x[N, n, 16]."""
     return x[..., 0:3], x[..., 3:6], x[..., 6:15].reshape(*x.shape[:2], 3, 3), x[..., 15]
 
 
 def inertia(mask, kind, x, body, functions):
-    """Returns the inertia outputs that the mask requests for elements x[N, n, 16]; body[N, ...] contains the frame and
-    the rates."""
+    """Returns the inertia outputs that the mask requests for the elements x[N, n, 16]. body[N, ...] contains the frame and the rates."""
     N, c = len(x), 7 * x.shape[1]
 
     def mass(kind, *state):
@@ -251,7 +249,7 @@ def inertia(mask, kind, x, body, functions):
 
 
 def answers(what, mask, kind, body, said, functions):
-    """Returns the arrays that the mask requests for elements of one kind; body[N, ...] is that of the request."""
+    """Returns the arrays that the mask requests for elements of one kind. body[N, ...] is the body of the request."""
     N, n, m = len(body), said.get("nodes", 2), said.get("strains", 0)
     if what == 3:
         found = functions["stress"](kind, body)
@@ -280,7 +278,7 @@ def answers(what, mask, kind, body, said, functions):
 
 
 def prepared(body, kinds, said, functions):
-    """Returns the body of the answer to a request to prepare a kind."""
+    """Returns the body of the answer to a prepare request."""
     number, kind = described(body, said)
     kinds[number], C = kind, functions["prepare"](kind)
     if "force" not in functions and C is None and "stress" not in functions:
@@ -312,7 +310,7 @@ def answer(what, mask, count, body, kinds, said, functions):
 
 
 def told(error):
-    """Returns one line for the user with the error and the last line of the author's code that was reached."""
+    """Returns one line for the user with the error and the last line of the user's code that was reached."""
     if isinstance(error, Refused):
         return str(error)
     own = [f for f in traceback.extract_tb(error.__traceback__)
@@ -322,7 +320,7 @@ def told(error):
 
 
 def taken(functions, words):
-    """Returns the functions by name and the keys of the first line; exits with an error if a word is unknown."""
+    """Returns the functions by name, and the keys of the first line of the protocol. Exits with an error if a word is unknown."""
     functions, said = dict(zip(FUNCTIONS, functions)), {}
     for word, value in words.items():
         if word in KEYS:
@@ -341,18 +339,18 @@ def taken(functions, words):
 
 
 def serve(*functions, **words):
-    """Answers requests until beamwork sends no more. Example: serve(prepare, strain, stress, family="..."). words:
-    keys of the protocol's first line. Functions that are not needed may be omitted."""
+    """Answers requests until beamwork sends no more. Example: serve(prepare, strain, stress, family="..."). `words` are
+    keys of the first line of the protocol. Functions that are not needed may be omitted."""
     (functions, said), kinds = taken(functions, words), {}
     requests, to = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # print goes to standard error
+    os.dup2(2, 1)  # output of print goes to standard error
     to.write(json.dumps(said).encode() + b"\n")
     to.flush()
     while len(head := requests.read(40)) == 40:
         what, mask, count, size = (int(v) for v in np.frombuffer(head, "<i8", offset=8))
         body = requests.read(size)
         try:
-            with np.errstate(all="ignore"):  # states with NaN or Inf also occur
+            with np.errstate(all="ignore"):  # states may contain NaN or Inf
                 arrays, outcome = answer(what, mask, count, body, kinds, said, functions), 0
             out = b"".join(np.asarray(v, "<f8").tobytes() for v in arrays)
         except (Exception, SystemExit) as error:  # pylint: disable=broad-except

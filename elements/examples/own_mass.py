@@ -1,5 +1,5 @@
-"""The beam of timoshenko.py with its own mass: velocities linear along the element, rotary
-inertia by halves at the nodes.
+"""The beam of timoshenko.py with a user-defined mass. Velocities are linear along the element. Half of the rotary inertia
+is at each node.
   beamwork solve deep_beam --element 'exec:python3 own_mass.py' -f own_mass_py -n 8
 """
 import numpy as np

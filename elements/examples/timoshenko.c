@@ -1,6 +1,7 @@
-/* A shear-deformable beam with two nodes in one file: strains uniform along the element [m],
- *   d = Rm^T (rq - rp) - (l, 0, 0), with Rm halfway from Rp to Rq, and l log(Rp^T Rq).
- * Their derivatives are computed by finite differences.
+/* A shear-deformable beam with two nodes in one file. The strains [m] are uniform along the
+ * element:
+ *   d = Rm^T (rq - rp) - (l, 0, 0), where Rm is halfway from Rp to Rq, and l log(Rp^T Rq).
+ * The derivatives of the strains are computed by finite differences.
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK timoshenko.c -o timoshenko.so
  *   beamwork converge tapered_cantilever --element ./timoshenko.so -f all */
 #include <math.h>
@@ -26,7 +27,8 @@ static status prepare(const element_request *request, element_data *out, fault *
     const section *c = request->section;
     const double l = request->length;
     (void)f;
-    /* Transverse: shear if requested, and the bending that a uniform curvature lacks. */
+    /* Transverse flexibility: shear if requested, and the bending that a uniform curvature does not
+     * represent. */
     out->length = l;
     const double shear = request->features & FEATURE_SHEAR ? l / c->shear_modulus : 0;
     const double Fy = shear * c->F[0] + l * l * l / (12 * c->young * c->Iz);
@@ -41,14 +43,14 @@ static status prepare(const element_request *request, element_data *out, fault *
     return STATUS_OK;
 }
 
-/* y = A^T x */
+/* Computes y = A^T x. */
 static void transposed(const double A[9], const double x[3], double y[3])
 {
     for (int i = 0; i < 3; i++)
         y[i] = A[i] * x[0] + A[3 + i] * x[1] + A[6 + i] * x[2];
 }
 
-/* Computes the rotation vector from R to S in the axes of R, shorter than pi. */
+/* Computes the rotation vector from R to S, shorter than pi, in the axes of R. */
 static void between(const double R[9], const double S[9], double psi[3])
 {
     double T[9]; /* R^T S */
@@ -64,7 +66,7 @@ static void between(const double R[9], const double S[9], double psi[3])
 
 static void strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    double chord[3], psi[3], p[3], q[3]; /* p, q: the chord in the axes of both nodes */
+    double chord[3], psi[3], p[3], q[3]; /* p, q: the chord in the axes of each node */
     if (out->e == NULL)
         return;
     for (int i = 0; i < 3; i++)
@@ -72,7 +74,7 @@ static void strain(const element_data *d, const node_state x[], strain_output *o
     between(x[0].R, x[1].R, psi);
     transposed(x[0].R, chord, p);
     transposed(x[1].R, chord, q);
-    /* Normal to psi, the mean of p and q is the chord in the middle axes times c. */
+    /* Normal to psi, the mean of p and q is c times the chord in the middle axes. */
     const double square = psi[0] * psi[0] + psi[1] * psi[1] + psi[2] * psi[2];
     const double c = cos(sqrt(square) / 2), k = square > 0 ? (1 - 1 / c) / square : 0;
     const double along = psi[0] * p[0] + psi[1] * p[1] + psi[2] * p[2];

@@ -1,5 +1,5 @@
-"""A shear-deformable beam with two nodes: strains uniform along the element [m],
-  d = Rm^T (rq - rp) - (l, 0, 0), with Rm halfway from Rp to Rq, and l log(Rp^T Rq).
+"""A shear-deformable beam with two nodes. The strains [m] are uniform along the element:
+  d = Rm^T (rq - rp) - (l, 0, 0), where Rm is halfway from Rp to Rq, and l log(Rp^T Rq).
 The physics is that of timoshenko.c in the same folder.
   beamwork converge tapered_cantilever --element 'exec:python3 timoshenko.py' -f all
 """
@@ -9,10 +9,9 @@ from beamwork_element import rotation_vector, serve, sinc
 
 
 def prepare(kind):
-    """Returns the element's stiffness C [N/m]: sigma = C e."""
+    """Returns the stiffness C [N/m] of the element, where sigma = C e."""
     c, l = kind.section, kind.length
-    # Transverse flexibility: that of shear, if requested, and that of the bending which a uniform curvature does not
-    # represent.
+    # transverse flexibility: shear if requested, and the bending that a uniform curvature does not represent
     shear = l / c.shear_modulus if "shear" in kind.features else 0
     across_y = shear * c.F[0] + l**3 / (12 * c.young * c.Iz)
     across_z = shear * c.F[4] + l**3 / (12 * c.young * c.Iy)
@@ -22,9 +21,10 @@ def prepare(kind):
 
 def strain(kind, r, _u, R, _a):
     """Returns e[N, 6] for r[N, 2, 3] and R[N, 2, 3, 3], which may be complex."""
-    chord = (r[:, 1] - r[:, 0])[:, None, None, :] @ R  # in the axes of both nodes
+    chord = (r[:, 1] - r[:, 0])[:, None, None, :] @ R  # chord in the axes of each node
     psi = rotation_vector(R[:, 0].swapaxes(1, 2) @ R[:, 1])
-    # Normal to psi, the mean of both is the chord in the middle axes, shortened by c; along psi, all three are equal.
+    # Normal to psi, the mean of both chords is the chord in the middle axes, shortened by the factor c. Along psi, all
+    # three chords are equal.
     angle = np.sqrt((psi * psi).sum(1))[:, None]
     c, along = np.cos(angle / 2), (psi * chord[:, 0, 0]).sum(1)[:, None]
     e = (chord[:, 0, 0] + chord[:, 1, 0]) / (2 * c) - sinc(angle / 4)**2 / (8 * c) * along * psi

@@ -1,6 +1,6 @@
-/* A user element (UEL) of Abaqus as a formulation: its RHS and AMATRX are called as in a static
- * Abaqus step with large displacements (LFLAGS 1, 1, 1). It has twelve degrees of freedom and no
- * state variables that outlive a call; ENERGY(2) is its strain energy.
+/* A user element (UEL) of Abaqus as a formulation. The user element is called for RHS and AMATRX as
+ * in a static Abaqus step with large displacements (LFLAGS 1, 1, 1). It must have twelve degrees of
+ * freedom and no state variables that outlive a call. ENERGY(2) is the strain energy.
  *   gfortran -O2 -fPIC -c uel_beam.f90
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK uel.c uel_beam.o -lgfortran -lm -o uel.so
  *   beamwork element-test --element ./uel.so */
@@ -11,7 +11,7 @@
 
 enum { N = 12, PROPS = 6, STATES = 100 };
 
-/* SUBROUTINE UEL: INTEGER is int, DOUBLE PRECISION double; all arguments are addresses. */
+/* SUBROUTINE UEL. INTEGER is int, DOUBLE PRECISION is double, and all arguments are addresses. */
 void uel_(double rhs[], double amatrx[], double svars[], double energy[8], const int *ndofel,
           const int *nrhs, const int *nsvars, const double props[], const int *nprops,
           const double coords[], const int *mcrd, const int *nnode, const double u[],
@@ -24,7 +24,7 @@ void uel_(double rhs[], double amatrx[], double svars[], double energy[8], const
 
 struct element_data {
     double length;
-    double props[PROPS]; /* E, G, A, Iy, Iz, It, in the order of the element */
+    double props[PROPS]; /* E, G, A, Iy, Iz, It, in the order that the user element expects */
 };
 
 static size_t data_size(const element_request *request)
@@ -41,7 +41,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     return STATUS_OK;
 }
 
-/* Computes the rotation vector of R, of length pi at most. */
+/* Computes the rotation vector of R, whose length is at most pi. */
 static void rotation_vector(const double R[9], double psi[3])
 {
     double q[4], most = R[0] + R[4] + R[8]; /* quaternion, computed from its largest component */
@@ -69,7 +69,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
     const double coords[6] = {0, 0, 0, d->length, 0, 0}, zero[N] = {0}, step = 1;
     double rhs[N] = {0}, K[N * N] = {0}, svars[STATES] = {0}, energy[8] = {0}, pnewdt = 1;
     double u[N];
-    for (int k = 0; k < 2; k++) { /* relative to the rigidly moved element: strains only */
+    for (int k = 0; k < 2; k++) { /* strains without the rigid motion of the element */
         for (int i = 0; i < 3; i++)
             u[6 * k + i] = x[k].r[i] - coords[3 * k + i];
         rotation_vector(x[k].R, u + 6 * k + 3);
@@ -77,7 +77,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
     uel_(rhs, K, svars, energy, &n, &one, &states, d->props, &props, coords, &three, &two, u, u,
          zero, zero, &one, zero, &step, &one, &one, &one, zero, &none, no_int, zero, zero, &none,
          lflags, &n, zero, &none, &pnewdt, no_int, &none, &step);
-    if (pnewdt < 1) /* the element requests a smaller step */
+    if (pnewdt < 1) /* true if the user element requests a smaller step */
         return STATUS_NOT_CONVERGED;
     if (out->energy != NULL)
         *out->energy = energy[1];

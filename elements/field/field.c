@@ -44,7 +44,7 @@ void field_prepare(const element_request *request, int nodes, displacement_field
     integrate_whole(out);
 }
 
-/* Computes the functionals of a field with two nodes. */
+/* Computes the functionals of the field of a two-node element. */
 static void functionals_at(const displacement_field *f, double x,
                            double out[FIELD_FUNCTIONALS][FIELD_MODES])
 {
@@ -90,7 +90,7 @@ void field_at(const displacement_field *f, double x, field_rows *out)
     out->lean[1] = -2 * lean;
 }
 
-/* The amplitude is a = kx - (f (Q, Mw))_w, where Mw belongs to the twist (beamw/fields.h). */
+/* the amplitude is a = kx - (f (Q, Mw))_w, where Mw is computed from the twist (beamw/fields.h) */
 void field_warping_at(const displacement_field *f, double x, double psi[FIELD_MODES])
 {
     const beamw_stiffness_fields *s = &f->linear;
@@ -118,10 +118,10 @@ int field_points(const displacement_field *f, double from, double to, double x[F
     return beamw_twist_points(&f->twist, from, to, x, weight);
 }
 
-/* Position of the warping amplitude, after the other functionals. */
+/* Index of the warping amplitude, which follows the other functionals. */
 enum { PSI = FIELD_FUNCTIONALS };
-/* Numbers of points. The first is exact for the square of a cubic; the second integrates hyperbolic
- * twist within 1e-9 up to a length of ten boundary layers. */
+/* Numbers of points. The first is exact for the square of a cubic. The second integrates hyperbolic
+ * twist with an error below 1e-9 for elements up to ten boundary layers long. */
 enum { CUBIC_POINTS = 4, HYPERBOLIC_POINTS = BEAMW_GAUSS };
 
 static void prepare_two(const element_request *request, beamw_spread *out)

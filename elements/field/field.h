@@ -1,18 +1,17 @@
-/* Displacements between the nodes of an element, for loads and masses along it: the exact field of
- * the uniform straight beam without loads, with the shear and non-uniform torsion of its section
- * and the active physics.
+/* Displacements between the nodes of an element, for loads and masses along the element. The field
+ * is the exact displacement field of the uniform straight beam without loads, with the shear and
+ * non-uniform torsion of its section and the active physics.
  *
  * With two nodes, the field is the linear interpolation lin() between p and q plus functionals of
  * the deformation modes e of J Eq. 7 (beamw/modes.h) along m_k, the mean of the unit vectors n_k of
  * the nodes:
  *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),
  *   n_x = lin(n_x) + m_y (chi_z . e) - m_z (chi_y . e), and so on.
- * e refers to the straight element; for a curved element, its initial value describes the shape.
- * The functionals are those of J section 3.2 with the exact twist (beamw/fields.h). Because the
- * field
- * contains every solution without loads, any load has the correct work on the nodes of an element
- * that is exact without it. With three nodes, r and n_k are Lagrange polynomials, and r has an
- * additional term for the nonlinear part of the rotations,
+ * e refers to the straight element. The initial value of e describes the shape of a curved element.
+ * The functionals are those of J section 3.2 with the exact twist (beamw/fields.h). The field
+ * contains every solution without loads. Therefore any load does the correct work on the nodes of
+ * an element that is exact without loads. With three nodes, r and n_k are Lagrange polynomials, and
+ * r has an additional term for the nonlinear part of the rotations:
  *   (l/3) x (1-x)(1-2x) (n_x^1 - 2 n_x^2 + n_x^3). */
 #ifndef BEAMWORK_FIELD_FIELD_H
 #define BEAMWORK_FIELD_FIELD_H
@@ -23,9 +22,9 @@
 enum { FIELD_NU_Y, FIELD_NU_Z, FIELD_CHI_X, FIELD_CHI_Y, FIELD_CHI_Z, FIELD_FUNCTIONALS };
 enum { FIELD_MODES = 8 };
 
-/* Weights and functionals at a point x in [0, 1], or their integrals. */
+/* Weights and functionals at a point x in [0, 1], or the integrals of both. */
 typedef struct field_rows {
-    double part[ELEMENT_MAX_NODES]; /* weights of r and n_k of the nodes */
+    double part[ELEMENT_MAX_NODES]; /* weights of the vectors r and n_k of each node */
     double lean[ELEMENT_MAX_NODES]; /* three nodes: weights of n_x in r [m] */
     double functional[FIELD_FUNCTIONALS][FIELD_MODES];
 } field_rows;
@@ -37,11 +36,11 @@ typedef struct displacement_field {
     int warps;         /* 0: uniform torsion, e7 and e8 equal e2 */
     beamw_stiffness_fields linear;
     beamw_twist twist;
-    field_rows whole; /* integrated over [0, 1] */
+    field_rows whole; /* rows integrated over [0, 1] */
 } displacement_field;
 
-/* Prepares the field. nodes: number of nodes. For sections given by matrices, the field is that of
- * their constants. */
+/* Prepares the field of an element with `nodes` nodes. For sections given by matrices, the field
+ * uses the constants of these sections. */
 void field_prepare(const element_request *, int nodes, displacement_field *);
 void field_at(const displacement_field *, double x, field_rows *);
 /* Computes psi [1/m], where psi . e is the warping amplitude, for two nodes. */
@@ -60,21 +59,23 @@ int field_points(const displacement_field *, double from, double to, double x[FI
 /* Load at one point. */
 typedef struct field_load {
     double force[3], moment[3]; /* [N, N m] in global axes; follower: in axes of the section */
-    double arm[3]; /* from the line to the point of application, in axes of the section [m] */
+    double
+        arm[3]; /* vector from the line to the point of application, in axes of the section [m] */
     int follower;
 } field_load;
 
 /* Adds the generalised forces of the loads on the coordinates of the nodes to forces[7 nodes].
- * Subtracts their derivative in the exponential chart from K[7 nodes x 7 nodes] (may be NULL); it
- * is symmetric for forces in global axes, which have a potential. rows[count]: the points where the
- * loads act; for loads on the line without an arm, the rows may be integrals. */
+ * Subtracts the derivative of these forces in the exponential chart from K[7 nodes x 7 nodes],
+ * which may be NULL. The derivative is symmetric for forces in global axes, which have a potential.
+ * rows[count] belong to the points where the loads act. For loads on the line without an arm, the
+ * rows may be integrals. */
 void field_add_loads(const displacement_field *, const node_state x[], int count,
                      const field_rows rows[], const field_load load[], double forces[], double K[]);
 
-/* Mass along an element that moves with the displacement field. Two nodes: the consistent mass of
- * the field. Frequencies converge with order 4 in slender bending and, with the correction for the
- * motion inside the element (below), in any motion of a straight member. Three nodes: mass lumped
- * by Simpson's rule, of order 4. */
+/* Mass of an element that moves with the displacement field. Two-node elements have the consistent
+ * mass of the field. Their frequencies converge with order 4 in slender bending. With the
+ * correction for the motion inside the element (below), all frequencies of a straight member
+ * converge with order 4. Three-node elements have mass lumped by Simpson's rule, with order 4. */
 
 typedef struct field_mass {
     int nodes;
@@ -82,26 +83,26 @@ typedef struct field_mass {
     lumped_mass lumped;  /* three nodes: lumped mass of the whole element */
 } field_mass;
 
-/* Orders of convergence of frequencies without prestress, for two nodes and a stiffness that is
+/* Orders of convergence of frequencies without prestress, for two-node elements whose stiffness is
  * exact without loads. The highest order is that of slender bending. */
 #define FIELD_MASS_ORDER ((element_order){4, 8})
 
-/* nodes: number of nodes. */
+/* Prepares the mass of an element with `nodes` nodes. */
 void field_mass_prepare(const element_request *, int nodes, field_mass *);
 status field_mass_inertia(const field_mass *, const node_state x[], const element_rotating_frame *,
                           inertia_output *);
 
 enum { FIELD_INNER = 2 * NODE_COORDINATES };
 
-/* Computes B, the effect of the motion of a straight two-node element relative to the field. A mode
- * v of the nodes [14, in the axes of the element] with the eigenvalue lambda = omega^2 obeys
- *   v . K v = lambda v . M v + lambda^2 v . B v + O(lambda^3),   B = M_bu^T K_bb^-1 M_bu,
+/* Computes B, which represents the motion of a straight two-node element relative to the field. A
+ * mode v of the nodes [14, in the axes of the element] with the eigenvalue lambda = omega^2 obeys
+ *   v . K v = lambda v . M v + lambda^2 v . B v + O(lambda^3), B = M_bu^T K_bb^-1 M_bu,
  * where b are the displacements between fixed ends. B is the flexibility of the element with fixed
- * ends under the inertia of its static field, twice the complementary energy
- *   min over r: int s . C s dx,   s = s_p v + s_r r,
- * where the resultants s_p are in equilibrium with that inertia, and s_r are due to forces and
- * bimoments at the ends alone. B [14 x 14] is symmetric and positive semidefinite, in kg s^2 times
- * m for each rotation, likewise for warping. It is zero for sections with coupled matrices and if a
+ * ends under the inertia forces of the static field. It gives twice the complementary energy
+ *   min over r: int s . C s dx, s = s_p v + s_r r,
+ * where the resultants s_p are in equilibrium with these inertia forces, and s_r are due only to
+ * forces and bimoments at the ends. B [14 x 14] is symmetric and positive semidefinite. Its unit is
+ * kg s^2, multiplied by m for each rotation. B is zero for sections with coupled matrices and if a
  * stiffness is zero. */
 void field_inner(const element_request *, const displacement_field *,
                  double B[FIELD_INNER * FIELD_INNER]);

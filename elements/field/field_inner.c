@@ -14,17 +14,17 @@
 
 enum { N = FIELD_INNER };
 enum { NX, QY, QZ, MX, MY, MZ, W, MW, RESULTANTS };
-/* Degree of the resultants without load. */
+/* Degree of the polynomials of the resultants without load. */
 enum { DEGREE = 6, ENDS = 6, MOST = ENDS + DEGREE + 1 + 2 };
-enum { POINTS = 8 }; /* if no resultant is hyperbolic */
+enum { POINTS = 8 }; /* number of points if no resultant is hyperbolic */
 enum { LOADS = 7 };  /* q, mu, b */
 
 typedef struct inside {
     const displacement_field *f;
     const section *c;
-    double shear[9];               /* [1/N ...] of (Qy, Qz, Mw) */
+    double shear[9];               /* flexibility for (Qy, Qz, Mw) [1/N ...] */
     double inertia[LOADS];         /* [kg/m, kg m, kg m^3] */
-    double modes[FIELD_MODES * N]; /* e of v */
+    double modes[FIELD_MODES * N]; /* deformation modes e due to v */
     int warps, count;              /* count: number of columns in use, at most MOST */
 } inside;
 
@@ -50,7 +50,8 @@ static void motion_at(const inside *i, double x, double out[LOADS][N])
     }
 }
 
-/* Computes s[RESULTANTS x N] at x in equilibrium with the inertia of the field between 0 and x. */
+/* Computes s[RESULTANTS x N] at x, in equilibrium with the inertia forces of the field between 0
+ * and x. */
 static void loaded_at(const inside *i, double x, double s[RESULTANTS][N])
 {
     double y[LOADS][N], point[FIELD_MOST_POINTS], weight[FIELD_MOST_POINTS];
@@ -92,8 +93,8 @@ static void free_at(const inside *i, double x, double s[RESULTANTS][MOST])
     }
 }
 
-/* Computes the deformations [RESULTANTS x columns] due to the resultants s; rows are `columns`
- * apart. */
+/* Computes the deformations [RESULTANTS x columns] due to the resultants s, whose rows are
+ * `columns` entries long. */
 static void deform(const inside *i, int columns, const double *s, double *out)
 {
     const section *c = i->c;
@@ -117,7 +118,7 @@ static void deform(const inside *i, int columns, const double *s, double *out)
     }
 }
 
-/* Returns 1 if one of the matrices of the section has a nonzero off-diagonal entry. */
+/* Returns 1 if a matrix of the section has a nonzero off-diagonal entry. */
 static int is_coupled(const section *c)
 {
     int coupled = 0;
@@ -156,8 +157,8 @@ static int prepare(const element_request *r, const displacement_field *f, const 
     return 1;
 }
 
-/* Adds weight s_r^T C s_r to gram[count x count], and likewise the products with s_p to `mixed` and
- * B. */
+/* Adds weight s_r^T C s_r to gram[count x count], and the corresponding products with s_p to
+ * `mixed` and B. */
 static void gather(const inside *i, double x, double weight, double gram[MOST * MOST],
                    double mixed[MOST * N], double B[N * N])
 {

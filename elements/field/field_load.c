@@ -1,7 +1,7 @@
-/* Virtual work of loads on the field, with derivatives. A vector y of the field is
+/* Virtual work of loads on the field, and its derivatives. A vector y of the field is
  *   y = sum part_n v_n + sum m_k (functional . e),
- * which is linear in e and in vectors v fixed to the nodes; their first and second derivatives are
- * exact. */
+ * which is linear in e and in vectors v fixed to the nodes. The first and second derivatives of e
+ * and v are exact. */
 #include <math.h>
 #include <string.h>
 
@@ -12,14 +12,14 @@
 
 enum {
     MOST = ELEMENT_MAX_COORDINATES,
-    TURN = 3, /* position of the rotations among a node's coordinates */
+    TURN = 3, /* index of the first rotation among the coordinates of a node */
     TERMS = 2
 };
 
-/* A vector y: the interpolated director (or position) of the nodes plus the sum of sign m_k
+/* A vector y: the interpolated director or position of the nodes plus the sum of sign m_k
  * functional. */
 typedef struct field_vector {
-    int director; /* NONE: a position */
+    int director; /* index of the director; NONE: y is a position */
     struct {
         int k, functional;
         double sign;
@@ -39,8 +39,8 @@ typedef struct pulled {
     double vector[ELEMENT_MAX_NODES][3][3], mean[3][3]; /* unit vectors; m_k */
     double e[FIELD_MODES], J[FIELD_MODES * MOST];
     double s[FIELD_MODES];          /* generalised forces conjugate to e */
-    double turn[2][3][FIELD_MODES]; /* derivative of s with respect to rotations of p and q due to
-                                     * forces ... */
+    double turn[2][3][FIELD_MODES]; /* derivative of s with respect to rotations of p and q, due to
+                                       forces ... */
     double moment_turn[2][3][FIELD_MODES]; /* ... and due to moments */
     double *forces, *K;
 } pulled;
@@ -159,9 +159,9 @@ static void unit_gradient(const pulled *p, const field_rows *at, unit *u, double
     }
 }
 
-/* Adds a force F on size times a unit vector. With n the director, v = n/|n| and P = 1 - v v^T,
- *   F . d2v = (P F/|n|) . d2n - (1/|n|^2) [(v . dn)(P F . dn) + (P F . dn)(v . dn) + (F . v) dn . P
- * dn] */
+/* Adds a force F on size times a unit vector. With the director n, v = n/|n| and P = 1 - v v^T,
+ *   F . d2v = (P F/|n|) . d2n
+ *     - (1/|n|^2) [(v . dn)(P F . dn) + (P F . dn)(v . dn) + (F . v) dn . P dn]. */
 static void add_force_on_unit(pulled *p, const field_rows *at, unit *u, double size,
                               const double F[3])
 {
@@ -186,7 +186,7 @@ static void add_force_on_unit(pulled *p, const field_rows *at, unit *u, double s
         }
 }
 
-/* Computes T[3 x n], which gives the rotation increment of the section. */
+/* Computes T[3 x n], which maps coordinates to the rotation increment of the section. */
 static void rotation_gradient_of(const pulled *p, const field_rows *at, double T[3 * MOST])
 {
     static const int functional[3] = {FIELD_CHI_X, FIELD_CHI_Y, FIELD_CHI_Z};
@@ -238,8 +238,8 @@ static void subtract_following(pulled *p, const double T[3 * MOST], const double
                 p->K[i * p->n + j] -= T[k * p->n + i] * Q[k * p->n + j];
 }
 
-/* Transforms a vector v from the axes of the section at the point to global axes (out) and computes
- * the gradient of the result, Q = dv/dx. */
+/* Transforms a vector v from the axes of the section at the point to global axes and stores it in
+ * `out`. Computes Q = dv/dx, the gradient of the result. */
 static void follow(const pulled *p, const field_rows *at, unit axis[3], const double v[3],
                    double out[3], double Q[3 * MOST])
 {
@@ -294,7 +294,7 @@ static void add_one(pulled *p, const field_rows *at, const field_load *load)
             add_force_on_unit(p, at, &axis[k], load->arm[k], F);
 }
 
-/* Adds the contributions of the sums conjugate to e to the forces and to K. */
+/* Adds the sums conjugate to e to the forces and to K. */
 static void add_functionals(pulled *p, const node_state x[])
 {
     double H[2 * NODE_COORDINATES * 2 * NODE_COORDINATES];

@@ -1,18 +1,20 @@
-/* Geometry at one point of a line with rotating sections: quaternions of the nodes are interpolated
- * as vectors of R^4, Q = sum N_k q_k, and normalised. A common rotation of all q_k rotates Q, so
- * that strains in the axes of the section are objective (derived here). No function of an angle is
- * needed, and every derivative is rational in Q.
+/* Geometry at one point of a line with rotating sections. The quaternions of the nodes are
+ * interpolated like vectors of R^4, Q = sum N_k q_k, and Q is normalised. A common rotation of all
+ * q_k rotates Q, so strains in the axes of the section are objective (derived here). No
+ * trigonometric function is needed, and every derivative is rational in Q.
  *
- *   kappa = 2 Im(Q^-1 Q'),  v = R(Q)^T y.
+ *   kappa = 2 Im(Q^-1 Q'), v = R(Q)^T y.
  *
- * In the axes of the section, A = u^-1 dQ/m and D = u^-1 dQ'/m, with (A0, A) their scalar and
- * vector parts: dkappa = 2 D - A0 kappa - 2 eta A - A x kappa, dv = dy - 2 A x v, d2kappa = 2 (A0^2
- * - |A|^2) kappa + 8 eta A0 A + 4 A0 A x kappa - 4 (A0 D + D0 A + A x D), d2v = 4 A0 A x v + 4 A x
- * (A x v) - 4 A x dy, from the expansion of Q^-1 Q' and of the rotation 2 Im Q/Re Q.
+ * In the axes of the section, A = u^-1 dQ/m and D = u^-1 dQ'/m, let A0 and D0 be the scalar parts,
+ * and A and D the vector parts. Then dkappa = 2 D - A0 kappa - 2 eta A - A x kappa, dv = dy - 2 A x
+ * v, d2kappa = 2 (A0^2 - |A|^2) kappa + 8 eta A0 A + 4 A0 A x kappa - 4 (A0 D + D0 A + A x D), d2v
+ * = 4 A0 A x v + 4 A x (A x v) - 4 A x dy, from the expansion of Q^-1 Q' and of the rotation 2 Im
+ * Q/Re Q.
  *
- * A rotation of node k by the spatial increment theta gives q_k -> exp(theta/2) q_k: first
- * derivative 1/2 theta q_k, second -1/4 |theta|^2 q_k; A = N_k a_k theta, D = N'_k a_k theta. The
- * caller chooses the unit of length. For one element or several in lanes (real.h). */
+ * A rotation of node k by the spatial increment theta changes q_k to exp(theta/2) q_k. The first
+ * derivative is 1/2 theta q_k, the second -1/4 |theta|^2 q_k. Therefore A = N_k a_k theta and D =
+ * N'_k a_k theta. The caller chooses the unit of length. The functions evaluate one element or
+ * several in lanes (real.h). */
 #ifndef BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 #define BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 
@@ -27,18 +29,18 @@ typedef struct exact_point {
     real eta;      /* m'/m */
     real R[9];     /* axes of the section, columns */
     real kappa[3]; /* twist rate and curvatures in the axes of the section */
-    real v[3];     /* y in the axes of the section */
+    real v[3];     /* vector y in the axes of the section */
 } exact_point;
 
 /* Effect of the rotation of one node on the values at the point. */
 typedef struct exact_point_turn {
     real c[4];             /* u^-1 q */
-    real a[12];            /* [4 x 3] */
-    real kappa[9], v[9];   /* derivatives of kappa and v with respect to theta, rows */
+    real a[12];            /* matrix a [4 x 3] */
+    real kappa[9], v[9];   /* derivatives of kappa and v with respect to theta, stored by rows */
     real twice[12], by[9]; /* right factors of the products in exact_point_second */
 } exact_point_turn;
 
-/* ab = a^-1 o b */
+/* Computes ab = a^-1 o b. */
 static inline void exact_point_relative(const real a[4], const real b[4], real ab[4])
 {
     ab[0] = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
@@ -61,8 +63,8 @@ static inline void exact_point_axes(const real q[4], real R[9])
     R[8] = 1 - 2 * (x * x + y * y);
 }
 
-/* Computes the values at the point from the quaternions q [nodes][4] and the interpolation N and dN
- * [nodes]. */
+/* Computes the values at the point from the quaternions q [nodes][4] and the interpolation
+ * functions N and dN [nodes]. */
 static inline void exact_point_at(int nodes, real q[][4], const double N[], const double dN[],
                                   const real y[3], exact_point *p)
 {
@@ -87,7 +89,7 @@ static inline void exact_point_at(int nodes, real q[][4], const double N[], cons
     mat3_transpose_mul_vec(p->R, y, p->v);
 }
 
-/* out (+)= factor b x each column of a [3 x 3] */
+/* Adds factor b x a, for each column a of a [3 x 3], to `out`; the second function sets `out`. */
 static inline void exact_point_add_cross(const real b[3], const real a[9], real factor, real out[9])
 {
     for (int j = 0; j < 3; j++) {
@@ -97,7 +99,7 @@ static inline void exact_point_add_cross(const real b[3], const real a[9], real 
     }
 }
 
-/* Computes the first derivatives for a node with the quaternion q. */
+/* Computes the first derivatives with respect to the rotation of a node with the quaternion q. */
 static inline void exact_point_first(const exact_point *p, const real q[4], double N, double dN,
                                      exact_point_turn *t)
 {
@@ -122,8 +124,8 @@ static inline void exact_point_first(const exact_point *p, const real q[4], doub
     exact_point_add_cross(p->v, turned, real_of(2 * N), t->v);
 }
 
-/* Computes the second derivatives of n . kappa + f . v, as needed by exact_point_add_second for all
- * nodes. */
+/* Computes the factors of the second derivatives of n . kappa + f . v that exact_point_add_second
+ * needs for all nodes. */
 static inline void exact_point_second(const exact_point *p, const real n[3], const real f[3],
                                       exact_point_turn *t)
 {
@@ -151,8 +153,8 @@ static inline void exact_point_second(const exact_point *p, const real n[3], con
     mat3_add_transpose_mul(turned, Z, t->by);
 }
 
-/* Adds the second derivative for nodes k and l [3 x 3] to H. The mixed derivative with respect to y
- * is N_k t_k->by. */
+/* Adds the second derivative with respect to the rotations of nodes k and l [3 x 3] to H. The mixed
+ * derivative with respect to y and the rotation of node k is N_k t_k->by. */
 static inline void exact_point_add_second(const real n[3], const double N[], const double dN[],
                                           int k, int l, const exact_point_turn t[], real H[9])
 {
@@ -174,8 +176,8 @@ static inline void exact_point_add_second(const real n[3], const double N[], con
                             left[9 + i] * W[9 + j];
 }
 
-/* Returns the contribution of the rotation of a node to its own second derivative on the diagonal:
- * q'' = -1/4 |theta|^2 q. */
+/* Returns the contribution of q'' = -1/4 |theta|^2 q to the diagonal of the second derivative with
+ * respect to the rotation of a node. */
 static inline real exact_point_curved(const exact_point *p, const real n[3], const real f[3],
                                       double N, double dN, const exact_point_turn *t)
 {
@@ -192,10 +194,10 @@ static inline real exact_point_curved(const exact_point *p, const real n[3], con
 
 enum { EXACT_DEFORMED_PAIRS = ELEMENT_MAX_NODES * (ELEMENT_MAX_NODES + 1) / 2 };
 
-/* Values derived from the states of the nodes once per evaluation. */
+/* Values computed from the states of the nodes once per evaluation. */
 typedef struct exact_deformed_nodes {
     real q[ELEMENT_MAX_NODES][4];
-    real r[ELEMENT_MAX_NODES][3], u[ELEMENT_MAX_NODES][3]; /* per l0 */
+    real r[ELEMENT_MAX_NODES][3], u[ELEMENT_MAX_NODES][3]; /* divided by l0 */
 } exact_deformed_nodes;
 
 /* Values of all points. */
@@ -205,7 +207,7 @@ typedef struct exact_deformed {
      * measured kappa with respect to theta */
     real axes[EXACT_STRAIN_MAX_POINTS][9], v[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES][9],
         kappa[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES][9];
-    /* blocks of H: for theta and theta, k <= l, and for theta and r */
+    /* blocks of H: for theta of nodes k <= l, and for theta and r */
     real turns[EXACT_DEFORMED_PAIRS][9], moves[ELEMENT_MAX_NODES][ELEMENT_MAX_NODES][9];
 } exact_deformed;
 
@@ -224,8 +226,8 @@ static inline void exact_deformed_observe(int nodes, const exact_strain_line *li
     exact_point_at(nodes, s->q, line->N[g], line->dN[g], y, p);
 }
 
-/* Computes v - v0. The component along x follows from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, which
- * avoids cancellation for small elongations. */
+/* Computes v - v0. The x component is computed from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, which avoids
+ * cancellation for small elongations. */
 static inline void exact_deformed_stretch(const real v[3], const double v0[3], const real y[3],
                                           const real dy[3], real e[3])
 {
@@ -240,7 +242,8 @@ static inline void exact_deformed_stretch(const real v[3], const double v0[3], c
                                            : real_lane(&difference, lane));
 }
 
-/* Computes the second derivatives of f . v + n . measure(kappa) at point g; weights in [N m]. */
+/* Computes the second derivatives of f . v + n . measure(kappa) at point g. The weights f and n are
+ * in [N m]. */
 static inline void exact_deformed_second(int nodes, const exact_strain_line *line, int g,
                                          const exact_point *p, const real m[3], const real T[9],
                                          const real f[3], const real moment[3],
@@ -251,7 +254,7 @@ static inline void exact_deformed_second(int nodes, const exact_strain_line *lin
     real n[3], inner[9], bent[ELEMENT_MAX_NODES][9];
     for (int i = 0; i < 3; i++)
         n[i] = moment[i];
-    if (measured) { /* T^T n replaces n, and the second derivative of the measure is multiplied by
+    if (measured) { /* T^T n replaces n; the second derivative of the measure is multiplied by
                        dkappa on both sides */
         exact_measure_second(m, p->kappa, moment, inner);
         mat3_transpose_mul_vec(T, moment, n);
@@ -279,7 +282,7 @@ static inline void exact_deformed_second(int nodes, const exact_strain_line *lin
     }
 }
 
-/* Evaluates the strains and their derivatives. s [strains]: stresses for H, or NULL. */
+/* Evaluates the strains and their derivatives. s [strains] are the stresses for H, or NULL. */
 static inline __attribute__((always_inline)) void
 exact_deformed_evaluate(int nodes, const exact_strain_line *line, exact_deformed_nodes *state,
                         int first, const real s[], exact_deformed *out)
@@ -346,7 +349,7 @@ static inline void exact_deformed_read(int nodes, const exact_strain_line *line,
         for (int i = 0; i < 4 && k > 0; i++)
             side += q[k - 1][i] * q[k][i];
         for (int i = 0; i < 4; i++) {
-            if (side < 0) /* all nodes use the same sign */
+            if (side < 0) /* all nodes use the same sign of the quaternion */
                 q[k][i] = -q[k][i];
             real_put(&s->q[k][i], lane, q[k][i]);
         }
@@ -427,8 +430,8 @@ static inline __attribute__((always_inline)) void exact_deformed_run(int nodes,
     }
 }
 
-/* Evaluates `run` elements of one kind, at most LANES, x [run x nodes], like
- * element_type.strain_many. */
+/* Computes the outputs of element_type.strain_many for `run` elements of one kind, at most LANES,
+ * with states x [run x nodes]. */
 static inline void exact_deformed_strain(const exact_strain_line *line, int run,
                                          const node_state x[], strain_output out[])
 {

@@ -58,7 +58,7 @@ static void add_product(exact_fields *f, double k, int i, int j)
     f->energy[j * f->all + i] += k;
 }
 
-/* Computes a and a' at x as row vectors that multiply (strains, bubbles). */
+/* Computes a and a' at x as row vectors, which multiply the strains and the bubble functions. */
 static void amplitude(const exact_fields *f, double x, double a[EXACT_FIELDS_MAX_FREE],
                       double da[EXACT_FIELDS_MAX_FREE])
 {
@@ -76,7 +76,7 @@ static void amplitude(const exact_fields *f, double x, double a[EXACT_FIELDS_MAX
         a[6 * f->points + k] = L[k];
         da[6 * f->points + k] = dL[k];
     }
-    /* prod (x - x_k) times the Legendre polynomials 1 and 2 x - 1 */
+    /* the bubble functions are prod (x - x_k) times the Legendre polynomials 1 and 2 x - 1 */
     const double factor[2] = {1, 2 * x - 1}, rate[2] = {0, 2};
     for (int j = 0; j < f->warping_bubbles; j++) {
         a[f->strains + j] = bubble * factor[j];
@@ -107,11 +107,11 @@ static void twist_fields(exact_fields *f)
             }
 }
 
-/* Adds -1/2 w/(k EI) (Q -+ M')^2: the flexibility due to the part of the moment that the polynomial
- * through the points, with its slope M', does not represent. */
+/* Adds -1/2 w/(k EI) (Q -+ M')^2. This is the flexibility for the part of the moment that the
+ * polynomial through the points, with the slope M', does not represent. */
 static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, double flexibility)
 {
-    double row[EXACT_FIELDS_MAX_ALL] = {0}; /* multiplies Q and M of the points */
+    double row[EXACT_FIELDS_MAX_ALL] = {0}; /* row that multiplies Q and M of the points */
     row[f->free + EXACT_FIELDS_STRESSES * g + Q] = 1;
     if (f->points == 2)
         for (int h = 0; h < 2; h++)
@@ -152,7 +152,7 @@ static void energy_of_point(const beam_constants *c, exact_fields *f, int g)
     const int rigid = !(c->F[0] > 0 && c->F[4] > 0);
     if (f->points > 1 && !rigid)
         return;
-    /* int (M - polynomial)^2 for a linear and for a quadratic moment */
+    /* int (M - polynomial)^2 for a linear moment (one point) or a quadratic moment */
     const double part = f->points == 1 ? 1.0 / 12 : 1.0 / 60;
     residual_bending(f, g, 0, 4, -1, part / c->EIz); /* Q_y = -M_z' */
     residual_bending(f, g, 1, 3, 1, part / c->EIy);  /* Q_z = M_y' */
@@ -246,8 +246,8 @@ static void condense_twist(const exact_fields *f, const double X[], exact_stiffn
                                        out->twist[i][j] * out->twist[i][k];
 }
 
-/* Computes S r of every point and the products r . S r of two points; r has three entries among the
- * strains. */
+/* Computes S r of every point, and the products r . S r of two points. r has three nonzero
+ * entries. */
 static void condense_modified(exact_stiffness *out)
 {
     const int n = out->strains;

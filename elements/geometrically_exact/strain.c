@@ -24,7 +24,7 @@ void exact_line_lagrange(int n, const double p[], double x, double L[], double d
 
 void exact_measure_angle(double t, double m[3])
 {
-    if (t < 0.01) { /* atan(y)/y = sum (-t)^k/(2 k + 1) */
+    if (t < 0.01) { /* series atan(y)/y = sum (-t)^k/(2 k + 1) */
         double power = 1;
         m[0] = m[1] = m[2] = 0;
         for (int k = 0; k < 10; k++) {

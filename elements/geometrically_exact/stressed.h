@@ -1,4 +1,4 @@
-/* Stresses that follow from the energy of exact.h, in lanes (real.h). */
+/* Stresses derived from the energy of exact.h, in lanes (real.h). */
 #ifndef BEAMWORK_EXACT_STRESSED_H
 #define BEAMWORK_EXACT_STRESSED_H
 
@@ -7,14 +7,14 @@
 #include "elements/geometrically_exact/exact.h"
 #include "elements/math/real.h"
 
-/* In each lane: the stresses, the energy, and the difference C - S in the rows of strains that
- * affect the twist. */
+/* Stresses, energy, and the difference C - S in the rows of strains that affect the twist, in each
+ * lane. */
 typedef struct exact_stressed {
     real stress[EXACT_STIFFNESS_MAX_STRAINS], energy;
     real more[EXACT_STIFFNESS_MAX_STRAINS][EXACT_STIFFNESS_MAX_STRAINS];
 } exact_stressed;
 
-/* Returns the position among the strains of the strain that r[i] of point g multiplies. */
+/* Returns the index of the strain to which r[i] of point g belongs. */
 static inline int exact_stressed_entry(int g, int i)
 {
     return 6 * g + (i == 0 ? 0 : 3 + i);
@@ -28,7 +28,7 @@ static inline real exact_stressed_along(const exact_stiffness *k, const real str
     return sum;
 }
 
-/* Adds the Wagner torque: energy sum torque_i (twist_i . e)^4. */
+/* Adds the Wagner torque, whose energy is sum torque_i (twist_i . e)^4. */
 static inline void exact_stressed_torque(const exact_stiffness *k, const real twisting[],
                                          exact_stressed *out)
 {
@@ -48,8 +48,8 @@ static inline void exact_stressed_torque(const exact_stiffness *k, const real tw
     }
 }
 
-/* Computes t_g = Q_g e, and replaces e by ebar: adds e . t_g/2 times r_g to the elongation and the
- * bending strains. */
+/* Computes t_g = Q_g e, and replaces e by ebar, which adds e . t_g/2 times r_g to the elongation
+ * and the bending strains. */
 static inline void exact_stressed_lengthen(const exact_stiffness *k, const real twisting[],
                                            real t[][EXACT_STIFFNESS_MAX_STRAINS], real e[])
 {
@@ -67,7 +67,8 @@ static inline void exact_stressed_lengthen(const exact_stiffness *k, const real 
 }
 
 /* Computes C = S + S r_g t_g^T + t_g (S r_g)^T + t_g (r_g . S r_h) t_h^T + tau_g Q_g in the rows of
- * the strains that affect the twist; in the columns of these strains, only up to the diagonal. */
+ * the strains that affect the twist. In the columns of these strains, only entries up to the
+ * diagonal are computed. */
 static inline void exact_stressed_tangent(const exact_stiffness *k,
                                           real t[][EXACT_STIFFNESS_MAX_STRAINS], const real tau[],
                                           exact_stressed *out)
@@ -151,7 +152,8 @@ static inline void exact_stressed_write(const exact_stiffness *k, const exact_st
     }
 }
 
-/* Evaluates `run` elements of one kind, at most LANES, like element_type.stress_many. */
+/* Computes the outputs of element_type.stress_many for `run` elements of one kind, at most
+ * LANES. */
 static inline void exact_stressed_stress(const exact_stiffness *k, int run, const double *const e[],
                                          stress_output out[], status outcome[])
 {

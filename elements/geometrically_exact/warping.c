@@ -8,31 +8,32 @@
 
 enum {
     STAGES = EXACT_WARPING_MAX_STAGES,
-    POLYNOMIALS = 20, /* they resolve layers up to lambda_short to rounding, because the energy
-                       * contains the square of the error of the amplitude */
+    POLYNOMIALS = 20, /* enough for layers up to lambda_short, because the energy contains the
+                         square of the amplitude error */
     BUBBLES = POLYNOMIALS,
-    FUNCTIONS = BUBBLES + 2, /* 1 - x and x come first */
+    FUNCTIONS = BUBBLES + 2, /* the first functions are 1 - x and x */
     INTERVALS = 9,
     ORDER = 16,
     POINTS = INTERVALS * ORDER
 };
-static const double lambda_short = 20; /* above this lambda, separate functions represent the
-                                          layers, and few polynomials are needed */
+static const double lambda_short = 20; /* value of lambda above which separate functions represent
+                                          the layers and few polynomials are needed */
 
 typedef struct basis {
     int bubbles, layers;
     double lambda;
 } basis;
 
-/* Computes the functions and their slopes at x. x and `rest`, the distances from both ends, are
- * both given for accuracy near both ends. */
+/* Computes the functions and their slopes at x. Both x and `rest`, the distances from the two ends,
+ * are given for accuracy near both ends. */
 static void functions_at(const basis *b, double x, double rest, double value[], double slope[])
 {
     value[0] = rest;
     value[1] = x;
     slope[0] = -1;
     slope[1] = 1;
-    /* Integrated Legendre polynomials (P_(j+1) - P_(j-1))/(2 (2 j + 1)), zero at both ends. */
+    /* integrated Legendre polynomials (P_(j+1) - P_(j-1))/(2 (2 j + 1)), which are zero at both
+     * ends */
     double before = 1, now = x - rest;
     for (int j = 1; j <= b->bubbles - 2 * b->layers; j++) {
         const double next = ((2 * j + 1) * (x - rest) * now - j * before) / (j + 1);
@@ -52,7 +53,7 @@ static void functions_at(const basis *b, double x, double rest, double value[], 
 }
 
 /* Computes quadrature points for smooth functions and for layers of thickness 1/lambda at both
- * ends. rest: 1 - x. */
+ * ends. `rest` contains 1 - x. */
 static void graded_points(double lambda, double x[], double rest[], double w[])
 {
     const double step[] = {0, 1, 4, 12, 40}, thickness = fmin(1 / lambda, 0.01);
@@ -73,8 +74,8 @@ static void graded_points(double lambda, double x[], double rest[], double w[])
         }
 }
 
-/* Computes mean[stages][functions], which is P of every function at the stages, and K, which is
- * twice the energy of the slopes and of the parts outside the range of P. */
+/* Computes mean[stages][functions], the value of P of each function at the Gauss points. Computes
+ * K, twice the energy of the slopes and of the parts of the functions that P does not represent. */
 static void integrate(const beam_constants *c, const basis *b, int stages, const double x[],
                       const double w[], double mean[STAGES * FUNCTIONS],
                       double K[FUNCTIONS * FUNCTIONS])
@@ -115,8 +116,8 @@ void exact_warping_energy(const beam_constants *c, int stages, const double x[],
         A[SIZE * SIZE] = {0}, X[SIZE * EXACT_WARPING_MAX] = {0};
     int pivot[SIZE];
     integrate(c, &b, stages, x, w, mean, K);
-    /* The unknowns are the bubbles and w T, where T is the warping torque at the stages. The energy
-     * is 1/2 a K a + T w (kappa - P a) - 1/2 flexibility w T^2. */
+    /* The unknowns are the bubble functions and w T, where T is the warping torque at the Gauss
+     * points. The energy is 1/2 a K a + T w (kappa - P a) - 1/2 flexibility w T^2. */
     for (int i = 0; i < b.bubbles; i++) {
         for (int j = 0; j < b.bubbles; j++)
             A[i * size + j] = K[(i + 2) * n + j + 2];
@@ -132,10 +133,10 @@ void exact_warping_energy(const beam_constants *c, int stages, const double x[],
         for (int j = 0; j < 2; j++)
             X[row * m + stages + j] = mean[k * n + j];
     }
-    dense_lu(size, A, pivot); /* cannot be singular: K is positive definite on the bubbles, which
-                                 outnumber the stages */
+    dense_lu(size, A, pivot); /* not singular: K is positive definite on the bubble functions, which
+                                 outnumber the Gauss points */
     dense_lu_solve(size, m, A, pivot, X);
-    /* The gradient with respect to z is w T at the stages and K a - P^T w T at the ends. */
+    /* the gradient with respect to z is w T at the Gauss points and K a - P^T w T at the ends */
     memset(S, 0, EXACT_WARPING_MAX * EXACT_WARPING_MAX * sizeof *S);
     for (int j = 0; j < m; j++) {
         for (int i = 0; i < stages; i++)

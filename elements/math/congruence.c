@@ -4,9 +4,9 @@
 
 #include "elements/math/real.h"
 
-/* Rows are padded with zeros to whole vectors, and two rows are summed together, so that each
- * loaded factor is used for both. */
-#ifdef REAL_AVX2 /* numbers in a vector of the processor; wider vectors are slow */
+/* Rows are padded with zeros to a whole number of SIMD vectors. Two rows are summed together, so
+ * each loaded factor is used for both. */
+#ifdef REAL_AVX2 /* numbers in a SIMD vector; wider vectors are slow */
 enum { WIDTH = 4 };
 #else
 enum { WIDTH = 2 };
@@ -61,7 +61,7 @@ static inline __attribute__((always_inline)) void add_rows(int rows, int count, 
         one_row(count, blocks, c + i * next, stride, B, out + i * blocks);
 }
 
-/* Copy A[rows x n] to rows of whole vectors, and back. */
+/* Copy A[rows x n] to rows of whole SIMD vectors, and back. */
 static inline __attribute__((always_inline)) void widen(int rows, int n, int blocks,
                                                         const double *A, part *out)
 {

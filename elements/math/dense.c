@@ -1,4 +1,3 @@
-/* Small dense algebra: plain loops along rows. */
 #include "elements/math/dense.h"
 
 #include <float.h>
@@ -9,9 +8,9 @@
 
 enum { WIDEST = 14 };
 
-/* Adds the sum over l of c[l stride] times row l of rows (row length n) to out, in ascending l. If
- * the width is a compile-time constant, sums stay in registers. skip: omit rows whose factor is
- * zero. */
+/* Adds the sum over l of c[l stride] times row l of `rows` (row length n) to `out`, in ascending l.
+ * If the width is a compile-time constant, sums stay in registers. `skip` omits rows whose factor
+ * is zero. */
 static inline __attribute__((always_inline)) void add_block(int count, int width, double times,
                                                             int skip, const double *restrict c,
                                                             int stride, const double *restrict rows,
@@ -31,8 +30,8 @@ static inline __attribute__((always_inline)) void add_block(int count, int width
         out[j] = sum[j];
 }
 
-/* Returns the width of the next block if `left` columns remain: the largest compiled width that
- * fits. The compiled widths are those of the elements. */
+/* Returns the width of the next block of `left` remaining columns: the largest compiled width that
+ * fits. The compiled widths are those that occur in the elements. */
 static inline __attribute__((always_inline)) int width_of(int left)
 {
     static const int widths[] = {14, 8, 7, 3};
@@ -42,7 +41,7 @@ static inline __attribute__((always_inline)) int width_of(int left)
     return 1;
 }
 
-/* Like add_block, for whole rows. */
+/* Adds the sum of add_block to whole rows. */
 static inline __attribute__((always_inline)) void add_rows(int count, int n, double times, int skip,
                                                            const double *c, int stride,
                                                            const double *rows, double *out)

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <pthread.h>
 
-/* GSL stores some tables with full precision and computes others. They are read-only after
- * creation. */
+/* Tables of points and weights, which are read-only after creation. GSL stores some tables with
+ * full precision and computes others. */
 static gsl_integration_glfixed_table *tables[QUADRATURE_MAX_POINTS + 1];
 static pthread_once_t prepared = PTHREAD_ONCE_INIT;
 
@@ -29,6 +29,6 @@ void quadrature_points(int n, double x[], double w[])
     for (int i = 0; i < n; i++)
         if (tables[n] != NULL)
             gsl_integration_glfixed_point(0, 1, (size_t)i, &x[i], &w[i], tables[n]);
-        else /* out of memory: NaN instead of a wrong number */
+        else /* out of memory: returns NaN instead of a wrong number */
             x[i] = w[i] = NAN;
 }

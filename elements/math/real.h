@@ -1,11 +1,11 @@
-/* The type `real`: a number for each of several elements, one in each lane. Define LANES before
- * this header, in files that are compiled once for one element and once for several. Each lane
- * performs the operations in the order of the source, so that results are bit-for-bit equal for
- * every number of lanes. An array of reals in lanes is not an array of doubles: use real_put and
- * real_lane for access.
+/* The type `real` contains a number for each of several elements, one in each lane. A source file
+ * must define LANES before it includes this header. Each lane performs the operations in the order
+ * of the source, so results are bit-for-bit identical for every number of lanes. An array of reals
+ * in lanes is not an array of doubles; real_put and real_lane give access to it.
  *
- * The Makefile compiles some files a second time for processors with AVX2, with REAL_AVX2 defined:
- * REAL_NAMED makes the names of their functions, and callers use REAL_CHOSEN. */
+ * The Makefile compiles some files a second time for processors with AVX2, with REAL_AVX2 defined.
+ * REAL_NAMED gives the functions of both versions different names, and REAL_CHOSEN selects a
+ * version. */
 #ifndef BEAMWORK_REAL_H
 #define BEAMWORK_REAL_H
 
@@ -48,7 +48,7 @@ static inline real real_sqrt(real a)
 {
     return sqrt(a);
 }
-/* Truth value of each lane; with one element, 0 or 1. */
+/* Truth value of each lane; 0 or 1 if there is only one lane. */
 typedef int real_truth;
 static inline real_truth real_true(void)
 {
@@ -104,7 +104,7 @@ static inline void real_deny(real_truth *t, int lane)
 {
     (*t)[lane] = 0;
 }
-/* Selects a where the condition is true, otherwise b. */
+/* Returns a in the lanes where the condition is true, and b in the others. */
 static inline real real_choose(real_truth t, real a, real b)
 {
     return (real)((t & (real_truth)a) | (~t & (real_truth)b));
@@ -132,7 +132,8 @@ static inline void real_zero(int n, real a[])
         a[i] = real_of(0);
 }
 
-/* Functions of libm, called lane by lane, so that results equal those for a single element. */
+/* Functions of libm, called lane by lane, so results are identical to those for a single
+ * element. */
 static inline real real_atan2(real y, real x)
 {
     real angle = y;

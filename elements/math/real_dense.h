@@ -1,5 +1,5 @@
-/* Small dense algebra for one element or several in lanes, row-major: sums in the same order as in
- * elements/math/dense.h. */
+/* Small dense algebra for one element or several in lanes, row-major. Sums have the same order as
+ * in elements/math/dense.h. */
 #ifndef BEAMWORK_REAL_DENSE_H
 #define BEAMWORK_REAL_DENSE_H
 
@@ -9,9 +9,8 @@
 
 enum { REAL_WIDEST = 11 };
 
-/* Adds to out[width] the sum over l of c[l stride] times row l of rows (row length n), in ascending
- * l. If the width is
- * a compile-time constant, sums stay in registers. */
+/* Adds the sum over l of c[l stride] times row l of `rows` (row length n) to out[width], in
+ * ascending l. If the width is a compile-time constant, sums stay in registers. */
 static inline __attribute__((always_inline)) void
 real_add_row(int count, int width, const real *c, int stride, const real *rows, int n, real *out)
 {
@@ -27,8 +26,9 @@ real_add_row(int count, int width, const real *c, int stride, const real *rows, 
         out[j] = sum[j];
 }
 
-/* K(n x n) += J^T S J for columns and rows from `first` on, with J(m x n) and S(m x m), in pieces
- * of `width` columns, a divisor of n - first. SJ(m x n) is overwritten in these columns. */
+/* Adds J^T S J to K(n x n) for columns and rows from `first` on, with J(m x n) and S(m x m), in
+ * pieces of `width` columns. `width` must divide n - first. SJ(m x n) is overwritten in these
+ * columns. */
 static inline __attribute__((always_inline)) void real_add_congruence(int m, int n, int first,
                                                                       int width, const real *J,
                                                                       const real *S, real *SJ,
@@ -45,8 +45,8 @@ static inline __attribute__((always_inline)) void real_add_congruence(int m, int
     }
 }
 
-/* Cholesky factorisation A = L L^T in place (lower triangle, n x n). Returns the lanes in which A
- * is positive definite. */
+/* Computes the Cholesky factorisation A = L L^T in place (lower triangle, n x n). Returns the lanes
+ * in which A is positive definite. */
 static inline real_truth real_cholesky(int n, real *A)
 {
     real_truth good = real_true();

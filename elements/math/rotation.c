@@ -6,7 +6,7 @@
 #include "elements/math/dense.h"
 
 /* Finite rotations by unit quaternions. All formulas use half of the angle. sinc keeps the
- * exponential accurate near 0; atan2 keeps the logarithm accurate near 0 and near pi. */
+ * exponential accurate near 0, and atan2 keeps the logarithm accurate near 0 and near pi. */
 
 void rotation_identity(double q[4])
 {
@@ -27,7 +27,7 @@ void rotation_exp(const double phi[3], double q[4])
 void rotation_log(const double q[4], double phi[3])
 {
     const double v = vec3_norm(q + 1), sign = q[0] < 0 ? -1 : 1;
-    /* angle = 2 atan2(v, |w|); angle/v = 2/w (1 - (v/w)^2/3 + ..) near 0, where |w| = 1 */
+    /* angle = 2 atan2(v, |w|); angle/v = 2/w (1 - (v/w)^2/3 + ...) near 0, where |w| = 1 */
     const double scale =
         v > 1e-5 ? 2 * atan2(v, sign * q[0]) / v : 2 / (sign * q[0]) * (1 - v * v / 3);
     for (int i = 0; i < 3; i++)
@@ -57,7 +57,7 @@ void rotation_matrix(const double q[4], double R[9])
 
 void rotation_from_matrix(const double R[9], double q[4])
 {
-    /* Shepperd's method divides by the largest of the four components. */
+    /* Shepperd's method, which divides by the largest of the four components */
     const double trace = R[0] + R[4] + R[8];
     int largest = -1;
     double best = trace;
@@ -166,8 +166,8 @@ void offset_force(const double rho[3], double force[6])
         force[3 + i] += moment[i];
 }
 
-/* Adds the translation columns times -rho~ to the rotation columns, then likewise for rows, which
- * gives A^T K A. */
+/* Adds the translation columns times -rho~ to the rotation columns, then does the same for rows,
+ * which gives A^T K A. */
 void offset_matrix(int n, int at, const double rho[3], const double force[3], double K[])
 {
     for (int i = 0; i < n; i++) {

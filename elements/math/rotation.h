@@ -1,16 +1,15 @@
-/* Finite rotations: unit quaternions q = (w, x, y, z), rotation vectors, matrices.
+/* Finite rotations: unit quaternions q = (w, x, y, z), rotation vectors and matrices.
  *
- * Matrices are row-major double[9]; a triad's columns are its unit vectors.
- * Rotation increments are spatial: R <- exp(phi~) R, that is
- * q <- rotation_exp(phi) o q.  Every function is accurate to a few eps for every angle, including
- * angles near 0 and pi. */
+ * Matrices are row-major double[9]; the columns of a triad are its unit vectors. Rotation
+ * increments are spatial: an increment phi changes R to exp(phi~) R and q to rotation_exp(phi) o q.
+ * Every function is accurate to a few eps for every angle, including angles near 0 and pi. */
 #ifndef BEAMWORK_MATH_ROTATION_H
 #define BEAMWORK_MATH_ROTATION_H
 
 void rotation_identity(double q[4]);
-void rotation_exp(const double phi[3], double q[4]); /* phi [rad] */
+void rotation_exp(const double phi[3], double q[4]); /* phi in rad */
 void rotation_log(const double q[4], double phi[3]); /* |phi| <= pi, the shorter rotation */
-/* ab = a o b; ab may alias */
+/* Computes ab = a o b; ab may alias a or b. */
 static inline void rotation_compose(const double a[4], const double b[4], double ab[4])
 {
     const double w = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
@@ -32,30 +31,28 @@ void rotation_normalise(double q[4]);
 void rotation_matrix(const double q[4], double R[9]);
 void rotation_from_matrix(const double R[9], double q[4]);
 void rotation_apply(const double q[4], const double v[3], double Rv[3]); /* Rv may alias v */
-/* Computes the spatial increment from `from` to `to`: log(to o conj(from)). */
+/* Computes the spatial increment from `from` to `to`, log(to o conj(from)). */
 void rotation_between(const double from[4], const double to[4], double phi[3]);
 /* Computes the triad whose x axis is along `x` and whose y axis is along the component of `y`
  * normal to `x`. Returns 0, or -1 if x is zero or y is parallel to x. */
 int rotation_triad(const double x[3], const double y[3], double R[9]);
 
-/* An arc along which the triad rotates at a constant rate. */
-
-/* Computes a point of the arc of unit length. rotation [rad]: constant torsion and curvature of the
- * arc times its length. In the axes at its start, q = exp(x rotation~) and r = int_0^x exp(t
- * rotation~) e dt, 0 <= x <= 1; e: direction of the axis in the rotating triad, (1, 0, 0) except
- * for initial strains. */
+/* Computes a point of an arc of unit length along which the triad rotates at a constant rate.
+ * `rotation` [rad] is the torsion and curvature of the arc times its length. In the axes at the
+ * start of the arc, q = exp(x rotation~) and r = int_0^x exp(t rotation~) e dt for 0 <= x <= 1. e
+ * is the direction of the axis in the rotating triad, (1, 0, 0) if there are no initial strains. */
 void arc_at(const double rotation[3], const double e[3], double x, double r[3], double q[4]);
-/* Computes r of arc_at minus x e, which is its value without rotation. */
+/* Computes r of arc_at minus x e, the value of r without rotation. */
 void arc_beyond(const double rotation[3], const double e[3], double x, double r[3]);
 
-/* Rigid connection of a point to the body that moves it. With the offset rho, dr = dr_b + theta x
- * rho. Second derivatives in the exponential chart: d2(F . rho)/dtheta2 = sym(F rho^T) - (F . rho)
- * I. */
+/* Rigid connection of a point to the body that moves the point. With the offset rho, dr = dr_b +
+ * theta x rho. The second derivatives in the exponential chart are d2(F . rho)/dtheta2 = sym(F
+ * rho^T) - (F . rho) I. */
 
 /* Transforms force[6] (force, moment) from the point to the body. */
 void offset_force(const double rho[3], double force[6]);
-/* Replaces K[n x n] by A^T K A, where the coordinates of the point start at `at`. Adds the second
- * derivatives for the gradient `force` of the potential at the point, unless it is NULL. */
+/* Replaces K[n x n] by A^T K A, where the coordinates of the point start at `at`. If `force`, the
+ * gradient of the potential at the point, is not NULL, adds its second derivatives. */
 void offset_matrix(int n, int at, const double rho[3], const double force[3], double K[]);
 
 #endif

@@ -6,21 +6,22 @@
 
 #define PI 3.14159265358979323846
 
-/* Returns the larger of two numbers; NAN if one of them is NAN, unlike fmax. */
+/* Returns the larger of two numbers. Unlike fmax, returns NAN if one of them is NAN. */
 static inline double larger(double a, double b)
 {
     return a >= b || isnan(a) ? a : b;
 }
 
-/* Gauss-Legendre quadrature with the tables of GSL. The first call in a process prepares them. */
+/* Gauss-Legendre quadrature with the tables of GSL, which are prepared at the first call in a
+ * process. */
 
 enum { QUADRATURE_MAX_POINTS = 64 };
 
-/* Returns 1 for n from 1 to 20, 32 and 64, whose tables are accurate to all digits. */
+/* Returns 1 for n from 1 to 20, 32 and 64, for which the tables are accurate to all digits. */
 int quadrature_is_tabulated(int n);
 
-/* Computes n points x[n] in ascending order and weights w[n] on [0, 1], exact for polynomials of
- * degree 2n - 1. */
+/* Computes n points x[n] in ascending order and weights w[n] on [0, 1]. The quadrature is exact for
+ * polynomials of degree 2n - 1. */
 void quadrature_points(int n, double x[], double w[]);
 
 #endif

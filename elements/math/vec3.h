@@ -21,8 +21,8 @@ static inline real vec3_norm(const real a[3])
     return real_hypot(real_hypot(a[0], a[1]), a[2]);
 }
 
-/* Returns |d| - l0 for d = d0 + moved, |d0| = l0. The form (2 d - moved) . moved/(|d| + l0) avoids
- * cancellation. */
+/* Returns |d| - l0 for d = d0 + moved, where |d0| = l0. The form (2 d - moved) . moved/(|d| + l0)
+ * avoids cancellation. */
 static inline real vec3_elongation(const real d[3], const real moved[3], double l0)
 {
     const real sum[3] = {2 * d[0] - moved[0], 2 * d[1] - moved[1], 2 * d[2] - moved[2]};
@@ -57,7 +57,7 @@ static inline void mat3_transpose_mul_vec(const real A[9], const real v[3],
         w[i] = A[i] * v[0] + A[3 + i] * v[1] + A[6 + i] * v[2];
 }
 
-/* C += A^T B, no alias */
+/* Adds A^T B to C, which must not alias A or B. */
 static inline void mat3_add_transpose_mul(const real A[9], const real B[9], real C[9])
 {
     for (int i = 0; i < 3; i++)
@@ -65,7 +65,7 @@ static inline void mat3_add_transpose_mul(const real A[9], const real B[9], real
             C[3 * i + j] += A[i] * B[j] + A[3 + i] * B[3 + j] + A[6 + i] * B[6 + j];
 }
 
-/* C -= A^T B, term by term; no alias */
+/* Subtracts A^T B from C, term by term; C must not alias A or B. */
 static inline void mat3_subtract_transpose_mul(const real A[9], const real B[9], real C[9])
 {
     for (int k = 0; k < 3; k++)

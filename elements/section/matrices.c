@@ -9,8 +9,8 @@ enum { N = 6 };
 
 static const char *const stress[N] = {"N", "Qy", "Qz", "Mx", "My", "Mz"};
 
-/* Makes A symmetric. Increases *asymmetry to the asymmetry of A relative to its diagonal, if that
- * is larger. */
+/* Makes A symmetric. Replaces *asymmetry by the asymmetry of A relative to its diagonal, if the
+ * latter is larger. */
 static status make_symmetric(double A[36], const char *name, double *asymmetry, fault *f)
 {
     double mean[36];
@@ -57,12 +57,12 @@ void section_matrices_centre(const section *c, double centre[3])
 {
     const double *M = c->mass, m = M[0];
     centre[0] = 0;
-    centre[1] = m > 0 ? M[N * 2 + 3] / m : 0; /* (1, 5) = m cz, (3, 4) = m cy */
+    centre[1] = m > 0 ? M[N * 2 + 3] / m : 0; /* entries (1, 5) = m cz and (3, 4) = m cy */
     centre[2] = m > 0 ? M[4] / m : 0;
 }
 
-/* Returns 1 if the moment of inertia about every axis is nonnegative, which all principal minors
- * show. */
+/* Returns 1 if the moment of inertia about every axis is nonnegative, which is true if all
+ * principal minors are nonnegative. */
 static int is_semidefinite(const double J[9])
 {
     const double small = 1e-9 * (J[0] + J[4] + J[8]);
@@ -81,8 +81,8 @@ static int is_semidefinite(const double J[9])
     return minors > 0 && determinant >= -small * pow(J[0] + J[4] + J[8], 2);
 }
 
-/* Replaces M by the nearest mass matrix of a slice. Returns 0 if the difference is larger than that
- * of measured or printed values. */
+/* Replaces M by the nearest mass matrix of a slice. Returns 0 if the difference is larger than
+ * expected for measured or printed values. */
 static int make_slice(double M[36])
 {
     const double m = M[0] == M[7] && M[7] == M[14] ? M[0] : (M[0] + M[7] + M[14]) / 3,
@@ -98,7 +98,7 @@ static int make_slice(double M[36])
         if (!(fabs(S[i] - M[i]) <=
               SECTION_MATRICES_SYMMETRIC * sqrt(fabs(M[7 * (i / N)] * M[7 * (i % N)]))))
             return 0;
-    for (int i = 0; i < 36; i++) /* 0 has no sign */
+    for (int i = 0; i < 36; i++) /* replaces -0 by 0 */
         M[i] = S[i] + 0.0;
     return m >= 0 && (m > 0 || (z == 0 && y == 0));
 }
@@ -133,7 +133,7 @@ static status check_mass(section *c, fault *f)
 status section_matrices(const section_spec *spec, section *out, fault *f)
 {
     const double *C = spec->constants.stiffness, *M = spec->constants.mass;
-    for (int i = 0; i < 36; i++) { /* 0 has no sign */
+    for (int i = 0; i < 36; i++) { /* replaces -0 by 0 */
         out->stiffness[i] = C[i] + 0.0;
         out->mass[i] = M[i] + 0.0;
     }

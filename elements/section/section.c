@@ -1,4 +1,5 @@
-/* Computes and checks section constants from walls, a rectangle, a tube or given numbers. */
+/* Computes and checks section constants, which are computed from walls, a rectangle or a tube, or
+ * are given numbers. */
 #include "elements/section/section.h"
 
 #include <math.h>
@@ -55,14 +56,14 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
     return spec;
 }
 
-/* Returns the exact Saint-Venant constant of a rectangle a x b (series; relative error below 1e-15
- * for every ratio) [m^4]. */
+/* Returns the Saint-Venant constant of a rectangle a x b [m^4], by a series with a relative error
+ * below 1e-15 for every ratio. */
 static double rectangle_torsion(double a, double b)
 {
     const double h = fmax(a, b), t = fmin(a, b);
     /* J = h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5]. The sum of n^-5 is
-     * 31/32 zeta(5); tanh - 1 = -2/(exp(n pi h/t) + 1) is negligible from n = 13 on, since h >= t
-     */
+     * 31/32 zeta(5). From n = 13 on, tanh - 1 = -2/(exp(n pi h/t) + 1) is negligible, because h >=
+     * t. */
     const double zeta5 = 1.03692775514336993;
     double sum = 0;
     for (int n = 11; n >= 1; n -= 2)
@@ -72,10 +73,10 @@ static double rectangle_torsion(double a, double b)
 }
 
 /* Returns int omega^2 dA [m^6] for Saint-Venant's warping function omega = y z + sum C_n sin(k_n y)
- * sinh(k_n z), whose stress-free sides give C_n = -4 (-1)^n/(a k_n^3 cosh(k_n b)), k_n = (2 n + 1)
- * pi/2a, over the half sides a <= b (integrated here). For a thin rectangle, the result is (w
- * h)^3/144; for a square, it is 1/52 of that, and two digits are lost in the sum of the three
- * terms. */
+ * sinh(k_n z) with k_n = (2 n + 1) pi/2a, over the half sides a <= b (integrated here). C_n = -4
+ * (-1)^n/(a k_n^3 cosh(k_n b)) makes the sides stress-free. For a thin rectangle, the result is (w
+ * h)^3/144. For a square, it is 1/52 of this value, and the sum of the three terms loses two
+ * digits. */
 static double rectangle_warping(double w, double h)
 {
     const double a = fmin(w, h) / 2, b = fmax(w, h) / 2;
@@ -105,8 +106,8 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     out->Ip = out->Iy + out->Iz;
     out->It = rectangle_torsion(w, h);
     out->Iw = rectangle_warping(w, h);
-    /* 1/8 (int r^4 dA - Ip^2/A), int r^4 dA = wide^5 thin/80 + 2 wide^3 thin^3/144 + wide thin^5/80
-     * (integrated here); N Eq. 46 has only the first term, for a thin rectangle */
+    /* 1/8 (int r^4 dA - Ip^2/A), where int r^4 dA = wide^5 thin/80 + 2 wide^3 thin^3/144 + wide
+     * thin^5/80 (integrated here). N Eq. 46 has only the first term, for a thin rectangle. */
     out->wagner_torque = (pow(wide, 5) * thin + wide * pow(thin, 5)) / 1440;
     const int theory = s->shear_factor[0] > 0 || s->shear_factor[1] > 0;
     for (int i = 0; i < 2; i++)
@@ -118,10 +119,10 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the exact constants of a circular ring, whose section remains plane in torsion (Iw = 0).
- * Shear stresses in bending follow Saint-Venant's theory without Poisson effect: 1/k = 7/6 + 10/3
- * m^2/(1 + m^2)^2, m = inner/outer radius (Renton, Int. J. Solids Struct. 28, 1991; Cowper 1966 at
- * nu = 0), 6/7 for a bar and 1/2 for a thin tube. */
+/* Computes the exact constants of a circular ring. The section remains plane in torsion (Iw = 0).
+ * Shear stresses in bending follow Saint-Venant's theory without the Poisson effect: 1/k = 7/6 +
+ * 10/3 m^2/(1 + m^2)^2 with m = inner/outer radius (Renton, Int. J. Solids Struct. 28, 1991; Cowper
+ * 1966 at nu = 0). k is 6/7 for a solid bar and 1/2 for a thin tube. */
 static status tube(const section_spec *s, section *out, fault *f)
 {
     const double R = s->diameter / 2, t = s->wall_thickness;
@@ -295,7 +296,7 @@ status section_compute(const section_spec *spec, section *out, fault *f)
     out->shear_modulus = spec->shear_modulus;
     out->density = spec->density;
     out->expansion = spec->expansion;
-    /* D from F, or F from D. If both are zero, the section is rigid in shear. */
+    /* computes D from F, or F from D; if both are zero, the section is rigid in shear */
     TRY(out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f)
                                          : invert_on_support(out->F, out->D, "F", f));
     TRY(apply_given(spec, out, f));

@@ -8,8 +8,8 @@
 
 enum { PER_QY, PER_QZ, PER_WARPING, PER_TWIST };
 
-/* Returns the shear stress at the middle of the long sides of a rectangle of thickness 1 and width
- * w in Saint-Venant torsion, divided by G kappa t. */
+/* Returns the shear stress at the middle of the long sides of a rectangle in Saint-Venant torsion,
+ * divided by G kappa t. The rectangle has the thickness 1 and the width w. */
 static double long_side(double w)
 {
     double sum = 0;
@@ -31,7 +31,7 @@ static double short_side(double w)
 
 static void rectangle_points(const section *c, stress_points *out)
 {
-    const double h = c->height, w = c->width; /* along y, along z */
+    const double h = c->height, w = c->width; /* sizes along y and along z */
     const int flat = w >= h;                  /* thin along y */
     const double thin = fmin(h, w), ratio = fmax(h, w) / thin, at_long = long_side(ratio) * thin,
                  at_short = short_side(ratio) * thin, parabola = 1.5 / c->A;
@@ -65,8 +65,8 @@ typedef struct wall_flow {
     flow_moments q[SECTION_MAX_WALLS];
 } wall_flow;
 
-/* Adds a point on each surface of the wall of entry k, at x in [0, 1] from its far to its near
- * point. */
+/* Adds a point on each surface of the wall of entry k, at x in [0, 1] from the far to the near
+ * point of the wall. */
 static void wall_points(const wall_flow *of, int k, double x, stress_points *out)
 {
     const section_spec *s = of->spec;
@@ -84,7 +84,7 @@ static void wall_points(const wall_flow *of, int k, double x, stress_points *out
         p->z = l->z[far] + x * (l->z[near] - l->z[far]);
         p->omega = l->omega[far] + x * (l->omega[near] - l->omega[far]);
         const double arm = (p->y - l->pole[0]) * n.ty + (p->z - l->pole[1]) * n.tz;
-        for (int i = 0; i < 3; i++) { /* q = -Q S/I, from the far to the near end */
+        for (int i = 0; i < 3; i++) { /* shear flow q = -Q S/I, from the far to the near end */
             const double stress =
                 inertia[i] > 0 ? -flow_moment(s, &l->tree, value, of->q, k, i, x) / (inertia[i] * t)
                                : 0;
@@ -93,14 +93,14 @@ static void wall_points(const wall_flow *of, int k, double x, stress_points *out
         }
         p->across[PER_TWIST][0] = (l->flow[w] / t + side * t) * n.ty;
         p->across[PER_TWIST][1] = (l->flow[w] / t + side * t) * n.tz;
-        p->y += side * t / 2 * n.ny; /* the surface, also with the constants of mid-lines */
+        p->y += side * t / 2 * n.ny; /* position on the surface, even for constants of mid-lines */
         p->z += side * t / 2 * n.nz;
         p->omega -= side * t / 2 * arm;
     }
 }
 
-/* Adds the fibre where the outer surfaces of walls v and w meet at point `at`, with the warping
- * continued from wall v. The shear stress is zero there. */
+/* Adds the fibre where the outer surfaces of walls v and w meet at point `at`. The warping is
+ * continued from wall v. The shear stress is zero at the fibre. */
 static void add_corner(const wall_flow *of, int at, int v, int w, stress_points *out)
 {
     const section_spec *s = of->spec;
@@ -115,7 +115,7 @@ static void add_corner(const wall_flow *of, int at, int v, int w, stress_points 
         away[i][1] = z / hypot(y, z);
     }
     const double sine = fabs(away[0][0] * away[1][1] - away[0][1] * away[1][0]);
-    if (sine < 0.1) /* nearly in one line: the surfaces of the walls suffice */
+    if (sine < 0.1) /* the walls are nearly in line, so the points on their surfaces suffice */
         return;
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < 2; k++)
@@ -146,9 +146,9 @@ static void add_corners(const wall_flow *of, stress_points *out)
     }
 }
 
-/* Completes the points of an angle section. Its shear centre is where its walls meet, even with
- * fillets. If it is given with an area, it locates the centroid of the given constants, to which
- * the stress points refer. */
+/* Completes the points of an angle section. The shear centre is where the walls meet, even if there
+ * are fillets. If the shear centre and the area are given, they determine the centroid of the given
+ * constants, to which the stress points refer. */
 static void complete_angle(const wall_flow *of, stress_points *out)
 {
     const section_spec *s = of->spec;
@@ -226,7 +226,8 @@ static double measured(const stress *s, stress_measure what)
     return -s->along;
 }
 
-/* Returns the elongation of a rotated fibre beyond the strains due to N, My and Mz. */
+/* Returns the additional elongation of a fibre due to its rotation, beyond the strains due to N, My
+ * and Mz. */
 static double turned(const section *c, double y, double z, double twist)
 {
     const double u = y - c->ys, v = z - c->zs, mean = c->Ip / c->A + c->ys * c->ys + c->zs * c->zs,

@@ -1,12 +1,16 @@
 /* Stresses at points of a section, computed from its resultants.
  *
- * The normal stress along the fibres includes N/A - Mz y/Iz + My z/Iy - B omega/Iw and, with the
- * Wagner torque, the additional stress due to twist of a fibre at the distance rho from the shear
- * centre, relative to the section as a whole. The shear stress includes Saint-Venant torsion
- * (rectangles by the exact series, walls G t kappa at their surfaces, cells their Bredt flow, tubes
- * G R kappa), the flow of Qy, Qz and of the restrained warping in walls, and in rectangles the
- * parabolas 3/2 Q/A and similar ones for warping. The stresses do not include concentrations at
- * corners, fillets and ends, the transverse shear of tubes, or stresses across a wall. */
+ * The normal stress along the fibres is N/A - Mz y/Iz + My z/Iy - B omega/Iw. If the Wagner torque
+ * is active, the stress due to the rotation of a fibre about the shear centre is added, relative to
+ * its mean over the section.
+ *
+ * The shear stress contains the following terms:
+ *   - Saint-Venant torsion: the exact series for rectangles, G t kappa at the surfaces of walls,
+ *     the Bredt flow in cells, and G R kappa for tubes;
+ *   - the shear flow due to Qy, Qz and restrained warping in walls;
+ *   - parabolas with the maximum 3/2 Q/A, and similar ones for warping, in rectangles.
+ *  The stresses do not include concentrations at corners, fillets and ends, the transverse shear of
+ *  tubes, or stresses across a wall. */
 #ifndef BEAMWORK_SECTION_STRESS_H
 #define BEAMWORK_SECTION_STRESS_H
 
@@ -14,18 +18,19 @@
 
 enum { STRESS_MAX_POINTS = 14 * SECTION_MAX_WALLS };
 
-/* Stresses at a point per unit of each resultant. */
+/* Stresses at a point for a unit value of each resultant. */
 typedef struct stress_point {
-    double y, z;         /* from the centroid, principal axes [m] */
-    double omega;        /* warping function, u_x = -omega a [m^2] */
-    double across[4][2]; /* shear stress in y and z per unit Qy and Qz [1/m^2], M_w [1/m^3] and G
-                          * kappa [m] */
+    double y, z;         /* distance from the centroid along the principal axes [m] */
+    double omega;        /* warping function omega [m^2], where u_x = -omega a */
+    double across[4][2]; /* shear stress in y and z for a unit value of Qy and Qz [1/m^2], M_w
+                            [1/m^3] and G kappa [m] */
 } stress_point;
 
 typedef struct stress_points {
     const section *section;
-    int count; /* 0 for a tube: its critical fibres depend on the direction of the bending moment */
-    double radius; /* of a tube [m], else 0 */
+    int count; /* number of points; 0 for a tube, whose critical fibres depend on the direction of
+                  the bending moment */
+    double radius; /* radius of a tube [m]; 0 for other sections */
     stress_point point[STRESS_MAX_POINTS];
 } stress_points;
 
@@ -33,23 +38,24 @@ typedef struct stress_points {
 typedef struct stress_resultants {
     double N, Qy, Qz, My, Mz, bimoment;
     double warping; /* torque due to restrained warping M_w [N m] */
-    double twist;   /* kappa_x [1/m] */
+    double twist;   /* twist rate kappa_x [1/m] */
     int turned;     /* 1: the twist rotates the fibres (Wagner torque) */
 } stress_resultants;
 
 typedef enum stress_measure {
     STRESS_VON_MISES,
-    STRESS_NORMAL_MAX, /* largest along the fibres: tension positive */
+    STRESS_NORMAL_MAX, /* largest stress along the fibres; tension is positive */
     STRESS_NORMAL_MIN
 } stress_measure;
 
-/* Computes the stress points. Rectangle: corners, midpoints of sides, and centre. Wall: ends,
- * middle, and points where y, z or omega is zero (where the shear flow is largest), on both
- * surfaces, and the outer corner where two walls meet. constants: computed from the description.
- * REFUSED: a section given by constants, which has no points. */
+/* Computes the stress points. The points of a rectangle are the corners, the midpoints of sides,
+ * and the centre. The points of a wall are on both surfaces, at the ends, in the middle, and where
+ * y, z or omega is zero, which is where the shear flow is largest. The outer corner where two walls
+ * meet is added. `constants` must be computed from the description. Returns REFUSED for a section
+ * given by constants, which has no points. */
 status stress_points_of(const section_spec *, const section *constants, stress_points *, fault *);
 
-/* Returns the largest von Mises stress or the largest or smallest normal stress of all points
+/* Returns the largest von Mises stress, or the largest or smallest normal stress, of all points
  * [Pa]. */
 double stress_of(const stress_points *, const stress_resultants *, stress_measure);
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Largest relative difference attributed to rounding. */
+/* Largest relative difference that is attributed to rounding. */
 static const double same = 1e-9;
 
 static int all_zero(const double v[9])
@@ -14,8 +14,8 @@ static int all_zero(const double v[9])
     return 1;
 }
 
-/* Returns the name of a number that only one of the two descriptions gives (neither NAN nor 0), or
- * NULL. */
+/* Returns the name of a number that is given in only one of the two descriptions, where it is
+ * neither NAN nor 0. Returns NULL if there is none. */
 static const char *given_once(const section_spec *p, const section_spec *q)
 {
     const struct {
@@ -51,8 +51,8 @@ static status check_walls(const section_spec *p, const section_spec *q, fault *f
     return STATUS_OK;
 }
 
-/* Returns the largest distance [m] of the ends of a wall from its plane in the other section, both
- * relative to their shear centres. */
+/* Returns the largest distance [m] of the ends of a wall from the plane of this wall in the other
+ * section. Positions are relative to the shear centre of each section. */
 static double out_of_plane(const section_spec *p, const section_spec *q,
                            const section *const ends[2], int w)
 {
@@ -140,7 +140,7 @@ status section_taper_check(const section_spec *p, const section_spec *q,
 static void blend(int count, double x, const double q[], double p[])
 {
     for (int i = 0; i < count; i++)
-        if (p[i] != q[i]) /* equal numbers, and NaN, are kept exactly */
+        if (p[i] != q[i]) /* equal numbers and NaN are copied exactly */
             p[i] += x * (q[i] - p[i]);
 }
 

@@ -61,7 +61,7 @@ static status connect(const section_spec *s, section_tree *t, fault *f)
     return STATUS_OK;
 }
 
-/* Adds the path from a point to the root, times `sign`, to a cell. */
+/* Adds the path from a point to the root, multiplied by `sign`, to a cell. */
 static void walk_to_root(const section_spec *s, section_tree *t, int c, int point, int sign)
 {
     for (int k = s->walls - t->cells - 1; k >= 0; k--)
@@ -92,7 +92,8 @@ status tree_grow(const section_spec *s, section_tree *t, fault *f)
 
 void tree_flow(const section_spec *s, const section_tree *t, const double jump[], double flow[])
 {
-    /* sum over the cells d of (oint_c,d ds/t) x_d = oint_c: symmetric, positive definite */
+    /* sum over the cells d of (oint_c,d ds/t) x_d = oint_c, with a symmetric positive definite
+     * matrix */
     double matrix[SECTION_MAX_WALLS * SECTION_MAX_WALLS], x[SECTION_MAX_WALLS];
     const int n = t->cells;
     for (int w = 0; w < s->walls; w++)
@@ -146,9 +147,9 @@ double flow_moment(const section_spec *s, const section_tree *t, const double *v
            h * length * (x * value[i][far] + x * x / 2 * (value[i][near] - value[i][far]));
 }
 
-/* Processes walls from the free ends towards the root, so that the moments of all walls beyond a
- * wall are known before it. Cells are cut at the ends of the walls that close them; a flow across
- * the cuts makes the warping continuous. */
+/* Processes walls from the free ends towards the root, so the moments of all walls beyond a wall
+ * are known before those of the wall. Cells are cut at the ends of the walls that close them. A
+ * flow across the cuts makes the warping continuous. */
 void flow_first_moments(const section_spec *s, const section_tree *t, const double *value[3],
                         flow_moments q[])
 {
@@ -212,13 +213,13 @@ void flow_compliance(const section_spec *s, const section_tree *t, const double 
     }
 }
 
-/* Constants of a section of straight thin walls, open or with closed cells, with its sectorial
- * coordinate and shear centre. Every integrand along a wall is a polynomial of degree five at most,
- * for which three Gauss points are exact. */
+/* Constants of a section of straight thin walls, open or with closed cells, with the sectorial
+ * coordinate and the shear centre. Every integrand along a wall is a polynomial of degree five at
+ * most, for which three Gauss points are exact. */
 
 enum { ROOT = 0 };
 
-/* Returns int f g dA over the mid-lines, from the values of f and g at the points. */
+/* Returns int f g dA over the mid-lines, for the values of f and g at the points. */
 static double product(const section_spec *s, const double f[], const double g[])
 {
     const flow_rule rule = flow_rule_of_three();
@@ -255,7 +256,7 @@ static status check_walls(const section_spec *s, fault *f)
     return STATUS_OK;
 }
 
-/* Returns twice the area swept by a wall about a pole, from `from` to `to` [m^2]. */
+/* Returns twice the area that a wall sweeps about a pole, from `from` to `to` [m^2]. */
 static double swept(const section_spec *s, int w, const double y[], const double z[], double yp,
                     double zp)
 {
@@ -264,8 +265,8 @@ static double swept(const section_spec *s, int w, const double y[], const double
 }
 
 /* Computes the sectorial coordinate about a pole, with zero mean: omega = int (y dz - z dy) - int
- * psi/t ds, where psi is the flow of Saint-Venant torsion per G and unit twist. psi is constant
- * around each cell, and zero without cells. */
+ * psi/t ds. psi is the flow of Saint-Venant torsion divided by G and by the twist rate. psi is
+ * constant around each cell, and zero if there are no cells. */
 static void sectorial(const section_spec *s, const section_tree *t, const double y[],
                       const double z[], double yp, double zp, double area, const double psi[],
                       double omega[])
@@ -286,8 +287,8 @@ static void sectorial(const section_spec *s, const section_tree *t, const double
         omega[p] -= mean;
 }
 
-/* Computes the flow psi of the cells in torsion, per G and unit twist [m^2]. Returns their
- * contribution to It [m^4] (Bredt). */
+/* Computes the flow psi of the cells in torsion, divided by G and by the twist rate [m^2]. Returns
+ * the contribution of the cells to It [m^4] (Bredt). */
 static double cell_torsion(const section_spec *s, const section_tree *t, const double y[],
                            const double z[], double psi[])
 {
@@ -334,10 +335,10 @@ static void wagner_constants(const section_spec *s, const double y[], const doub
     }
 }
 
-/* Returns 1/8 int q^2 dA, where q is the part of r^2 = y^2 + z^2 that axial and bending strains do
- * not represent: r^2 - Ip/A - wagner_y/Iz y - wagner_z/Iy z. The position of the shear centre has
- * no influence, because rotation about another point only adds such strains. At the distance n
- * across a wall, it is q + q_n n + n^2. */
+/* Returns 1/8 int q^2 dA. q is the part of r^2 = y^2 + z^2 that axial and bending strains do not
+ * represent, r^2 - Ip/A - wagner_y/Iz y - wagner_z/Iy z. The position of the shear centre has no
+ * influence, because rotation about another point only adds such strains. At the distance n across
+ * a wall, the function is q + q_n n + n^2. */
 static double wagner_torque(const section_spec *s, const double y[], const double z[],
                             const section *c)
 {

@@ -28,9 +28,9 @@ status beam_constants_of(const element_request *request, beam_constants *out, fa
     if (has & FEATURE_SHEAR)
         for (int i = 0; i < 9; i++)
             out->F[i] = c->F[i] / G * scale[i / 3] * scale[i % 3];
-    /* Without shear, a fibre at (y, z) rotates about the shear centre, so that r' has the
-     * components zs kappa_x and -ys kappa_x in the section. The elongation of the fibre is gamma_x
-     * + z kappa_y - y kappa_z + [(y - ys)^2 + (z - zs)^2] kappa_x^2/2. */
+    /* Without shear, a fibre at (y, z) rotates about the shear centre, so r' has the components zs
+     * kappa_x and -ys kappa_x in the section. The elongation of the fibre is gamma_x + z kappa_y -
+     * y kappa_z + [(y - ys)^2 + (z - zs)^2] kappa_x^2/2. */
     if (has & FEATURE_TRAPEZE)
         out->trapeze = c->Ip / c->A / (l0 * l0);
     if (has & FEATURE_WAGNER_MOMENTS) {

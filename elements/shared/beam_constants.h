@@ -1,30 +1,30 @@
-/* Section constants made dimensionless with the length l0 of an element and one of its bending
- * stiffnesses, limited to the requested physics. */
+/* Section constants limited to the requested physics. They are made dimensionless with the length
+ * l0 of an element and one of its bending stiffnesses. */
 #ifndef BEAMWORK_SHARED_BEAM_CONSTANTS_H
 #define BEAMWORK_SHARED_BEAM_CONSTANTS_H
 
 #include "elements/element.h"
 
-/* Forces in units of EI/l0^2, moments of EI/l0, bimoments of EI, lengths of l0. */
+/* Constants whose unit of force is EI/l0^2, of moment EI/l0, of bimoment EI, and of length l0. */
 typedef struct beam_constants {
-    double energy; /* unit of energy EI/l0 [J], with the smaller EI */
+    double energy; /* unit of energy EI/l0 [J], where EI is the smaller bending stiffness */
     double EA, EIy, EIz, GJ, EIw;
     double F[9];   /* shear flexibility F/G: (g_y, g_z, g_w) = F (Q_y, Q_z, M_w); zero: rigid */
-    double ys, zs; /* shear centre */
-    double trapeze, bend_y, bend_z; /* N, My, Mz act on gamma_x, kappa_y, kappa_z plus these factors
-                                       times kappa_x^2/2 */
-    double torque;                  /* energy torque kappa_x^4 per length */
+    double ys, zs; /* coordinates of the shear centre */
+    double trapeze, bend_y, bend_z; /* N, My, Mz do work on gamma_x, kappa_y, kappa_z plus these
+                                       factors times kappa_x^2/2 */
+    double torque;                  /* coefficient of kappa_x^4 in the energy per length */
     double initial[3];              /* strains gx, gy, gz of the stress-free element */
     int warping;
-    int coupled;      /* 1: a section given by matrices; only the members below, energy, initial and
-                         warping = 0 are used */
-    double C[36];     /* (N, Q, M) = C (gamma, kappa) */
+    int coupled;  /* 1: the section is given by matrices; of the other members, only the ones below,
+                     energy, initial and warping = 0 are used */
+    double C[36]; /* (N, Q, M) = C (gamma, kappa) */
     double mixed[36]; /* (M, -gamma) = mixed (kappa, N) */
 } beam_constants;
 
 status beam_constants_of(const element_request *request, beam_constants *out, fault *f);
 
-/* For element_type: members common to geometrically exact beams with warping. */
+/* Members of element_type that are common to geometrically exact beams with warping. */
 #define EXACT_TYPE                                                                                 \
     .family = "reissner", .abi = ELEMENT_ABI, .shear_theories = SHEAR_HARINGX,                     \
     .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |              \
@@ -32,14 +32,12 @@ status beam_constants_of(const element_request *request, beam_constants *out, fa
               FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS |               \
               FEATURE_ROTARY_INERTIA | FEATURE_COUPLED
 
-/* Sections given by matrices (elements/section/section.h), dimensionless: the stiffness C of
- * (gamma, kappa), and its mixed form with gamma expressed by the force. */
-
-/* Sets out->C and out->mixed, made dimensionless by EI [N m^2]. */
+/* Sets out->C, the stiffness of (gamma, kappa), and out->mixed, which expresses gamma by the force,
+ * for a section given by matrices. Both are made dimensionless by EI [N m^2]. */
 status beam_coupled_of(const section *profile, double l0, double EI, beam_constants *out, fault *f);
 
 /* Computes the inverse of a symmetric positive definite matrix [n x n], n <= 6. Returns 0, or the
- * number of a failing pivot. */
+ * number of the pivot that fails. */
 int beam_coupled_inverse(int n, const double A[], double inverse[]);
 
 /* Reports that a matrix of an element of this length [m] could not be inverted. */

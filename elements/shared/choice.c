@@ -12,7 +12,7 @@ int number_read(const char *text, const char **end, double *out)
     errno = 0;
     const double value = strtod(text, &behind);
     *end = behind;
-    /* only decimal numbers are accepted, but strtod reads 0x10 as 16 */
+    /* only decimal numbers are accepted, whereas strtod reads 0x10 as 16 */
     if (behind == text || memchr(text, 'x', (size_t)(behind - text)) != NULL ||
         memchr(text, 'X', (size_t)(behind - text)) != NULL || errno == ERANGE || !isfinite(value))
         return 0;

@@ -4,29 +4,26 @@
 
 #include "elements/shared/status.h"
 
-/* Numbers in user input. */
-
-/* Reads the number at the start of `text` and sets *end to the character after it. Returns 1; 0 if
- * a number is missing or outside the range of a double: infinite, or below 2.2e-308, where digits
- * would be lost. */
+/* Reads the number at the start of `text` and sets *end to the character after the number. Returns
+ * 1. Returns 0 if a number is missing or outside the range of a double: infinite, or below
+ * 2.2e-308, where digits would be lost. */
 int number_read(const char *text, const char **end, double *out);
 
-/* Words of a list "a|b|c", and the candidate nearest to a misspelt word. */
-
-/* Returns the index of `word` in "a|b|c", or -1. */
+/* Returns the index of `word` in the list "a|b|c", or -1. */
 int choice_index(const char *choices, const char *word);
 void choice_name(const char *choices, int index, char *text, int size);
 
-/* REFUSED: "unknown WHAT 'WORD', did you mean 'NEAREST'?"; candidates as below. */
+/* Returns REFUSED with the message "unknown WHAT 'WORD', did you mean 'NEAREST'?". The candidates
+ * are given as in choice_nearest. */
 status choice_unknown(const char *what, const char *word,
                       const char *(*next)(const void *context, int i), fault *f);
 
-/* Returns the candidate nearest to a misspelt word (edit distance), or NULL if none is similar.
- * next(context, i) returns NULL at the end. */
+/* Returns the candidate nearest to a misspelt word by edit distance, or NULL if no candidate is
+ * similar. next(context, i) returns candidate i, or NULL after the last candidate. */
 const char *choice_nearest(const char *word, const char *(*next)(const void *context, int i),
                            const void *context);
 
-/* Returns the number of letters to change, add or remove to turn a into b; only the first 63
+/* Returns the number of letters to change, add or remove to convert a to b. Only the first 63
  * letters count. */
 int choice_distance(const char *a, const char *b);
 

@@ -1,17 +1,17 @@
 /* Several elements of one kind at once, one in each lane (elements/math/real.h).
  *
- * A family implements its strains and stresses with node_real, strain_real and stress_real, in
- * headers of static functions. If LANES is 1, these are the types of element.h; the functions for a
- * single element include the headers in this form. A file lanes.c defines LANES as LANES_TOGETHER
- * before it includes them, and implements strain_many and stress_many by the functions below; the
- * Makefile compiles it twice. */
+ * A family of elements implements its strains and stresses with node_real, strain_real and
+ * stress_real, in headers of static functions. If LANES is 1, these types are those of element.h,
+ * and the headers give the functions for a single element. A file lanes.c defines LANES as
+ * LANES_TOGETHER before it includes these headers, and implements strain_many and stress_many by
+ * the functions below. The Makefile compiles lanes.c twice. */
 #ifndef BEAMWORK_SHARED_LANES_H
 #define BEAMWORK_SHARED_LANES_H
 
 #include "elements/element.h"
 #include "elements/math/real_dense.h"
 
-enum { LANES_TOGETHER = 4 }; /* of element_type.lanes */
+enum { LANES_TOGETHER = 4 }; /* value of element_type.lanes */
 
 #if LANES == 1
 
@@ -21,7 +21,7 @@ typedef stress_output stress_real;
 
 #else
 
-/* Like node_state of element.h, in lanes. */
+/* State of a node (node_state of element.h), in lanes. */
 typedef struct node_real {
     real r[3], u[3], R[9], a;
 } node_real;
@@ -40,8 +40,8 @@ enum { LANES_INNER = 24, LANES_MEMORY = 600 };
 /* Sizes of a family. */
 typedef struct lanes_sizes {
     int nodes, strains, inner, memory;
-    int relative; /* 1: two nodes, of whose positions only the difference matters, so that J and H
-                   * of one node are minus those of the other, bit for bit */
+    int relative; /* 1: two nodes, and only the difference of their positions matters; therefore J
+                     and H of one node are minus those of the other, bit for bit */
 } lanes_sizes;
 
 /* Returns the number of elements of the same kind at the start of data[count], at most LANES. */
@@ -53,7 +53,7 @@ static inline int lanes_run(int count, const element_data *const data[])
     return run;
 }
 
-/* Copy arrays of one lane each into lanes, and back. */
+/* Copy arrays with one lane each to arrays with all lanes, and back. */
 static inline void lanes_gather(int n, const double *const from[LANES], real to[])
 {
     for (int i = 0; i < n; i++) {
@@ -75,14 +75,15 @@ typedef void lanes_strain(const element_data *, const node_real x[], strain_real
 typedef real_truth lanes_stress(const element_data *, const real e[], const real inner[],
                                 stress_real *);
 
-/* Output pointers of the lanes of a run: the outputs are in the arrays `of`; lanes without an
- * element write to `unused`. */
+/* Sets the output pointers of the lanes of a run. Outputs are written to the arrays `of`; lanes
+ * without an element write to `unused`. */
 #define LANES_TARGETS(to, run, of, unused)                                                         \
     double *to[LANES];                                                                             \
     for (int lane = 0; lane < LANES; lane++)                                                       \
         to[lane] = (run) ? (of) : (unused);
 
-/* Returns the element of the run for a lane: the last one for unused lanes. */
+/* Returns the index of the element of the run for a lane, which is the last element for unused
+ * lanes. */
 static inline int lanes_of(int lane, int run)
 {
     return lane < run ? lane : run - 1;
@@ -192,7 +193,7 @@ lanes_stress_run(lanes_sizes n, lanes_stress *stress, status failure, int run,
     }
 }
 
-/* As element_type.strain_many. */
+/* Implements element_type.strain_many. */
 static inline __attribute__((always_inline)) void
 lanes_strain_many(lanes_sizes n, lanes_strain *strain, int count, const element_data *const data[],
                   const node_state x[], strain_output out[])
@@ -202,7 +203,7 @@ lanes_strain_many(lanes_sizes n, lanes_strain *strain, int count, const element_
         lanes_strain_run(n, strain, run, data[i], x + i * n.nodes, out + i);
     }
 }
-/* As element_type.stress_many. */
+/* Implements element_type.stress_many. */
 static inline __attribute__((always_inline)) void
 lanes_stress_many(lanes_sizes n, lanes_stress *stress, status failure, int count,
                   const element_data *const data[], const double *const e[],
@@ -214,10 +215,9 @@ lanes_stress_many(lanes_sizes n, lanes_stress *stress, status failure, int count
     }
 }
 
-/* Mixed equations of several elements of one kind at once, from strains and stresses in lanes. Sums
- * are formed in the order of harness/newton. */
+/* Mixed equations of several elements of one kind at once, computed from strains and stresses in
+ * lanes. Sums have the same order as in harness/newton. */
 
-/* Values computed in lanes. */
 typedef struct lanes_equations {
     real J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
         SJ[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
@@ -229,7 +229,7 @@ typedef struct lanes_equations {
     real inner[LANES_INNER], memory[LANES_MEMORY];
 } lanes_equations;
 
-/* Adds C (D(x) - e) to the sigma of stress(e). */
+/* Adds C (D(x) - e) to the stresses sigma for the strains e. */
 static inline __attribute__((always_inline)) void lanes_equations_mix(int strains,
                                                                       lanes_equations *q)
 {
@@ -241,7 +241,7 @@ static inline __attribute__((always_inline)) void lanes_equations_mix(int strain
     }
 }
 
-/* out = J^T s. */
+/* Computes out = J^T s. */
 static inline __attribute__((always_inline)) void
 lanes_equations_force(int strains, int columns, const real J[], const real s[], real out[])
 {
@@ -252,9 +252,9 @@ lanes_equations_force(int strains, int columns, const real J[], const real s[], 
             out[j] += s[i] * J[i * columns + j];
 }
 
-/* K += J^T C J. If only the difference of the positions of two nodes matters, the entries for the
- * first position are set to minus those for the second, with the sign of their common block
- * unchanged, so that K is as symmetric as H. */
+/* Adds J^T C J to K. If only the difference of the positions of two nodes matters, the entries for
+ * the first position are set to minus those for the second. The sign of their common block is
+ * unchanged, so K is as symmetric as H. */
 static inline __attribute__((always_inline)) void lanes_equations_stiffness(lanes_sizes n,
                                                                             lanes_equations *q)
 {
@@ -339,7 +339,7 @@ lanes_equations_run(lanes_sizes n, lanes_strain *strain, lanes_stress *stress, s
     }
 }
 
-/* As element_type.equations_many. */
+/* Implements element_type.equations_many. */
 static inline __attribute__((always_inline)) void
 lanes_equations_many(lanes_sizes n, lanes_strain *strain, lanes_stress *stress, status failure,
                      int count, const element_data *const data[], const node_state x[],

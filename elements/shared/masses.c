@@ -32,7 +32,7 @@ static void project(const double omega[3], const double y[3], double Py[3])
     vec3_cross(wy, omega, Py);
 }
 
-/* Adds factor T^T U to the upper half of A, whose row length is n; T and U are [3 x columns]. */
+/* Adds factor T^T U to the upper half of A, whose row length is n. T and U are [3 x columns]. */
 static inline __attribute__((always_inline)) void add_upper(int columns, double factor,
                                                             const double *restrict T,
                                                             const double *restrict U, int n,
@@ -45,7 +45,7 @@ static inline __attribute__((always_inline)) void add_upper(int columns, double 
     }
 }
 
-/* As above; common sizes are compile-time constants. */
+/* Computes add_upper with compile-time constants for common sizes. */
 static void add_product(int columns, double factor, const double *T, const double *U, int n,
                         double *A)
 {
@@ -57,7 +57,7 @@ static void add_product(int columns, double factor, const double *T, const doubl
         add_upper(columns, factor, T, U, n, A);
 }
 
-/* Computes P t and Omega x t of each column t of T. */
+/* Computes P t and Omega x t for each column t of T. */
 static void turn_columns(const moving_vector *v, const double omega[3], double P[3 * MOST],
                          double coriolis[3 * MOST])
 {
@@ -107,7 +107,7 @@ void moving_add(const moving_vector *v, const element_rotating_frame *frame, int
         add_in_frame(v, frame, n, out, F);
 }
 
-/* Copies the upper half, times sign, to the lower half. */
+/* Copies the upper half, multiplied by sign, to the lower half. */
 static void mirror(int n, double sign, double *A)
 {
     for (int i = 0; i < n; i++)
@@ -149,9 +149,8 @@ static void add_vector(lumped_mass *l, double mass, const double a[3])
     }
 }
 
-/* The inertia J about the centre is represented by masses of either sign on unit vectors, from A =
- * (tr J/2) 1 - J = sum_i (A_ii - sum_j A_ij) e_i
- * e_i^T + sum_i<j A_ij (e_i + e_j)(e_i + e_j)^T. */
+/* Masses of either sign on unit vectors represent the inertia J about the centre: A = (tr J/2) 1 -
+ * J = sum_i (A_ii - sum_j A_ij) e_i e_i^T + sum_i<j A_ij (e_i + e_j)(e_i + e_j)^T. */
 static lumped_mass of_matrices(const section *c, double length)
 {
     lumped_mass out = {.mass = c->mass[0] * length, .turns = 1};
@@ -230,8 +229,8 @@ static void add_rotation(const lumped_mass *l, double share, const node_state *x
     }
 }
 
-/* Adds the inertia of warping, which moves the section along its normal by -omega a. It is that of
- * a vector a n_X with the mass rho Iw, also in a rotating frame. */
+/* Adds the inertia of warping, which moves the section along its normal by -omega a. This inertia
+ * is that of a vector a n_X with the mass rho Iw, even in a rotating frame. */
 static void add_warping(double mass, const node_state *x, const element_rotating_frame *frame,
                         int at, int n, inertia_output *out)
 {
@@ -255,7 +254,8 @@ static void add_warping(double mass, const node_state *x, const element_rotating
     }
 }
 
-/* Adds the inertia of the rotation about n_X, the only one if there is no rotary inertia. */
+/* Adds the inertia of the rotation about n_X. It is the only rotational inertia if rotary inertia
+ * is not requested. */
 static void add_twist(double mass, const node_state *x, int at, int n, inertia_output *out)
 {
     for (int i = 0; i < 3 && out->M != NULL; i++)
@@ -263,7 +263,7 @@ static void add_twist(double mass, const node_state *x, int at, int n, inertia_o
             out->M[(at + 3 + i) * n + at + 3 + k] += mass * x->R[3 * i] * x->R[3 * k];
 }
 
-/* Adds the masses on r + R vector[0] and on the other vectors, rotated by R. */
+/* Adds the masses at r + R vector[0] and on the other vectors, rotated by R. */
 static void add_vectors(const lumped_mass *l, double share, const node_state *x,
                         const element_rotating_frame *frame, int at, int n, inertia_output *out)
 {

@@ -1,60 +1,62 @@
-/* Masses of an element: attached to vectors that depend on its coordinates, or lumped at nodes. */
 #ifndef BEAMWORK_SHARED_MASSES_H
 #define BEAMWORK_SHARED_MASSES_H
 
 #include "elements/element.h"
 
-/* Masses attached to vectors y(x) that depend on an element's coordinates: points, and unit vectors
- * fixed to sections, for which the mass is a rotary inertia. Kinetic energy 1/2 mass |dy/dt|^2; in
- * a frame that rotates at a constant rate dy/dt = T x' + Omega x y with T = dy/dx, hence the
- * centrifugal potential -1/2 mass |Omega x y|^2 and the gyroscopic matrix 2 mass T^T Omega~ T. */
+/* Masses attached to vectors y(x) that depend on the coordinates x of an element. A vector is the
+ * position of a point, or a unit vector fixed to a section, for which the mass is a rotary inertia.
+ * The kinetic energy is 1/2 mass |dy/dt|^2. In a frame that rotates at a constant rate, dy/dt = T
+ * x' + Omega x y with T = dy/dx. This gives the centrifugal potential -1/2 mass |Omega x y|^2 and
+ * the gyroscopic matrix 2 mass T^T Omega~ T. */
 
 typedef struct moving_vector {
-    double mass; /* [kg], or [kg m^2] of a unit vector */
-    double y[3]; /* from a point of the axis [m], or a unit vector; used only in a rotating frame */
-    int at, columns; /* coordinates that move it: at .. at + columns - 1 */
+    double mass; /* mass [kg], or rotary inertia of a unit vector [kg m^2] */
+    double y[3]; /* position relative to a point of the rotation axis [m], or a unit vector; used
+                    only in a rotating frame */
+    int at, columns; /* coordinates that move the vector: at .. at + columns - 1 */
     const double *T; /* [3 x columns] dy/dx, row-major */
 } moving_vector;
 
 /* Zeroes the requested outputs of an element with n coordinates. */
 void moving_clear(int n, inertia_output *out);
-/* Adds a mass and sets F[3] to its centrifugal force, or zero. The caller adds the terms of the
- * second derivatives of y: moving_stiffness -= F . d2y/dx2. Only the upper halves of M, N and G are
- * set until moving_complete. */
+/* Adds a mass and sets F[3] to its centrifugal force, or zero if the frame does not rotate. The
+ * caller must subtract F . d2y/dx2 from moving_stiffness. Only the upper halves of M, N and G are
+ * set; moving_complete sets the lower halves. */
 void moving_add(const moving_vector *v, const element_rotating_frame *frame, int n,
                 inertia_output *out, double F[3]);
-/* Completes the lower halves from the upper ones (G with a minus sign). Call it once, after
- * everything has been added. */
+/* Copies the upper halves of the matrices to the lower halves (G with a minus sign). The caller
+ * calls this function once, after all masses have been added. */
 void moving_complete(int n, inertia_output *out);
-/* Returns the matrix to which the terms of the second derivatives of y are added, or NULL if it is
- * not requested. */
+/* Returns the matrix to which the terms of the second derivatives of y are added, or NULL if this
+ * matrix is not requested. */
 static inline double *moving_stiffness(const element_rotating_frame *frame,
                                        const inertia_output *out)
 {
     return frame != NULL ? out->N : NULL;
 }
-/* N -= F . d2v/dtheta2 for a vector v fixed to the node whose rotations begin at coordinate `at`
- * (exponential chart). */
+/* Subtracts F . d2v/dtheta2 (exponential chart) from N, for a vector v that is fixed to the node
+ * whose rotations begin at coordinate `at`. */
 void moving_rotation_stiffness(const double F[3], const double v[3], int at, int n, double N[]);
-/* T[3 x columns] += -v~ in columns at .. at + 2, for a vector v that rotates with a node. */
+/* Adds -v~ to the columns at .. at + 2 of T[3 x columns], for a vector v that rotates with a
+ * node. */
 void moving_rotation_gradient(const double v[3], int at, int columns, double T[]);
 
-/* Inertia of a node with the mass of a piece of beam (J Eq. 73, with its J corrected to diag(Ip,
+/* Inertia of a node with the mass of a piece of beam (J Eq. 73, where J is corrected to diag(Ip,
  * Iy, Iz)). */
 
 enum { LUMPED_VECTORS = 7 };
 
 typedef struct lumped_mass {
     double mass;      /* [kg] */
-    double rotary[3]; /* Ip, Iy, Iz about the columns of R [kg m^2] */
-    double warping;   /* [kg m^4] */
-    int turns;   /* 1: rotary inertia; 0: only the twist has inertia, without effects of a rotating
-                  * frame */
-    int vectors; /* for a section given by matrices: number of vectors that represent its whole
-                    inertia; 0: none. If it is not 0, the members above are not used */
+    double rotary[3]; /* rotary inertia Ip, Iy, Iz about the columns of R [kg m^2] */
+    double warping;   /* warping inertia [kg m^4] */
+    int turns;   /* 1: rotary inertia; 0: only the twist has inertia, and a rotating frame has no
+                    effect on it */
+    int vectors; /* for a section given by matrices: number of vectors that represent the whole
+                    inertia; otherwise 0. If it is not 0, the members above are not used */
     double vector[LUMPED_VECTORS][3],
-        carried[LUMPED_VECTORS]; /* vectors fixed to R, with their masses: the first is the centre
-                                  * of mass [m], the others have length 1 or sqrt(2) */
+        carried[LUMPED_VECTORS]; /* vectors fixed to R, with their masses. The first is the centre
+                                    of mass [m]; the others have length 1 or sqrt(2) */
 } lumped_mass;
 
 /* Returns the lumped mass of `length` [m] of beam. For a section given by matrices, all entries of
@@ -62,13 +64,13 @@ typedef struct lumped_mass {
  * and the twist (polar moment of inertia) have inertia. */
 lumped_mass lumped_of(const section *c, unsigned features, double length);
 
-/* Adds `share` of the mass at a node whose coordinates begin at `at` among n. Call moving_complete
- * at the end. */
+/* Adds the fraction `share` of the mass to a node whose coordinates begin at `at` among n
+ * coordinates. moving_complete must be called at the end. */
 void lumped_add(const lumped_mass *l, double share, const node_state *x,
                 const element_rotating_frame *frame, int at, int n, inertia_output *out);
 
-/* Returns the shares of the nodes of an element: one half each for two nodes, the weights of
- * Simpson's rule for three. */
+/* Returns the shares of the nodes of an element: one half each for two nodes, or the weights of
+ * Simpson's rule for three nodes. */
 const double *lumped_shares(int nodes);
 
 /* Computes the inertia of an element whose mass is lumped at its nodes with the given shares. */

@@ -10,25 +10,25 @@ extern "C" {
 /* An entry of a table. */
 typedef struct parameter_type {
     const char *name;    /* NULL ends the table */
-    const char *unit;    /* SI; "1" for a plain number, "" for a choice */
-    double value;        /* default; for a choice its index */
-    double min, max;     /* inclusive; not used for a choice */
+    const char *unit;    /* unit in SI; "1" for a plain number, "" for a choice */
+    double value;        /* default value; for a choice, the index of the default */
+    double min, max;     /* inclusive limits; not used for a choice */
     const char *choices; /* "shear_flow|printed|misprinted", or NULL for a number */
     const char *summary; /* one line */
 } parameter_type;
 
-/* Largest number of consecutive tables; several tables allow common entries to be defined once.
- * NULL follows the last table if there are fewer. */
+/* Largest number of consecutive tables. Several tables allow common entries to be defined once. If
+ * there are fewer, NULL follows the last table. */
 enum { PARAMETER_PARTS = 5 };
 
-/* Returns the number of entries of all parts. */
+/* Returns the number of entries of all tables. */
 int parameter_count(const parameter_type *const part[PARAMETER_PARTS]);
-/* Returns entry i of all parts, or NULL after the last one. */
+/* Returns entry i of all tables, or NULL after the last entry. */
 const parameter_type *parameter_at(const parameter_type *const part[PARAMETER_PARTS], int i);
 /* Returns the index of the entry with this name, or -1. */
 int parameter_index(const parameter_type *const part[PARAMETER_PARTS], const char *name);
 void parameter_defaults(const parameter_type *const part[PARAMETER_PARTS], double value[]);
-/* Returns the number of choices; 0: the parameter is a number. */
+/* Returns the number of choices, or 0 if the parameter is a number. */
 int parameter_choices(const parameter_type *);
 
 #ifdef __cplusplus

@@ -1,6 +1,4 @@
-/* Outcome of functions that can fail at run time.
- *
- * A function that can fail returns a status. A function that rejects user input also fills a fault
+/* A function that can fail returns a status. A function that rejects user input also fills a fault
  * with one line that names the cause and the remedy. Programming errors are caught by assertions
  * instead. */
 #ifndef BEAMWORK_STATUS_H
@@ -26,20 +24,21 @@ enum { FAULT_TEXT = 320 };
 
 /* Description of an error, for a user. */
 typedef struct fault {
-    char text[FAULT_TEXT]; /* one line, no newline, '\0'-terminated */
+    char text[FAULT_TEXT]; /* one line without a newline, terminated by '\0' */
 } fault;
 
-/* Writes the line into f (may be NULL) and returns s, so that `return fault_set(f, STATUS_REFUSED,
- * "...", ...)` is one statement. */
+/* Writes the line to f, which may be NULL, and returns s. Example: return fault_set(f,
+ * STATUS_REFUSED, "...", ...). */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
 status
 fault_set(fault *f, status s, const char *format, ...);
 
-/* Not defined in C++, where other headers may use the name. */
+/* not defined in C++, where other headers may use the name */
 #ifndef __cplusplus
-/* Returns from the calling function if the call failed; for functions that have nothing to free. */
+/* Returns from the calling function if the call failed. Suitable only for functions that have
+ * nothing to free. */
 #define TRY(call)                                                                                  \
     do {                                                                                           \
         const status try_ = (call);                                                                \
@@ -48,8 +47,8 @@ fault_set(fault *f, status s, const char *format, ...);
     } while (0)
 #endif
 
-/* Returns "ok", "not_converged", "singular", "refused", "fault", "time_limit" or "no_value": the
- * words used in result files. */
+/* Returns the word for a status in result files: "ok", "not_converged", "singular", "refused",
+ * "fault", "time_limit" or "no_value". */
 const char *status_name(status s);
 
 #ifdef __cplusplus

@@ -1,12 +1,12 @@
-/* First and second derivatives of the local coordinates with respect to eleven rates, along a path
- * of constant velocity and constant spatial spin. The rates are, in frame axes, the velocity v of q
- * relative to p and the spins P and Q of the nodes, and the rates of the two warping amplitudes.
+/* First and second derivatives of the local coordinates with respect to eleven rates, for constant
+ * velocity and constant spatial angular velocity. The rates are the velocity v of q relative to p
+ * and the angular velocities P and Q of the nodes, in frame axes, and the rates of the two warping
+ * amplitudes.
  *
- * With w_F the spin of the frame, a vector fixed in space has the rate a x w_F in frame axes. The
- * chord gives w_F,y = -v_z/l and w_F,z = v_y/l; the condition that p does not twist relative to the
- * frame gives w_F,x. Only nonzero derivatives are stored; their positions are the same in all
- * states.
- */
+ * Let w_F be the angular velocity of the frame. A vector a fixed in space has the rate a x w_F in
+ * frame axes. The chord gives w_F,y = -v_z/l and w_F,z = v_y/l; the condition that p does not twist
+ * relative to the frame gives w_F,x. Only nonzero derivatives are stored; their positions are the
+ * same in all states. */
 #ifndef BEAMWORK_SHEET_DEFORMATION_H
 #define BEAMWORK_SHEET_DEFORMATION_H
 
@@ -24,19 +24,19 @@ enum {
     SHEET_RATES
 };
 
-/* Rates that rotate q relative to the frame about x and z: v_y, P_x, P_z, Q_x, Q_z. */
+/* Number of rates that rotate q relative to the frame about x and z: v_y, P_x, P_z, Q_x, Q_z. */
 enum { SHEET_RATE_MIXED = 5 };
 static const int sheet_rates_mixed[SHEET_RATE_MIXED] = {
     SHEET_RATE_V + 1, SHEET_RATE_P, SHEET_RATE_P + 2, SHEET_RATE_Q, SHEET_RATE_Q + 2};
 
 /* The nonzero entries of dq/d(rates). */
 typedef struct sheet_rates {
-    real inverse, lean;            /* 1/l and tan(yp)/l: parts of w_F */
-    real across[SHEET_RATE_MIXED]; /* cos(yq) w_x - sin(yq) w_z, w = Q - w_F */
+    real inverse, lean;            /* 1/l and tan(yp)/l, which occur in w_F */
+    real across[SHEET_RATE_MIXED]; /* cos(yq) w_x - sin(yq) w_z, where w = Q - w_F */
     real px[SHEET_RATE_MIXED], zq[SHEET_RATE_MIXED];
-    real yq[SHEET_RATE_MIXED]; /* besides v_z/l and Q_y */
-    real zp_v, zp_p;           /* with respect to v_y and P_z. The rate of u is v_x, that of yp is
-                                * P_y + v_z/l */
+    real yq[SHEET_RATE_MIXED]; /* entries in addition to v_z/l and Q_y */
+    real zp_v, zp_p; /* entries with respect to v_y and P_z. The rate of u is v_x, and that of yp is
+                        P_y + v_z/l */
 } sheet_rates;
 
 static inline void sheet_rates_of(const sheet_local_state *s, sheet_rates *out)
@@ -75,13 +75,14 @@ static inline void sheet_rates_chain(const sheet_rates *r, const real e[SHEET_LO
     a[SHEET_RATE_WQ] = e[SHEET_LOCAL_WQ];
 }
 
-/* Returns 1 if block (i, j) of a form in v, P, Q is used: a block on or below the diagonal. */
+/* Returns 1 if block (i, j) of a form in v, P, Q is used, which is a block on or below the
+ * diagonal. */
 static inline int sheet_rates_used(int i, int j)
 {
     return j / 3 <= i / 3;
 }
 
-/* Computes H[11 x 11] = R^T Q R in the used blocks, where R = dq/d(rates); Q[8 x 8] is symmetric
+/* Computes H[11 x 11] = R^T Q R in the used blocks, where R = dq/d(rates). Q[8 x 8] is symmetric
  * and zero for u. */
 static inline void sheet_rates_congruence(const sheet_rates *r, const real Q[],
                                           real H[SHEET_RATES * SHEET_RATES])
@@ -109,8 +110,8 @@ static inline void sheet_rates_congruence(const sheet_rates *r, const real Q[],
     memcpy(H + SHEET_RATES * SHEET_RATE_WP, QR[SHEET_LOCAL_WP], 2 * sizeof QR[0]);
 }
 
-/* Computes the weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2, from the
- * weights of dw/dt and d(bend)/dt, where bend = P_z - w_F,z. */
+/* Computes the weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2. The weights
+ * are computed from those of dw/dt and d(bend)/dt, where bend = P_z - w_F,z. */
 static inline void sheet_rates_weights(const sheet_local_state *s,
                                        const real t[SHEET_LOCAL_COORDINATES],
                                        const real relative[3], real bend, real g[SHEET_RATE_TURNS])
@@ -126,9 +127,9 @@ static inline void sheet_rates_weights(const sheet_local_state *s,
         g[SHEET_RATE_Q + i] = relative[i];
 }
 
-/* Computes A, the sum of the products of w_F,i and row i of g x a for a = v, P, Q. It represents
- * the rotation of vectors with the frame, g . (a x w_F) = w_F . (g x a), and the change of length
- * in v_y/l and v_z/l, d(1/l)/dt = -v_x/l^2. */
+/* Computes A, the sum of the products of w_F,i and row i of g x a for a = v, P, Q. A represents two
+ * effects: the rotation of vectors with the frame, g . (a x w_F) = w_F . (g x a), and the change of
+ * length in v_y/l and v_z/l, d(1/l)/dt = -v_x/l^2. */
 static inline void sheet_rates_turn(const sheet_local_state *s, const sheet_rates *r,
                                     const real g[SHEET_RATE_TURNS],
                                     real A[SHEET_RATE_TURNS][SHEET_RATE_TURNS])
@@ -163,14 +164,15 @@ static inline void sheet_rates_add_second(const sheet_local_state *s, const shee
     memset(A, 0, sizeof A);
     sheet_rates_weights(s, t, relative, bend, g);
     sheet_rates_turn(s, r, g, A);
-    /* d(1/cos yp)/dt in zp, d(tan yp)/dt in w_x: bend times yp' */
+    /* derivatives of 1/cos yp with respect to zp, and of tan yp with respect to w_x: bend times
+     * yp' */
     const real yp = bend * s->tan_yp + relative[0] * s->sec_yp * s->sec_yp, yp_v = yp * -r->inverse;
     A[SHEET_RATE_P + 2][SHEET_RATE_P + 1] += yp;
     A[SHEET_RATE_P + 2][SHEET_RATE_V + 2] += yp * r->inverse;
     A[SHEET_RATE_V + 1][SHEET_RATE_P + 1] += yp_v;
     A[SHEET_RATE_V + 1][SHEET_RATE_V + 2] += yp_v * r->inverse;
-    /* d(across)/dt = .. - yq' zq', d(zq')/dt = .. + yq' across; d(1/cos zq)/dt in px, d(tan zq)/dt
-     * in yq */
+    /* d(across)/dt = ... - yq' zq' and d(zq')/dt = ... + yq' across; derivatives of 1/cos zq with
+     * respect to px, and of tan zq with respect to yq */
     const real zq = (t[SHEET_LOCAL_PX] * s->tan_zq - t[SHEET_LOCAL_YQ] * s->sec_zq) * s->sec_zq;
     for (int j = 0; j < SHEET_RATE_MIXED; j++) {
         const int column = sheet_rates_mixed[j];
@@ -202,7 +204,7 @@ static inline void sheet_rates_nodal_row(const sheet_local_state *s, const real 
     row[NODE_COORDINATES + 6] = a[SHEET_RATE_WQ];
 }
 
-/* K(row + i, column + j) = K(column + j, row + i) = B_ij. */
+/* Sets K(row + i, column + j) = K(column + j, row + i) = B_ij. */
 static inline void sheet_rates_put(int row, int column, int negative, const real B[9],
                                    real K[SHEET_LOCAL_NODAL * SHEET_LOCAL_NODAL])
 {
@@ -213,17 +215,17 @@ static inline void sheet_rates_put(int row, int column, int negative, const real
                     negative ? -B[3 * i + j] : B[3 * i + j];
 }
 
-/* Transforms the form H[11 x 11] to the coordinates of the nodes: K[14 x 14]. */
+/* Transforms the form H[11 x 11] to the coordinates of the nodes, K[14 x 14]. */
 static inline void sheet_rates_nodal_form(const sheet_local_state *s,
                                           const real H[SHEET_RATES * SHEET_RATES],
                                           real K[SHEET_LOCAL_NODAL * SHEET_LOCAL_NODAL])
 {
     static const int place[3] = {
-        7, 3, 10}; /* positions of v, P, Q; the position of p contributes with the opposite sign */
+        7, 3, 10}; /* indices of v, P, Q; the position of p contributes with the opposite sign */
     for (int a = 0; a < 3; a++)
         for (int b = 0; b <= a; b++) {
             real block[9], half[9], turned[9];
-            for (int i = 0; i < 3; i++) /* F B F^T = (F (F B)^T)^T */
+            for (int i = 0; i < 3; i++) /* F B F^T is computed as (F (F B)^T)^T */
                 for (int j = 0; j < 3; j++)
                     block[3 * i + j] = H[SHEET_RATES * (3 * a + i) + 3 * b + j];
             mat3_mul(s->F, block, half);
@@ -246,8 +248,8 @@ static inline void sheet_rates_nodal_form(const sheet_local_state *s,
 }
 
 /* The deformation function of a table of strains with its derivatives, for one element or several
- * in lanes. With E = de/dq, R = dq/d(rates) and T the rates of the nodes' coordinates, J = E R T
- * and sum s_i d2e_i/dx2 = T^T [R^T (sum s_i Q_i) R + sum_k t_k q_k''] T, t = E^T s. */
+ * in lanes. Let E = de/dq, R = dq/d(rates), T the rates of the coordinates of the nodes, and t =
+ * E^T s. Then J = E R T, and sum s_i d2e_i/dx2 = T^T [R^T (sum s_i Q_i) R + sum_k t_k q_k''] T. */
 
 /* Computes E[8 x 8] = de/dq and the strains e[8] at q. */
 static inline void sheet_deformation_gradient(const sheet_strains_table *m,
@@ -275,7 +277,7 @@ static inline void sheet_deformation_gradient(const sheet_strains_table *m,
     }
 }
 
-/* Computes Q = sum s_i Q_i. */
+/* Computes the sum of s_i Q_i. */
 static inline void sheet_deformation_weighted(const sheet_strains_table *m,
                                               const real s[SHEET_STRAINS], real Q[])
 {
@@ -289,7 +291,7 @@ static inline void sheet_deformation_weighted(const sheet_strains_table *m,
             Q[N * j + k] = Q[N * k + j];
 }
 
-/* As element_type.strain. */
+/* Implements element_type.strain. */
 static inline void sheet_deformation_evaluate(const sheet_strains_table *table,
                                               const node_real x[2], strain_real *out)
 {

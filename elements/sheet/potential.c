@@ -16,9 +16,8 @@ status sheet_potential_evaluate(const sheet_potential *p, const double x[N], dou
     return sheet_stationary_evaluate(p, x, P, gradient, hessian) ? STATUS_OK : STATUS_SINGULAR;
 }
 
-/* With s_k = A^-1 W_k, W_k = b,k - A,k s, and a direction d:
- * P,kld = s_d.(b,kl - A,kl s) + s_l.W_k,d + s_k.W_l,d - s_k^T A,d s_l, W_k,d = b,kd - A,kd s - A,k
- * s_d. */
+/* With s_k = A^-1 W_k, W_k = b,k - A,k s, and a direction d: P,kld = s_d.(b,kl - A,kl s) +
+ * s_l.W_k,d + s_k.W_l,d - s_k^T A,d s_l, where W_k,d = b,kd - A,kd s - A,k s_d. */
 status sheet_potential_third(const sheet_potential *p, const double x[N], const double dx[N],
                              double T[N * N])
 {
@@ -73,19 +72,19 @@ status sheet_potential_third(const sheet_potential *p, const double x[N], const 
 /* Coefficients of the potential:
  *   A_ij = int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw + My_i My_j/EIy + Mz_i Mz_j/EIz
  *               + Fx_i Fx_j/EA + Fz_i Fz_j/kGA] ds,
- *   b_i  = int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)' + My_i phi_x u_y'' + Mz_i u_y''
+ *   b_i = int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)' + My_i phi_x u_y'' + Mz_i u_y''
  *               - (Mx_i + B_i') kx - My_i ky - Mz_i kz] ds
  *          + (u + int u_y'^2/2 for F~x, yp for M~yp, yq for M~yq),
- *   P0   = int [B_0' phi_x' + B_0 phi_x'' - B_0'^2/2GJ - B_0^2/2EIw - B_0' kx] ds,
- * with Mx, Mz of N Eq. 49, B_0 = EIw k0' the bimoment due to the twist rates of the ends, k0(0) =
- * Wp, k0(L) = Wq, and kx, ky, kz the initial torsion and curvatures (N Eq. 52). Integration by
- * parts, with the twist rates of sheet.h, gives
+ *   P0 = int [B_0' phi_x' + B_0 phi_x'' - B_0'^2/2GJ - B_0^2/2EIw - B_0' kx] ds,
+ * where Mx, Mz are given by N Eq. 49. B_0 = EIw k0' is the bimoment due to the twist rates of the
+ * ends, k0(0) = Wp and k0(L) = Wq. kx, ky, kz are the initial torsion and curvatures (N Eq. 52).
+ * Integration by parts, with the twist rates of sheet.h, gives
  *   int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw] ds = (L/GJ) lambda^2 int Mx_i g_j dx,
  *   int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)'] ds = L int Mx_i (phi_x' - k0) dx,
  *   P0 = (EIw/2L) int (lambda^2 k0^2 + k0'^2) dx - kx EIw [k0'].
  * My_i phi_x u_y'' cancels the same term of Mz_i u_y''. */
 
-/* Variables in which the stress fields are affine, as indices of v. */
+/* Variables on which the stress fields depend linearly, as indices of v. */
 enum {
     ONE,
     PX = 1 + SHEET_LOCAL_PX,
@@ -95,13 +94,13 @@ enum {
     WQ = 1 + SHEET_LOCAL_WQ
 };
 enum { FX, MX, MYP, MYQ, MZP, MZQ };
-enum { POINTS = 5 }; /* degree 8 in (phi_x (x - 1))^2: exact */
+enum { POINTS = 5 }; /* exact for (phi_x (x - 1))^2, which has degree 8 */
 
 typedef struct sums {
     double A[SHEET_STRESSES][SHEET_STRESSES][V][V], b[SHEET_STRESSES][V][V], P0[V][V];
 } sums;
 
-/* Modes of the torque M_x: M~x, and M~yn z_j times -+ u_y/L + u_y' (x - 1 or x), with u_y = L [x
+/* Modes of the torque M_x: M~x, and M~yn z_j times -+ u_y/L + u_y' (x - 1 or x), where u_y = L [x
  * (1-x)^2 zp - x^2 (1-x) zq]. */
 static const struct {
     int stress, variable;
@@ -111,7 +110,8 @@ static const double corrected_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE +
 static const double printed_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
     {1}, {-1, 6, -9, 4}, {0, 2, -6, 4}, {0, 2, -6, 4}, {0, 0, -3, 4}};
 
-/* Adds the contribution of bending at one point. f: the fields there; ds: its weight. */
+/* Adds the contribution of bending at one point. f contains the fields at the point, and ds is its
+ * weight. */
 static void add_bending(const element_request *r, double x, double ds, const sheet_fields *f,
                         sums *out)
 {
@@ -126,7 +126,7 @@ static void add_bending(const element_request *r, double x, double ds, const she
         Mz[MYQ][1 + k] = -f->phi_x[k] * shape[1];
         for (int m = 0; m < SHEET_LOCAL_COORDINATES; m++)
             out->b[FX][1 + k][1 + m] -=
-                ds * f->duy[k] * f->duy[m] / 2; /* int (u_y u_y'' + u_y'^2/2) ds */
+                ds * f->duy[k] * f->duy[m] / 2; /* integrand of int (u_y u_y'' + u_y'^2/2) ds */
     }
     for (int i = 0; i < SHEET_STRESSES; i++) {
         for (int j = 0; j < SHEET_STRESSES; j++) {
@@ -140,7 +140,7 @@ static void add_bending(const element_request *r, double x, double ds, const she
                 out->b[i][ONE][a] -=
                     ds * (Mz[i][a] * r->curvature[2] + (a == ONE ? My[i] * r->curvature[1] : 0));
     }
-    if (initial) { /* F_x = F~x, F_z = (M~yp + M~yq)/L; no F_y */
+    if (initial) { /* F_x = F~x and F_z = (M~yp + M~yq)/L; there is no F_y */
         out->b[FX][ONE][ONE] -= ds * r->strain[0];
         out->b[MYP][ONE][ONE] -= ds / r->length * r->strain[2];
         out->b[MYQ][ONE][ONE] -= ds / r->length * r->strain[2];
@@ -171,8 +171,8 @@ static void add_torsion(const element_request *r,
     out->P0[ONE][WP] = out->P0[ONE][WQ] = -kx * EIw / L * (integral.same + integral.other);
 }
 
-/* Adds the energy of N Eq. 34 in W - px/L. If amplitudes are requested although Iw = 0, this gives
- * them the values Wp = Wq = px/L. */
+/* Adds the energy of N Eq. 34 for W - px/L. If amplitudes are requested although Iw = 0, the energy
+ * makes them Wp = Wq = px/L. */
 static void add_idle_amplitudes(const element_request *r, sums *out)
 {
     const double L = r->length, k = r->section->shear_modulus * r->section->It * L / 30;

@@ -1,6 +1,6 @@
 /* The Hellinger-Reissner potential of N section 3 as a polynomial in the local coordinates (N Eqs.
- * 44-50): P = P0 + b.s - 1/2 s^T A s at the stresses s = A^-1 b, s = (F~x, M~x, M~yp, M~yq, M~zp,
- * M~zq). */
+ * 44-50): P = P0 + b.s - 1/2 s^T A s at the stresses s = A^-1 b, where s = (F~x, M~x, M~yp, M~yq,
+ * M~zp, M~zq). */
 #ifndef BEAMWORK_SHEET_POTENTIAL_H
 #define BEAMWORK_SHEET_POTENTIAL_H
 
@@ -11,8 +11,8 @@
 
 enum { SHEET_STRESSES = 6 };
 
-/* A term c v_a v_b, a <= b, of A_ij (i >= j, and of A_ji), of b_i or of P0, with v_0 = 1 and
- * v_(1+k) = x_k. */
+/* A term c v_a v_b, a <= b, of A_ij and A_ji (i >= j), of b_i or of P0, where v_0 = 1 and v_(1+k) =
+ * x_k. */
 typedef struct sheet_potential_term {
     double c;
     int i, j, a, b;
@@ -22,20 +22,19 @@ enum { SHEET_TERMS_A = 96, SHEET_TERMS_B = 64, SHEET_TERMS_P0 = 12 };
 
 typedef struct sheet_potential {
     int terms_A, terms_b, terms_P0;
-    /* Terms are ordered by degree in x; these are the indices of the first linear and the first
-     * quadratic terms. */
+    /* Terms are ordered by degree in x. These are the indices of the first linear and the first
+     * quadratic term. */
     int linear_A, quadratic_A, linear_b, quadratic_b, linear_P0, quadratic_P0;
     sheet_potential_term A[SHEET_TERMS_A], b[SHEET_TERMS_B], P0[SHEET_TERMS_P0];
 } sheet_potential;
 
-/* Computes the coefficients. printed: 1 uses u_y in M_x with the sign of N Eq. 49 as printed.
- * Rejects a section without torsional
- * stiffness. */
+/* Computes the coefficients. If `printed` is 1, u_y in M_x has the sign of N Eq. 49 as printed.
+ * Rejects a section without torsional stiffness. */
 status sheet_coefficients_prepare(const element_request *request, int printed, sheet_potential *out,
                                   fault *f);
 
-/* Computes P[1], its gradient[8] and Hessian[8 x 8] at x; each may be NULL. SINGULAR: A is not
- * positive definite at x. */
+/* Computes P[1], its gradient[8] and its Hessian[8 x 8] at x; each may be NULL. Returns SINGULAR if
+ * A is not positive definite at x. */
 status sheet_potential_evaluate(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
                                 double *P, double *gradient, double *hessian);
 
@@ -45,13 +44,13 @@ status sheet_potential_third(const sheet_potential *p, const double x[SHEET_LOCA
                              double T[SHEET_LOCAL_COORDINATES * SHEET_LOCAL_COORDINATES]);
 
 /* The potential at its stationary stresses with first and second derivatives, for one element or
- * several in lanes. It is a sum over a few nonzero terms, which are products of components of v =
- * (1, x) and the same in all states. */
+ * several in lanes. The potential is a sum over a few nonzero terms, which are products of
+ * components of v = (1, x). The list of terms does not depend on the state. */
 
 enum { SHEET_STATIONARY_V = 1 + SHEET_LOCAL_COORDINATES };
 
 /* Values at one x: v = (1, x), the Cholesky factor of A, s = A^-1 b, and W_i,a = d(b_i - (A
- * s)_i)/dv_a at fixed s. Column a = 0 is not used, because v_0 is not a variable. */
+ * s)_i)/dv_a at constant s. Column a = 0 is not used, because v_0 is not a variable. */
 typedef struct sheet_stationary {
     real v[SHEET_STATIONARY_V], L[SHEET_STRESSES * SHEET_STRESSES], b[SHEET_STRESSES],
         s[SHEET_STRESSES], W[SHEET_STRESSES][SHEET_STATIONARY_V];
@@ -116,7 +115,7 @@ static inline void sheet_stationary_add_half_work(const sheet_stationary *at,
     }
 }
 
-/* Adds the derivatives of P at fixed stresses: d(P0 + b.s - s^T A s/2)/dv to g, and the second
+/* Adds the derivatives of P at constant stresses, d(P0 + b.s - s^T A s/2)/dv, to g, and the second
  * derivatives with row <= column to h. Completes W. s.b,a - s^T A,a s/2 is the mean of s.W_a before
  * and after A,a s is subtracted from W. Entries with index 0 are not used, because v_0 is not a
  * variable. */
@@ -155,7 +154,7 @@ static inline void sheet_stationary_add_explicit(const sheet_potential *p, sheet
     sheet_stationary_add_half_work(at, g);
 }
 
-/* Replaces W by L^-1 W, so that W^T A^-1 W is a product of its columns. */
+/* Replaces W by L^-1 W, so W^T A^-1 W becomes a product of its columns. */
 static inline void sheet_stationary_forward(sheet_stationary *at)
 {
     for (int i = 0; i < SHEET_STRESSES; i++)
@@ -177,9 +176,10 @@ static inline real sheet_stationary_value(const sheet_potential *p, const sheet_
     return P;
 }
 
-/* Computes P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not needed. Returns the lanes in
- * which A is positive definite; if there are none, nothing is written. P,k = P0,k + s.b,k - s^T A,k
- * s/2, P,kl = P0,kl + s.b,kl - s^T A,kl s/2 + (b,k - A,k s)^T A^-1 (b,l - A,l s). */
+/* Computes P[1], its gradient[8] and its Hessian[8 x 8] at x, except those that are NULL. Returns
+ * the lanes in which A is positive definite; if there are none, nothing is written. P,k = P0,k +
+ * s.b,k - s^T A,k s/2, and P,kl = P0,kl + s.b,kl - s^T A,kl s/2 + (b,k - A,k s)^T A^-1 (b,l - A,l
+ * s). */
 static inline real_truth sheet_stationary_evaluate(const sheet_potential *p,
                                                    const real x[SHEET_LOCAL_COORDINATES], real *P,
                                                    real *gradient, real *hessian)
@@ -212,10 +212,10 @@ static inline real_truth sheet_stationary_evaluate(const sheet_potential *p,
     return good;
 }
 
-/* The stress function of the third-order elements in the generalized strains, for one element or
- * several in lanes (N Eqs. 58-65). x = scale e + 1/2 e^T X e inverts the deformation function to
- * second order. Only u and the angles about y have terms in X: for u, products of e5 and e6; for
- * the angles, products of e5 or e6 with e2, e7 or e8. */
+/* The stress function of the third-order elements as a function of the generalized strains, for one
+ * element or several in lanes (N Eqs. 58-65). x = scale e + 1/2 e^T X e inverts the deformation
+ * function to second order. Only u and the angles about y have terms in X. The terms of u are
+ * products of e5 and e6. Those of the angles are products of e5 or e6 with e2, e7 or e8. */
 
 enum { SHEET_INVERSE_CURVED = 3, SHEET_INVERSE_BENT = 2, SHEET_INVERSE_TWISTED = 3 };
 
@@ -241,7 +241,7 @@ static inline const sheet_inverse_data *sheet_inverse_of(const element_data *d)
     return (const sheet_inverse_data *)(const void *)d;
 }
 
-/* Computes the rows X e of dx/de apart from its diagonal, and 1/2 e^T X e; zero entries are not
+/* Computes the off-diagonal entries X e of a row of dx/de, and 1/2 e^T X e. Zero entries are not
  * written. */
 static inline void sheet_inverse_row(const double X[SHEET_STRAINS * SHEET_STRAINS], int angle,
                                      const real e[SHEET_STRAINS], real row[SHEET_STRAINS])
@@ -297,7 +297,7 @@ static inline void sheet_inverse_multiply(const sheet_inverse_data *d,
     }
 }
 
-/* Computes C = (dx/de)^T h (dx/de) + sum_k g_k d2x_k/de2, with h symmetric. */
+/* Computes C = (dx/de)^T h (dx/de) + sum_k g_k d2x_k/de2, where h is symmetric. */
 static inline void sheet_inverse_second(const sheet_inverse_data *d,
                                         real row[SHEET_INVERSE_CURVED][SHEET_STRAINS],
                                         const real g[SHEET_STRAINS], const real h[], real C[])
@@ -328,8 +328,8 @@ static inline void sheet_inverse_second(const sheet_inverse_data *d,
     }
 }
 
-/* Like element_type.stress. Returns the lanes that can be evaluated; if there are none, nothing is
- * written. */
+/* Computes the outputs of element_type.stress. Returns the lanes that can be evaluated; if there
+ * are none, nothing is written. */
 static inline real_truth sheet_inverse_stress(const sheet_inverse_data *d,
                                               const real e[SHEET_STRAINS], stress_real *out)
 {
@@ -360,10 +360,8 @@ static inline real_truth sheet_inverse_stress(const sheet_inverse_data *d,
     return good;
 }
 
-/* The stress function of the second-order elements, linear except for the Wagner torque, for one
- * element or several in lanes. */
-
-/* As element_type.stress. */
+/* Implements element_type.stress for the second-order elements, for one element or several in
+ * lanes. The function is linear except for the Wagner torque. */
 static inline void sheet_linear_stress(const sheet_base_data *d, const real e[SHEET_STRAINS],
                                        stress_real *out)
 {

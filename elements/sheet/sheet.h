@@ -9,19 +9,19 @@
 #include "elements/shared/lanes.h"
 #include "elements/shared/status.h"
 
-/* Local coordinates of a two-node beam that is simply supported in its own frame (N Eqs. 12, 40,
- * 42).
+/* Local coordinates of a two-node beam that is simply supported in a frame F that moves with it (N
+ * Eqs. 12, 40, 42).
  *
- * In the frame F = (n, j, k), n points from p to q, j is normal to n and to the z axis of p, and k
- * = n x j. In this frame, the triads of the nodes are F^T R^p = Ry(yp) Rz(zp) and F^T R^q = Ry(yq)
- * Rz(zq) Rx(px).
+ * F has the columns (n, j, k): n points from p to q, j is normal to n and to the z axis of p, and k
+ * = n x j. In F, the triads of the nodes are F^T R^p = Ry(yp) Rz(zp) and F^T R^q = Ry(yq) Rz(zq)
+ * Rx(px).
  *
- * Derivatives are taken with respect to eleven rates along a path of constant velocity and constant
- * spatial spin: the velocity v of q relative to p and the spins P and Q of the nodes, all in frame
- * axes, and the rates of the two warping amplitudes. */
+ * Derivatives are taken with respect to eleven rates, for constant velocity and constant spatial
+ * angular velocity. The rates are the velocity v of q relative to p and the angular velocities P
+ * and Q of the nodes, in axes of F, and the rates of the two warping amplitudes. */
 
-/* u: elongation [m]; angles [rad] of N: x for twist, y and z for bending; W: warping amplitudes
- * [rad/m] */
+/* Indices of the local coordinates: u, the elongation [m]; angles [rad] with the names of N, x for
+ * twist, y and z for bending; W, the warping amplitudes [rad/m]. */
 enum {
     SHEET_LOCAL_U,
     SHEET_LOCAL_PX,
@@ -42,7 +42,7 @@ typedef struct sheet_local_state {
     real tan_yp, sec_yp, cos_yq, sin_yq, tan_zq, sec_zq;
 } sheet_local_state;
 
-/* Computes the local coordinates. chord: initial distance of the nodes [m], from which the
+/* Computes the local coordinates. `chord` is the initial distance of the nodes [m], from which the
  * elongation is measured. F^T R^p = Ry(yp) Rz(zp), whose first row is n in the axes of p, and F^T
  * R^q = Ry(yq) Rz(zq) Rx(px). */
 static inline void sheet_local_of(double chord, const node_real x[2], sheet_local_state *out)
@@ -85,7 +85,7 @@ static inline void sheet_local_of(double chord, const node_real x[2], sheet_loca
 /* The linear solution between the nodes as linear functionals of the local coordinates (N Eqs.
  * 14-19). */
 
-/* Each functional is a row[8], with value = row . q. Primes denote d/ds. */
+/* Linear functionals, each a row[8] with value = row . q. Primes denote d/ds. */
 typedef struct sheet_fields {
     double uy[SHEET_LOCAL_COORDINATES], duy[SHEET_LOCAL_COORDINATES],
         duz[SHEET_LOCAL_COORDINATES]; /* u_y [m], u_y', u_z' */
@@ -99,14 +99,15 @@ typedef struct sheet_fields {
  * requested. */
 int sheet_fields_warp(const element_request *request);
 
-/* Computes the fields at s = x l0. Phi_y, Phi_z: N Eq. 18; warp: see sheet_fields_warp. */
+/* Returns the fields at s = x l0. Phi_y and Phi_z are those of N Eq. 18; `warp` is the value of
+ * sheet_fields_warp. */
 sheet_fields sheet_fields_at(double l0, double x, double Phi_y, double Phi_z, int warp);
 
 /* Deformation functions of the elements of N: eight generalized strains that are quadratic in the
  * local coordinates, e_i = (Lambda q)_i + 1/2 q^T Q_i q (N Eq. 37), minus the values of the
- * stress-free element. The nodes of that element are on an arc of constant torsion and curvature,
- * with initial elongation and shear. (With the linear initial stresses of N Eq. 52, the element
- * would not be stress-free: reference/ERRATA.md.) */
+ * stress-free element. The nodes of the stress-free element are on an arc of constant torsion and
+ * curvature, with initial elongation and shear. (With the linear initial stresses of N Eq. 52, the
+ * element would not be stress-free: reference/ERRATA.md.) */
 
 enum {
     SHEET_STRAINS = 8,
@@ -115,89 +116,88 @@ enum {
 };
 
 typedef struct sheet_strains_table {
-    double chord; /* of the undeformed arc [m] */
-    double
-        torsion; /* initial torsion, from which the amplitudes of the nodes are measured [rad/m] */
+    double chord;   /* chord of the undeformed arc [m] */
+    double torsion; /* initial torsion, from which the warping amplitudes of the nodes are measured
+                       [rad/m] */
     double rest[SHEET_STRAINS]; /* strains of the stress-free element, which are subtracted [m] */
     double Lambda[SHEET_STRAINS * SHEET_LOCAL_COORDINATES]; /* [m per coordinate] */
-    int terms; /* nonzero Q_i jk and Q_i kj, j <= k; Q_7 = Q_8 = Q_2 are not listed */
+    int terms; /* nonzero entries jk and kj of Q_i, j <= k; Q_7 = Q_8 = Q_2 are not listed */
     struct {
         double c;
         int i, j, k;
     } term[SHEET_STRAINS_TERMS];
 } sheet_strains_table;
 
-/* Prepares the strains. Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18). If
- * both are 0, the strains are those of N Eq. 37, without shear deformation. If they are the values
- * of the section, the strains are consistent with shear (derived here). The features warping and
- * trapeze of the request are used. */
+/* Prepares the strains. Phi_y and Phi_z are shear parameters of the displacement fields (N Eq. 18).
+ * If both are 0, the strains are those of N Eq. 37, without shear deformation. If they are the
+ * values of the section, the strains are consistent with shear (derived here). Of the features of
+ * the request, warping and trapeze are used. */
 status sheet_strains_prepare(const element_request *request, double Phi_y, double Phi_z,
                              sheet_strains_table *out, fault *f);
 
 /* Sets the strains of the stress-free element, from which strains are measured. */
 void sheet_strains_set_rest(const element_request *request, sheet_strains_table *out);
 
-/* As element_type.strain. */
+/* Implements element_type.strain. */
 void sheet_strains_evaluate(const sheet_strains_table *table, const node_state x[2],
                             strain_output *out);
 
-/* Stiffness of the linear solution (N Eqs. 33-36). */
-
-/* Returns the shear parameters Phi_y, Phi_z of N Eq. 18; 0 for a section that is rigid in shear. */
+/* Returns the shear parameters Phi_y and Phi_z of N Eq. 18, which are 0 for a section that is rigid
+ * in shear. */
 double sheet_elastic_phi_y(const section *c, double l0);
 double sheet_elastic_phi_z(const section *c, double l0);
 
-/* Computes S[8 x 8] [N/m]. */
+/* Computes the stiffness S[8 x 8] [N/m] of the linear solution (N Eqs. 33-36). */
 void sheet_elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z,
                              double S[SHEET_STRAINS * SHEET_STRAINS]);
 
 /* Nonuniform torsion of an element (N Eq. 51), in x = s/L with lambda = L sqrt(GJ/EIw).
  *
- * With zero twist rate at both ends, a torque t(x) causes the twist rate kappa = (lambda^2/GJ) g,
- * lambda^2 g - g'' = t, g(0) = g(1) = 0; its bimoment is L g' (N App. B, with M_x as given). Twist
- * rates Wp, Wq of the ends without torque are kappa = Wp h_p + Wq h_q, h_q = sinh(lambda
- * x)/sinh(lambda), h_p(x) = h_q(1 - x).
+ * If the twist rate is zero at both ends, a torque t(x) causes the twist rate kappa = (lambda^2/GJ)
+ * g, where lambda^2 g - g'' = t and g(0) = g(1) = 0. The bimoment is L g' (N App. B, with M_x as
+ * given). Twist rates Wp, Wq of the ends without torque cause kappa = Wp h_p + Wq h_q, where h_q =
+ * sinh(lambda x)/sinh(lambda) and h_p(x) = h_q(1 - x).
  *
- * After integration by parts, the bimoment appears in the Hellinger-Reissner potential of N Eq. 44
- * only in the integrals below, which are free of cancellation for lambda -> 0 and for lambda ->
- * inf. */
+ * After integration by parts, the Hellinger-Reissner potential of N Eq. 44 contains the bimoment
+ * only in the integrals below, which have no cancellation for lambda -> 0 and for lambda -> inf. */
 
 enum { SHEET_TORSION_DEGREE = 3, SHEET_TORSION_MODES = 5 };
 enum { SHEET_TORSION_PX, SHEET_TORSION_WP, SHEET_TORSION_WQ, SHEET_TORSION_TWISTS };
 
 typedef struct sheet_torsion_integrals {
     double compliance[SHEET_TORSION_MODES]
-                     [SHEET_TORSION_MODES]; /* lambda^2 int t_k g_l dx, symmetric */
-    /* int t_k (phi' - h) dx: twist rate per px/L, Wp, Wq in N Eq. 19 minus that of the ends without
-     * torque */
+                     [SHEET_TORSION_MODES]; /* lambda^2 int t_k g_l dx, a symmetric matrix */
+    /* int t_k (phi' - h) dx, where phi' is the twist rate due to a unit value of px/L, Wp or Wq in
+     * N Eq. 19, and h is that of the ends without torque */
     double work[SHEET_TORSION_MODES][SHEET_TORSION_TWISTS];
     double same,
         other; /* products of h_p with itself and with h_q: int (lambda^2 h h + h' h') dx */
 } sheet_torsion_integrals;
 
 /* Computes the integrals for the torque modes t_k(x) = sum_i t[k][i] x^i with integer coefficients.
- * lambda INFINITY: there is no warping, and the twist rate is uniform. */
+ * If lambda is INFINITY, there is no warping, and the twist rate is uniform. */
 void sheet_torsion_integrate(double lambda,
                              const double t[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1],
                              sheet_torsion_integrals *out);
 
-/* Wagner torque: the energy int E c kx^4 ds of a twisted wide section (N Eqs. 45, 46), kx from N
+/* Wagner torque: the energy int E c kx^4 ds of a twisted wide section (N Eqs. 45, 46), with kx of N
  * Eq. 26. */
 
-enum { SHEET_WAGNER_POINTS = 5, SHEET_WAGNER_STRAINS = 3 }; /* degree 8: exact */
+enum { SHEET_WAGNER_POINTS = 5, SHEET_WAGNER_STRAINS = 3 }; /* exact for degree 8 */
 
 typedef struct sheet_wagner_term {
     int active;
-    double weight[SHEET_WAGNER_POINTS];                     /* E c ds [N m^5] */
-    double rate[SHEET_WAGNER_POINTS][SHEET_WAGNER_STRAINS]; /* kx per e2, e7, e8 [1/m^2] */
+    double weight[SHEET_WAGNER_POINTS]; /* E c ds [N m^5] */
+    double rate[SHEET_WAGNER_POINTS]
+               [SHEET_WAGNER_STRAINS]; /* kx for a unit value of e2, e7, e8 [1/m^2] */
 } sheet_wagner_term;
 
 /* Prepares the term, which is zero without FEATURE_WAGNER_TORQUE. Rejects its combination with
  * initial torsion. */
 status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *out, fault *f);
 
-/* Adds the Wagner torque to energy[1], sigma[8] and C[8 x 8] (each may be NULL), for one element or
- * several in lanes. */
+/* Adds the Wagner torque to energy[1], sigma[8] and C[8 x 8], each of which may be NULL, for one
+ * element or several in lanes. */
 static inline void sheet_wagner_add(const sheet_wagner_term *w, const real e[SHEET_STRAINS],
                                     real *energy, real *sigma, real *C)
 {
@@ -219,9 +219,9 @@ static inline void sheet_wagner_add(const sheet_wagner_term *w, const real e[SHE
     }
 }
 
-/* Strains and stresses of several sheet elements at once, bit-for-bit as for single elements. The
- * second function of each pair is for processors with AVX2 (elements/math/real.h). Members of
- * element_type. */
+/* Strains and stresses of several sheet elements at once, bit-for-bit identical to those of single
+ * elements. These functions are members of element_type. The second function of each pair is for
+ * processors with AVX2 (elements/math/real.h). */
 
 typedef void sheet_lanes_strains(int count, const element_data *const data[], const node_state x[],
                                  strain_output out[]);
@@ -245,8 +245,8 @@ sheet_lanes_equations sheet_lanes_third_equations_plain, sheet_lanes_third_equat
 
 typedef enum sheet_base_shear {
     SHEET_BASE_PRINTED,   /* N Eq. 37: strains without shear */
-    SHEET_BASE_CONSISTENT /* the same integrals of the complete linear solution, including shear
-                           * (derived here) */
+    SHEET_BASE_CONSISTENT /* the integrals of N Eq. 37 for the complete linear solution, including
+                             shear (derived here) */
 } sheet_base_shear;
 
 typedef struct sheet_base_data {
@@ -256,7 +256,7 @@ typedef struct sheet_base_data {
     sheet_wagner_term wagner;
 } sheet_base_data;
 
-/* Features and restrictions common to all sheet elements. */
+/* Features and restrictions that are common to all sheet elements. */
 enum {
     SHEET_BASE_OFFERS = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE |
                         FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA |
@@ -277,8 +277,8 @@ status sheet_base_inertia(const element_data *d, const node_state x[],
 int sheet_base_mass_of_field(const double options[]);
 element_order sheet_base_order(element_analysis, const double options[]);
 
-/* For element_type: members common to all sheet elements, and to those whose strains do not include
- * shear. */
+/* Members of element_type that are common to all sheet elements, and those for strains that do not
+ * include shear. */
 #define SHEET_BASE_TYPE                                                                            \
     .family = "sheet", .abi = ELEMENT_ABI, .order = sheet_base_order, .strain = sheet_base_strain, \
     .inertia = sheet_base_inertia, .spreads = 1, .mass_of_field = sheet_base_mass_of_field,        \
@@ -287,8 +287,8 @@ element_order sheet_base_order(element_analysis, const double options[]);
     .offers = SHEET_BASE_OFFERS, .shear_theories = SHEAR_OWN,                                      \
     .own_theory = "N Eq. 37: generalized strains that exclude shear (reference/ERRATA.md, N 37)"
 
-/* Second-order elements of N sections 2.3-2.4: quadratic deformation function, linear stress
- * function (N Eqs. 33-36). */
+/* Members of element_type for the second-order elements of N sections 2.3-2.4, which have a
+ * quadratic deformation function and a linear stress function (N Eqs. 33-36). */
 
 size_t sheet_second_data_size(const element_request *request);
 status sheet_second_prepare(const element_request *request, sheet_base_shear shear,
@@ -301,18 +301,18 @@ void sheet_second_equations_many(int count, const element_data *const data[], co
                                  const double *const e[], const double *const inner[],
                                  const double *const s[], equations_output out[], status outcome[]);
 
-/* Members of an element_type. */
 #define SHEET_SECOND_TYPE                                                                          \
     SHEET_BASE_TYPE, .limits = SHEET_BASE_LIMITS, .data_size = sheet_second_data_size,             \
         .stress = sheet_second_stress, .stress_many = sheet_second_stress_many,                    \
         .equations_many = sheet_second_equations_many
 
-/* Third-order elements of N section 3. The deformation function is that of the second-order
- * element; the stress function follows from the Hellinger-Reissner potential P = P0 + 1/2 b^T A^-1
- * b, whose coefficients are integrated once per section and length. */
+/* Members of element_type for the third-order elements of N section 3. The deformation function is
+ * that of the second-order element. The stress function is derived from the Hellinger-Reissner
+ * potential P = P0 + 1/2 b^T A^-1 b, whose coefficients are integrated once per section and
+ * length. */
 
 size_t sheet_third_data_size(const element_request *request);
-/* Prepares an element. printed: 1 uses the sign of u_y as printed in N Eq. 49. */
+/* Prepares an element. If `printed` is 1, u_y has the sign of N Eq. 49 as printed. */
 status sheet_third_prepare(const element_request *request, int printed, element_data *out,
                            fault *f);
 status sheet_third_stress(const element_data *d, const double e[], const double inner[],
@@ -325,7 +325,6 @@ void sheet_third_equations_many(int count, const element_data *const data[], con
 void sheet_third_geometric(const element_data *d, const double sigma[], double G[]);
 double sheet_third_tension(const element_data *d, const double sigma[]);
 
-/* Members of an element_type. */
 #define SHEET_THIRD_TYPE                                                                           \
     SHEET_BASE_TYPE, SHEET_BASE_WITHOUT_SHEAR,                                                     \
         .limits = SHEET_BASE_LIMITS | LIMIT_FLAT_ARC | LIMIT_TENSION, .lacks = LACKS_SHEAR_Y,      \

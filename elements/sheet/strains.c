@@ -1,11 +1,12 @@
 /* The generalized strains are weighted integrals of the second-order strains of N Eq. 7,
- *   kx = phi_x' + phi_y' phi_z,  ky = phi_y' + phi_z' phi_x,  kz = phi_z' - phi_y' phi_x,
+ *   kx = phi_x' + phi_y' phi_z, ky = phi_y' + phi_z' phi_x, kz = phi_z' - phi_y' phi_x,
  *   gx = u_x' - phi_y (phi_y/2 + u_z') - phi_z (phi_z/2 - u_y') + Ite phi_x'^2/2,
- *   gy = gy0 + phi_x (phi_y + u_z'),  gz = gz0 + phi_x (phi_z - u_y'),
- * over the linear solution N Eqs. 14-19:
+ *   gy = gy0 + phi_x (phi_y + u_z'), gz = gz0 + phi_x (phi_z - u_y'),
+ * over the linear solution of N Eqs. 14-19:
  *   e1 = int gx, e2 = L int kx, e3 = int [(L-s) ky - gz], e4 = int [s ky + gz], e5 = int [(L-s) kz
- * + gy], e6 = int [s kz - gy], e7 = L^2 Wp + L int phi_y' phi_z, e8 = L^2 Wq + L int phi_y' phi_z.
- * With Phi = 0, they are N Eq. 37 (where the last term of e1 is misprinted with L^2 for L). */
+ *   + gy], e6 = int [s kz - gy], e7 = L^2 Wp + L int phi_y' phi_z, e8 = L^2 Wq + L int phi_y'
+ *   phi_z. If Phi = 0, the strains are those of N Eq. 37, where the last term of e1 is misprinted
+ *   with L^2 instead of L. */
 #include "elements/sheet/sheet.h"
 
 #include <math.h>
@@ -17,8 +18,8 @@
 #include "elements/sheet/deformation.h"
 
 /* With the antisymmetric cubic c = x - 3x^2 + 2x^3 and r = Phi/(2 + 2 Phi), the deflection for end
- * rotations a and b is v = l0 [a (x-2x^2+x^3) + b (-x^2+x^3) - r (a+b) c], and the rotation of the
- * cross-section is v'/l0 + r (a+b), with ' = d/dx. */
+ * rotations a and b is v = l0 [a (x-2x^2+x^3) + b (-x^2+x^3) - r (a+b) c]. The rotation of the
+ * cross-section is v'/l0 + r (a+b), where ' = d/dx. */
 static void bending(double l0, double x, double Phi, int at, double sign, double v[], double dv[],
                     double phi[], double dphi[])
 {
@@ -61,9 +62,9 @@ sheet_fields sheet_fields_at(double l0, double x, double Phi_y, double Phi_z, in
     return f;
 }
 
-enum { N = SHEET_LOCAL_COORDINATES, POINTS = 4 }; /* products of degree 7 at most: exact */
+enum { N = SHEET_LOCAL_COORDINATES, POINTS = 4 }; /* exact for products of degree 7 or lower */
 
-/* Q += c (a b^T + b a^T), which adds the quadratic term c (a . q)(b . q). */
+/* Adds c (a b^T + b a^T), which represents the quadratic term c (a . q)(b . q), to Q. */
 static void add_product(double c, const double a[N], const double b[N], double Q[N * N])
 {
     for (int i = 0; i < N; i++)
@@ -127,7 +128,7 @@ status sheet_strains_prepare(const element_request *request, double Phi_y, doubl
     out->Lambda[N * 3 + SHEET_LOCAL_YQ] = l0;
     out->Lambda[N * 4 + SHEET_LOCAL_ZP] = -l0;
     out->Lambda[N * 5 + SHEET_LOCAL_ZQ] = l0;
-    /* without amplitudes the twist is uniform: Wp = Wq = px/l0 */
+    /* without amplitudes, the twist is uniform: Wp = Wq = px/l0 */
     out->Lambda[N * 6 + (amplitude ? SHEET_LOCAL_WP : SHEET_LOCAL_PX)] = amplitude ? l0 * l0 : l0;
     out->Lambda[N * 7 + (amplitude ? SHEET_LOCAL_WQ : SHEET_LOCAL_PX)] = amplitude ? l0 * l0 : l0;
     for (int i = 0; i < POINTS; i++) {

@@ -14,12 +14,12 @@ size_t sheet_third_data_size(const element_request *request)
     return sizeof(sheet_inverse_data);
 }
 
-/* Inverts the deformation function to second order: N Eqs. 58-65. */
+/* Inverts the deformation function to second order (N Eqs. 58-65). */
 static void partial_inverse(double L, int warp, sheet_inverse_data *d)
 {
     static const struct {
-        int row, i, j; /* strains, numbered from 1 */
-        double c;      /* to be multiplied by 1/L for u, and by 1/L^2 for the angles */
+        int row, i, j; /* numbers of strains, from 1 */
+        double c;      /* coefficient, to be multiplied by 1/L for u and by 1/L^2 for the angles */
     } term[] = {{0, 5, 5, -2.0 / 30}, {0, 5, 6, -1.0 / 30}, {0, 6, 6, -2.0 / 30},
                 {1, 2, 5, 1.0 / 10},  {1, 2, 6, 2.0 / 10},  {1, 7, 5, 1.0 / 10},
                 {1, 8, 5, -1.0 / 30}, {1, 8, 6, -1.0 / 30}, {2, 2, 5, 2.0 / 10},
@@ -56,8 +56,8 @@ void sheet_third_equations_many(int count, const element_data *const data[], con
     REAL_CHOSEN(sheet_lanes_third_equations)(count, data, x, e, inner, s, out, outcome);
 }
 
-/* Sets the energy and stresses of N Eq. 52 at e = 0, in the undeformed arc. REFUSED: the initial
- * curvature is too large. */
+/* Sets the energy and stresses of N Eq. 52 at e = 0, in the undeformed arc. Returns REFUSED if the
+ * initial curvature is too large. */
 static status set_rest(const element_request *request, sheet_inverse_data *out, fault *f)
 {
     const double none[N] = {0};
@@ -92,10 +92,10 @@ status sheet_third_prepare(const element_request *request, int printed, element_
     return set_rest(request, out, f);
 }
 
-/* If the element is bent to u = psi (x - x^2) L, with the slopes psi and -psi at its ends, M_z =
- * M~z + u F is not linear along the element. With f = F L^2/EIz, the energy EIz/(2 L) (4 + f/3 -
- * f^2/180) psi^2 is positive up to f = 30 + sqrt(1620). For the other bending shape, with psi at
- * both ends, it is positive up to f = 185. */
+/* If the element is bent to u = psi (x - x^2) L, with the end slopes psi and -psi, M_z = M~z + u F
+ * is not linear along the element. With f = F L^2/EIz, the energy EIz/(2 L) (4 + f/3 - f^2/180)
+ * psi^2 is positive up to f = 30 + sqrt(1620). For the other bending shape, with psi at both ends,
+ * the energy is positive up to f = 185. */
 double sheet_third_tension(const element_data *data, const double sigma[])
 {
     const sheet_inverse_data *d = sheet_inverse_of(data);
@@ -104,7 +104,7 @@ double sheet_third_tension(const element_data *data, const double sigma[])
 }
 
 /* Differentiates at e = 0 along the strain v that has the stress sigma: x' = (dx/de) v and (dx/de)'
- * = X v. C' follows by the product rule. */
+ * = X v. The product rule gives C'. */
 void sheet_third_geometric(const element_data *data, const double sigma[], double G[])
 {
     const sheet_inverse_data *d = sheet_inverse_of(data);
@@ -117,7 +117,7 @@ void sheet_third_geometric(const element_data *data, const double sigma[], doubl
     if (sheet_potential_evaluate(&d->potential, x, NULL, g, h) != STATUS_OK)
         return;
     sheet_inverse_second(d, row, g, h, LU);
-    for (int k = 6; k < N; k++) /* no amplitudes: e7 and e8 carry no stress */
+    for (int k = 6; k < N; k++) /* without amplitudes, e7 and e8 have no stress */
         LU[N * k + k] += LU[N * k + k] == 0;
     memcpy(v, sigma, sizeof v);
     if (dense_lu(N, LU, pivot) != 0)

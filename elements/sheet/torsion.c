@@ -6,12 +6,13 @@
 
 enum { COEFFICIENTS = SHEET_TORSION_DEGREE + 1, POINTS = 16, LOADS = SHEET_TORSION_MODES + 2 };
 
-/* From this lambda on, the closed form is used. Below it, the closed form would lose digits as
- * lambda^-4; above it, the kernel has boundary layers that would require many quadrature points. */
+/* Value of lambda above which the closed form is used. For smaller values, the closed form would
+ * lose digits as lambda^-4. For larger values, the kernel has boundary layers that would require
+ * many quadrature points. */
 static const double closed_from = 6;
 
-/* Coefficients of phi_x' per px/L, Wp and Wq (N Eq. 19); in `chord`, those of h_p and h_q for
- * lambda -> 0. */
+/* Coefficients of phi_x' for a unit value of px/L, Wp and Wq (N Eq. 19). Those of `chord` belong to
+ * h_p and h_q for lambda -> 0. */
 static const double rate[SHEET_TORSION_TWISTS][COEFFICIENTS] = {{0, 6, -6}, {1, -4, 3}, {0, -2, 3}};
 static const double chord[2][COEFFICIENTS] = {{1, -1}, {0, 1}};
 
@@ -25,7 +26,8 @@ static double second(const double t[COEFFICIENTS], double x)
     return 2 * t[2] + 6 * t[3] * x;
 }
 
-/* Returns int a b dx with a single rounding: 420/(n + 1) is an integer for every power n <= 6. */
+/* Returns int a b dx with a single rounding error: 420/(n + 1) is an integer for every power n <=
+ * 6. */
 static double integral_of_product(const double a[COEFFICIENTS], const double b[COEFFICIENTS])
 {
     double sum = 0;
@@ -37,7 +39,7 @@ static double integral_of_product(const double a[COEFFICIENTS], const double b[C
     return sum / 420;
 }
 
-/* Returns int t h_q dx (end 1) or int t h_p dx (end 0): two integrations by parts with h'' =
+/* Returns int t h_q dx (end 1) or int t h_p dx (end 0), by two integrations by parts with h'' =
  * lambda^2 h. */
 static double end_integral(double lambda, const double t[COEFFICIENTS], int end)
 {
@@ -49,8 +51,8 @@ static double end_integral(double lambda, const double t[COEFFICIENTS], int end)
     return (lambda * (near * coth - far * csch) - (end == 1 ? slope : -slope)) / l2;
 }
 
-/* Uses the closed form: lambda^2 g = t + t''/lambda^2 minus the values of this sum at the ends
- * times h_p and h_q. */
+/* Computes the integrals by the closed form: lambda^2 g = t + t''/lambda^2 minus the values of this
+ * sum at the ends times h_p and h_q. */
 static void closed(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIENTS],
                    sheet_torsion_integrals *out)
 {

@@ -1,5 +1,5 @@
 /* Loads along a collocation element that are part of its equilibrium: forces and tangent in any
- * state, their potential, and their linear part in the undeformed state. */
+ * state, the potential, and the linear part in the undeformed state. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -22,13 +22,12 @@ typedef struct along_subject {
     double curvature[3];
 } along_subject;
 
-/* Returns a section of walls without an axis of symmetry, or a section given by matrices. */
 static section section_of(int matrices)
 {
     static const double point[4][2] = {{0, 0}, {0.3, 0}, {0.3, 0.2}, {0.1, 0.25}},
                         thickness[3] = {0.03, 0.04, 0.03};
     section_spec spec = section_spec_walls(2e5, 8e4, 3, point, NULL, thickness);
-    if (!matrices) { /* shear forces cause warping shear */
+    if (!matrices) {
         section c = sections_computed(&spec);
         c.F[2] = c.F[6] = 0.2 * sqrt(c.F[0] * c.F[8]);
         c.F[5] = c.F[7] = -0.1 * sqrt(c.F[4] * c.F[8]);
@@ -83,7 +82,6 @@ static void rest_nodes(const along_subject *s, node_state x[2])
     }
 }
 
-/* Computes the forces, and K if requested, of the element with its load. */
 static void forces_at(const along_subject *s, const node_state x[], const double q[],
                       double forces[N], double K[N * N])
 {
@@ -131,7 +129,7 @@ static double dot(int n, const double a[], const double b[])
     return dense_dot(n, a, b);
 }
 
-/* Sets an axial load that varies along the element and, if `across` is 1, a varying transverse
+/* Sets an axial load that varies along the element. If `across` is 1, adds a varying transverse
  * load. */
 static void load_of(double size, int across, double q[3 * POINTS])
 {
@@ -148,7 +146,7 @@ static void state_of(const along_subject *s, double size, node_state x[2])
 {
     double d[N];
     rest_nodes(s, x);
-    for (int k = 0; k < 2; k++) { /* both nodes rotate by one radian */
+    for (int k = 0; k < 2; k++) {
         const double turn[3] = {0.6, -0.5, 0.7};
         double r[3], q[4];
         rotation_exp(turn, q);
@@ -196,7 +194,6 @@ static void tangent(int stages, int matrices, const double curvature[3])
     free(s.data);
 }
 
-/* Checks the derivatives with respect to the size of a part of the load that `along` returns. */
 static void rate(int stages)
 {
     static const double curved[3] = {0.4, -0.7, 0.9};
@@ -246,8 +243,8 @@ static void rate(int stages)
     free(s.data);
 }
 
-/* The work along a closed path of node states is zero; it is integrated with Gauss points along
- * each side. */
+/* The work along a closed path of node states must be zero. The work is integrated with Gauss
+ * points along each side of the path. */
 static void closed_path(int stages, const double curvature[3])
 {
     enum { SIDES = 3, RULE = 12 };
@@ -257,7 +254,7 @@ static void closed_path(int stages, const double curvature[3])
     quadrature_points(RULE, at, weight);
     double corner[SIDES][N];
     for (int c = 0; c < SIDES;
-         c++) { /* on each side, one node rotates about one axis, so that paths close */
+         c++) { /* one node rotates about one axis on each side, so that the path closes */
         memset(corner[c], 0, sizeof corner[c]);
         corner[c][0] = c == 1 ? 0.0005 : 0;
         corner[c][8] = c == 2 ? 0.0005 : 0;
@@ -283,8 +280,8 @@ static void closed_path(int stages, const double curvature[3])
     free(s.data);
 }
 
-/* In a rigid motion of a loaded element, the forces do the work of the load: the resultant and
- * moment of all forces equal those of q. */
+/* In a rigid motion of a loaded element, the forces must do the work of the load, and their
+ * resultant force and moment must be those of q. */
 static void resultants(int stages, const double curvature[3])
 {
     const along_subject s = subject_of(stages, 0, curvature);
@@ -302,8 +299,8 @@ static void resultants(int stages, const double curvature[3])
     free(s.data);
 }
 
-/* Returns the moment of the load and of the forces on the nodes, about the first node, in the
- * undeformed geometry. */
+/* Returns the moment of the load and of the nodal forces about the first node, in the undeformed
+ * geometry. */
 static double moment_left(const along_subject *s, const double q[], const double F[],
                           const node_state x[])
 {
@@ -325,7 +322,7 @@ static double moment_left(const along_subject *s, const double q[], const double
 }
 
 /* For the undeformed element, `along` returns forces that are linear in q, and the stiffness due to
- * the stresses, which is the whole stiffness if they cause hardly any strain. */
+ * the stresses. This stiffness is the whole stiffness if the stresses cause hardly any strain. */
 static void linear(int stages, int matrices, const double curvature[3], int across)
 {
     const along_subject s = subject_of(stages, matrices, curvature);
@@ -377,10 +374,8 @@ static void linear(int stages, int matrices, const double curvature[3], int acro
     free(s.data);
 }
 
-enum { MANY = 6 }; /* more elements than are evaluated together */
+enum { MANY = 6 };
 
-/* A call for many elements gives bit-for-bit the results of single calls and writes nothing after
- * the last element. */
 static void many(int stages, const double curvature[3])
 {
     const along_subject s = subject_of(stages, 0, curvature);

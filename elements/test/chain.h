@@ -1,6 +1,6 @@
-/* A straight cantilever of equal elements along x, solved with dense matrices: sufficient to
- * compare one formulation with reference values, independently of the harness. The root is clamped
- * with warping restrained. */
+/* A straight cantilever of equal elements along x, solved with dense matrices independently of the
+ * harness. It serves to compare one formulation with reference values. The root is clamped with
+ * warping restrained. */
 #ifndef BEAMWORK_TEST_CHAIN_H
 #define BEAMWORK_TEST_CHAIN_H
 
@@ -26,8 +26,8 @@ typedef struct chain {
     section section;
     unsigned features;
     int elements, per_element, nodes, coordinates, strains;
-    int iterations; /* number of iterations of the last solution */
-    int held[7];    /* coordinates of the tip; 1: prescribed */
+    int iterations;
+    int held[7]; /* 1: this coordinate of the tip is prescribed */
     union {
         double align;
         unsigned char bytes[1 << 16];
@@ -83,7 +83,6 @@ typedef struct chain_linearised {
         sigma[ELEMENT_MAX_STRAINS], incompatibility[ELEMENT_MAX_STRAINS], memory[CHAIN_MAX_MEMORY];
 } chain_linearised;
 
-/* Computes the tangent and the force of element i. */
 static void chain_linearise(const chain *c, int i, chain_linearised *w, double K[], double force[],
                             int *failures)
 {
@@ -128,7 +127,7 @@ static void chain_assemble(const chain *c, chain_linearised *w, double *K, doubl
     }
     if (!(c->features & FEATURE_WARPING))
         for (int i = 6; i < n; i += 7)
-            K[i * (n + 1)] = 1; /* there is no warping */
+            K[i * (n + 1)] = 1;
 }
 
 static void chain_advance(chain *c, chain_linearised *w, const double dx[])
@@ -153,8 +152,8 @@ static void chain_advance(chain *c, chain_linearised *w, const double dx[])
 }
 
 /* Solves by the mixed Newton iteration (N section 4). Prescribed coordinates of the tip move by
- * `step` [7]; a dead load [7] acts on the others (its moments are about fixed axes). Returns the
- * size of the last correction, or INFINITY if an element or the tangent failed. */
+ * `step` [7]. A dead load [7] acts on the other coordinates; its moments are about fixed axes.
+ * Returns the size of the last correction, or INFINITY if an element or the tangent failed. */
 static double chain_solve(chain *c, const double step[7], const double load[7])
 {
     const int n = NODE_COORDINATES * (c->nodes - 1), tip = n - NODE_COORDINATES;
@@ -193,7 +192,7 @@ static double chain_solve(chain *c, const double step[7], const double load[7])
     return failures > 0 ? INFINITY : size;
 }
 
-/* Computes the compliance of the tip [6 x 6], with all six components released, for spatial
+/* Computes the compliance of the tip [6 x 6] with all six components released, for spatial
  * moments. */
 static inline void chain_compliance(chain *c, double C[36])
 {
@@ -203,7 +202,7 @@ static inline void chain_compliance(chain *c, double C[36])
     chain_linearised *w = malloc((size_t)c->elements * sizeof *w);
     int pivot[NODE_COORDINATES * CHAIN_MAX_NODES], failures = 0;
     chain_assemble(c, w, K, force, &failures);
-    /* A spatial moment m adds -1/2 m~ to the tangent in the exponential chart. */
+    /* a spatial moment m adds -1/2 m~ to the tangent in the exponential chart */
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         K[(tip + 3 + i) * n + tip + 3 + j] += force[tip + 3 + k] / 2;

@@ -1,6 +1,6 @@
-/* beamw_consistent: uniform strains of any size, derivatives at large rotations, and agreement to
- * second order with J Eq. 66 without shear and with the sheet element that is consistent with
- * shear. */
+/* beamw_consistent: uniform strains of any size, and derivatives at large rotations. To second
+ * order, the strains must agree with J Eq. 66 without shear, and with those of the sheet element
+ * that is consistent with shear. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -10,8 +10,6 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/test/kit.h"
-
-/* One element with two nodes, without a model around it. */
 
 enum { N = 14, STRAINS = 8 };
 
@@ -28,7 +26,7 @@ static const element_data *data_of(const pair_subject *s)
     return (const element_data *)s->store.bytes;
 }
 
-/* Starts an element with one option different from its default. */
+/* Starts an element with one option different from the default. */
 static void start_with(pair_subject *s, const element_type *type, const section *c, double l0,
                        unsigned features, const char *option, double value)
 {
@@ -52,8 +50,8 @@ static void start(pair_subject *s, const element_type *type, const section *c, d
     start_with(s, type, c, l0, features, "", 0);
 }
 
-/* Returns a sheet without warping shear, which N does not include. With a length of 0.1 m, it is so
- * stocky in both directions that Phi matters. */
+/* Returns a sheet without warping shear, which N does not include. The length is 0.1 m, so the
+ * sheet is stocky enough in both directions that Phi matters. */
 static section sheet(void)
 {
     section_spec spec = section_spec_rectangle(2e11, 7.7e10, 0.06, 0.02);
@@ -108,8 +106,8 @@ static void state(double l0, double small, int planar, node_state x[2])
     }
 }
 
-/* If the state is halved, the difference between the strains of two elements decreases by a factor
- * of eight: they are equal to second order. */
+/* If the state is halved, the difference between the strains of two elements must decrease by a
+ * factor of eight, because they are equal to second order. */
 static void equal_to_second_order(const char *what, const pair_subject *a, const pair_subject *b,
                                   double l0, int planar, int strains)
 {
@@ -125,7 +123,7 @@ static void equal_to_second_order(const char *what, const pair_subject *a, const
             if (!halved)
                 largest = fabs(one[k]) / l0;
         }
-        const double third = 1e-6; /* small^3 */
+        const double third = 1e-6;
         gsl_test(!(difference[0] < 2 * third &&
                    (difference[0] < 1e-15 || difference[1] < difference[0] / 7)),
                  "%s: strain %d (%.2e l0) differs by %.2e, with half the size by %.2e", what, k + 1,
@@ -143,8 +141,8 @@ static void same_element(void)
     start(&consistent, &element_beamw_consistent, &c, l0, uniform);
     start(&other, &element_sheet_second_consistent, &c, l0, uniform);
     equal_to_second_order("sheet_second_consistent", &consistent, &other, l0, 0, 6);
-    /* N's e7 and e8 contain int phi_y' phi_z, which is zero only for bending in one plane
-     * (reference/ERRATA.md, N 37). */
+    /* e7 and e8 of N contain int phi_y' phi_z, which is zero only for bending in one plane
+     * (reference/ERRATA.md, N 37) */
     start(&consistent, &element_beamw_consistent, &c, l0, warped);
     start(&other, &element_sheet_second_consistent, &c, l0, warped);
     equal_to_second_order("sheet_second_consistent, warping", &consistent, &other, l0, 1, STRAINS);
@@ -157,7 +155,7 @@ static void same_element(void)
     }
 }
 
-/* A helix with extension and shear gives e = (gamma, kappa) times lengths, for strains of any
+/* A helix with extension and shear must give e = (gamma, kappa) times lengths, for strains of any
  * size. */
 static void uniform_strains(double size)
 {
@@ -166,7 +164,7 @@ static void uniform_strains(double size)
     const section c = sheet();
     pair_subject s;
     start(&s, &element_beamw_consistent, &c, l0, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_WARPING);
-    /* r = int exp(x psi~) (e_x + gamma) l0 dx, closed form of the exponential's integral */
+    /* r = int exp(x psi~) (e_x + gamma) l0 dx, by the closed form of the integral */
     const double U[3] = {l0 * (1 + gamma[0]), l0 * gamma[1], l0 * gamma[2]}, t = vec3_norm(psi);
     const double half = sin(t / 2), second = 2 * half * half / (t * t);
     const double third =
@@ -195,8 +193,8 @@ static void uniform_strains(double size)
         gsl_test_abs(e[k], expected[k], 1e-14 * l0, "uniform strains, turn %.2f: e%d", t, k + 1);
 }
 
-/* Pure bending of an element by less than half a revolution involves only bending energy, so that
- * any number of elements rolls up exactly. */
+/* Pure bending of an element by less than half a revolution involves only bending energy, so any
+ * number of elements must roll up exactly. */
 static void pure_bending(void)
 {
     const double l0 = 1.3, turn = 2.9;
@@ -216,7 +214,6 @@ static void pure_bending(void)
                  turn);
 }
 
-/* Checks the gradient and second derivatives at nodes with large displacements and rotations. */
 static void derivatives(double size)
 {
     static const double s[STRAINS] = {0.7, -1.1, 0.4, 0.9, -0.3, 1.3, 0.2, -0.5};
@@ -239,8 +236,8 @@ static void derivatives(double size)
     gsl_test(!(found.second < 1e-10), "H at size %g (%.1e)", size, found.second);
 }
 
-/* Internal modes that depend on the stress reduce the energy by terms of fourth order: halving the
- * state divides the reduction by sixteen. */
+/* Internal modes that depend on the stress reduce the energy by terms of fourth order, so halving
+ * the state must divide the reduction by sixteen. */
 static void inside_follows(void)
 {
     const double l0 = 0.1;
@@ -269,8 +266,8 @@ static void inside_follows(void)
     }
 }
 
-/* Checks stiffness and stresses under so much compression that the bending stiffness hardly
- * contributes to the Hessian of the internal modes, which is then factorised with pivots. */
+/* Checks stiffness and stresses under a compression for which the bending stiffness hardly
+ * contributes to the Hessian of the internal modes. The Hessian is then factorised with pivots. */
 static void inside_compressed(void)
 {
     static const double v[STRAINS] = {0.1, -0.7, 0.6, 0.5, -0.9, 0.4, 0.3, 0.8};
@@ -316,13 +313,13 @@ static void consistent_tests(void)
         derivatives(turns[i]);
 }
 
-/* Hyperbolic twist of beamw_consistent: one element is exact in linear theory for any coupling. Its
+/* Hyperbolic twist of beamw_consistent: one element is exact in linear theory for any coupling. The
  * twist functions and quadrature points are accurate from zero Saint-Venant torsion to thin
  * boundary layers. */
 
 extern const element_type element_beamw_consistent;
 
-/* Returns a branched, unsymmetric section, in which everything is coupled. */
+/* Returns a branched, unsymmetric section, in which all strains are coupled. */
 static section unsymmetric(void)
 {
     static const double point[5][2] = {{0, 0}, {0.05, 0}, {0.05, 0.08}, {0.02, 0.08}, {0.05, 0.1}};
@@ -332,7 +329,6 @@ static section unsymmetric(void)
     return sections_computed(&spec);
 }
 
-/* Computes K [14 x 14] of a straight undeformed element. */
 static void linear_stiffness(const section *c, double l0, beamw_twist_kind torsion, double K[N * N])
 {
     pair_subject s;
@@ -348,9 +344,9 @@ static void linear_stiffness(const section *c, double l0, beamw_twist_kind torsi
     dense_add_congruence(STRAINS, N, J, S, K, work);
 }
 
-/* Two halves with their common node eliminated equal the whole if and only if the linear solution
- * between the nodes is exact. Returns the largest difference, with each coordinate scaled by the
- * square root of its stiffness. */
+/* Returns the largest difference between the stiffness of one element and that of two halves with
+ * their common node eliminated. The difference is zero if and only if the linear solution between
+ * the nodes is exact. Each coordinate is scaled by the square root of its stiffness. */
 static double halves_against_whole(const section *c, double l0, beamw_twist_kind torsion)
 {
     enum { M = 7 };
@@ -399,9 +395,9 @@ static void hyperbolic_twist(void)
              "without Saint-Venant torsion both are");
 }
 
-/* Returns, for the displacement d [14] of the nodes, the third-order energy 1/2 sum_i s_i (d . H_i
- * d + e . Q_i e), e = J d, s = S e: the contribution of a prestress of the same kind to the
- * stiffness. */
+/* Returns the third-order energy 1/2 sum_i s_i (d . H_i d + e . Q_i e) for the displacement d [14]
+ * of the nodes, where e = J d and s = S e. This is the contribution of a prestress proportional to
+ * d. */
 static double third_order(const section *c, double l0, beamw_twist_kind torsion, unsigned features,
                           const double d[N])
 {
@@ -447,10 +443,10 @@ static void middle_of(const section *c, double l0, beamw_twist_kind torsion, con
     dense_lu_solve(M, 1, A, pivot, out);
 }
 
-/* Compares the third-order energy of two halves with that of the whole, relative to their sizes.
- * The difference is zero if and only if the geometric stiffness is integrated over the exact linear
- * solution. The middle node is in equilibrium, so that its displacement is needed only to first
- * order. */
+/* Returns the difference of the third-order energies of two halves and of the whole, relative to
+ * their sizes. The difference is zero if and only if the geometric stiffness is integrated over the
+ * exact linear solution. The middle node is in equilibrium, so its displacement is needed only to
+ * first order. */
 static double third_order_apart(const section *c, double l0, beamw_twist_kind torsion,
                                 unsigned features, unsigned seed)
 {
@@ -467,8 +463,6 @@ static double third_order_apart(const section *c, double l0, beamw_twist_kind to
     return fabs(first + second - whole) / (fabs(first) + fabs(second) + fabs(whole));
 }
 
-/* The geometric stiffness is exact for any prestress, with both shear theories and all
- * couplings. */
 static void hyperbolic_twist_under_stress(void)
 {
     const section c = unsymmetric();
@@ -493,8 +487,6 @@ static void hyperbolic_twist_under_stress(void)
         }
 }
 
-/* Checks the functions and points for all magnitudes of lambda against limits, means and closed
- * forms of their squares. */
 static void twist_functions(void)
 {
     section c = sheet();
@@ -513,7 +505,7 @@ static void twist_functions(void)
             even += w[i] * s.even;
             odd += w[i] * s.odd;
             square += w[i] * s.odd * s.odd;
-            turn += w[i] * (s.odd_integral + (x[i] - 0.5) * s.odd); /* by parts: zero */
+            turn += w[i] * (s.odd_integral + (x[i] - 0.5) * s.odd);
         }
         gsl_test(!(points > 0 && fabs(even) < 1e-13 && fabs(odd) < 1e-14 && fabs(turn) < 1e-14),
                  "lambda %g: means %.1e %.1e %.1e", lambdas[k], even, odd, turn);

@@ -1,4 +1,4 @@
-/* Calls a function in a separate process, to test accessors that end the program. */
+/* Calls a function in a separate process, for tests of functions that end the program. */
 #ifndef BEAMWORK_ENDED_H
 #define BEAMWORK_ENDED_H
 
@@ -6,8 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Returns the signal that ends a process which calls the function, or 0 if it ends without a
- * signal. */
+/* Returns the signal that ends a process which calls the function, or 0 if the process ends without
+ * a signal. */
 static inline int ended_by(void (*call)(const void *), const void *given)
 {
     int how = -1;

@@ -1,5 +1,3 @@
-/* Geometrically exact formulations: derivatives, invariance, and cantilevers with exact
- * solutions. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -38,8 +36,6 @@ static section products(double EA, double GA, double GJ, double EI)
     return c;
 }
 
-/* Checks J and H of one element whose nodes have rotations and relative rotations of up to `size`
- * radians. */
 static void derivatives(const element_type *type, const double option[], double size)
 {
     chain c;
@@ -65,7 +61,7 @@ static void derivatives(const element_type *type, const double option[], double 
 }
 
 /* Solves the Simo-Reissner cantilever with L = 1, EI = 10 and a dead transverse force of 10 at the
- * tip. u[2]: displacement of the tip. */
+ * tip. u[2] is the displacement of the tip. */
 static void shear_elastica(const element_type *type, const double option[], double GA, int n,
                            double u[2])
 {
@@ -82,7 +78,7 @@ static void shear_elastica(const element_type *type, const double option[], doub
     u[1] = c.x[c.nodes - 1].u[1];
 }
 
-/* Checks the error of the last mesh and the order of convergence from the last two meshes. */
+/* Checks the error of the finest mesh, and the order of convergence from the two finest meshes. */
 static void judge(const element_type *type, const char *what, const double value[2], double exact,
                   double error, double order)
 {
@@ -104,8 +100,8 @@ static void shear_elastica_converges(const element_type *type, const double opti
           order);
 }
 
-/* Sheet flexure of N section 4.1: tip displaced transversely without rotation, warping restrained
- * at both ends. */
+/* Sheet flexure of N section 4.1. The tip is displaced transversely without rotation, and warping
+ * is restrained at both ends. */
 static void sheet(const element_type *type, const double option[], int n, double deflection,
                   double C[2])
 {
@@ -149,8 +145,6 @@ static double roll_up(const element_type *type, const double option[], int n)
     return hypot(c.x[c.nodes - 1].r[0], c.x[c.nodes - 1].r[1]);
 }
 
-/* Compares the errors of C_xx and C_zz of one element, relative to the exact beam, with their
- * expected values. */
 static void one_element(const element_type *type, double stages, double deflection,
                         const double exact[2], const double error[2])
 {
@@ -210,13 +204,13 @@ static void exact_tests(void)
     collocation();
 }
 
-/* Compares one element with an independent prototype, and checks properties of one element that
- * hold exactly. */
+/* One element compared with an independent prototype, and properties of one element that hold
+ * exactly. */
 
 extern const element_type element_beamw_first, element_beamw, element_beamw_vlasov,
     element_beamw_consistent;
 
-/* Returns the section of the prototype. unit: 1 for mm and kN. */
+/* Returns the section of the prototype. `unit` is 1 for mm and kN. */
 static section check_section(void)
 {
     static const double point[5][2] = {{0, 0}, {50, 0}, {50, 80}, {20, 80}, {50, 100}};
@@ -279,11 +273,10 @@ static void check_form_of(const element_type *type, const check_form *expected)
     compare("e", type->name, 8, e, expected->e, 1e-14);
     compare("energy", type->name, 1, &energy, &expected->energy, 1e-12);
     compare("force", type->name, 14, force, expected->force,
-            1e-12); /* J has full rank, so that this determines sigma */
+            1e-12); /* J has full rank, so these forces determine sigma */
     compare("tangent", type->name, 14 * 14, H, expected->tangent, 1e-12);
 }
 
-/* Checks that C at e = 0 is the linear stiffness. */
 static void linear_stiffness(const element_type *type, const section *c, double l, unsigned without,
                              double S[64])
 {
@@ -300,9 +293,9 @@ static void linear_stiffness(const element_type *type, const section *c, double 
     type->stress(data, e, NULL, &(stress_output){.C = S});
 }
 
-/* Cantilever of one element under tip forces and moments, It = 0: the coupled stiffness is nodally
- * exact. In the exact beam, the resultants at the shear centre cause bending (with torsion and
- * warping) and the constant shear strains F Q/G. */
+/* Cantilever of one element under tip forces and moments with It = 0, for which the coupled
+ * stiffness is exact at the nodes. In the exact beam, the resultants at the shear centre cause
+ * bending (with torsion and warping) and the constant shear strains F Q/G. */
 static void one_element_is_exact(void)
 {
     section c = check_section();
@@ -324,7 +317,7 @@ static void one_element_is_exact(void)
     element_beamw_consistent.prepare(&request, data, &f);
     element_beamw_consistent.strain(data, x, &(strain_output){.J = &L[0][0]});
     dense_add_congruence(8, 14, &L[0][0], S, K, work);
-    /* The root is clamped with warping restrained, so that the last seven coordinates are free. */
+    /* the root is clamped with warping restrained, so the last seven coordinates are free */
     double A[49], b[7] = {0, 1.3, -0.7, 40, 25, -60, 500};
     int pivot[7];
     for (int i = 0; i < 7; i++)
@@ -334,8 +327,8 @@ static void one_element_is_exact(void)
     const double Fy = b[1], Fz = b[2], Mx = b[3], My = b[4], Mz = b[5], B = b[6];
     gsl_test(dense_lu(7, A, pivot), "coupled stiffness of a cantilever is regular");
     dense_lu_solve(7, 1, A, pivot, b);
-    /* The torque about the shear centre is Mx + zs Fy - ys Fz, which warping alone resists: EIw a''
-     * = -T and so on. */
+    /* the torque about the shear centre is Mx + zs Fy - ys Fz, which only warping resists: EIw a''
+     * = -T */
     const double T = Mx + c.zs * Fy - c.ys * Fz, Q[3] = {Fy, Fz, T};
     double g[3];
     mat3_mul_vec(c.F, Q, g);

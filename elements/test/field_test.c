@@ -18,7 +18,6 @@
 enum { N = ELEMENT_MAX_COORDINATES, LOADS = 3, MOMENT = 1, FOLLOWER = 2, ARM = 4, KINDS = 8 };
 static const double l0 = 0.8;
 
-/* Returns a section without an axis of symmetry. */
 static section angle(void)
 {
     static const double point[3][2] = {{0, 0}, {0.3, 0}, {0, 0.2}}, thickness[2] = {0.03, 0.04};
@@ -35,7 +34,6 @@ static void prepare(const section *c, int nodes, unsigned features, displacement
 
 static const unsigned shear = FEATURE_SHEAR, all = FEATURE_SHEAR | FEATURE_WARPING;
 
-/* Sets loads of one kind at several positions. */
 static void loads_of(const displacement_field *f, int kind, field_rows rows[LOADS],
                      field_load load[LOADS])
 {
@@ -107,7 +105,7 @@ static void derivatives(const displacement_field *f, int kind, const char *name)
                  nodes_asymmetry(n, K));
 }
 
-/* In a state that is rotated as a whole, the forces on the nodes have the same resultant force and
+/* In a state that is rotated as a whole, the nodal forces must have the same resultant force and
  * moment as the loads. */
 static void resultants(const displacement_field *f, int kind, const char *name)
 {
@@ -116,7 +114,7 @@ static void resultants(const displacement_field *f, int kind, const char *name)
     field_rows rows[LOADS];
     field_load load[LOADS];
     double R[9] = {0};
-    for (int k = 0; k < f->nodes; k++) { /* a rigid motion */
+    for (int k = 0; k < f->nodes; k++) {
         const double turn[3] = {0.7, -0.4, 1.1};
         double along[3];
         nodes_straight(f->nodes, l0, x);
@@ -167,7 +165,6 @@ static void resultants(const displacement_field *f, int kind, const char *name)
     }
 }
 
-/* Dead forces do no work along a closed path of states. */
 static void closed_path(const displacement_field *f, int kind, const char *name)
 {
     enum { STEPS = 400 };
@@ -196,9 +193,9 @@ static void closed_path(const displacement_field *f, int kind, const char *name)
              kind, work, size);
 }
 
-/* Fixed-end forces of a straight element with shear deformation under a uniform load and under a
- * load that increases linearly: q l/2, q l^2/12; q l (3/20 + Phi/6)/(1 + Phi) ... (Przemieniecki,
- * Theory of Matrix Structural Analysis, 1968, sec. 10). */
+/* Fixed-end forces of a straight element with shear deformation, under a uniform and a linearly
+ * increasing load: q l/2, q l^2/12; q l (3/20 + Phi/6)/(1 + Phi) ... (Przemieniecki, Theory of
+ * Matrix Structural Analysis, 1968, sec. 10). */
 static void fixed_ends(void)
 {
     const section c = {.young = 1,
@@ -271,9 +268,9 @@ static void add_inner(int i, int j, double value, double B[FIELD_INNER * FIELD_I
 }
 
 /* B of a uniform element is the coefficient of -omega^4 in the power series of its exact dynamic
- * stiffness: z cot(z) and z/sin(z) for rods and shafts, with z = omega l sqrt(rho/E) for a rod; (59
- * z^8/161700) E I/l^3 and so on for the Euler-Bernoulli beam, with z^4 = rho A omega^2 l^4/(E
- * I). */
+ * stiffness. For rods and shafts the series are those of z cot(z) and z/sin(z), where z = omega l
+ * sqrt(rho/E) for a rod. For the Euler-Bernoulli beam the terms are (59 z^8/161700) E I/l^3 and so
+ * on, where z^4 = rho A omega^2 l^4/(E I). */
 static void field_inner_tests(void)
 {
     const double A = 0.2, I[3] = {0.013, 0.007, 0.009}, density = 3, stiffness[2] = {A, 0.009},
@@ -331,7 +328,8 @@ enum {
     WQ = 1 + SHEET_LOCAL_WQ
 };
 
-/* For the unit torques M, PP, PQ, QP and QQ: the stress, and the variable that multiplies it. */
+/* Stresses of the unit torques M, PP, PQ, QP and QQ, and the variables that multiply these
+ * torques. */
 static const int stress_of[MODES] = {MX, MYP, MYP, MYQ, MYQ},
                  variable_of[MODES] = {ONE, ZP, ZQ, ZP, ZQ};
 
@@ -349,7 +347,6 @@ static double error_of(double got, double expected)
     return expected == 0 ? fabs(got) : fabs(got / expected - 1);
 }
 
-/* Returns A[k][l] of the table, lower triangle by rows. */
 static double compliance(const double value[], int k, int l)
 {
     return k >= l ? value[k * (k + 1) / 2 + l] : value[l * (l + 1) / 2 + k];
@@ -415,7 +412,7 @@ static void coefficients(void)
 }
 
 /* Without warping stiffness, the torque causes the twist rate t/GJ. This is the limit lambda ->
- * inf, which is approached like 1/lambda. */
+ * inf; the difference decreases as 1/lambda. */
 static void uniform_torsion(void)
 {
     static const double torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
@@ -445,9 +442,9 @@ static void stiffness_at_rest(const element_type *type, const section *c, unsign
     free(d);
 }
 
-/* In the undeformed state, the third-order element equals the second-order element with shear only
- * in the width direction (N Eq. 50). The only difference is the hyperbolic twist, which tends to
- * the cubic twist for lambda -> 0. */
+/* In the undeformed state, the third-order element must equal the second-order element with shear
+ * only in the width direction (N Eq. 50). The only difference is the hyperbolic twist, which tends
+ * to the cubic twist for lambda -> 0. */
 static void second_order_limit(void)
 {
     section c = {.young = 3.1,
@@ -499,8 +496,6 @@ static void sheet_coefficients_tests(void)
     uniform_torsion();
     second_order_limit();
 }
-
-/* Lines of faults are unchanged; lines that are too long retain both ends. */
 
 static void line_of(int length, int middle)
 {

@@ -103,8 +103,8 @@ static double largest(int n, const double a[])
     return out;
 }
 
-/* Converts the change dm of the spatial gradient m = J^T s into the expected value of H d: the
- * gradient of s . e in the exponential chart of x changes by dm - theta x m/2. */
+/* Converts the change dm of the spatial gradient m = J^T s to the expected value of H d. In the
+ * exponential chart of x, the gradient of s . e changes by dm - theta x m/2. */
 static void into_chart(int nodes, const double d[], const double m[], double dm[])
 {
     for (int k = 0; k < nodes; k++) {
@@ -124,7 +124,6 @@ static double apart(int n, const double a[], const double b[])
     return worst / largest(n, b);
 }
 
-/* Computes the rates of e [strains] and of J^T s [7 nodes] by finite differences. */
 static void rates(const element_type *type, const element_data *data, int nodes, int strains,
                   const node_state x[], const double d[], const double s[], double de[],
                   double dm[])

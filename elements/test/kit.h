@@ -1,4 +1,3 @@
-/* Functions shared by tests of elements: random numbers, errors, sections, and nodes. */
 #ifndef BEAMWORK_TEST_KIT_H
 #define BEAMWORK_TEST_KIT_H
 
@@ -8,10 +7,8 @@
 #include "elements/element.h"
 #include "elements/section/section.h"
 
-/* Pseudorandom numbers for tests. A seed gives the same sequence on every machine. */
-
-/* Returns 64 bits of splitmix64 (Steele, Lea, Flood, OOPSLA 2014); seeds may be small and
- * adjacent. */
+/* Returns 64 bits of splitmix64 (Steele, Lea, Flood, OOPSLA 2014), the same sequence on every
+ * machine. Seeds may be small and adjacent. */
 uint64_t random_bits(uint64_t *seed);
 /* Returns a number from a uniform distribution on [-1, 1), a multiple of 2^-52. */
 double random_number(uint64_t *seed);
@@ -24,8 +21,6 @@ static inline double worst_of(double a, double b)
     return isnan(a) || a > b ? a : b;
 }
 
-/* Sections of tests. */
-
 /* Returns the constants of a section. If the section is invalid, the test fails and the constants
  * are zero. */
 section sections_computed(const section_spec *);
@@ -36,33 +31,33 @@ section_spec sections_steel(section_kind);
 section_spec sections_of(double A, double Iy, double Iz, double It);
 
 /* Nodes of one element placed by a test, and derivatives of its strains by finite differences.
- * Increments d [7 nodes]: displacement [m], spatial rotation vector, warping amplitude [rad/m]. */
+ * Increments d [7 nodes] contain the displacement [m], the spatial rotation vector and the warping
+ * amplitude [rad/m]. */
 
-/* Places an undeformed straight element along x. */
 void nodes_straight(int nodes, double length, node_state x[]);
 /* Rotates R by a rotation vector in fixed axes, in addition to its present rotation. */
 void nodes_turn(double R[9], const double turn[3]);
 /* Moves every node by `times` its increments in d. */
 void nodes_move(int nodes, double times, const double d[], node_state x[]);
-/* Places the straight element, moved by d. */
+/* Places the straight element and moves it by d. */
 void nodes_place(int nodes, double length, const double d[], node_state x[]);
 /* Sets random increments that are uniform in (-size/2, size/2), in units of lengths, radians and
  * 1/lengths. */
 void nodes_increments(int nodes, double length, double size, unsigned seed, double d[]);
 
-/* Compares J and H at x with central differences of fourth order of e and of J^T s along the path
- * that moves the nodes by d; s: any stresses [strains]. */
+/* Compares J and H at x with fourth-order central differences of e and of J^T s along the path that
+ * moves the nodes by d. s contains any stresses [strains]. */
 typedef struct nodes_departure {
-    double first;     /* error of J d, relative to its largest entry */
-    double second;    /* error of H d, relative to its largest entry; H is in the exponential chart
-                       * of x */
-    double asymmetry; /* of H */
+    double first;  /* error of J d, relative to its largest entry */
+    double second; /* error of H d, relative to its largest entry; H is in the exponential chart of
+                      x */
+    double asymmetry; /* asymmetry of H */
 } nodes_departure;
 nodes_departure nodes_differences(const element_type *, const element_data *, int nodes,
                                   int strains, const node_state x[], const double d[],
                                   const double s[]);
 
-/* Returns the largest |A[i][j] - A[j][i]| [n x n] relative to the largest entry. */
+/* Returns the largest |A[i][j] - A[j][i]| of A [n x n], relative to the largest entry. */
 double nodes_asymmetry(int n, const double A[]);
 
 #endif

@@ -1,6 +1,7 @@
-/* The points of the Gauss rule are the roots of the Legendre polynomials, and its weights follow
- * from their slopes, to the last digit. It integrates monomials up to its degree exactly. Threads
- * and forked processes that request tables simultaneously get the same tables. */
+/* The points of the Gauss rule must be the roots of the Legendre polynomials, and its weights must
+ * agree with their slopes, to the last digit. The rule must integrate monomials up to its degree
+ * exactly. Threads and forked processes that request tables simultaneously must get the same
+ * tables. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -32,9 +33,8 @@ static void against_polynomial(int n, const quadrature_rule *r)
         }
         const long double slope = n * (z * p - before) / (z * z - 1), step = p / slope,
                           root = z - step, weight = 1 / ((1 - root * root) * slope * slope),
-                          change = 2 * root / (1 - root * root) * step; /* correction of the slope,
-                                                                         * from Legendre's
-                                                                         * differential equation */
+                          change =
+                              2 * root / (1 - root * root) * step; /* from Legendre's equation */
         apart = fmax(apart, fabs((double)(step / 2)));
         apart = fmax(apart, fabs((double)(r->w[i] / weight * (1 - 2 * change) - 1)));
     }
@@ -62,7 +62,6 @@ static void *ask(void *out)
     return NULL;
 }
 
-/* Threads and processes request tables simultaneously, before any other request. */
 static void at_once(void)
 {
     static quadrature_rule r[THREADS + 1], forked;

@@ -15,8 +15,8 @@
 #include "elements/sheet/sheet.h"
 #include "elements/test/kit.h"
 
-/* Elements of two kinds in runs of different lengths, each in its own state, for the comparison of
- * one call for many elements with single calls. */
+/* Elements of two kinds in runs of different lengths, each in a different state, for the comparison
+ * of one call for many elements with single calls. */
 
 enum { MANY = 11, S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES, INNER = 24 };
 
@@ -57,8 +57,8 @@ static element_data *batch_prepare(const element_type *type, const double option
     return d;
 }
 
-/* Sets up alternating kinds: runs of 5, 1, 3 and 2; one element is in a state that cannot be
- * evaluated. */
+/* Sets up alternating kinds in runs of 5, 1, 3 and 2 elements. One element is in a state that
+ * cannot be evaluated. */
 static void batch_set_up(batch *b, unsigned features)
 {
     static const int kind_of[MANY] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1};
@@ -97,7 +97,8 @@ static unsigned batch_features(int turn)
                               all | FEATURE_WAGNER_TORQUE}[turn];
 }
 
-/* Returns a batch. options: number of entries in option[]; further options have their defaults. */
+/* Returns a batch. `options` is the number of entries in option[]; all other options have their
+ * defaults. */
 static batch batch_of(const element_type *type, const double option[], int options, int turn)
 {
     batch b = {.type = type, .name = type->name};
@@ -110,7 +111,7 @@ static batch batch_of(const element_type *type, const double option[], int optio
 }
 
 static const double eps = 4 * DBL_EPSILON;
-static const double axis[3] = {0.48, -0.6, 0.64}; /* of length 1 */
+static const double axis[3] = {0.48, -0.6, 0.64}; /* unit vector */
 
 static double largest_difference(int n, const double a[], const double b[])
 {
@@ -126,7 +127,7 @@ static void turn(double angle, double q[4])
     rotation_exp(phi, q);
 }
 
-/* Rodrigues' formula: v cos + (axis x v) sin + axis (axis . v)(1 - cos). */
+/* Computes Rodrigues' formula v cos + (axis x v) sin + axis (axis . v)(1 - cos). */
 static void rodrigues(double angle, const double v[3], double out[3])
 {
     double across[3];
@@ -159,7 +160,7 @@ static void one_angle(double angle)
     gsl_test(!(largest_difference(4, again, q) < 4 * eps),
              "angle %g: the matrix gives the quaternion back, or its negative", angle);
 
-    /* The logarithm is the shorter rotation, for q and for -q, which are the same rotation. */
+    /* the logarithm is the shorter rotation, for q and for -q, which represent the same rotation */
     const double shorter = remainder(angle, 2 * PI);
     for (int i = 0; i < 3; i++)
         expected[i] = shorter * axis[i];
@@ -244,14 +245,14 @@ static void rotation_tests(void)
     triads();
 }
 
-/* Compares points along an arc of constant curvature with the integral of its tangent: transverse
- * deflections are accurate to all digits, for any rotation of the arc. */
+/* Compares points along an arc of constant curvature with the integral of its tangent. Transverse
+ * deflections must be accurate to all digits, for any rotation of the arc. */
 
 enum { POINTS = 16 };
 
 /* Integrates r = int exp(turn s) e ds from 0 to x. r minus x e is the integral of the change of e
- * by the rotation, so that there is no cancellation. The integrand is (sin w)/w t x e + (1 - cos
- * w)/w^2 t x (t x e), where t = turn s and w = |t|. */
+ * by the rotation, so there is no cancellation. The integrand is (sin w)/w t x e + (1 - cos w)/w^2
+ * t x (t x e), where t = turn s and w = |t|. */
 static void integrate(const double turn[3], const double e[3], double x, double across[3])
 {
     double at[POINTS], weight[POINTS];
@@ -304,9 +305,6 @@ static void arc_tests(void)
             compare(angle[i], x[k]);
 }
 
-/* Newton's equations of many elements at once equal those of single elements, with and without
- * AVX2. */
-
 extern const element_type element_sheet_second, element_sheet_second_consistent,
     element_sheet_third, element_sheet_third_printed;
 
@@ -316,8 +314,8 @@ typedef void equations_function(int count, const element_data *const data[], con
 
 static const struct {
     const element_type *type;
-    equations_function *equations; /* in addition to the function that the type selects for the
-                                    * processor */
+    equations_function *equations; /* function to be tested in addition to that which the type
+                                      selects for the processor */
 } family[] = {{&element_sheet_second, sheet_lanes_second_equations_plain},
               {&element_sheet_second_consistent, sheet_lanes_second_equations_plain},
               {&element_sheet_third, sheet_lanes_third_equations_plain},
@@ -354,7 +352,7 @@ static void alone_of(const batch *b, int k, const double e[], int tangent, whole
         dense_add_congruence(n, columns, out->J, out->C, out->K, work);
 }
 
-/* Returns 1 if the numbers differ. The sign of zero is ignored, because that of an empty sum is
+/* Returns 1 if the numbers differ. The sign of zero is ignored, because the sign of an empty sum is
  * arbitrary. */
 static int differs(const whole *a, const whole *b)
 {
@@ -418,9 +416,6 @@ static void lanes_equations_tests(void)
         }
 }
 
-/* Strains and stresses of many elements at once are bit-for-bit those of single elements, with and
- * without AVX2. */
-
 extern const element_type element_beamw, element_beamw_vlasov, element_beamw_first,
     element_beamw_consistent;
 extern const element_type element_sheet_second, element_sheet_second_consistent,
@@ -432,7 +427,7 @@ typedef void strains_function(int count, const element_data *const data[], const
 typedef void stresses_function(int count, const element_data *const data[], const double *const e[],
                                const double *const inner[], stress_output out[], status outcome[]);
 
-/* Functions exported by a family in addition to those that its types select for the processor. */
+/* Functions that a family exports in addition to those that its types select for the processor. */
 static const struct {
     const element_type *type;
     strains_function *strain;
@@ -467,7 +462,6 @@ static const struct {
      {1}},
 };
 
-/* Returns the requested outputs: e, J and H by the bits of `what`. */
 static strain_output strain_of(const batch *b, int k, answers *a, int what)
 {
     return (strain_output){.e = what & 1 ? a->e : NULL,
@@ -485,7 +479,6 @@ static stress_output stress_of(const batch *b, answers *a, int what)
                            .memory = what & 4 && b->type->memory != NULL ? a->memory : NULL};
 }
 
-/* Evaluates elements [first, first + count) at once. */
 static void strains(batch *b, strains_function *many, int first, int count, int what)
 {
     strain_output out[MANY];

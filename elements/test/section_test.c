@@ -1,5 +1,5 @@
-/* Compares section constants of two descriptions: a rectangle and a wall of its thickness, at any
- * angle; walls with thickness terms and the area itself. */
+/* Compares the section constants of two descriptions of the same shape: a rectangle and a wall of
+ * the same thickness, at any angle; walls with thickness terms and their area. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -63,7 +63,6 @@ static void given_factors(void)
     gsl_test(one.F[8] != 0 || both.F[8] != 0, "with given factors there is no warping shear");
 }
 
-/* A wall at any position and angle has the principal axes and constants of its rectangle. */
 static void turned_wall(void)
 {
     const double h = 0.13, t = 0.017;
@@ -80,8 +79,8 @@ static void turned_wall(void)
     }
 }
 
-/* Computes int (y, z, 1)(y, z, 1)^T dA over walls with their thickness, by quadrature, in wall
- * coordinates. */
+/* Computes int (y, z, 1)(y, z, 1)^T dA over walls with their thickness, by quadrature, in the
+ * coordinates of the walls. */
 static void area_moments(const section_spec *s, double sum[3][3])
 {
     enum { N = 4 };
@@ -103,7 +102,6 @@ static void area_moments(const section_spec *s, double sum[3][3])
     }
 }
 
-/* Second moments with thickness terms are those of the area. */
 static void thick_walls(void)
 {
     static const double point[4][2] = {{0, 0}, {0.05, 0.01}, {0.05, 0.08}, {0.02, 0.1}};
@@ -138,7 +136,7 @@ static void thick_walls(void)
 }
 
 /* Compares with Prandtl's stress function as a double series: 256/pi^6 sum over odd m, n of (a
- * b)/(m^2 n^2 (m^2/a^2 + n^2/b^2)); the terms beyond M are less than a third of 1/M^3. */
+ * b)/(m^2 n^2 (m^2/a^2 + n^2/b^2)). The terms beyond M are less than a third of 1/M^3. */
 static void torsion_of_a_rectangle(double a, double b)
 {
     double sum = 0;
@@ -163,7 +161,7 @@ static double warping_at(double y, double z, double a, double b)
     return omega;
 }
 
-/* Checks int omega^2 dA and, for thin rectangles, the thin-rectangle value. */
+/* Compares with int omega^2 dA and, for thin rectangles, with the thin-rectangle value. */
 static void warping_constant(double width, double height)
 {
     enum { N = 20 };
@@ -179,9 +177,9 @@ static void warping_constant(double width, double height)
     gsl_test_rel(rectangle(1e-4, 1, 0, 0).Iw, 1e-12 / 144, 1e-6, "of a thin one");
 }
 
-/* The constant of the torque that is cubic in the twist rate is 1/8 int (r^2 - mean)^2 dA over the
- * area, for any rectangle. For a thin rectangle it is w^5 t/1440 (N Eq. 46), for a square twice
- * that. A given value replaces it. */
+/* The constant of the torque that is cubic in the twist rate is 1/8 int (r^2 - mean)^2 dA for any
+ * rectangle. It is w^5 t/1440 for a thin rectangle (N Eq. 46), and twice this value for a
+ * square. */
 static void wagner_torque(double width, double height)
 {
     enum { N = 5 };
@@ -208,7 +206,6 @@ static void wagner_torque(double width, double height)
     gsl_test_rel(sections_computed(&given).wagner_torque, 3e-9, 1e-15, "another one is given");
 }
 
-/* Invalid data are rejected with the cause. */
 static void refusals(void)
 {
     const struct {
@@ -286,14 +283,16 @@ static void box(void)
                  1e-13, "box: Bredt");
     gsl_test_rel(c.Iw, c.A * corner * corner / 3, 1e-12, "box: warping");
     gsl_test_abs(hypot(c.ys, c.zs), 0, 1e-15, "box: shear centre in the middle");
-    /* S = tf s h/2 in a flange from its middle; tf b h/4 + tw (h^2/4 - z^2)/2 in a web */
+    /* first moment: tf s h/2 in a flange, from its middle; tf b h/4 + tw (h^2/4 - z^2)/2 in a
+     * web */
     const double top = tf * b * h / 4, bow = tw * h * h / 8,
                  square = 4 * tf * h * h / 4 * b * b * b / 24 +
                           2 * h / tw * (top * top + 4.0 / 3 * top * bow + 8.0 / 15 * bow * bow);
     gsl_test_rel(c.F[4], square / (c.Iy * c.Iy), 1e-13, "box: shear along the webs");
 }
 
-/* The constants of a regular polygon tend to those of a thin ring, with errors of order 1/n^2. */
+/* The constants of a regular polygon must tend to those of a thin ring, with errors of order
+ * 1/n^2. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -315,7 +314,7 @@ static void ring(void)
     gsl_test_rel(c.Iy, d.Iy, 0.02, "ring: bending");
     gsl_test_rel(c.F[0], d.F[0], 0.02, "ring: shear");
     gsl_test(c.Iw != 0, "ring: no warping");
-    /* for the polygon itself: area a = N/2 R^2 sin(2 pi/N), length l = 2 N R sin(pi/N) */
+    /* for the polygon: area a = N/2 R^2 sin(2 pi/N), length l = 2 N R sin(pi/N) */
     const double a = N / 2.0 * R * R * sin(2 * PI / N), l = 2 * N * R * sin(PI / N);
     gsl_test_rel(c.It, 4 * a * a * t / l + l * t * t * t / 3, 1e-12, "polygon: Bredt");
 }
@@ -375,7 +374,8 @@ static void cells(void)
     gsl_test_rel(c.It, 4 * area * area / round + open, 1e-12, "two equal cells: Bredt");
     const section_spec skew = two_cells(0, 0.02), other = two_cells(1, 0.02);
     const section d = sections_computed(&skew), e = sections_computed(&other);
-    /* cells of widths p, q: (2 (p + .)/tw + h/tf) x1 - h/tf x2 = 2 p h, and so on */
+    /* cells of widths p, q: (2 (p + .)/tw + h/tf) x1 - h/tf x2 = 2 p h, and correspondingly for
+     * x2 */
     const double p = b + 0.02, q = b - 0.02, m11 = (2 * p + h) / tw + h / tf,
                  m22 = (2 * q + h) / tw + h / tf, m12 = -h / tf, det = m11 * m22 - m12 * m12;
     const double x1 = (m22 * 2 * p * h - m12 * 2 * q * h) / det,
@@ -393,8 +393,8 @@ static void cells(void)
                      "two cells, other order: shear %d", i);
 }
 
-/* Additional points within walls do not change the constants: a fin on a box, and walls cut in
- * two. */
+/* Additional points within walls must not change the constants: a fin on a box, and walls that are
+ * cut in two. */
 static void points_between(void)
 {
     section_spec one = box_spec();

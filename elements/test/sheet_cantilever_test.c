@@ -1,7 +1,7 @@
 /* Cantilever of N section 4.1: a sheet of 100 x 100 x 2.25 mm whose tip is deflected by 0.15 L
- * without rotation in 15 steps, with warping restrained. The compliances of the tip are computed
- * with dead forces and spatial moments in place of the prescribed motion. Node p of every element
- * is towards the root. The expected values are those of an independent prototype of the same
+ * without rotation in 15 steps. Warping is restrained. The compliances of the tip are computed with
+ * dead forces and spatial moments in place of the prescribed motion. Node p of every element is
+ * towards the root. The expected values are those of an independent prototype of the same
  * equations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -25,7 +25,7 @@ typedef struct cantilever {
     element_data *data;
     int n, reversed; /* 1: node p of every element is towards the tip */
     node_state node[MOST + 1];
-    double e[MOST][N], sigma[MOST][N]; /* additional unknowns, condensed in each element */
+    double e[MOST][N], sigma[MOST][N]; /* unknowns condensed in each element */
 } cantilever;
 
 /* Adds the contribution of one element: K += J^T C J + H, force += J^T [P'(e) + C (D(x) - e)] (N
@@ -55,7 +55,7 @@ static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], d
     dense_add_congruence(N, NODAL, J, C, K, work);
 }
 
-/* Returns the row of coordinate a of element i; it is negative for coordinates of the root. */
+/* Returns the row of coordinate a of element i, which is negative for coordinates of the root. */
 static int row_of(const cantilever *c, int i, int a)
 {
     return NODE * (i - 1) + (c->reversed ? (a + NODE) % NODAL : a);
@@ -124,7 +124,7 @@ static void advance(cantilever *c, const double *dx)
     }
 }
 
-/* Solves for the next deflection by Newton's method; returns the number of iterations. */
+/* Solves for the next deflection by Newton's method. Returns the number of iterations. */
 static int step(cantilever *c, double deflection, double *K, double *right)
 {
     const int size = NODE * c->n, tip = NODE * (c->n - 1);
@@ -222,8 +222,8 @@ static void sheet_cantilever_tests(void)
         {&element_sheet_third, 2, 3.9673504e-7, 2.632057e-8},
         {&element_sheet_third_printed, 1, 3.9472445e-7, 2.470177e-8},
     };
-    /* With shear included in the strains: error in C_zz relative to the geometrically exact beam,
-     * in percent, and half a unit of its last digit. */
+    /* Errors of C_zz with shear included in the strains, relative to the geometrically exact beam,
+     * in percent, and half a unit of their last digit. */
     static const struct {
         int n;
         double percent, rounding;
@@ -251,7 +251,7 @@ static void sheet_cantilever_tests(void)
     gsl_test_rel(C_zz, 2.6633e-8, 3e-5, "sheet_third, reversed: C_zz");
 }
 
-/* Compares sheet elements with the published equations and with finite differences. */
+/* Sheet elements compared with the published equations and with finite differences. */
 
 extern const element_type element_sheet_second, element_sheet_second_consistent,
     element_sheet_third, element_sheet_third_printed;
@@ -290,8 +290,8 @@ static double scaled_difference(int n, const double a[], const double b[])
     return worst / largest;
 }
 
-/* Computes N Eq. 37 as printed, except for the last term of e1, where L^2 is replaced by L, because
- * e1 is a length. */
+/* Computes N Eq. 37 as printed, except that L replaces L^2 in the last term of e1, because e1 is a
+ * length. */
 static void printed_strains(double L, double Ite, const double q[SHEET_N], double e[SHEET_N])
 {
     const double u = q[SHEET_LOCAL_U], px = q[SHEET_LOCAL_PX], yp = q[SHEET_LOCAL_YP],
@@ -376,8 +376,8 @@ static void derivatives_of_strain(const element_type *type)
     free(data);
 }
 
-/* Checks energy, sigma and C with every feature and initial curvature; for the third-order element,
- * compares G with finite differences of C. */
+/* Compares the derivatives of energy and sigma with finite differences, with every feature and
+ * initial curvature. For the third-order element, compares G with finite differences of C. */
 static void derivatives_of_stress(const element_type *type)
 {
     static const double stencil[4] = {1, -8, 8, -1}, at[4] = {-2, -1, 1, 2};
@@ -422,7 +422,6 @@ static void derivatives_of_stress(const element_type *type)
     free(data);
 }
 
-/* Invalid requests are rejected with the cause. */
 static void refusals(const element_type *type)
 {
     const section c = sheet_of(0.0912, 0.00217);

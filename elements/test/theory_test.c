@@ -1,4 +1,4 @@
-/* Checks that the energies of the elements are those stated in elements/NAME.md. */
+/* The energies of the elements must be those stated in elements/NAME.md. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -18,7 +18,6 @@ extern const element_type element_beamw, element_beamw_first, element_beamw_vlas
 
 enum { E = 8, STATES = 5, GAUSS = 5 };
 
-/* Returns the energy of the element for the strains e[8]. */
 static double energy_of(const element_type *type, const section *c, double l, unsigned features,
                         const double e[E])
 {
@@ -36,7 +35,7 @@ static double energy_of(const element_type *type, const section *c, double l, un
     return energy;
 }
 
-/* Computes J Eq. 66, e[1] to e[8] as in the text; ebar[7], ebar[8] are not modified. */
+/* Computes J Eq. 66 with e[1] to e[8] as in the text; ebar[7] and ebar[8] are not modified. */
 static void modified(const section *c, double l, const double e[E + 1], double ebar[E + 1])
 {
     const double A = (e[7] - e[8]) / 2, t = e[2] - (e[7] + e[8]) / 2, l3 = l * l * l;
@@ -55,7 +54,7 @@ static void modified(const section *c, double l, const double e[E + 1], double e
     ebar[6] += (e[2] * (e[3] / 5 + e[4] / 10) - (e[3] + e[4]) * e[7] / 30 + e[4] * e[8] / 10) / l;
 }
 
-/* Returns the energy as the sum of squares in elements/beamw.md. Phi[3]: for y, z and w. */
+/* Returns the energy as the sum of squares in elements/beamw.md, with Phi[3] for y, z and w. */
 static double squares(const section *c, double l, const double Phi[3], const double b[E + 1])
 {
     const double l2 = l * l, l3 = l2 * l, A = (b[7] - b[8]) / 2, G = c->shear_modulus;
@@ -154,8 +153,8 @@ static void theory_tests(void)
     sheets();
 }
 
-/* Elimination inside a collocation element needs no row exchange for suitable matrices and is
- * correct for all others. */
+/* Elimination inside a collocation element must need no row exchange for suitable matrices, and
+ * must be correct for all others. */
 
 extern const element_type element_collocation;
 
@@ -238,8 +237,8 @@ static void both(int stages, unsigned features)
     gsl_test(!(following < 1e-7), "%d stages: unknowns follow alike (%.1e)", stages, following);
 }
 
-/* A straight element under more compression than its inner nodes can carry between fixed ends, so
- * that the first non-positive pivot is as small as possible. */
+/* A straight element under more compression than its inner nodes can carry between fixed ends. The
+ * compression makes the first non-positive pivot as small as possible. */
 static void compressed(int stages)
 {
     const exact_stages s = strip(stages, FEATURE_SHEAR | FEATURE_LARGE);
@@ -282,13 +281,11 @@ static void collocated_tests(void)
     }
 }
 
-/* J^T S J in registers equals plain loops bit for bit, for every size and both instruction sets. */
-
 enum { W = CONGRUENCE_WIDEST };
 
 typedef void add_function(int m, int n, const double *J, const double *S, double *K);
 
-/* Adds the terms in their order to the values in K. */
+/* Adds the terms in order to the values in K. */
 static void plain_loops(int m, int n, const double *J, const double *S, double *K)
 {
     double SJ[W * W];
@@ -339,7 +336,7 @@ static void congruence_tests(void)
  *
  * The warping amplitude a = p(x) + A exp(-lambda x) + B exp(-lambda (1 - x)), where p is a
  * polynomial of degree stages - 1, minimises the energy for the warping torque T = GJ (p - P a) -
- * EIw p'' and the twist rate P a + F T at the Gauss points; the bimoments at its ends are -EIw
+ * EIw p'' and the twist rate P a + F T at the Gauss points. The bimoments at the ends are -EIw
  * a'(0), EIw a'(1). */
 
 enum { WARPING_MOST = EXACT_WARPING_MAX_STAGES };
@@ -369,7 +366,7 @@ static double layers(const amplitude *a, double x, double rest)
 }
 
 /* Computes the means of the layers with the Lagrange polynomials of the points, over intervals that
- * double from 1/1000 of a layer's thickness at each end. */
+ * double from 1/1000 of the layer thickness at each end. */
 static void layer_means(const amplitude *a, const double x[], const double w[], double mean[])
 {
     gsl_integration_glfixed_table *t = gsl_integration_glfixed_table_alloc(12);
@@ -389,7 +386,8 @@ static void layer_means(const amplitude *a, const double x[], const double w[], 
     gsl_integration_glfixed_table_free(t);
 }
 
-/* Returns the largest departure of S z from the exact gradient, relative to its largest entry. */
+/* Returns the largest difference of S z from the exact gradient, relative to the largest entry of
+ * the gradient. */
 static double warping_departure(const beam_constants *c, const amplitude *a)
 {
     const int m = a->stages + 2;
@@ -418,7 +416,7 @@ static double warping_departure(const beam_constants *c, const amplitude *a)
     return worst / size;
 }
 
-/* Compares one layer or polynomial term at a time, so that no error is hidden by a larger term. */
+/* Compares one layer or polynomial term at a time, so no error is hidden by a larger term. */
 static void warping_compare(int stages, double lambda, double shear)
 {
     const beam_constants c = {.GJ = 0.7, .EIw = 0.7 / (lambda * lambda), .F = {[8] = shear}};
@@ -433,7 +431,7 @@ static void warping_compare(int stages, double lambda, double shear)
         amplitude a = {.stages = stages, .lambda = lambda};
         a.p[k] = 1;
         if (k > 0) /* a constant needs no torque and no bimoment; it is checked together with all
-                    * other terms */
+                      other terms */
             smooth = worst_of(smooth, warping_departure(&c, &a));
     }
     amplitude a = {.stages = stages, .lambda = lambda};

@@ -1,6 +1,6 @@
-/* The constant of the Wagner torque, c of the energy E c kx^4 per length, for sections of walls:
- * comparison with closed forms and with the part of y^2 + z^2 over the area that remains after
- * axial and bending strains are removed (least squares with three unknowns). */
+/* The constant c of the Wagner torque, whose energy per length is E c kx^4, for sections of walls.
+ * It is compared with closed forms and with a least-squares result: the part of y^2 + z^2 over the
+ * area that remains after axial and bending strains are removed. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -85,7 +85,7 @@ static section_spec spec_of(const wagner_shape *s, int thick, double size, doubl
     return spec;
 }
 
-/* Adds int g g^T dA of one wall, g = (1, y, z, y^2 + z^2) from `about`. */
+/* Adds int g g^T dA of one wall, where g = (1, y, z, y^2 + z^2) relative to `about`. */
 static void add_wall(const section_spec *s, int wall, const double about[2], double sum[4][4])
 {
     enum { N = 4 };
@@ -105,7 +105,7 @@ static void add_wall(const section_spec *s, int wall, const double about[2], dou
 }
 
 /* Returns the integral of the square of the fourth function after its projection on the first three
- * is removed. */
+ * functions is removed. */
 static double left_of(double m[4][4])
 {
     for (int k = 0; k < 3; k++)
@@ -135,7 +135,7 @@ static void over_the_area(const wagner_shape *s, int thick, double angle)
 
 /* A section that is symmetric under a rotation by pi and a section without symmetry behave
  * differently in the two directions of twist. A section with mirror symmetry about any axis and
- * walls that meet in one point behave alike in both directions. */
+ * walls that meet in one point behave the same in both directions. */
 static void one_sided(const wagner_shape *s, double angle)
 {
     const section_spec spec = spec_of(s, 0, 1, angle);
@@ -145,15 +145,15 @@ static void one_sided(const wagner_shape *s, double angle)
              angle, found);
 }
 
-/* Closed form for the Z-section: omega is measured from its mean and even under the rotation by pi,
- * so that int omega r^2 dA is that of the web plus twice that of one flange. */
+/* Closed form for the Z-section. omega is measured from its mean and is even under the rotation by
+ * pi. Therefore int omega r^2 dA is that of the web plus twice that of one flange. */
 static void one_sided_zed(void)
 {
-    const double b = 0.07, h = 0.1, t = 2e-3; /* h: half of the web */
+    const double b = 0.07, h = 0.1, t = 2e-3; /* h: half of the web depth */
     const section_spec spec = spec_of(&shapes[4], 0, 1, 0);
     const double flange = b * t, web = 2 * h * t, area = web + 2 * flange;
-    /* omega varies from 0 in the web to h b at the ends of the flanges: mean h b/2 over the
-     * flanges */
+    /* omega varies from 0 in the web to h b at the ends of the flanges; its mean over the flanges
+     * is h b/2 */
     const double mean = 2 * flange * h * b / 2 / area;
     const double omega_r2 = 2 * flange * h * b * (h * h / 2 + b * b / 4),
                  r2 = 2 * flange * (h * h + b * b / 3) + web * h * h / 3,
@@ -174,15 +174,15 @@ static void cruciform(void)
 }
 
 /* An equal-leg angle with legs of length b and thickness t. At the distance s from the corner, r^2
- * = s^2; its mean b^2/3 and the part due to bending in the plane of symmetry are subtracted. */
+ * = s^2. The mean b^2/3 and the part due to bending in the plane of symmetry are subtracted. */
 static void equal_angle(void)
 {
     const double b = 0.08, t = 3e-3, A = 2 * b * t;
     const double point[3][2] = {{b, 0}, {0, 0}, {0, b}}, thickness[2] = {t, t};
     const section_spec spec = section_spec_walls(2e11, 8e10, 2, point, NULL, thickness);
     const section c = sections_computed(&spec);
-    /* v = (s - b/2)/sqrt 2 along the axis of symmetry; int r^2 v dA = 2 t int s^2 (s - b/2)/sqrt 2
-     */
+    /* v = (s - b/2)/sqrt 2 along the axis of symmetry; int r^2 v dA = 2 t int s^2 (s - b/2)/sqrt
+     * 2 */
     const double mixed = 2 * t * pow(b, 4) / 12 / sqrt(2), square = t * pow(b, 3) / 12,
                  quartic = 2 * t * pow(b, 5) / 5;
     gsl_test_rel(c.wagner_torque,
@@ -190,8 +190,8 @@ static void equal_angle(void)
                  "equal angle, by hand: int r^4, shortening, bending");
 }
 
-/* A thick wall has the constant of its rectangle: w^5 t/1440 if it is thin, plus the corresponding
- * term of the short side. */
+/* A thick wall has the constant of its rectangle, which is w^5 t/1440 for a thin wall, plus the
+ * corresponding term of the short side. */
 static void strip(double w, double t)
 {
     for (int i = 0; i < 4; i++) {
@@ -207,8 +207,7 @@ static void strip(double w, double t)
     }
 }
 
-/* The fibres of a thin ring have equal lengths for any twist, so that the constant is almost
- * zero. */
+/* The fibres of a thin ring have equal lengths for any twist, so the constant is almost zero. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -243,9 +242,9 @@ static void wagner_tests(void)
     ring();
 }
 
-/* Stresses at the points of sections. Integrated over the walls, they equal the resultants. In
- * torsion of a rectangle, they have the coefficients published by Timoshenko (Theory of Elasticity,
- * 1970, section 109). */
+/* Stresses at the points of sections. Their integrals over the walls must equal the resultants. In
+ * torsion of a rectangle, they must have the coefficients published by Timoshenko (Theory of
+ * Elasticity, 1970, section 109). */
 
 static stress_points points_of(const section_spec *spec, const section *c)
 {
@@ -268,7 +267,7 @@ static section_spec rectangle_spec(double width, double height)
     return spec;
 }
 
-/* Checks k1 of T = k1 (2a)^2 2b tau against Timoshenko's table for b/a. */
+/* Compares k1 of T = k1 (2a)^2 2b tau with Timoshenko's table for b/a. */
 static void torsion(double ratio, double coefficient, int flat)
 {
     const double t = 0.01, w = ratio * t;
@@ -282,7 +281,7 @@ static void torsion(double ratio, double coefficient, int flat)
                  "torsion of 1 : %g, flat %d", ratio, flat);
 }
 
-/* Compares the stresses with the slope of the stress function at the middles of the sides, from its
+/* Compares the stresses at the middles of the sides with the slope of the stress function, from its
  * double sine series. */
 static void torsion_exact(void)
 {
@@ -290,7 +289,7 @@ static void torsion_exact(void)
     const section_spec spec = rectangle_spec(w, t);
     const section c = sections_computed(&spec);
     const stress_points p = points_of(&spec, &c);
-    double shorter = 0; /* from a single series in 1/cosh of the other coordinate */
+    double shorter = 0; /* single series in 1/cosh of the other coordinate */
     for (int n = 1; n < 200; n += 2)
         shorter += 1 / (n * n * cosh(n * PI * t / (2 * w)));
     for (int i = 0; i < p.count; i++) /* tau_xy at z = w/2 */
@@ -328,7 +327,7 @@ static void rectangle(void)
                  1e-12, "lying and standing");
 }
 
-/* The stresses in walls due to resultants integrate to the same resultants. Simpson's rule is
+/* The stresses in walls due to resultants must integrate to the same resultants. Simpson's rule is
  * exact, because all stresses are quadratic along a wall. */
 static void integrated(const char *name, const section_spec *spec)
 {
@@ -338,8 +337,8 @@ static void integrated(const char *name, const section_spec *spec)
     for (int k = 0; k < 4; k++) {
         double Q[2] = {0}, torque = 0;
         int from = 0;
-        for (int wall = 0; wall < spec->walls; wall++) { /* ends and middle of a wall on both
-                                                          * surfaces, then its other points */
+        for (int wall = 0; wall < spec->walls; wall++) { /* the ends and the middle of a wall on
+                                                            both surfaces, then its other points */
             const stress_point *at = &p.point[from];
             const double length = hypot(at[4].y - at[0].y, at[4].z - at[0].z);
             double t = 0;
@@ -361,7 +360,7 @@ static void integrated(const char *name, const section_spec *spec)
                 torque += share * ((y - c.ys) * tau[1] - (z - c.zs) * tau[0]);
             }
             if (k == 3) /* the part that varies through the wall, which is half of t^3/3; the other
-                         * half is due to stresses across the wall */
+                           half is due to stresses across the wall */
                 torque += length * t * t * t / 3;
             from += 6;
             while (from < p.count && (p.count - from) >= 2 &&
@@ -443,8 +442,6 @@ static void stress_tests(void)
              "given constants are refused (%s)", f.text);
 }
 
-/* Tapered members: sections at their ends and middle, and rejected tapers. */
-
 /* Returns a doubly symmetric I-section with its web along z. */
 static section_spec i_shape(double depth, double flange, double thickness)
 {
@@ -524,7 +521,8 @@ static void walls(void)
              f.text);
     ends_are_ends("walls", &p, &wide);
     section_taper_at(&p, &wide, 0.5, &at);
-    /* two flanges with 1.5 mm x 45 mm at 50 mm: Iw = 2 t b^3/12 (h/2)^2 */
+    /* two flanges of 1.5 mm x 45 mm at a distance of 50 mm from the middle: Iw = 2 t b^3/12
+     * (h/2)^2 */
     gsl_test_rel(sections_computed(&at).Iw, 2 * 1.5e-3 * pow(0.045, 3) / 12 * 0.05 * 0.05, 1e-12,
                  "half way: Iw");
     gsl_test(checked(&p, &deep, &f) != STATUS_REFUSED || strstr(f.text, "warps") == NULL,
@@ -536,7 +534,7 @@ static void walls(void)
     gsl_test(checked(&p, &wide, &f) != STATUS_REFUSED, "walls that hang together otherwise");
 }
 
-/* Walls along z or at an angle near the shear centre: the web is along an axis rotated by
+/* Walls along z, or at an angle near the shear centre: the web is along an axis rotated by
  * `angle`. */
 static void turned_walls(double angle)
 {
