@@ -79,7 +79,7 @@ void cell_formulation(cell_request *request, const formulation *chosen)
     request->solve.newton = formulation_newton(chosen);
 }
 
-/* Marks the result as failed: no quantity has a value. */
+/* Marks the result as failed, and all quantities as missing. */
 static status nothing_counts(const char *trouble, solve_result *out, fault *f)
 {
     out->status = STATUS_NOT_CONVERGED;
@@ -125,17 +125,17 @@ void cell_result_free(cell_result *r)
 
 const double omission_most = 1e-4;
 const double omission_safety = 2;
-/* [s] longest estimated time of a solution; if it would be longer, the change is reported as
+/* [s] longest estimated time of a solution; if the time is longer, the change is reported as
  * unknown */
 static const double longest = 20;
 /* [s] a solution with a shorter estimated time is always made */
 static const double brief = 0.2;
 /* A change larger than this multiple of omission_most is significant without further checks. */
 static const double surely = 100;
-/* relative to the largest value in the same unit: smaller values count as zero */
+/* values below this limit, relative to the largest value in the same unit, count as zero */
 static const double nothing = 1e-9;
 
-/* Returns the physics that the section lacks, because the constants are zero. */
+/* Returns the physics that the section does not have, because the constants are zero. */
 static unsigned absent_in(const section *c)
 {
     const double length = sqrt(c->Ip / c->A), moment = 1e-12 * c->Ip * length;
@@ -153,8 +153,8 @@ static unsigned absent_in(const section *c)
     return absent | (c->Iw <= 0 ? FEATURE_WARPING : 0);
 }
 
-/* Returns the physics without effect in the scene: second-order physics in linear analyses, and
- * inertia in static analyses. */
+/* Returns the physics that have no effect in the scene: second-order physics in linear analyses,
+ * and inertia in static analyses. */
 static unsigned absent_in_analyses(const scene *s)
 {
     const unsigned higher = FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
@@ -181,7 +181,7 @@ static unsigned absent_in_sections(const scene *s)
     return absent;
 }
 
-/* Returns 1 if removing the physics from an element shows its effect. Sections given by matrices
+/* Returns 1 if omitting the physics in an element shows its effect. Sections given by matrices
  * cannot be split. */
 static int can_be_shown(const scene *s)
 {
@@ -191,8 +191,8 @@ static int can_be_shown(const scene *s)
     return can;
 }
 
-/* Returns the formulation with the highest order among those that support all physics of the scene,
- * or NULL. */
+/* Returns the formulation with the highest order among those that support all physics of the scene;
+ * NULL: none. */
 static const element_type *whole_model(const scene *s)
 {
     const element_type *best = NULL;
@@ -223,7 +223,7 @@ static status solve(const scene *s, const element_type *type, unsigned omit, int
     return cell_run(&request, out, f);
 }
 
-/* Returns the largest value among quantities of the same unit. */
+/* Returns the largest value among the quantities with the same unit. */
 static double size_of_unit(const scene *s, const solve_result *r, int quantity)
 {
     double size = 0;
@@ -254,7 +254,7 @@ static double change_of_curve(const curve *a, const curve *b, double least)
     return relative(apart, size);
 }
 
-/* Returns the relative change of one quantity; INFINITY when one of the two values is missing. */
+/* Returns the relative change of a quantity; INFINITY: one of the two values is missing. */
 static double change_of(const scene *s, const solve_result *with, const solve_result *without,
                         int quantity)
 {
@@ -268,7 +268,7 @@ static double change_of(const scene *s, const solve_result *with, const solve_re
     return relative(fabs(b->value - a->value), fmax(fabs(a->value), least));
 }
 
-/* Returns 1 if all requested quantities have a value; otherwise `why` gives the reason. */
+/* Returns 1 if all requested quantities have a value. Otherwise `why` gives the reason. */
 static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
 {
     if (c->solve.status != STATUS_OK || c->solve.quantities < s->quantities) {
@@ -284,7 +284,7 @@ static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
     return 1;
 }
 
-/* Returns the change on one mesh; NAN: some value is missing, and out->why gives the reason. */
+/* Returns the change on a mesh; NAN: a value is missing, and out->why gives the reason. */
 static double change_on(const scene *s, const element_type *type, int elements, omission *out)
 {
     cell_result with, without;
@@ -314,9 +314,9 @@ static int agree(double coarse, double fine)
     return fmax(coarse, fine) <= noise || (coarse <= apart * fine && fine <= apart * coarse);
 }
 
-/* Solves on successively doubled meshes until two of them give the same change; the larger of
- * these changes is used. A clearly significant change is computed on finer meshes only within a
- * short run time. */
+/* Solves on repeatedly doubled meshes until two meshes give the same change. The larger one of
+ * their changes is used. A clearly significant change is computed on finer meshes only if the run
+ * time is short. */
 static void estimate(const scene *s, const element_type *type, omission *out)
 {
     enum { FINEST = 32 };

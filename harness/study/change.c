@@ -6,7 +6,7 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* Scales for strains, for positions and rotations, and for other values. Round-off is below a
+/* Scales for strains, for positions and rotations, and for other values. Rounding is below a
  * thousandth of the scale. */
 static const double small_strain = 1e-14, small_part = 1e-12, small_beside = 1e-9;
 
@@ -63,8 +63,8 @@ static double of_resultant(const scene *s, scene_resultant which)
     return which <= SCENE_QZ ? force : force * size;
 }
 
-/* Returns the scale of positions, rotations and dimensionless numbers; 0 (unknown) for rates and
- * others. */
+/* Returns the scale of positions, rotations and dimensionless numbers. Returns 0 (unknown) for
+ * rates and other values. */
 static double of_reading(const scene *s, const char *unit)
 {
     if (strcmp(unit, "m") == 0)
@@ -119,7 +119,7 @@ double change_scale(const scene *s, int quantity, const solve_result *r)
     return is_of_time(q) ? out : fmax(out, fabs(q->factor) * physical_scale(s, q));
 }
 
-/* Returns the change of one quantity; NAN: both results lack the value. */
+/* Returns the change of a quantity; NAN: the value is missing in both results. */
 static double change_of(const scene *s, int index, const solve_result *a, const solve_result *b)
 {
     const double x = index < a->quantities ? a->quantity[index].value : (double)NAN,
@@ -172,7 +172,7 @@ static const quantity_result *whole_of(const solve_result *r, int quantity)
     return q != NULL && q->status == STATUS_OK && q->curve.points > 0 ? q : NULL;
 }
 
-/* Returns the point of the curve with that abscissa, or -1. */
+/* Returns the point of the curve with this abscissa; -1: none. */
 static int point_at(const curve *c, double x, double size)
 {
     for (int i = 0; i < c->points; i++)

@@ -22,7 +22,6 @@ status derive_script(const char *name, char out[PATH_MAX], fault *f)
                              : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", out);
 }
 
-/* The input and output streams of the script. */
 typedef struct script {
     pid_t process;
     FILE *says, *complains;
@@ -32,7 +31,7 @@ typedef struct script {
 typedef struct derive_question {
     const char *path;
     const char *case_name, *parameters; /* NULL: none */
-    FILE *input;                        /* text of a scene; NULL: none */
+    FILE *input;                        /* text of a scene on standard input; NULL: none */
 } derive_question;
 
 static status start(const derive_question *q, script *s, fault *f)
@@ -55,8 +54,8 @@ static status start(const derive_question *q, script *s, fault *f)
         }
         if (q->input != NULL && dup2(fileno(q->input), STDIN_FILENO) < 0)
             _exit(127);
-        /* Uses the full name, because Python finds its libraries relative to the name by which
-         * it was called. The option -I ignores environment variables, for users of virtual
+        /* Uses the full path, because Python finds its libraries relative to the path by which it
+         * was called. The option -I ignores environment variables, for users of virtual
          * environments. */
         execl(python, python, "-I", "-B", q->path, q->case_name, q->parameters, (char *)NULL);
         _exit(127);
@@ -112,7 +111,7 @@ static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
     return STATUS_OK;
 }
 
-/* Closes the streams of the script and waits for it to end. Returns its status from waitpid. */
+/* Closes the streams of the script and waits for its end. Returns its status from waitpid. */
 static int stop(script *s)
 {
     int how = 0;
@@ -136,7 +135,8 @@ static status derive(const derive_question *q, script *s, derived_value **out, i
     while (fgets(more, sizeof more, s->complains) != NULL) {
         memcpy(complaint, more, sizeof complaint); /* the reason is in the last line */
         if (*count > 0)
-            fputs(complaint, stderr); /* parts of the scene that the program cannot compute */
+            /* prints the parts of the scene that the program cannot compute */
+            fputs(complaint, stderr);
     }
     complaint[strcspn(complaint, "\n")] = '\0';
     const int how = stop(s);
@@ -181,7 +181,8 @@ status derive_scene(const char *path, FILE *scene_text, derived_value **out, int
     return derive_asked(&q, out, count, f);
 }
 
-/* Folder of the data of an installed copy. Only this file depends on the installation prefix. */
+/* Folder of the data of an installed copy. This is the only file that depends on the installation
+ * prefix. */
 #ifndef BEAMWORK_DATA
 #define BEAMWORK_DATA "/usr/local/share/beamwork"
 #endif
@@ -193,8 +194,8 @@ static int is_in(const char *folder, const char *below, const char *name, char p
     return length < PATH_MAX && access(path, R_OK) == 0;
 }
 
-/* Searches next to bin/ and lib/, where share/ is. A folder such as lib/x86_64-linux-gnu is one
- * level deeper. */
+/* Searches in the folders above bin/ and lib/, which contain share/. A folder such as
+ * lib/x86_64-linux-gnu is one level deeper. */
 static int is_near(const char *folder, const char *name, char path[PATH_MAX])
 {
     static const char *const below[] = {"", "../", "../../", "../share/beamwork/",

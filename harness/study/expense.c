@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns the number of stations of the path that an analysis follows: its own path, or that of
- * its base analysis. */
+/* Returns the number of stations of the path that an analysis follows, which may be the path of its
+ * base analysis. */
 static double stations_of(const scene *s, const scene_analysis *a)
 {
     while (scene_path_of(a) == NULL && a->follows != SCENE_NONE)
@@ -13,16 +13,16 @@ static double stations_of(const scene *s, const scene_analysis *a)
     return scene_path_of(a) != NULL ? scene_path_of(a)->stations : 1;
 }
 
-/* Returns the number of load steps; shorter initial steps count as if they had full length. */
+/* Returns the number of load steps. Shorter initial steps count as complete steps. */
 static double steps_of(const scene_analysis *a, int steps)
 {
     const int between = steps > 0 ? steps : scene_walk_of(a)->steps_between;
     return scene_path_of(a)->stations + between - 1;
 }
 
-/* Returns the estimated number of time steps. With a tolerance it is a power of the tolerance
- * and depends little on the motion, whose time scale is given by the scene (measured on four
- * motions). */
+/* Returns the estimated number of time steps. If a tolerance is given, the number is a power of the
+ * tolerance and depends little on the motion, whose time scale is given by the scene (measured on
+ * four motions). */
 static double motion_steps(const scene_motion *m)
 {
     static const double usual = 1e-4, steps[] = {80, 40}, power[] = {0.45, 0.3};
@@ -101,7 +101,7 @@ double expense_of_cell(const sweep *s, int series_index, int mesh)
     return expense_of_scene(&p->scene, p->steps, one->formulation.type, one->mesh[mesh]);
 }
 
-/* relative to the work of one process; for cheaper series the order of tasks does not matter */
+/* relative to the work of one process; the order of tasks does not matter for cheaper series */
 static const double dear_share = 0.01;
 
 /* A series that is run. */
@@ -110,7 +110,7 @@ typedef struct expense {
     int series;
 } expense;
 
-/* Sorts by decreasing cost; equal costs keep their order. */
+/* Sorts by decreasing cost. Series with equal costs keep their order. */
 static int dearest(const void *left, const void *right)
 {
     const expense *a = left, *b = right;
@@ -147,17 +147,18 @@ int expense_order(const sweep *s, int jobs, workload_task tasks[])
     return 0;
 }
 
-/* The result of a cell is a tree of arrays. Records and elements are sent as stored in memory,
- * and pointers are replaced by those of the receiving process. A new array in a record requires
- * a line in the tables below; a new number does not. */
+/* The result of a cell is a tree of arrays. Records and elements are sent as stored in memory, and
+ * pointers are replaced by those of the receiving process. A new array in a record requires a line
+ * in the tables below; a new number does not. */
 typedef struct branch branch;
 struct branch {
-    size_t pointer, size; /* position of the pointer in the record; size of an element [bytes] */
+    /* position of the pointer in the record, and size of an element [bytes] */
+    size_t pointer, size;
     /* positions of the integers whose product is the number of elements; count 0: the array is a
-     * string; times 0: there is only one factor */
+     * string; times 0: there is only one integer */
     size_t count, times;
-    size_t each, more;   /* number of elements per unit of the product, and number of additional
-                            ones */
+    /* number of elements per unit of the product, and number of additional elements */
+    size_t each, more;
     const branch *parts; /* arrays inside each element; NULL: none */
 };
 
@@ -251,10 +252,10 @@ static void forget(void *record, const branch parts[])
         set_address(record, b, NULL);
 }
 
-/* As serialise_read; *out is NULL after a failure. */
+/* Like serialise_read. *out is NULL after a failure. */
 static int get_array(FILE *from, const branch *b, size_t count, char **out)
 {
-    enum { LARGEST = 1 << 28 }; /* [bytes] a larger count means damaged data */
+    enum { LARGEST = 1 << 28 }; /* [bytes] larger arrays mean that the data are damaged */
     *out = NULL;
     if (count >= LARGEST / b->size)
         return SERIALISE_DAMAGED;

@@ -81,7 +81,8 @@ static int agree(const scene_quantity *q, const families_known_limit *a,
     return d.apart + d.unknown <= FAMILIES_APART * size;
 }
 
-/* Returns the limits that agree with the given one, with the nearest limit of each family. */
+/* Returns the limits that agree with the given limit, including the nearest limit of each family.
+ * */
 static families_limit around(const scene_quantity *q, const families_known_limit *all, int count,
                              int centre)
 {
@@ -146,8 +147,9 @@ static int is_near(const families_known_limit *one, const mean *m)
     return fabs(one->value - m->value) <= one->uncertainty + m->uncertainty;
 }
 
-/* Repeatedly removes from in[count] the limit that is farthest outside its uncertainty of the
- * mean, until none is outside. Returns the mean of the others. */
+/* Repeatedly removes from in[count] the limit that is farthest from the mean in terms of its
+ * uncertainty, until all limits are within their uncertainty. Returns the mean of the remaining
+ * limits. */
 static mean settle(const families_known_limit *all, int count, int in[])
 {
     for (;;) {
@@ -228,7 +230,7 @@ families_limit families_limit_of(const sweep *s, int point_index, int quantity, 
     return best;
 }
 
-/* Returns the reason why a series takes no part in an agreement; NULL: it takes part. */
+/* Returns the reason why a series is excluded from an agreement; NULL: it is included. */
 static const char *kept_out(const sweep *s, int index, int quantity, const truths *t)
 {
     const series *one = &s->series[index];
@@ -245,7 +247,7 @@ static const char *kept_out(const sweep *s, int index, int quantity, const truth
                : "without a limit on these meshes";
 }
 
-/* Returns a formulation of a different family that could take part. */
+/* Returns a formulation of another family that could be included. */
 static const char *of_another_family(const sweep *s, int point_index, const char *family,
                                      const truths *t)
 {
@@ -265,8 +267,8 @@ static const char *of_another_family(const sweep *s, int point_index, const char
     return NULL;
 }
 
-/* Writes "A, B " for the series of a point with this reason. reason NULL: the series that take
- * part. */
+/* Writes "A, B " for the series of a point that are excluded for this reason. reason NULL: for the
+ * series that are included. */
 static int put_series(FILE *to, const sweep *s, int point_index, int quantity, const truths *t,
                       const char *reason, const char *before)
 {
@@ -411,7 +413,7 @@ status families_reserve(const sweep *s, int files_only, truths *t, fault *f)
     return truths_reserve(t, most, f);
 }
 
-/* Marks the selected quantities of the point and of the series. */
+/* The selected quantities of a point and of a series. */
 typedef struct kept {
     int point;
     char *quantity, *series;
@@ -434,7 +436,8 @@ static void drop(sweep *s, const kept *k)
 {
     scene *wanted = &s->point[k->point].scene;
     int quantities = 0, seriess = 0;
-    for (int q = 0; q < wanted->quantities; q++) /* together with the abscissae of the curves */
+    for (int q = 0; q < wanted->quantities;
+         q++) /* quantities that are abscissae of selected curves are also kept */
         if (k->quantity[q] && scene_abscissa_of(wanted, &wanted->quantity[q]) != SCENE_NONE)
             k->quantity[scene_abscissa_of(wanted, &wanted->quantity[q])] = 1;
     for (int q = 0; q < wanted->quantities; q++)
@@ -455,8 +458,8 @@ static const char *quantity_at(const void *context, int i)
     return i < s->quantities ? s->quantity[i].name : NULL;
 }
 
-/* Reports words that match nothing, with the nearest name among the quantities of the point or,
- * if none is near, among all names. */
+/* Reports words that match nothing. The message suggests the nearest name among the quantities of
+ * the point or, if none is near, among all names. */
 static status check_words(const sweep_point *p, const char *select, const select_words *words,
                           fault *f)
 {
@@ -478,7 +481,7 @@ static status narrow(sweep *s, const char *select, kept *k, fault *f)
     TRY(select_begin(select, &words, f));
     mark(s, select, &words, k);
     TRY(check_words(&s->point[k->point], select, &words, f));
-    drop(s, k); /* omissions still refer to all quantities */
+    drop(s, k); /* omissions still depend on all quantities */
     const sweep_point *p = &s->point[k->point];
     return p->scene.quantities > 0
                ? STATUS_OK

@@ -50,8 +50,8 @@ static void drop_sample(follow_walk *w)
     follow_match_free(&w->shapes[last]);
 }
 
-/* Makes one step from the last sample. If *least < follow_sure, the step was too large, and
- * nothing is stored. */
+/* Makes one step from the last sample. If *least < follow_sure, the step is too large, and nothing
+ * is stored. */
 static status try_step(follow_walk *w, double target, int asked, double *least, fault *f)
 {
     follow_shapes next;
@@ -71,7 +71,7 @@ static status try_step(follow_walk *w, double target, int asked, double *least, 
     return STATUS_OK;
 }
 
-/* Proceeds from the last sample to `to` in as many steps as necessary. */
+/* Moves from the last sample to `to` in as many steps as necessary. */
 static status step_to(follow_walk *w, double to, fault *f)
 {
     const follow_curves *c = w->out;
@@ -134,10 +134,10 @@ void follow_free(follow_curves *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Largest last correction of a converged step, because the next correction would be its square.
- * A larger last correction, up to largest_correction, is accepted if the next one is predicted
- * to be negligible. With more elements than many_elements, promised_correction grows with their
- * number, because rounding of the positions limits the corrections. */
+/* Largest last correction of a converged step. The next correction would be its square. A larger
+ * last correction, up to largest_correction, is accepted if the next correction is predicted to be
+ * negligible. Above many_elements, promised_correction grows with the number of elements, because
+ * rounding of positions limits the corrections. */
 static const double promised_correction = 1e-8, largest_correction = 1e-6,
                     negligible_correction = 1e-14, many_elements = 1e4;
 
@@ -149,7 +149,7 @@ static int iterations_of_steps(const solve_result *r)
     return sum;
 }
 
-/* Returns the number of longer steps that were rejected before the accepted ones. */
+/* Returns the number of longer steps that were rejected before the accepted steps. */
 static long rejected_before_steps(const solve_result *r)
 {
     long sum = 0;
@@ -158,7 +158,7 @@ static long rejected_before_steps(const solve_result *r)
     return sum;
 }
 
-/* Returns the index of the first step that ended without convergence, or -1. */
+/* Returns the index of the first step that ended without convergence; -1: none. */
 static int unfinished_step(const solve_result *r, double promised)
 {
     for (int i = 0; i < r->steps; i++)
@@ -169,8 +169,8 @@ static int unfinished_step(const solve_result *r, double promised)
     return -1;
 }
 
-/* Returns 1 if the solution consists only of Newton iterations without rejected steps, so each
- * iteration evaluates every element once and factors once. */
+/* Returns 1 if the solution consists only of Newton iterations without rejected steps. Each
+ * iteration then evaluates every element once and factors once. */
 static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -179,8 +179,8 @@ static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
     return newton == NEWTON_MIXED && cell->counters.rejected_steps == 0;
 }
 
-/* Returns the largest number of factorisations saved by continuation, where each step starts
- * with the last tangent of the previous one. */
+/* Returns the largest number of factorisations that continuation saves. Each of its steps starts
+ * with the last tangent of the previous step. */
 static long most_reused(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -189,8 +189,8 @@ static long most_reused(const cell_result *cell, const scene *s)
     return 0;
 }
 
-/* Returns the largest number of factorisations saved in time steps, whose iterations reuse
- * earlier factors. */
+/* Returns the largest number of factorisations that time steps save. Their iterations reuse earlier
+ * factors. */
 static long most_stale(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -199,8 +199,8 @@ static long most_stale(const cell_result *cell, const scene *s)
     return 0;
 }
 
-/* Returns the name of the first count that is smaller than the iterations require or, for a
- * plain solution, differs from what they require; NULL: none. */
+/* Returns the name of the first count that is smaller than the iterations require; NULL: none.
+ * Counts of a plain solution must equal the required count. */
 static const char *wrong_count(const cell_result *cell, long reused, long stale, int plain)
 {
     const counters *c = &cell->counters;
@@ -257,7 +257,7 @@ static status add_agreement(const agreement *one, judgement *out, fault *f)
     return STATUS_OK;
 }
 
-/* Compares the values of one mesh with a row of the reference values. */
+/* Compares the values of a mesh with a row of the reference values. */
 static status compare_mesh(const sweep *s, const truth *row, int index, int mesh, judgement *out,
                            fault *f)
 {
@@ -294,9 +294,9 @@ status agreements_add(const sweep *s, const truths *t, int index, judgement *out
     return STATUS_OK;
 }
 
-/* Counts how often limits are within their uncertainty of an exact reference value. */
+/* Counts how often limits agree with an exact reference value within their uncertainty. */
 
-/* Returns the row of the series' case and formulation. */
+/* Returns the row for the case and the formulation of the series. */
 static coverage *row_of(const sweep *s, judgement *j, const series *one, fault *f)
 {
     const case_type *of = s->point[one->point].type;

@@ -30,7 +30,7 @@ void follow_match_free(follow_shapes *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Scales x so that x^T M x = 1; y[rows] becomes M x. */
+/* Scales x so that x^T M x = 1, and sets y[rows] to M x. */
 static void normalise(const triplets *M, double x[], double y[])
 {
     triplets_mul(M, x, y);
@@ -53,7 +53,7 @@ static status first(const state_matrices *s, follow_shapes *out, double work[])
     return STATUS_OK;
 }
 
-/* Makes shapes of the first `modes` modes of a state. */
+/* Makes the shapes of the first `modes` modes of a state. */
 static status follow_match_first(const state_matrices *s, int modes, follow_shapes *out, fault *f)
 {
     double *work = malloc(((size_t)s->M.rows + 1) * sizeof *work);
@@ -77,12 +77,12 @@ static int group_end(const state_matrices *s, int j)
 /* Modes of a state, normalised to unit mass, and their products with M. */
 typedef struct match_workspace {
     double *mode, *product; /* [modes x rows] */
-    double *share;          /* [modes] share of the followed shape in each mode */
-    int *taken;             /* [modes] number of followed modes in the group that starts here */
+    double *share;          /* [modes] contribution of each mode to the followed shape */
+    int *taken; /* [modes] number of followed modes in the group that starts with this mode */
 } match_workspace;
 
 /* Finds the group that contains the largest part of mode i of `before`, and the mean frequency of
- * that part. */
+ * this part. */
 static void match_one(const follow_shapes *before, int i, const state_matrices *s,
                       match_workspace *w, follow_shapes *out)
 {
@@ -156,7 +156,8 @@ status follow_match_next(const follow_shapes *before, const state_matrices *s, f
     return outcome;
 }
 
-/* Finds the first modal analysis with frequency quantities and their number; 0: none. */
+/* Finds the first modal analysis with frequency quantities, and the number of these quantities; 0:
+ * none. */
 static int count_wanted(const scene *s, int *analysis)
 {
     int count = 0;
@@ -220,8 +221,8 @@ static const double exact =
     1e-12; /* accuracy of the position of a crossing, relative to the step */
 static const double close_enough = 0.1; /* largest relative gap of a veering that is reported */
 
-/* Computes f_i - f_j at a parameter value, with modes matched to sample k. *mean: mean of both
- * frequencies [Hz]. */
+/* Computes f_i - f_j at a parameter value, where modes are matched with sample k. *mean: mean of
+ * both frequencies [Hz]. */
 static status difference_at(follow_walk *w, int k, double value, const int mode[2],
                             double *difference, double *mean, double *least, fault *f)
 {
@@ -248,8 +249,8 @@ static double gap_of(const follow_sample *s, const int mode[2])
     return 2 * fabs(difference_of(s, mode)) / (s->frequency[mode[0]] + s->frequency[mode[1]]);
 }
 
-/* Finds the crossing between samples a and b, where the difference has opposite signs, by the
- * Illinois variant of the regula falsi. */
+/* Finds the crossing between samples a and b, where the differences have opposite signs, with the
+ * Illinois variant of regula falsi. */
 static status find_crossing(follow_walk *w, int a, int b, follow_event *e, double *least, fault *f)
 {
     const follow_sample *s = w->out->sample;
@@ -285,7 +286,7 @@ static status add_event(follow_curves *c, const follow_event *e, fault *f)
     return STATUS_OK;
 }
 
-/* Repeats the last step if two modes change their order in it. */
+/* Repeats the last step if the order of two modes changes in the step. */
 status follow_events_step(follow_walk *w, double *least, fault *f)
 {
     const int last = w->out->samples - 1;
@@ -319,7 +320,7 @@ static status find_veerings(follow_walk *w, const int mode[2], fault *f)
     return STATUS_OK;
 }
 
-/* Finds crossings at samples; follow_events_step finds the others. */
+/* Finds crossings at samples. follow_events_step finds crossings between samples. */
 static status find_crossings(follow_walk *w, const int mode[2], fault *f)
 {
     const follow_sample *s = w->out->sample;

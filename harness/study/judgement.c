@@ -1,4 +1,4 @@
-/* Evaluates all verdicts of a sweep, compares them with the expected ones, and sets the exit
+/* Evaluates all verdicts of a sweep, compares them with the expected verdicts, and sets the exit
  * status. */
 #include "harness/study/study_impl.h"
 
@@ -9,25 +9,25 @@
 
 #include "harness/numerics/numerics.h"
 
-/* Marks missed rules (rule.missed) and returns their number. whole 1: no selection was made, and
- * every rule should have been shown. Otherwise a rule counts only if it is in a user table
- * (rule.from) and its formulations and cases were run completely, with all points and
- * quantities. A selection (-k) includes a case completely if it matches the case name. */
+/* Marks missed rules (rule.missed) and returns their number. whole 1: no selection was made, so the
+ * run should have shown every rule. Otherwise a rule counts only if it is in a user table
+ * (rule.from) and its formulations and cases were run completely, with all points and quantities. A
+ * selection (-k) includes a case completely if it matches the name of the case. */
 static int missed_rules(const sweep *s, truths *t, int whole);
-/* Counts the reference values that a complete run did not use: unmet, waiting and unread. An
- * unread value counts as met (truth.met) but is not evaluated, because a run evaluates motions
- * only for a few instants and structures; `make lab L=motions` evaluates all of them. */
+/* Counts the reference values that a complete run did not use: unmet, waiting and unread. An unread
+ * value counts as met (truth.met) but is not evaluated, because a run evaluates motions only at a
+ * few times and for a few structures. `make lab L=motions` evaluates all of them. */
 static void missed_truths(const sweep *s, truths *t, judgement *out);
 
 /* Returns 1 if the limit is outside the range that the rule covers. If a limit was derived, the
- * distance from that limit counts. */
+ * distance from the derived limit counts. */
 static int is_beyond(const rule *r, const verdict *v)
 {
     return isfinite(v->departure) && isfinite(r->largest_error) &&
            fabs(v->departure) > r->largest_error;
 }
 
-/* Sets the expectation for a verdict: a verdict other than pass is expected if exactly one known
+/* Sets the expectation for a verdict. A verdict other than pass is expected if exactly one known
  * deviation applies. */
 static void expect(const sweep *s, truths *t, verdict *v)
 {
@@ -56,8 +56,8 @@ static void expect(const sweep *s, truths *t, verdict *v)
         if (v->kind == VERDICT_BIASED_AS_PREDICTED || v->kind == VERDICT_WRONG_AS_PREDICTED)
             rules_foretell(r, &subject);
         if (is_beyond(r, v) && r->from == NULL && formulations_is_loaded(one->formulation.type))
-            continue; /* findings about formulations of this program do not apply to other
-                         programs */
+            /* findings about formulations of this program do not apply to other programs */
+            continue;
         if (is_beyond(r, v))
             snprintf(v->reason, sizeof v->reason,
                      "the limit is %+.3g %% from %s, beyond the %.3g %% of known deviation %.60s",
@@ -70,7 +70,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
     v->matches = v->kind == v->expected;
 }
 
-/* Checks the run record of every cell of a series. */
+/* Checks the records of every cell of a series. */
 static status check_cells(const sweep *s, int index, judgement *out, fault *f)
 {
     const series *one = &s->series[index];
@@ -85,8 +85,8 @@ static status check_cells(const sweep *s, int index, judgement *out, fault *f)
     return STATUS_OK;
 }
 
-/* Marks the reference values of this quantity as used, including those of lower rank and those
- * of other models. */
+/* Marks the reference values of this quantity as used, including values of lower rank and values of
+ * other models. */
 static void mark_met(truths *t, const sweep_point *p, const formulation *chosen,
                      const char *quantity, int judged)
 {
@@ -122,7 +122,7 @@ static status check_units(const sweep *s, const truths *t, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if an imported series has any value of the quantity. */
+/* Returns 1 if an imported series has a value of the quantity. */
 static int is_imported(const series *one, int quantity)
 {
     for (int i = 0; i < one->meshes; i++)
@@ -131,7 +131,7 @@ static int is_imported(const series *one, int quantity)
     return 0;
 }
 
-/* Returns 1 if the limit is known to be within the tolerance, whatever the verdict. */
+/* Returns 1 if the limit is certainly within the tolerance, whatever the verdict is. */
 static int is_within(const verdict *v)
 {
     return v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED ||
@@ -171,7 +171,7 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
              v->kind != VERDICT_SKIP && v->kind != VERDICT_OTHER_MODEL);
 }
 
-/* Returns 1 if noise could account for the whole last change, or when the verdict is open. */
+/* Returns 1 if noise could explain the whole last change, or if there is no verdict yet. */
 static int noise_may_decide(const sweep *s, const truths *t, int index, int quantity)
 {
     const double small_change = 1e-7;
@@ -211,8 +211,8 @@ static void judge_series(const sweep *s, truths *t, int index, judgement *out)
     const sweep_point *p = &s->point[one->point];
     for (int q = 0; q < p->scene.quantities; q++) {
         const scene_quantity *quantity = &p->scene.quantity[q];
-        /* a curve is only drawn with its reference values; another quantity evaluates a point of
-         * the curve */
+        /* A curve is only drawn with its reference values. Another quantity evaluates a point of
+         * the curve. */
         if (one->imported != NULL && (quantity->reduction == SCENE_CURVE || !is_imported(one, q)))
             continue;
         if (quantity->reduction == SCENE_CURVE)
@@ -249,7 +249,7 @@ status judgement_add(const sweep *s, truths *t, int series_index, judgement *out
 
 void judgement_end(const sweep *s, truths *t, int whole, judgement *out)
 {
-    /* the list of known deviations assumes the tolerances of the cases */
+    /* The list of known deviations assumes the tolerances of the cases. */
     out->unobserved = s->tolerance > 0 ? 0 : missed_rules(s, t, whole);
     if (whole)
         missed_truths(s, t, out);
@@ -302,7 +302,7 @@ static int is_run(const sweep *s, const case_type *type, const element_type *ele
     return 0;
 }
 
-/* Returns 1 if the run includes a formulation of that name with options. */
+/* Returns 1 if the run includes a formulation with this name and options. */
 static int key_is_run(const sweep *s, const char *word)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -325,8 +325,8 @@ static int formulations_are_run(const sweep *s, const char *word)
     return all && found;
 }
 
-/* Returns 1 if all points and quantities of the cases are included, so the word selects only cases.
- * */
+/* Returns 1 if all points and quantities of the cases are included, so that the word selects only
+ * cases. */
 static int cases_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;

@@ -2,37 +2,37 @@
 
 #include <math.h>
 
-/* Returns the order from three values by bisection, at most bisected_order; NAN if no order fits
- * the changes. */
+/* Returns the order from three values, at most bisected_order, by bisection; NAN: no order fits the
+ * changes. */
 static double richardson_order(const double n[3], const double f[3]);
 /* Returns Richardson's limit from the last two of three values. */
 static double richardson_limit(const double n[3], const double f[3], double p);
-/* Returns the amplification of errors: the change of the extrapolated limit per change of the
- * values, as the root of the sum of squares. */
+/* Returns the amplification of errors: the root of the sum of squares of the derivatives of the
+ * extrapolated limit with respect to the values. */
 static double richardson_amplification(const double n[3], const double f[3], double p);
 
-/* smallest ratio of the numbers of elements of successive meshes; changes between closer meshes
- * are mostly noise */
+/* smallest ratio of the numbers of elements of successive meshes; changes between closer meshes are
+ * mostly noise */
 static const double least_refinement = 1.4;
 static const double unmeasured_noise = 3e-11, least_noise = 2.3e-16; /* relative noise */
-/* changes below this multiple of the noise do not show an order */
+/* changes below this multiple of the noise do not give an order */
 static const double noisy_changes = 10;
-static const double least_seen_order = 0.5; /* smallest observed order that is accepted ... */
-/* ... and order assumed for the remaining error */
+static const double least_seen_order = 0.5; /* smallest observed order that is accepted */
+/* order that is assumed for the remaining error */
 static const double remaining_order = 1;
 static const double settled_part = 1e-4;
-/* smallest uncertainty as a fraction of the extrapolation step, if scatter was not measured */
+/* smallest uncertainty if scatter was not measured, as a fraction of the extrapolation step */
 static const double doubted_step = 0.02;
 static const double sure = 1.25, unsure = 3;
 static const double end_factor =
     4; /* uncertainty of a value without extrapolation, as a multiple of the scatter */
 
-/* The thinned sequence, coarsest mesh first, and derived values. */
+/* The thinned sequence, with the coarsest mesh first, and values derived from it. */
 typedef struct meshes {
     int count;
     double n[LIMIT_MESHES], f[LIMIT_MESHES];
     double change[LIMIT_MESHES]; /* f[i + 1] - f[i] */
-    double order[LIMIT_MESHES];  /* order of meshes i, i + 1, i + 2; NAN: none */
+    double order[LIMIT_MESHES];  /* order from meshes i, i + 1, i + 2; NAN: none */
     double scale, noise;         /* [unit of f] */
 } meshes;
 
@@ -43,8 +43,8 @@ const char *limit_kind_name(limit_kind kind)
     return names[kind];
 }
 
-/* Returns the index of the finest mesh with a value whose number of elements is smaller than
- * `fine` by at least the factor least_refinement; -1: none. */
+/* Returns the index of the finest mesh with a value for which the number of elements is smaller
+ * than `fine` by at least the factor least_refinement; -1: none. */
 static int coarser_than(const limit_sequence *s, double fine)
 {
     int best = -1;
@@ -55,8 +55,8 @@ static int coarser_than(const limit_sequence *s, double fine)
     return best;
 }
 
-/* Selects meshes, starting with the finest one. Each is coarser than the previous one by at
- * least the factor least_refinement. */
+/* Selects meshes, starting with the finest mesh. Each selected mesh is coarser than the previous
+ * one by at least the factor least_refinement. */
 static void thin(const limit_sequence *s, meshes *m)
 {
     int kept[LIMIT_MESHES];
@@ -118,8 +118,8 @@ static void few(const meshes *m, mesh_limit *out)
             end_factor * m->noise;
 }
 
-/* Sets the limit and returns 1 if the last change is within the noise and the previous one was not
- * small by accident. */
+/* Sets the limit and returns 1 if the last change is within the noise and the previous change was
+ * not small by accident. */
 static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const double a = fabs(m->change[m->count - 2]), b = fabs(m->change[m->count - 3]),
@@ -134,7 +134,8 @@ static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Returns the limit from the meshes first, first + 1, first + 2 with their observed order. */
+/* Returns the limit from the meshes first, first + 1 and first + 2 with the order observed for
+ * them. */
 static double own_limit(const meshes *m, int first)
 {
     return richardson_limit(m->n + first, m->f + first, m->order[first]);
@@ -150,13 +151,13 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     *factor = sure;
     if (k > 1 && is_good(m->order[k - 2], s)) {
         const double before = fabs(own_limit(m, k - 1) - own_limit(m, k - 2));
-        /* the limits do not converge, possibly because of noise */
+        /* The limits do not converge, possibly because of noise. */
         if (!measured && change > before / pow(R, remaining_order)) {
             change = fmax(change, before);
             *factor = unsure;
         }
-        /* a small change may be accidental. An order above the highest possible one means that
-         * another error term contributes, which makes accidents likely. */
+        /* A small change may be accidental. An order above the highest possible order means that
+         * another error term contributes, which makes such accidents likely. */
         const double next =
             m->order[k] <= 1.1 * s->highest_order ? m->order[k] + 2 : s->nominal_order;
         change = fmax(change, before / pow(R, next));
@@ -164,7 +165,7 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     return measured ? change : fmax(change, doubted_step * fabs(value - m->f[k + 2]));
 }
 
-/* Returns 1 if the middle order is the smallest or the largest, by more than the scatter of orders
+/* Returns 1 if the middle order is the smallest or the largest by more than the scatter of orders
  * of a single error term. */
 static int turns(double a, double b, double c)
 {
@@ -172,7 +173,7 @@ static int turns(double a, double b, double c)
     return (a - b) * (b - c) < 0 && fmin(fabs(a - b), fabs(b - c)) > scatter;
 }
 
-/* Sets the limit and returns 1 if two orders agree; the change of the limit then bounds the
+/* Sets the limit and returns 1 if two orders agree. The change of the limit then bounds the
  * remaining error. */
 static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
@@ -196,9 +197,9 @@ static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* If the order still changes, or there are only three meshes: sets the limit and its uncertainty
- * from the largest of the last changes and the smallest plausible order. Returns 1 if this
- * applies. */
+/* Sets the limit if the order still changes, or if there are only three meshes, and returns 1. The
+ * uncertainty follows from the largest of the last changes and the smallest plausible order.
+ * Returns 0 in other cases. */
 static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int k = m->count - 3;
@@ -211,13 +212,13 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     if (k == 0) {
         q = fmin(p, nominal);
         rest = fmax(a, b * pow(R, -nominal));
-        /* increasing towards the declared order */
+        /* the order increases towards the declared order */
     } else if (before >= least_seen_order && before <= p && p <= 1.1 * nominal) {
         q = p;
         rest = a;
         factor = p >= 0.9 * nominal ? sure : unsure;
-    } else { /* an excessive order indicates that the error will change its sign; the order is
-                therefore extrapolated downwards */
+    } else { /* an order that is too high indicates that the error will change its sign, so the
+                order is extrapolated downwards */
         q = fmax(fmin(fmin(p, highest), fmin(before, 2 * before - p)), fmin(remaining_order, p));
         rest = fmax(a, b * pow(R, -fmax(before, q)));
     }
@@ -229,8 +230,8 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Without an observed order: sets the uncertainty from the largest of the last three changes,
- * each reduced by the nominal order. The uncertainty is larger if the changes grow. */
+/* Sets the uncertainty if no order was observed, from the largest of the last three changes, each
+ * reduced according to the nominal order. The uncertainty is larger if the changes grow. */
 static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int last = m->count - 1;

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <zlib.h>
 
-/* With more columns than this, all options of a formulation share one column. */
+/* If there are more columns, all options of a formulation share one column. */
 enum { MOST_COLUMNS = 10 };
-/* With more cases than this, cases that pass share lines. */
+/* If there are more cases, cases that pass share lines. */
 enum { MOST_ROWS = 24 };
 
 static const overview_mark marks[VERDICT_KINDS] = {
@@ -90,7 +90,7 @@ static void add_columns(const sweep *s, overview *out, int of_new)
     }
 }
 
-/* Finds the columns; new formulations come after the others. */
+/* Finds the columns. New formulations come after all other formulations. */
 static void find_columns(const sweep *s, overview *out, int joined)
 {
     out->joined = joined;
@@ -116,7 +116,7 @@ static overview_cell *cell_of(const sweep *s, const overview *o, int series_inde
     return &o->cell[row * o->columns + column_of(o, name_of(one, o->joined))];
 }
 
-/* Adds a mark; a more severe mark replaces a less severe one. */
+/* Adds a mark. A more severe mark replaces a less severe one. */
 static void add(overview_cell *to, overview_mark mark, int unexpected)
 {
     const int rank = OVERVIEW_MARKS * unexpected + (int)mark;
@@ -195,7 +195,8 @@ int overview_shown(const overview *o, int row)
     return o->rows <= MOST_ROWS || !overview_passes(o, row);
 }
 
-/* Returns the CRC-32 of IEEE 802.3. To start, pass 0; to continue, pass the previous result. */
+/* Returns the CRC-32 of IEEE 802.3. sum: 0 for the first block, otherwise the result for the
+ * previous blocks. */
 static uint32_t checksum(uint32_t sum, const unsigned char *data, size_t size)
 {
     return (uint32_t)crc32_z(sum, data, size);
@@ -230,8 +231,8 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
     return bad ? fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path) : STATUS_OK;
 }
 
-/* Computes the checksum of all but the last CHECKSUM_LENGTH bytes, which are copied to `tail`.
- * Returns the length of the file before these bytes; -1: the file is shorter than this. */
+/* Computes the checksum of all bytes except the last CHECKSUM_LENGTH bytes, which are copied to
+ * `tail`. Returns the length of the file without these bytes; -1: the file is too short. */
 static long read_body(FILE *from, uint32_t *sum, char tail[CHECKSUM_LENGTH + 1])
 {
     enum { PIECE = 1 << 18 };

@@ -9,8 +9,8 @@
 #include "cases/format/format.h"
 #include "elements/shared/choice.h"
 
-/* Returns case number i of the run, followed by the other built-in cases; NULL after the last
- * one. */
+/* Returns case number i: first the cases of the run, then the other built-in cases; NULL after the
+ * last case. */
 static const case_type *own_names_case_at(const case_type *const run[], int i);
 
 static const char head[] = "rule,formulations,cases,condition,quantities,verdicts,largest_error,"
@@ -35,7 +35,7 @@ typedef struct findings_reader {
     truths *t;
     mistakes *m;
     const own_table_row *row;
-    int good; /* 1: no error has been found in the present row */
+    int good; /* 1: no error has been found in the current row */
 } findings_reader;
 
 /* Reports an error in a column of the row. */
@@ -71,7 +71,8 @@ static void check_case(findings_reader *r, const char *word)
               own_names_near_case(r->run, word, near));
 }
 
-/* Returns 1 if the case has the quantity, at its defaults or at points with reference values. */
+/* Returns 1 if the case has the quantity at its default point or at points with reference values.
+ * */
 static int case_has(const findings_reader *r, const case_type *type, const char *quantity,
                     scene *defaults)
 {
@@ -81,7 +82,7 @@ static int case_has(const findings_reader *r, const case_type *type, const char 
     return own_names_quantity(defaults, quantity) != NULL;
 }
 
-/* Checks that some case of the rule has the quantity. Otherwise the rule would never apply. */
+/* Checks that a case of the rule has the quantity. Otherwise the rule would never apply. */
 static void check_quantity(findings_reader *r, const char *word)
 {
     char near[FAULT_TEXT] = "", pattern[RULES_WORD];
@@ -111,7 +112,7 @@ static const char *verdict_at(const void *context, int i)
     return i < VERDICT_KINDS ? verdict_name((verdict_kind)i) : NULL;
 }
 
-/* Checks a list of verdicts: "wrong limit|undecided". */
+/* Checks a list of verdicts, such as "wrong limit|undecided". */
 static void check_verdicts(findings_reader *r)
 {
     char word[RULES_WORD], near[FAULT_TEXT];
@@ -164,7 +165,7 @@ static void check_name(findings_reader *r)
                   r->t->rule[i].from != NULL ? r->t->rule[i].from : "the list of known deviations");
 }
 
-/* Checks that the rule gives the cause and how it is known. */
+/* Checks that the rule gives the cause and its proof. */
 static void check_grounds(findings_reader *r)
 {
     if (r->row->field[CAUSE][0] == '\0' || strcmp(r->row->field[CAUSE], PROPOSAL_CAUSE) == 0)
@@ -356,7 +357,8 @@ const char *own_names_near_quantity(const scene *s, const char *name, char text[
                            "; 'beamwork list CASE' shows them", text);
 }
 
-/* Returns 1 if all quotes end in the line. Otherwise the field would continue on the next line. */
+/* Returns 1 if all quotation marks are closed in the line. Otherwise the field would continue on
+ * the next line. */
 static int quotes_are_even(const char *line)
 {
     int quotes = 0;

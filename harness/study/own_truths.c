@@ -37,7 +37,7 @@ typedef struct truths_reader {
     truths *t;
     mistakes *m;
     const own_table_row *row;
-    int good; /* 1: no error has been found in the present row */
+    int good; /* 1: no error has been found in the current row */
 } truths_reader;
 
 /* Reports an error in a column of the row. */
@@ -68,7 +68,7 @@ static void take_elements(truths_reader *r, int *out)
         *out = (int)count;
 }
 
-/* Checks the quantity and its unit in the scene at these parameters. */
+/* Checks the quantity and its unit in the scene for these parameters. */
 static void check_quantity(truths_reader *r, const case_type *type, const double value[])
 {
     char near[FAULT_TEXT];
@@ -112,8 +112,8 @@ static int same_point(const truth *a, const truth *b)
     return 1;
 }
 
-/* Returns an existing reference value for the same quantity. Two of them are an error, since
- * only one would be used. */
+/* Returns an existing reference value for the same quantity; NULL: none. Two reference values are
+ * an error, because only one would be used. */
 static const truth *known(const truths *t, const truth *row)
 {
     for (int i = 0; i < t->rows; i++) {
@@ -159,7 +159,7 @@ static void take_row(truths_reader *r, const case_type *type, truth *out)
     check_quantity(r, type, out->parameter);
 }
 
-/* Checks a row: words from fixed lists, and members that are required together. */
+/* Checks a row: words from fixed lists, and members that require each other. */
 static void check_row(truths_reader *r, const truth *row)
 {
     const char *wrong = truth_rows_wrong(row);

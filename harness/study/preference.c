@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reasons against a formulation, the most serious one first. The formulation with the least
+/* Reasons against a formulation, with the most serious reason first. The formulation with the least
  * serious reasons is chosen. */
 enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
 typedef struct standing {
@@ -76,8 +76,8 @@ static int is_better(const standing *a, const standing *b)
     return 0;
 }
 
-/* Returns 1 if the type supports the whole scene or, with `other`, enough of it to run as another
- * model. */
+/* Returns 1 if the type supports the whole scene. other 1: it may also support enough of the scene
+ * to run as another model. */
 static int can_run(const scene *s, const element_type *type, int other)
 {
     char words[OMIT_WORDS];
@@ -86,8 +86,8 @@ static int can_run(const scene *s, const element_type *type, int other)
     return !missing_words(s, type, words, sizeof words) && !lacks_of(s, type, words, sizeof words);
 }
 
-/* Candidates, the best first. All are ranked equal to the first one; there are at most two per
- * family. */
+/* Candidates, with the best one first. All are ranked equal to the first candidate. There are at
+ * most two per family. */
 enum { CANDIDATES = 5, OF_FAMILY = 2 };
 typedef struct preference_candidates {
     int count;
@@ -95,7 +95,7 @@ typedef struct preference_candidates {
     standing here[CANDIDATES];
 } preference_candidates;
 
-/* Returns 1 if the type is already a candidate, or when its family has enough candidates. */
+/* Returns 1 if the type is already a candidate, or if its family has enough candidates. */
 static int is_taken(const preference_candidates *all, const element_type *type)
 {
     int same = 0;
@@ -115,8 +115,8 @@ static int as_sound(const standing *a, const standing *b)
     return 1;
 }
 
-/* Appends the best candidate that has not been chosen yet. Returns 0 if none is ranked equal to the
- * first one. */
+/* Appends the best candidate that has not been chosen yet. Returns 0 if no other type is ranked
+ * equal to the first candidate. */
 static int take_next(const scene *s, const rule_subject *where, const rule *rules, int count,
                      int other, preference_candidates *all)
 {
@@ -181,7 +181,8 @@ status preference_formulation(const scene *s, const rule_subject *where, const r
     return STATUS_OK;
 }
 
-/* Returns 1 for a path with unstable states, on which a coarse mesh may follow another branch. */
+/* Returns 1 for a path with unstable states. On such a path, a coarse mesh may follow another
+ * branch. */
 static int met_unstable(const solve_result *r)
 {
     for (int i = 0; i < r->steps; i++)
@@ -194,16 +195,17 @@ static int met_unstable(const solve_result *r)
 typedef struct runner {
     cell_request request;
     formulation chosen;
-    cell_result cell[2];  /* results of the last two meshes, alternating */
-    double asked;         /* relative change that counts as converged */
-    value_change last;    /* expected change from the last mesh to a finer one */
-    double *former, *raw; /* [quantities] earlier changes, and changes between the last two
-                             meshes */
-    double slow;          /* largest change between the last two meshes if a further change is
-                             expected; else 0 */
-    int tried, before, elements; /* number of meshes; numbers of elements of the last two */
-    int unstable;                /* 1: a mesh had unstable states that finer meshes may not have */
-    double cost, next;           /* [s] cost of the last mesh; estimated cost of the next mesh */
+    cell_result cell[2]; /* results of the last two meshes; they are stored alternately */
+    double asked;        /* relative change that counts as converged */
+    value_change last;   /* expected change from the last mesh to finer meshes */
+    /* [quantities] earlier changes, and changes between the last two meshes */
+    double *former, *raw;
+    /* largest change between the last two meshes if a further change is expected; otherwise 0 */
+    double slow;
+    /* number of meshes, and numbers of elements of the last two meshes */
+    int tried, before, elements;
+    int unstable;      /* 1: a mesh had unstable states that finer meshes may not have */
+    double cost, next; /* [s] cost of the last mesh, and estimated cost of the next mesh */
 } runner;
 
 static status begin(runner *r, const cell_request *request, const formulation *chosen, double asked,
@@ -235,8 +237,8 @@ static void end(runner *r)
     cell_result_free(&r->cell[1]);
 }
 
-/* Returns the number of elements of the next mesh: the meshes of the scene first, then twice the
- * elements each time. */
+/* Returns the number of elements of the next mesh: first the meshes of the scene, then twice the
+ * number of elements each time. */
 static int next_mesh(const scene *s, const runner *r)
 {
     return r->tried < s->meshes ? s->mesh[r->tried] : 2 * r->elements;
@@ -257,12 +259,13 @@ static int exhausted(const scene *s, const runner *r)
            (!tells || r->next > PREFERENCE_COST || r->elements >= PREFERENCE_FINEST);
 }
 
-/* If the order is below one, the remaining change exceeds the last change c. It is estimated as
- * c (q + q^2 + ...), where q is the ratio of the last change to the former one. */
+/* Estimates the remaining change if the order is below one. The remaining change then exceeds the
+ * last change c. It is estimated as c (q + q^2 + ...), where q is the ratio of the last change to
+ * the former change. */
 static void expect_more(const scene *s, runner *r)
 {
-    const double seen = 1e-6, most = 9; /* relative change below which no order is visible;
-                                           largest multiple of the last change */
+    /* smallest relative change that gives an order, and largest multiple of the last change */
+    const double seen = 1e-6, most = 9;
     const double largest = r->last.largest;
     for (int i = 0; i < s->quantities; i++) {
         const double now = r->last.of_each[i], rate = now / r->former[i];
@@ -301,8 +304,8 @@ static void refine(const scene *s, runner *r)
     r->tried++;
 }
 
-/* Always advances the runner whose next mesh has the lowest cost, until one runner has
- * converged, and returns it; NULL: no runner converges within the limits. */
+/* Repeatedly advances the runner whose next mesh has the lowest cost, until a runner has converged.
+ * Returns this runner; NULL: no runner converges within the limits. */
 static runner *race(const scene *s, runner of[], int count)
 {
     for (;;) {
@@ -337,7 +340,7 @@ static void tell_elements(const scene *s, const runner *r, char why[FAULT_TEXT])
                  r->unstable ? "; coarser meshes met unstable states" : "");
 }
 
-/* Returns the runner whose values changed least, if none has converged. */
+/* Returns the runner with the smallest change of values, for the case that none has converged. */
 static runner *calmest(runner of[], int count)
 {
     runner *out = &of[0];
@@ -347,7 +350,7 @@ static runner *calmest(runner of[], int count)
     return out;
 }
 
-/* Stores the result of a runner; *out takes ownership of the changes. */
+/* Stores the result of a runner. *out takes ownership of the changes. */
 static void keep(const scene *s, runner *r, preference *out)
 {
     out->chosen = r->chosen;

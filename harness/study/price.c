@@ -42,7 +42,8 @@ static double count_of(const cell_result *c, price_count which)
     }
 }
 
-/* Returns 1 if "key=value", of the given length, is one of the options in "name:key=value,...". */
+/* Returns 1 if "key=value", whose length is given, is one of the options in "name:key=value,...".
+ * */
 static int has_option(const char *key, const char *option, size_t length)
 {
     const char *at = strchr(key, ':');
@@ -55,8 +56,8 @@ static int has_option(const char *key, const char *option, size_t length)
     return 0;
 }
 
-/* Returns the number of options of the row that the formulation has, plus one; 0: the row does
- * not apply. */
+/* Returns the number of options of the row that the formulation has, plus one; 0: the row does not
+ * apply. */
 static int match(const char *row, const char *key)
 {
     const size_t name = strcspn(row, ":");
@@ -72,7 +73,7 @@ static int match(const char *row, const char *key)
     return options;
 }
 
-/* Returns the name of the matching rows with the most options, or "*". */
+/* Returns the name of the matching rows with the most options; "*": no row matches. */
 static const char *row_name(const price_row *rows, const char *key)
 {
     const char *best = "*";
@@ -143,8 +144,8 @@ const char *reach_defect_words(verdict_kind kind)
     }
 }
 
-/* Returns 1 if the quantity is part of the question: it is the named one, or some formulation has a
- * reference value for it. */
+/* Returns 1 if the question includes the quantity: it is the given quantity, or at least one
+ * formulation has a reference value for it. */
 static int is_asked(const reach_question *q, int quantity)
 {
     int known = 0;
@@ -156,7 +157,7 @@ static int is_asked(const reach_question *q, int quantity)
     return known;
 }
 
-/* Returns the verdict on a quantity of a series, or NULL. */
+/* Returns the verdict on a quantity of a series; NULL: none. */
 static const verdict *verdict_on(const reach_question *q, int series_index, int quantity)
 {
     for (int i = 0; i < q->verdicts; i++)
@@ -195,7 +196,7 @@ static int has_no_rank(const formulation *chosen)
     return reach_unranked(chosen->type)[0] != '\0';
 }
 
-/* Answers the question for one series. Returns 0 if the series does not meet the target in all
+/* Answers the question for a series. Returns 0 if the series does not meet the target in all
  * requested quantities. */
 static int reach_one(const reach_question *q, int series_index, reached *out)
 {
@@ -284,7 +285,7 @@ verdict *reach_verdicts(const sweep *s, const truths *t, int *count)
     return all;
 }
 
-/* Returns the reference value of a quantity of a series; NULL for a curve. */
+/* Returns the reference value of a quantity of a series; NULL: none, or a curve. */
 static const truth *reference_of(const sweep *s, const truths *t, int index, int quantity)
 {
     const sweep_point *p = &s->point[0];

@@ -36,10 +36,10 @@ static int list_has_formulation(const char *list, const char *key)
     return list_has(list, key) || list_has(list, bare);
 }
 
-/* One term of a condition, trimmed. */
+/* A term of a condition, without surrounding blanks. */
 typedef struct rules_term {
-    unsigned feature; /* 0: the term compares a parameter */
-    int negated;      /* 1: "not" before the feature */
+    unsigned feature; /* bit of the feature; 0: the term compares a parameter */
+    int negated;      /* 1: "not" precedes the feature */
     char parameter[WORD], sign[3], values[WORD];
 } rules_term;
 
@@ -66,7 +66,7 @@ static int term_parse(const char *text, rules_term *out)
     return 0;
 }
 
-/* Returns a number, or the index of a choice; NAN: the word is neither. */
+/* Returns a number, or the index of a choice; NAN: the word is neither a number nor a choice. */
 static double value_of(const parameter_type *p, const char *word)
 {
     double value;
@@ -285,7 +285,7 @@ status columns_strings(const table_columns *r, const char *column, char **out)
     int good = stored >= 0 && H5Tget_class(stored) == H5T_STRING && !H5Tis_variable_str(stored);
     const size_t size = good ? H5Tget_size(stored) : 1;
     char *all = good && size < 100000 ? calloc((size_t)r->rows + 1, size) : NULL;
-    /* reads the stored type, because HDF5 clears a large buffer for each conversion */
+    /* Reads the stored type, because HDF5 clears a large buffer for each conversion. */
     good = good && all != NULL && H5Dread(set, stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, all) >= 0;
     for (int i = 0; i < r->rows && good; i++)
         good = (out[i] = strndup(all + (size_t)i * size, size)) != NULL;

@@ -22,7 +22,8 @@ static void report(progress *p, const workload *w, int last)
     progress_show(p, now, w->finished, workload_share(w), what);
 }
 
-/* Handles a worker that has sent results or ended. *running: number of workers, updated. */
+/* Handles a worker that has sent results or has ended, and updates the number of workers *running.
+ * */
 static status attend(progress *p, workload *w, int self, worker *one, int *running, fault *f)
 {
     const int i = worker_receive(w, one);
@@ -38,12 +39,12 @@ static status attend(progress *p, workload *w, int self, worker *one, int *runni
     return STATUS_OK;
 }
 
-/* Waits for workers or a request to stop. Returns 1 if the run must stop. */
+/* Waits for workers or for a request to stop. Returns 1 if the run must stop. */
 static int wait_for_any(const workload *w, int jobs, const worker workers[], int asked,
                         struct pollfd ends[])
 {
-    /* [ms] interval between checks for workers that exceed the time limit, or that have ended
-     * while another process keeps their pipe open */
+    /* [ms] Interval between checks for workers that exceed the time limit, and for workers that
+     * have ended while another process keeps their pipe open. */
     const int interval = workload_can_tell(w) ? 0 : w->time_limit > 0 ? 100 : 1000;
     for (int i = 0; i < jobs; i++)
         ends[i] = (struct pollfd){.fd = workers[i].from, .events = POLLIN};
@@ -56,7 +57,7 @@ static int wait_for_any(const workload *w, int jobs, const worker workers[], int
 /* The running processes, and the descriptor of requests to stop. */
 typedef struct cell_crew {
     int jobs, running, interrupted;
-    int asked; /* becomes readable on a request to stop; -1: none */
+    int asked; /* becomes readable when a stop is requested; -1: none */
     worker workers[WORKERS_MOST];
 } cell_crew;
 
@@ -69,7 +70,7 @@ static status start_all(const workload *w, cell_crew *c, fault *f)
     return STATUS_OK;
 }
 
-/* Reads from processes that have sent data, and checks the time limit of the others. */
+/* Reads from processes that have sent data, and checks the time limit of the other processes. */
 static status attend_all(progress *p, workload *w, cell_crew *c, const struct pollfd ends[],
                          fault *f)
 {
@@ -94,7 +95,7 @@ static status work_off(progress *p, workload *w, cell_crew *c, fault *f)
         if (c->interrupted)
             break;
         TRY(attend_all(p, w, c, ends, f));
-        if (workload_can_tell(w)) /* one series at a time, since workers wait meanwhile */
+        if (workload_can_tell(w)) /* one series at a time, because workers are waiting */
             TRY(workload_tell(w, f));
     }
     return STATUS_OK;
@@ -158,8 +159,8 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
     return outcome == STATUS_OK ? tell_all(w, f) : outcome;
 }
 
-/* Cells run in a separate process even for one job, so a crash is reported as a result and results
- * do not depend on the number of jobs. */
+/* Cells run in separate processes even if there is only one job. A crash is then reported as a
+ * result, and results do not depend on the number of jobs. */
 status run_sweep(const sweep_request *request, sweep *s, fault *f)
 {
     workload w;
@@ -174,9 +175,10 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f)
 }
 
 enum { COLUMNS = 79, LINE = 400 };
-/* [s] time between two outputs, and time before the first estimate of the remaining time */
+/* [s] time between two outputs, and time until the remaining time is first estimated */
 static const double interval = 0.2, first_word = 1;
-static const double least_share = 0.01; /* smallest completed fraction for an estimate */
+/* smallest completed fraction from which the remaining time is estimated */
+static const double least_share = 0.01;
 
 progress progress_begin(FILE *to, const char *things, int count, double now)
 {
@@ -197,7 +199,7 @@ static int columns_of(FILE *to)
     return size.ws_col - 1;
 }
 
-/* Writes a time as "45 s", "3 min" or "1 h 10 min". */
+/* Writes a time in the form "45 s", "3 min" or "1 h 10 min". */
 static void write_time(double seconds, char *text, size_t size)
 {
     const int minutes = (int)(seconds / 60 + 0.5);

@@ -1,4 +1,4 @@
-/* Describes a verdict in words, with the numbers that determined it. */
+/* Describes verdicts in words, with the numbers that determine them. */
 #include "harness/study/study.h"
 
 #include <math.h>
@@ -23,7 +23,8 @@ static void passed(const verdict *v, char *text, size_t size)
 }
 
 /* Writes the uncertainty of a limit in percent of the reference value. If the reference value is
- * zero or very small, the unit is that of the quantity, and the error is relative to near_zero. */
+ * zero or very small, the error is relative to near_zero, and the uncertainty has the unit of the
+ * quantity. */
 static void doubt_of(const verdict *v, char text[2 * ROUNDING_TEXT])
 {
     const double size = fabs(v->truth->value), apart = fabs(v->fit.limit - v->truth->value);
@@ -46,8 +47,8 @@ static void undecided(const verdict *v, char *text, size_t size)
              100 * v->error, doubt, limit_kind_name(v->fit.kind), v->fit.meshes);
 }
 
-/* Describes a limit within the tolerance. If it is neither the reference value nor the limit
- * derived for the formulation, it is probably not the true limit: values seem to converge while
+/* Describes a limit within the tolerance. A limit that is neither the reference value nor the limit
+ * derived for the formulation is probably not the true limit: values seem to converge while
  * elements are longer than the thickness of a boundary layer. */
 static void biased(const verdict *v, char *text, size_t size)
 {
@@ -139,7 +140,7 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
     unjudged(v, text, size);
 }
 
-/* Appends a part to a string, after a joint if there are earlier parts. */
+/* Appends a part to a string. If the string is not empty, the joint is inserted before the part. */
 static void add_part(char *text, size_t size, int *parts, const char *joint, const char *part)
 {
     const size_t used = strlen(text);
@@ -186,10 +187,10 @@ static void failures(const judgement *j, char *text, size_t size)
                "reference values refer to unknown names");
 }
 
-/* Numbers of expected verdicts other than pass: those due to a derived limit, and those due to a
- * rule alone. */
+/* Numbers of expected verdicts other than pass: verdicts due to a derived limit, and verdicts due
+ * to a rule alone. */
 typedef struct known_value {
-    int derived[2]; /* derived limits within the tolerance; outside it */
+    int derived[2]; /* numbers of derived limits within and outside the tolerance */
     int by_rule;
 } known_value;
 
@@ -208,8 +209,8 @@ static known_value count_known(const judgement *j)
     return out;
 }
 
-/* Describes the verdicts on formulations that do not affect the exit status, and how many of
- * them would need a known deviation. */
+/* Describes the verdicts on formulations that do not affect the exit status, and gives the number
+ * of verdicts that would need a known deviation. */
 static void new_ones(const judgement *j, char *text, size_t size)
 {
     if (j->proposed == 0)
@@ -277,7 +278,7 @@ void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size
                  more[0] != '\0' ? "; " : "", more);
 }
 
-/* Returns the decimal exponent of the value after rounding to that many digits. */
+/* Returns the decimal exponent of the value after rounding to the given number of digits. */
 static int exponent_of(double value, int digits)
 {
     char text[ROUNDING_TEXT];
@@ -285,7 +286,7 @@ static int exponent_of(double value, int digits)
     return atoi(strchr(text, 'e') + 1);
 }
 
-/* Writes a number as "1.2e-7", with a plus sign if requested. */
+/* Writes a number in the form "1.2e-7", with a plus sign if requested. */
 static void with_exponent(double value, int digits, int sign, char text[ROUNDING_TEXT])
 {
     char padded[ROUNDING_TEXT];

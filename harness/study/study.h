@@ -30,49 +30,51 @@
 
 /* Limit of a sequence of values on successively finer meshes, with its uncertainty.
  *
- * The limit is Richardson's extrapolation with the observed order of the last three meshes. If
- * two observed orders agree, its uncertainty is 1.25 times the change in the limit when the last
- * mesh is added. Otherwise the uncertainty is 3 times the largest of the last changes. Where
- * there are two estimates, the larger one is used. Sources: Roache, Verification and Validation
- * in Computational Science and Engineering (1998), grid convergence index and its factors 1.25
- * and 3; Eca and Hoekstra, J. Comput. Phys. 262 (2014) 104-130, range of the data, poor orders,
- * noise; Phillips and Roy, J. Fluids Eng. 136 (2014) 121401, limits of extrapolated limits;
- * Oberkampf and Roy, Verification and Validation in Scientific Computing (2010), chapter 8. */
+ * The limit is Richardson's extrapolation with the observed order of the last three meshes. If two
+ * observed orders agree, its uncertainty is 1.25 times the change of the limit due to the last
+ * mesh. Otherwise the uncertainty is 3 times the largest of the last changes. If there are two
+ * estimates, the larger one is used. Sources: Roache, Verification and Validation in Computational
+ * Science and Engineering (1998), grid convergence index and its factors 1.25 and 3; Eca and
+ * Hoekstra, J. Comput. Phys. 262 (2014) 104-130, range of the data, poor orders, noise; Phillips
+ * and Roy, J. Fluids Eng. 136 (2014) 121401, limits of extrapolated limits; Oberkampf and Roy,
+ * Verification and Validation in Scientific Computing (2010), chapter 8. */
 
-/* Kind of a sequence, for information. A verdict depends only on the value and its uncertainty. */
+/* Kind of a sequence, for information. Verdicts depend only on the value and its uncertainty. */
 typedef enum limit_kind {
     LIMIT_NONE,            /* no value */
     LIMIT_NOISE_DOMINATED, /* the last two changes are within the noise */
-    LIMIT_SETTLED,         /* known to a relative accuracy of 1e-4, or the last change is within the
-                              noise */
-    LIMIT_ASYMPTOTIC,      /* two observed orders agree: value(n) = limit + c n^-order */
-    LIMIT_OSCILLATING,     /* the last two changes differ in sign */
-    LIMIT_NOT_YET,         /* drifting orders, or fewer than three meshes */
+    /* the relative uncertainty is below 1e-4, or the last change is within the noise */
+    LIMIT_SETTLED,
+    LIMIT_ASYMPTOTIC,  /* two observed orders agree: value(n) = limit + c n^-order */
+    LIMIT_OSCILLATING, /* the last two changes differ in sign */
+    LIMIT_NOT_YET, /* the orders change from mesh to mesh, or there are fewer than three meshes */
     LIMIT_KINDS
 } limit_kind;
 
 typedef struct limit_sequence {
     int count;           /* at most LIMIT_MESHES */
     const int *n;        /* [count] numbers of elements, in any order */
-    const double *value; /* [count] values; those that are not finite are ignored */
+    const double *value; /* [count] values; values that are not finite are ignored */
     double noise;        /* relative noise of the values; NAN: not measured */
-    /* the lowest and the highest possible order for the formulation and quantity */
+    /* lowest and highest possible order for the formulation and quantity */
     double nominal_order, highest_order;
-    /* [unit of value] reference size if the limit may be zero; 0: relative to the limit */
+    /* [unit of value] reference size if the limit may be zero; 0: differences are relative to the
+     * limit */
     double near_zero;
 } limit_sequence;
 
 typedef struct mesh_limit {
     limit_kind kind;
     double limit, limit_uncertainty; /* NAN, INFINITY: none */
-    /* NAN: no order was observed; uncertainty: difference between the last two orders */
+    /* order (NAN: none was observed); its uncertainty is the difference between the last two orders
+     * */
     double order, order_uncertainty;
     double earlier_order; /* order of the three meshes before the last two; NAN: none */
-    int order_turns;      /* 1: the middle one of the last three orders is clearly the smallest
-                             or the largest */
-    double noise;         /* [unit of value] noise that was used for the limit */
-    double last_change;   /* |last value - previous value|; NAN: only one mesh */
-    /* coarsest mesh that was used, 0: none; number of meshes after thinning */
+    /* 1: the middle one of the last three orders is clearly the smallest or the largest */
+    int order_turns;
+    double noise;       /* [unit of value] noise that the limit uses */
+    double last_change; /* |last value - previous value|; NAN: there is only one mesh */
+    /* coarsest mesh that was used (0: none), and number of meshes after thinning */
     int from, meshes;
 } mesh_limit;
 
@@ -82,26 +84,26 @@ const char *limit_kind_name(limit_kind kind);
 /* A cell is one run of a case: a parameter point, a formulation with its options, and a mesh. */
 
 typedef struct cell_request {
-    const scene *scene; /* valid scene, shared by all cells of a point; NULL: to be built from the
-                           three members below */
+    /* valid scene that all cells of a point share; NULL: to be built from the next three members */
+    const scene *scene;
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
-    scene_edit edit; /* ... the last of these members */
+    scene_edit edit; /* edit of the scene */
     const element_type *formulation;
     double option[ELEMENT_MAX_OPTIONS];
     solve_options solve;
     int elements;
     int keep_all;
-    unsigned omit; /* physics that the model omits: model_request */
-    int threads;   /* threads for the loop over elements; 0, 1: one */
-    /* Called when the model is complete. Returns 1 if the same problem has already been solved. May
-     * be NULL. */
+    unsigned omit; /* bits of the physics that the model omits (model_request) */
+    int threads;   /* threads for the loop over elements; 0 or 1: one thread */
+    /* Called when the model is complete. Returns 1 if the same problem has already been solved.
+     * NULL: the problem is always solved. */
     int (*is_known)(void *context, const model *);
     void *context;
 } cell_request;
 
 typedef struct cell_result {
-    scene scene; /* the scene, if the cell built it; otherwise empty */
+    scene scene; /* the scene if the cell built it, otherwise empty */
     model_size size;
     double mass; /* mass of the members [kg] */
     counters counters;
@@ -112,93 +114,95 @@ typedef struct cell_result {
 
 /* Sets the formulation, its options and the form of Newton's method. */
 void cell_formulation(cell_request *, const formulation *chosen);
-/* Builds the valid scene of a case at its parameters, changed by the edit (NULL: unchanged). The
+/* Builds the valid scene of a case for given parameters, changed by the edit (NULL: unchanged). The
  * caller frees the scene, even after a failure. */
 status cell_scene(const case_type *type, const double parameter[], const scene_edit *edit,
                   scene *out, fault *f);
 status cell_run(const cell_request *, cell_result *, fault *);
-/* Returns the number of quantities with a value, even if the analysis failed: a missing value
- * does not affect the others. */
+/* Returns the number of quantities with a value, even if an analysis failed. A missing value does
+ * not affect other values. */
 int cell_values(const cell_result *);
 void cell_result_free(cell_result *);
 
-/* Results of another program for a case, read from a file (harness/exchange). Such programs are not
- * run here. */
+/* Results of another program for a case, read from a file (harness/exchange). beamwork does not run
+ * such programs. */
 
 enum { IMPORTED_UNIT = 48, IMPORTED_FILE = 256, IMPORTED_WORD = 48 };
 
-/* A value in the units of the case: value = factor * (value in the file). */
+/* A value of the file; `factor` converts it to the unit of the case. */
 typedef struct imported_row {
     int line;               /* line of the file */
     int elements, unknowns; /* numbers of elements and of unknowns; 0: not given */
     char quantity[SCENE_NAME];
     char unit[IMPORTED_UNIT]; /* unit given in the file */
     double factor;
-    double seconds;            /* time of the solution that the file gives; NAN: not given */
-    double x;                  /* [SI] abscissa of a curve; NAN: no curve */
-    double value, uncertainty; /* [unit of the quantity]; uncertainty NAN: not given */
+    double seconds;            /* time of the solution given in the file; NAN: not given */
+    double x;                  /* [SI] abscissa of a curve; NAN: the quantity is not a curve */
+    double value, uncertainty; /* [unit of the quantity] value and uncertainty (NAN: not given) */
 } imported_row;
 
 typedef struct imported {
     char program[FORMULATION_KEY]; /* name of the program, used like the key of a formulation */
     char file[IMPORTED_FILE];
-    /* "beam": the same model as the beams; any other word: a different model, whose difference
-     * from the beams is a model error */
+    /* "beam": the model of the beams; any other word: another model, whose difference from the
+     * beams is a model error */
     char model[IMPORTED_WORD];
     char convention[IMPORTED_WORD]; /* convention of moments; empty: not given */
     char version[IMPORTED_WORD];    /* version of the program; empty: not given */
     int gates;                      /* 1: verdicts on these values affect the exit status */
     int rows;
     imported_row *row;
-    element_type type; /* placeholder for a formulation that supports nothing */
+    element_type type; /* type without functions, in place of a formulation */
 } imported;
 
 /* Returns 1 if the values belong to the continuum model of the beams. */
 int imported_same_model(const imported *);
 void imported_free(imported *); /* may be NULL */
 
-/* Physics of a scene that a formulation omits, and the resulting change. If no requested quantity
- * changes, the formulation solves the same model; otherwise it solves another model. */
+/* Physics of a scene that a formulation omits, and the resulting change of values. If no requested
+ * quantity changes, the formulation solves the same model. Otherwise it solves another model. */
 
 typedef struct omission {
     unsigned what;          /* FEATURE_* and OMIT_* bits (model.h); 0: nothing */
-    char words[OMIT_WORDS]; /* the same as text, as stored in results */
+    char words[OMIT_WORDS]; /* the omitted physics as text, as stored in results */
     int other;              /* 1: the formulation solves another model */
-    int exact;     /* 1: the values do not change, because the sections have no such physics or
-                      the analyses do not depend on it */
-    double change; /* upper bound of the relative change of values of the scene; NAN: unknown */
+    /* 1: no value changes, because the sections do not have such physics or the analyses do not
+     * depend on it */
+    int exact;
+    double change;             /* upper bound of the relative change of values; NAN: unknown */
     char quantity[SCENE_NAME]; /* quantity with the largest change; empty: none */
-    char why[FAULT_TEXT];      /* why the bound is unknown */
+    char why[FAULT_TEXT];      /* reason why the bound is unknown */
 } omission;
 
-/* Finds the physics of a scene that the type omits, and bounds the resulting change. If no
- * formulation of the program includes all of this physics, or if the one that does finds no
- * values, the bound is unknown and the model counts as another one. */
+/* Finds the physics of a scene that the type omits, and bounds the resulting change. The bound is
+ * unknown if no formulation includes all of this physics, or if that formulation finds no values.
+ * The model then counts as another model. */
 void omission_of(const scene *, const element_type *, omission *out);
 /* Writes "without shear: changes no value by more than 2e-06", or "another model: shear is not
  * modelled (changes frequency_1 by about 16 %)". */
 enum { OMISSION_TEXT = OMIT_WORDS + SCENE_NAME + FAULT_TEXT + 80 };
 void omission_words(const omission *, char text[OMISSION_TEXT]);
 
-/* The list of known deviations (reference/findings.csv): expected verdicts other than pass, one
- * rule for each cause. */
+/* The list of known deviations (reference/findings.csv): expected verdicts other than pass. There
+ * is one rule for each cause. */
 
-/* Lists are words separated by blanks, with * and ? as wildcards; a list matches if one of its
- * words does. */
+/* Lists contain words separated by blanks, with the wildcards * and ?. A list matches if one of its
+ * words matches. */
 typedef struct rule {
     char *name;         /* one word */
-    char *formulations; /* list: name with options ("beamw:mass=lumped"), or the bare name */
+    char *formulations; /* list of formulations, with options ("beamw:mass=lumped") or without */
     char *cases;        /* list */
-    char *condition;    /* terms joined by ';', all of which must be true; see rules_hold */
+    char *condition;    /* terms separated by ';', all of which must be true (rules_hold) */
     char *quantities;   /* list */
     char *verdicts;     /* "wrong limit|undecided" */
     char *predicted;    /* list of "case/quantity" with a derived limit; empty: none */
     char *cause, *proof;
-    /* largest relative difference between the limit and the derived limit, or the reference
-     * value if no limit was derived; the rule does not cover larger differences */
+    /* largest relative difference that the rule covers: from the derived limit to the limit, or
+     * from the reference value if no limit was derived */
     double largest_error;
-    char *from;   /* of a user's table: "file:line"; NULL: of the list of known deviations */
-    int missed;   /* set by judgement: 1: the run should have shown this deviation but did not */
+    /* "file:line" for a rule of a user table; NULL: the rule is in the list of known deviations */
+    char *from;
+    int missed;   /* set by judgement; 1: the run should have shown this deviation but did not */
     int observed; /* set by judgement: number of verdicts that the rule explains */
     unsigned foretold; /* set by judgement: bits of the derived limits that verdicts confirmed */
 } rule;
@@ -211,7 +215,7 @@ typedef struct rule_subject {
     const char *formulation, *quantity, *verdict;
 } rule_subject;
 
-/* Returns 1 if the formulation (given by its key) is among those of the rule. */
+/* Returns 1 if the formulation, given by its key, is among those of the rule. */
 int rules_speak_of(const rule *, const char *formulation);
 
 /* The packed reference values and findings (reference/pack.py). */
@@ -221,43 +225,44 @@ enum { TRUTHS_VERSION = 3 };
 typedef struct truth {
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
-    int any[CASE_MAX_PARAMETERS]; /* 1: valid for any value of the parameter */
-    char *formulation;            /* "": value of the continuum; otherwise the formulation to
-                                     which the value belongs */
-    int elements;                 /* 0: value of the continuum, or a limit (kind predicted);
-                                     otherwise the number of elements to which the value belongs */
+    int any[CASE_MAX_PARAMETERS]; /* 1: the row is valid for any value of the parameter */
+    /* "": value of the continuum; otherwise the formulation for which the value is valid */
+    char *formulation;
+    /* 0: value of the continuum, or a limit (kind predicted); otherwise the number of elements for
+     * which the value is valid */
+    int elements;
     char *theory, *quantity, *unit, *kind, *model, *convention, *source;
-    int on_curve; /* 1: a point of a curve at abscissa `at` */
+    int on_curve; /* 1: the row is a point of a curve at abscissa `at` */
     double at;
     double value, uncertainty;
-    /* set by judgement: met is 1 if the quantity of the row exists; judged is 1 if at least one
-     * formulation evaluates it */
+    /* set by judgement; met 1: the quantity of the row exists; judged 1: at least one formulation
+     * evaluates the row */
     int met, judged;
 } truth;
 
 typedef struct truths {
-    int rows, rules, room; /* numbers of rows and rules; capacity in rows */
+    int rows, rules, room; /* numbers of rows and rules, and capacity in rows */
     truth *row;
-    /* index of study_impl.h: the first row of each case and quantity, and for each row the next
-     * one with the same quantity */
-    int indexed, places; /* number of indexed rows, which are the first ones */
+    /* index (study_impl.h): the first row of each case and quantity, and for each row the next row
+     * of the same quantity */
+    int indexed, places; /* number of indexed rows, which precede all other rows */
     int *first, *next;   /* [places], [indexed] */
     rule *rule;          /* known deviations */
-    int strangers;       /* number of cases in the file that this program does not have */
+    int strangers;       /* number of cases in the file that this program does not contain */
     char stranger[64];
 } truths;
 
-/* Reads all reference values. FAULT: the file is missing, truncated or foreign, or a row is
- * stale (the defaults of its case have changed since it was made). Registers the formulations
- * that affect the exit status (formulations_accept). */
+/* Reads all reference values, and registers the formulations that affect the exit status
+ * (formulations_accept). FAULT: the file is missing, truncated or not such a file, or a row is
+ * stale because the defaults of its case have changed. */
 status truths_read(const char *path, truths *out, fault *f);
-/* As truths_read, for one case (NULL: all). */
+/* Like truths_read, for one case (NULL: all cases). */
 status truths_read_case(const char *path, const case_type *type, truths *out, fault *f);
-/* As truths_read, but reads only the known deviations and the formulations that affect the exit
+/* Like truths_read, but reads only the known deviations and the formulations that affect the exit
  * status. */
 status truths_read_rules(const char *path, truths *out, fault *f);
-/* Adds the exact values at the extremes, which no verification runs. After a failure the previous
- * reference values remain. */
+/* Adds the exact values of extremes, which are not part of a verification. After a failure, the
+ * previous reference values remain. */
 status truths_read_extremes(const char *path, truths *out, fault *f);
 /* Adds a row of zeros and returns it; NULL: out of memory. */
 truth *truths_add(truths *, fault *f);
@@ -274,35 +279,37 @@ typedef struct sweep_point {
     char text[PARAMETERS_TEXT]; /* parameters that differ from the defaults */
     char name[16];              /* "default", or the first digits of the hash of the parameters */
     scene_edit edit;            /* edit that was applied to the scene */
-    int steps;                  /* load steps between stations; 0: as in the scene */
-    int condition;              /* 1: estimate the condition of the tangents */
-    int shapes;                 /* largest number of states with stored centre lines; 0: none */
-    int whole_steps;            /* 1: time steps are not halved on finer meshes */
-    scene scene;                /* scene of all cells of the point, with their quantities */
-    status status;              /* result of building the scene */
+    int steps;                  /* number of load steps between stations; 0: as in the scene */
+    int condition;              /* 1: the condition of the tangents is estimated */
+    int shapes;      /* largest number of states whose centre lines are stored; 0: none */
+    int whole_steps; /* 1: time steps are not halved on finer meshes */
+    scene scene;     /* scene of all cells of the point, including its quantities */
+    status status;   /* result of building the scene */
     char reason[FAULT_TEXT];
 } sweep_point;
 
 typedef struct series {
     int point;
     formulation formulation;
-    /* required features that the formulation does not support; if empty, the formulation runs
-     * ... */
+    /* required features that the formulation does not support; empty: the formulation runs */
     char missing[200];
-    omission without; /* ... without this physics, as a different model if that matters */
+    omission without; /* physics that the formulation omits, and its effect */
     int meshes, mesh[SERIES_MAX_MESHES];
-    cell_result *cell; /* [meshes]; their scenes are empty: the point owns the scene */
+    /* [meshes] cells; their scenes are empty, because the point owns the scene */
+    cell_result *cell;
     /* [quantities] relative scatter of the values on the finest mesh; NULL: not measured */
     double *noise;
-    struct cell_timing *timing; /* [meshes] times of a benchmark, else NULL */
-    imported *imported;         /* results of another program, whose cells are not run; else NULL */
+    struct cell_timing *timing; /* [meshes] times of a benchmark; NULL: none */
+    /* results of another program, whose cells are not run; NULL: a formulation */
+    imported *imported;
 } series;
 
 typedef struct sweep {
-    /* selection in the request; unselected quantities are not evaluated; NULL: all are selected */
+    /* selection in the request, which excludes other quantities from the evaluation; NULL: all
+     * quantities are selected */
     const char *select;
-    /* arrays of the request, not copied: its cases (NULL: the sweep was planned by hand), and
-     * its formulations if it restricts them */
+    /* arrays of the request, not copied: its cases (NULL: the sweep was planned by hand), and its
+     * formulations (NULL: all) */
     const case_type *const *cases;
     const formulation *given;
     int givens;
@@ -310,26 +317,26 @@ typedef struct sweep {
     double tolerance; /* as in the request */
     int shapes;       /* as in the request */
     int whole_only;   /* 1: a formulation that lacks required features does not run */
-    int values_only;  /* 1: values needed only for curves and matrices are not computed */
+    int values_only;  /* 1: values that only curves and matrices need are not computed */
     int doublings;    /* as in the request */
-    int threads;      /* threads for the loop over elements in every cell; 0, 1: one */
-    int unfinished;   /* number of cells that an interrupted run did not finish; their series
-                         were removed */
-    int partial;      /* 1: batches are missing, although the run was not interrupted */
+    int threads;      /* threads for the loop over elements in every cell; 0 or 1: one thread */
+    /* number of cells that an interrupted run did not complete; their series were removed */
+    int unfinished;
+    int partial; /* 1: batches are missing, although the run was not interrupted */
     int points, seriess;
     sweep_point *point;
     series *series;
 } sweep;
 
-/* Observer of a run. The process that runs the sweep calls both functions between two results. */
+/* Callbacks of a run. The process that runs the sweep calls both functions between two results. */
 typedef struct sweep_follower {
     void *context;
-    /* Returns 1 if the finest mesh of this completed series must be run again to measure its
+    /* Returns 1 if the finest mesh of this complete series must be run again to measure its
      * scatter. NULL: no scatter is measured. */
     int (*doubts)(void *context, const sweep *, int series_index);
-    /* Called once for every series in order, when this series and all previous ones are complete
+    /* Called once for every series, in order, when this series and all previous series are complete
      * and their scatter has been measured. A failure ends the run. An interrupted run removes
-     * incomplete series, which changes the indices of later ones. May be NULL. */
+     * incomplete series, which changes the indices of later series. NULL: no call. */
     status (*whole)(void *context, const sweep *, int series_index, fault *);
 } sweep_follower;
 
@@ -337,26 +344,28 @@ typedef struct sweep_request {
     const char *select; /* expression over "case/point/formulation/quantity", or NULL */
     int jobs;           /* number of processes, >= 1 */
     int whole_only;     /* see sweep */
-    int share; /* 1: cells with provably equal results are solved once; such cells also share their
-                  times */
-    int time_limit; /* [s] limit for one cell, checked by its process and by the parent; 0: none */
-    /* 1: if a worker is killed (SIGKILL), this process ends too, so its result is not used. 0: the
-     * cell counts as crashed */
+    /* 1: problems with provably equal results are solved once; their cells have the same times */
+    int share;
+    /* [s] time limit of a cell, enforced by its process and by the parent process; 0: none */
+    int time_limit;
+    /* 1: if a worker is killed (SIGKILL), this process ends as well, so that its result is not
+     * used; 0: the cell counts as crashed */
     int together;
     int interruptible;             /* 1: Ctrl-C ends the run, and finished results are kept */
     int stop;                      /* descriptor that becomes readable to stop the run; 0: none */
     const case_type *const *cases; /* NULL-terminated; NULL: all cases */
-    int doublings; /* number of additional meshes, each with twice the elements of the previous one
-                    */
+    /* number of additional meshes, each with twice as many elements as the previous mesh */
+    int doublings;
     int formulations; /* number of formulations in the list; 0: all */
     const formulation *formulation;
     /* 1: the user named these formulations, so their verdicts affect the exit status even if the
      * project has not accepted them */
     int named;
-    /* relative tolerance that replaces those of the cases; 0: the tolerances of the cases */
+    /* relative tolerance that replaces the tolerances of the cases; 0: the tolerances of the cases
+     * */
     double tolerance;
-    /* largest number of path states with stored centre lines, on the finest mesh at the defaults;
-     * 0: none */
+    /* largest number of states of a path whose centre lines are stored, on the finest mesh of
+     * default points; 0: none */
     int shapes;
     const sweep_follower *follower; /* NULL: none */
     FILE *progress;                 /* NULL: quiet */
@@ -368,12 +377,12 @@ enum { SWEEP_TEXT = PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT };
 void sweep_text(const sweep_point *, const formulation *, const char *quantity,
                 char text[SWEEP_TEXT]);
 
-/* Returns 1 if the verdicts of a series affect the exit status. This holds for accepted, named or
+/* Returns 1 if the verdicts of a series affect the exit status. They do so for accepted, named or
  * loaded formulations and, on request, for other programs. */
 int sweep_gates(const sweep *, const series *);
 /* Returns the request for one mesh of a series. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
-int sweep_cells(const sweep *s); /* returns the number of cells that are run here */
+int sweep_cells(const sweep *s); /* returns the number of cells that this sweep runs */
 void sweep_series_free(series *);
 void sweep_free(sweep *s);
 
@@ -381,79 +390,85 @@ void sweep_free(sweep *s);
 
 typedef enum verdict_kind {
     VERDICT_PASS,
-    VERDICT_BIASED,      /* within the tolerance, but a significantly different limit */
-    VERDICT_WRONG_LIMIT, /* a limit significantly outside the tolerance */
-    /* the preceding two, if the limit equals the limit derived for the formulation */
+    VERDICT_BIASED, /* within the tolerance, but significantly different from the reference value */
+    VERDICT_WRONG_LIMIT, /* significantly outside the tolerance */
+    /* like the preceding two, if the limit equals the limit derived for the formulation */
     VERDICT_BIASED_AS_PREDICTED,
     VERDICT_WRONG_AS_PREDICTED,
     VERDICT_LOW_ORDER,
-    VERDICT_UNDECIDED, /* the uncertainty of the limit is too large for the other verdicts */
-    VERDICT_DIVERGED,  /* no value on the finest mesh: not converged, singular or crashed */
+    VERDICT_UNDECIDED, /* the uncertainty of the limit is too large for another verdict */
+    VERDICT_DIVERGED, /* there is no value on the finest mesh: not converged, singular or crashed */
     VERDICT_REFUSED,
-    VERDICT_SKIP,        /* the formulation does not support a required feature */
-    VERDICT_NO_TRUTH,    /* no reference value, or none for its shear theory */
-    VERDICT_OTHER_MODEL, /* omits physics of the scene that changes the requested quantity */
+    VERDICT_SKIP, /* the formulation does not support a required feature */
+    /* there is no reference value, or none for the shear theory of the formulation */
+    VERDICT_NO_TRUTH,
+    /* the formulation omits physics of the scene that changes the requested quantity */
+    VERDICT_OTHER_MODEL,
     VERDICT_KINDS
 } verdict_kind;
 
 typedef struct verdict {
-    int series, quantity; /* indices: series in the sweep, quantity in the scene */
+    int series, quantity; /* indices of the series in the sweep, and of the quantity in the scene */
     verdict_kind kind, expected;
     /* reference value of the same model and shear theory; NULL: none */
     const truth *truth;
-    /* if there is no such reference value, for information only: a value of another model or
-     * theory, or a cross-formulation agreement; NULL: none */
+    /* a reference value of another model, or a cross-formulation agreement, for information if
+     * `truth` is NULL; NULL: none */
     const truth *model_truth;
-    const truth *theory_truth; /* if there is no such reference value: that of another shear
-                                  theory */
-    const truth *predicted;    /* limit derived for the formulation; NULL: none */
-    /* published value that differs from the limit by more than both uncertainties; NULL: none */
+    /* a reference value of another shear theory, for information if `truth` is NULL; NULL: none */
+    const truth *theory_truth;
+    const truth *predicted; /* limit derived for the formulation; NULL: none */
+    /* published value that differs from the limit by more than the sum of both uncertainties; NULL:
+     * none */
     const truth *contradicted;
     mesh_limit fit;
     double finest; /* value on the finest mesh; NAN: none */
-    /* (limit - truth)/truth, or relative to near_zero if the reference value is near zero; NAN:
+    /* (limit - truth)/truth, or relative to near_zero if the reference value is almost zero; NAN:
      * none */
     double error;
-    double departure;   /* relative difference between the limit and the derived limit, or the
-                           reference value if no limit was derived */
+    /* relative difference between the limit and the derived limit, or the reference value if no
+     * limit was derived */
+    double departure;
     double model_error; /* relative difference from the reference value of another model */
-    /* absolute, including the uncertainty of the reference value and the effect of omitted
-     * physics */
+    /* absolute tolerance, including the uncertainty of the reference value and the effect of
+     * omitted physics */
     double tolerance;
     double unmodelled; /* absolute bound of the change due to omitted physics */
-    /* 1: the difference from the reference value is smaller than the uncertainty of that value */
+    /* 1: the difference from the reference value is smaller than the uncertainty of the reference
+     * value */
     int below_digits;
-    int matches;       /* 1: verdict as expected */
-    int needs_finding; /* 1: for a new or named formulation: not a pass, and no known deviation
-                          explains it */
-    const rule *rule;  /* rule that explains a verdict other than pass; NULL: none */
+    int matches; /* 1: verdict as expected */
+    /* 1: the verdict of a new or named formulation is not a pass, and no known deviation explains
+     * it */
+    int needs_finding;
+    const rule *rule; /* rule that explains a verdict other than pass; NULL: none */
     char reason[FAULT_TEXT];
 } verdict;
 
 const char *verdict_name(verdict_kind kind);
-/* Computes the limit of a quantity of a series without its `left_out` finest meshes. */
-/* Returns the number of meshes up to the finest one that has a value of the quantity. Another
- * program may give the quantity on fewer meshes. */
+/* Computes the limit of a quantity of a series without the `left_out` finest meshes. */
+/* Returns the number of meshes up to the finest mesh that has a value of the quantity. Results of
+ * another program may contain the quantity for fewer meshes. */
 int verdict_meshes(const series *, int quantity);
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
-/* Returns the reference value by which a formulation is evaluated, for the same model and the
+/* Returns the reference value with which a formulation is compared: of the same model, and of the
  * shear theory of the formulation; NULL: none. */
 const truth *verdict_truth(const truths *t, const sweep_point *p, const formulation *chosen,
                            int quantity);
-/* As verdict_truth. If there is none, returns the cross-formulation agreement, which is
- * informative and never affects the exit status. */
+/* Like verdict_truth. If there is no such reference value, returns the cross-formulation agreement,
+ * which is for information and never affects the exit status. */
 const truth *verdict_reference(const truths *t, const sweep_point *p, const formulation *chosen,
                                int quantity);
-/* Evaluates the quantity and series of v. Sets its kind, fit and errors, and sets `matches` if
- * the verdict is as expected without known deviations. */
+/* Evaluates the quantity and the series of v. Sets the kind of the verdict, its fit and its errors.
+ * Sets `matches` if the verdict is as expected without known deviations. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
 /* Returns the relative error of a value of a quantity with respect to a reference value. */
 double verdict_error(const scene_quantity *q, double value, double truth_value);
 
-/* Evaluation of all runs (case, point, formulation, quantity) against reference values and expected
- * verdicts. */
+/* Evaluation of all runs (case, point, formulation, quantity): comparison with reference values and
+ * expected verdicts. */
 
-/* A value on one mesh, compared with the stored discrete value for that mesh. */
+/* A value on a mesh, compared with the discrete value stored for this mesh. */
 typedef struct agreement {
     int series, mesh, quantity;
     const truth *truth;
@@ -461,7 +476,7 @@ typedef struct agreement {
     int good;
 } agreement;
 
-/* A cell with an inconsistent run record (study_impl.h). */
+/* A cell with inconsistent records of its run (study_impl.h). */
 typedef struct flaw {
     int series, mesh;
     char why[FAULT_TEXT];
@@ -470,10 +485,10 @@ typedef struct flaw {
 /* A formulation that violates the interface requirements (elements/element.h). */
 typedef struct breach {
     char formulation[FORMULATION_KEY];
-    char why[FAULT_TEXT]; /* first requirement that is violated */
+    char why[FAULT_TEXT]; /* the first violated requirement */
 } breach;
 
-/* A mesh or a series with worse results than in a previous run. */
+/* A mesh or a series whose results are worse than in a previous run. */
 typedef struct regression {
     char of[FAULT_TEXT]; /* case/parameters/formulation, and mesh */
     char why[FAULT_TEXT];
@@ -482,15 +497,15 @@ typedef struct regression {
 enum { COVERAGE_MESHES = 4 };
 
 /* Counts how often the limits of a formulation on a case, computed without the k finest meshes,
- * are within their uncertainty of an exact reference value. This is a check of the
- * uncertainties. If a formulation has biased limits, its coverage is low for that reason, and
- * the uncertainties are not at fault. */
+ * agree with an exact reference value within their uncertainty. The counts check the uncertainties.
+ * If a formulation has biased limits, its coverage is low for this reason, and not because of its
+ * uncertainties. */
 typedef struct coverage {
     const case_type *of;
     const element_type *type;
     int point; /* first point of the case in the sweep */
-    /* [k] number of series with at least three meshes left, and number of their limits that are
-     * covered */
+    /* [k] number of series with at least three remaining meshes, and number of their limits that
+     * are covered */
     int series[COVERAGE_MESHES], covered[COVERAGE_MESHES];
 } coverage;
 
@@ -505,40 +520,40 @@ typedef struct judgement {
     int regressions;
     regression *regression; /* [regressions] */
     int by_kind[VERDICT_KINDS];
-    int unexpected; /* number of verdicts that differ from the expected one */
-    int is_new;   /* number of verdicts of new formulations, which do not affect the exit status ...
-                   */
-    int proposed; /* ... and how many of them would need a known deviation */
+    int unexpected; /* number of verdicts that differ from the expected verdict */
+    int is_new;   /* number of verdicts of new formulations, which do not affect the exit status */
+    int proposed; /* number of verdicts of new formulations that need a known deviation */
     int disagreements;
-    int judged; /* number of verdicts with a reference value */
-    /* number of rules that no verdict matched, or whose derived limits no verdict confirmed: in
-     * the built-in list (complete runs only), and in user tables (study_impl.h) */
+    int judged; /* number of verdicts that have a reference value */
+    /* number of rules that no verdict matched, or whose derived limits no verdict confirmed: in the
+     * built-in list (complete runs only) and in user tables (study_impl.h) */
     int unobserved;
     int unmet; /* number of reference values whose case, point or quantity does not exist
                   (complete runs only) */
-    /* number of reference values that every formulation skips, or whose formulation is not
-     * loaded (complete runs only) */
+    /* number of reference values that every formulation skips, or whose formulation is not loaded
+     * (complete runs only) */
     int waiting;
-    int unread; /* number of reference values at instants of a motion that the run does not
-                   evaluate (complete runs only) */
+    /* number of reference values for times during a motion that the run does not evaluate (complete
+     * runs only) */
+    int unread;
 } judgement;
 
-/* Returns 1 if verdicts on the series may depend on the scatter of its finest mesh, which must then
- * be measured. */
+/* Returns 1 if verdicts on the series may depend on the scatter of its finest mesh. The scatter
+ * must then be measured. */
 int judgement_doubts(const sweep *s, const truths *t, int series_index);
-/* Starts an evaluation; the planned series are evaluated in order after they have run. FAULT: the
- * unit of a reference value is not that of its quantity. */
+/* Starts an evaluation. The planned series are evaluated in order, after they have run. FAULT: the
+ * unit of a reference value is not the unit of its quantity. */
 status judgement_begin(const sweep *s, truths *t, judgement *out, fault *f);
 status judgement_add(const sweep *s, truths *t, int series_index, judgement *out, fault *f);
-/* whole 1: no selection was made. Unobserved rules, and reference values whose quantity does not
- * exist, are then failures. */
+/* Ends an evaluation. whole 1: no selection was made. Unobserved rules, and reference values whose
+ * quantity does not exist, are then failures. */
 void judgement_end(const sweep *s, truths *t, int whole, judgement *out);
 /* Calls judgement_begin, judgement_add for every series, and judgement_end. */
 status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f);
 void judgement_free(judgement *j);
 enum { JUDGED_AS_EXPECTED = 0, JUDGED_DIFFERS = 1, JUDGED_NOTHING = 3 };
-/* Returns the exit status: 0 if all verdicts are as expected, 1 if a verdict that counts differs
- * from the expected one, 3 if nothing was evaluated. No other function determines the exit
+/* Returns the exit status: 0 if all verdicts are as expected, 1 if a verdict that affects the exit
+ * status is not as expected, 3 if nothing was evaluated. No other function determines the exit
  * status. */
 int judgement_exit(const judgement *j);
 /* Returns "pass", "fail" or "nothing was evaluated". */
@@ -546,45 +561,47 @@ const char *judgement_outcome(const judgement *j);
 
 /* Returns the largest extent of the positions of nodes [m]. */
 double change_size(const scene *);
-/* Returns the scale of a quantity [its unit], below which values may be round-off. It is the
- * largest of the quantity's near_zero, 1e-9 times the other values in the same unit, and a
- * physical scale: 1e-14 for strains, 1e-12 for rotations, 1e-12 times the size of the structure
- * for lengths. */
+/* Returns the scale of a quantity [unit of the quantity], below which values may be rounding
+ * errors. The scale is the largest of near_zero of the quantity, 1e-9 times the other values in the
+ * same unit, and a physical scale: 1e-14 for strains, 1e-12 for rotations, 1e-12 times the size of
+ * the structure for lengths. */
 double change_scale(const scene *s, int quantity, const solve_result *r);
 
 /* Last line of a beamwork file, with its length and checksum. The checksum reveals truncated,
- * damaged or altered files before the HDF5 library reads them. The library does not check their
+ * damaged or altered files before the HDF5 library reads them. The HDF5 library does not check the
  * contents (version 1.10 reads past its buffers in damaged files). */
 
 enum { CHECKSUM_LENGTH = 40 }; /* "beamwork-seal %016zx %08x\n" */
 
 void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1]);
-/* Computes the checksum line of a file that does not contain one. FAULT: the file cannot be
- * read. */
+/* Computes the checksum line for a file that does not contain one. FAULT: the file cannot be read.
+ * */
 status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f);
-/* FAULT: the file is missing, is not a beamwork file, or was altered. */
+/* Checks the last line of a file. FAULT: the file is missing, is not a beamwork file, or has been
+ * altered. */
 status checksum_check(const char *path, fault *f);
 
-/* A child process that works for its parent. The child ends when its parent ends, and enforces its
- * own time limit. */
+/* A child process that works for its parent. The child ends if its parent ends or if its time limit
+ * is exceeded. */
 
-/* Call first in the child. The child then ends with its parent, even if the parent was killed or
- * has already ended; an alarm also ends the child. */
+/* The child calls this function first. The child then ends with its parent, even if the parent is
+ * killed or has already ended. The child also ends at an alarm. */
 void child_begin(pid_t parent);
-/* Sets the remaining time of the child [s]; 0: no limit. */
+/* Sets the remaining time [s] of the child; 0: no limit. */
 void child_alarm(int seconds);
-/* Call in the parent. Returns 1 if the child has ended; the child is not reaped. */
+/* Returns 1 if the child has ended. The parent calls this function. The child is not reaped. */
 int child_is_gone(pid_t process);
-/* Call in the parent. Waits for at most two seconds, then kills the child. Reaps the child and
- * returns its status from waitpid. */
+/* Waits at most two seconds for the end of the child, then kills it. Reaps the child and returns
+ * its status from waitpid. The parent calls this function. */
 int child_reap(pid_t process);
-/* Call in the parent. Describes how the child ended. how: status from waitpid. late 1: the child
- * was killed after the time limit. Returns 1 if the time limit was the reason. */
+/* Describes how the child ended. The parent calls this function. how: status from waitpid. late 1:
+ * the child was killed after the time limit. Returns 1 if the time limit was the reason. */
 int child_ended(int how, int late, int seconds, char *words, size_t size);
 
 typedef struct claims claims;
 
-/* Reads a table that is stored as one HDF5 data set per column. Every size and type is checked. */
+/* Reads a table that is stored as one HDF5 data set per column. The size and type of every column
+ * are checked. */
 
 typedef struct table_columns {
     const char *path; /* path of the file, for messages */
@@ -600,129 +617,132 @@ typedef struct columns_field {
     size_t offset;
 } columns_field;
 
-/* Returns FAULT: the column is missing or damaged. */
+/* Returns FAULT. The message says that the column is missing or damaged. */
 status columns_broken(const table_columns *r, const char *column);
-/* Returns the number of rows of a column, or -1 if there is no such column. */
+/* Returns the number of rows of a column; -1: there is no such column. */
 int columns_length(hid_t group, const char *column);
-/* Reads one column into a member of an array of structs base[rows]. After a failure the array
- * contains the strings read so far. */
+/* Reads a column into a member of an array of structs base[rows]. After a failure, the array
+ * contains the strings that have been read. */
 status columns_read(const table_columns *r, const columns_field *field, void *base, size_t stride);
 
-/* Difference between two curves of one quantity, of two meshes or of two formulations. */
+/* Difference between two curves of a quantity, from two meshes or two formulations. */
 
 /* Returns the largest difference over the common points, relative to the largest value of the
- * second curve; NAN: there are no common points, or `one` does not reach the end. at (may be
- * NULL): point of the largest difference. Points of a path with given stations are matched by
- * number, other points by abscissa. */
+ * second curve; NAN: there are no common points, or `one` does not reach the end. at: point with
+ * the largest difference (may be NULL). Points of a path with given stations are matched by number,
+ * other points by abscissa. */
 double curve_error_between(const scene *s, int quantity, const solve_result *one,
                            const solve_result *two, int *at);
 /* Returns the index of the finest mesh of a series that has the whole curve; -1: none. */
 int curve_error_finest(const series *, int quantity);
-/* Returns the index of the series with which the others are compared: the one whose curve
- * changed least when its last mesh was added; -1: none. */
+/* Returns the index of the series with which others are compared; -1: none. This is the series
+ * whose curve changed least when its last mesh was added. */
 int curve_error_reference(const sweep *, int quantity);
 
 /* Location of data files: reference values, and programs that compute them. */
 
-/* Finds a data file or folder. Searches next to the program or shared library, in the folder
- * above it (a clone), in share/beamwork of the installation prefix, and in that of the prefix
- * set at build time. Returns 0 if it is in none of these; the path is then the one next to the
- * program. */
+/* Finds a data file or folder. Searches next to the program or shared library, in the folder above
+ * (a clone), in share/beamwork of the installation prefix, and in share/beamwork of the prefix set
+ * at build time. Returns 0 if the file is in none of these folders. The path is then the one next
+ * to the program. */
 int data_place(const char *name, char path[PATH_MAX]);
-/* Path of the packed reference values: that in BEAMWORK_TRUTHS, or else from data_place. */
+/* Writes the path of the packed reference values, from the variable BEAMWORK_TRUTHS or from
+ * data_place. */
 void data_place_truths(char path[PATH_MAX]);
 /* Makes beamwork_element.py available to Python processes that are started later: appends its
- * folder, if it exists, to PYTHONPATH. Also prevents Python from writing compiled files. */
+ * folder to PYTHONPATH if the folder exists. Prevents Python from writing compiled files. */
 void data_place_modules(void);
 
-/* Reference values at new parameter points, computed on demand by the programs of reference/derive,
- * which share no code with this program. */
+/* Reference values at new parameter points. The programs of reference/derive compute them on
+ * demand, and share no code with this program. */
 
 typedef struct derived_value {
     char quantity[SCENE_NAME], unit[16], convention[96], source[96];
     double value, uncertainty; /* [unit] */
 } derived_value;
 
-/* Path of a program of reference/derive, in the folder BEAMWORK_REFERENCE or with the other
- * data. FAULT: the path is too long. */
+/* Writes the path of a program of reference/derive, in the folder BEAMWORK_REFERENCE or with the
+ * other data. FAULT: the path is too long. */
 status derive_script(const char *name, char out[PATH_MAX], fault *f);
 /* Runs `script CASE PARAMETERS`. *out: the values, allocated with malloc. REFUSED: no program
- * computes the case, or its parameters are not supported; the fault contains the message of the
- * program. FAULT: the script could not be run, or its output is invalid. */
+ * computes the case, or its parameters are not supported; the message is that of the program.
+ * FAULT: the script cannot be run, or its output is invalid. */
 status derive_values(const char *script, const char *case_name, const char *parameters,
                      derived_value **out, int *count, fault *f);
-/* As derive_values, with a scene in the format of write_scene on the standard input of `script`.
- * The script lists what it cannot compute on standard error, one item per line. */
+/* Like derive_values, with a scene in the format of write_scene on the standard input of `script`.
+ * On standard error, the script lists everything that it cannot compute, with one item per line. */
 status derive_scene(const char *script, FILE *scene_text, derived_value **out, int *count,
                     fault *f);
 
 enum { WORKERS_MOST = 64 };
 
-/* Returns the estimated cost [s]; elements: number per member. */
+/* Returns the estimated cost [s]. elements: number of elements per member. */
 double expense_of_scene(const scene *s, int steps, const element_type *type, int elements);
 double expense_of_cell(const sweep *s, int index, int mesh);
 
-/* Writes the reason why there is no agreement, and which formulation could provide one. */
+/* Writes the reason why there is no agreement, and which formulation could give one. */
 void families_why(FILE *to, const sweep *s, int point_index, int quantity, const truths *);
-/* For every quantity of a point without a reference value of its model, adds the
- * cross-formulation agreement as a reference value of kind agreement. files_only 1: only for
- * scene files, not for built-in cases. */
+/* Adds cross-formulation agreements as reference values of the kind agreement, for every quantity
+ * of a point that has no reference value of its model. files_only 1: only for scene files and not
+ * for built-in cases. */
 status families_add_truths(const sweep *s, int files_only, truths *t, fault *f);
-/* As families_add_truths, for one point; call when all its series are complete. */
+/* Like families_add_truths, for one point. Call this function when all series of the point are
+ * complete. */
 status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f);
-/* Reserves memory for all rows that can be added, because verdicts point to rows. */
+/* Reserves memory for all rows that may be added. Verdicts point to rows, so rows must not move. */
 status families_reserve(const sweep *s, int files_only, truths *t, fault *f);
 
 /* Follows modes over a parameter of a case.
  *
- * Modes at neighbouring values are matched by the modal assurance criterion with the mass matrix
- * M at the new value, (v^T M w)^2/((v^T M v)(w^T M w)), which is 1 for equal shapes. If a match
- * is below 0.9, the step is halved. Shapes of equal frequencies are not unique; the previous
- * shape is therefore projected onto their space. Frequencies of followed modes may cross, or
- * they may veer: they approach and separate again while their shapes are exchanged. */
+ * Modes at neighbouring parameter values are matched by the modal assurance criterion with the mass
+ * matrix M at the new value, (v^T M w)^2/((v^T M v)(w^T M w)), which is 1 for equal shapes. If a
+ * match is below 0.9, the step is halved. Shapes of equal frequencies are not unique, so the
+ * previous shape is projected onto their space. Frequencies of followed modes may cross. They may
+ * also veer: they approach and separate again while the modes exchange their shapes. */
 
 typedef struct follow_request {
-    cell_request cell; /* cell with the type and its parameters; follow_run sets the analyses to
-                          solve */
-    int parameter;     /* index of the parameter that varies */
+    /* cell with the type and its parameters; follow_run sets the analyses to be solved */
+    cell_request cell;
+    int parameter; /* index of the parameter that varies */
     double from, to;
-    int parts; /* minimum number of equal intervals */
+    int parts; /* smallest number of equal intervals */
 } follow_request;
 
 typedef struct follow_sample {
-    double value;      /* value of the parameter */
-    int asked;         /* 1: requested; 0: added between two requested values */
+    double value; /* value of the parameter */
+    int asked;    /* 1: the value was requested; 0: it was added between two requested values */
     double *frequency; /* [modes] [Hz] */
-    double *match;     /* [modes] match with the previous sample; 1 for the first */
+    double *match;     /* [modes] match with the previous sample; 1 for the first sample */
 } follow_sample;
 
 typedef struct follow_event {
     int crossing; /* 1: crossing; 0: veering */
     int mode[2];
     double value;     /* value of the parameter */
-    double frequency; /* [Hz] mean of both modes */
-    double gap; /* veering: smallest distance of the two frequencies, relative to their mean */
+    double frequency; /* [Hz] mean frequency of both modes */
+    /* for veering: smallest difference of the two frequencies, relative to their mean */
+    double gap;
 } follow_event;
 
 typedef struct follow_curves {
     int modes, samples, events;
-    follow_sample *sample; /* [samples] from `from` to `to` */
+    follow_sample *sample; /* [samples] samples between `from` and `to` */
     follow_event *event;   /* [events] */
 } follow_curves;
 
-/* Follows as many modes as the first modal analysis has frequency quantities, starting with the
- * lowest ones at `from`. REFUSED: there is no modal analysis, or the coordinates change with the
- * parameter. NOT_CONVERGED: a mode cannot be followed even with small steps. */
+/* Follows as many modes as the first modal analysis has frequency quantities. The modes are the
+ * lowest ones at `from`. REFUSED: there is no modal analysis, or the number of coordinates depends
+ * on the parameter. NOT_CONVERGED: a mode cannot be followed even with small steps. */
 status follow_run(const follow_request *, follow_curves *, fault *);
 void follow_free(follow_curves *);
 
-/* Glossary: words of the program and the report with explanations (reference/glossary.csv), as
- * packed. */
+/* Glossary: explanations of words of the program and the report (reference/glossary.csv), from the
+ * packed data. */
 
 typedef struct glossary_entry {
     char *term;
     char *also;    /* other names, separated by '|'; "": none */
-    char *group;   /* heading; entries of one group are consecutive */
+    char *group;   /* heading; entries with the same heading are consecutive */
     char *meaning; /* one to four sentences */
     char *see;     /* terms for further reading, separated by '|'; "": none */
 } glossary_entry;
@@ -734,20 +754,21 @@ typedef struct glossary {
 
 enum { GLOSSARY_WORD = 128 };
 
-/* FAULT: the packed reference values are missing or damaged, or contain no glossary. */
+/* Reads the glossary. FAULT: the packed reference values are missing or damaged, or contain no
+ * glossary. */
 status glossary_read(const char *path, glossary *out, fault *f);
 void glossary_free(glossary *);
-/* Finds the entry with this term or alternative name. Case is ignored, and '_' and '-' count as
- * blanks. NULL: none. */
+/* Finds the entry with this term or alternative name; NULL: none. Case is ignored, and '_' and '-'
+ * count as blanks. */
 const glossary_entry *glossary_find(const glossary *, const char *word);
 /* Returns 1 if glossary_find treats the two words as equal. */
 int glossary_same(const char *a, const char *b);
-/* Copies part number `index` of "a|b|c"; returns 0 if there are not that many parts. */
+/* Copies part number `index` of "a|b|c". Returns 0 if there are fewer parts. */
 int glossary_part(const char *list, int index, char word[GLOSSARY_WORD]);
 
 /* HDF5 handles. */
 
-/* Closes open handles of any kind (data set, attribute, type, space), in this order. */
+/* Closes open handles of any kind (data set, attribute, type, space) in the given order. */
 static inline void handles_close(int count, const hid_t handle[])
 {
     for (int i = 0; i < count; i++)
@@ -755,82 +776,86 @@ static inline void handles_close(int count, const hid_t handle[])
             H5Idec_ref(handle[i]);
 }
 
-/* Makes requests to stop (Ctrl-C, SIGTERM, SIGHUP) available on a descriptor, on which a process
- * can wait for them and for its workers at the same time. */
+/* Makes requests to stop (Ctrl-C, SIGTERM, SIGHUP) available on a descriptor. A process can then
+ * wait for such requests and for its workers at the same time. */
 
 typedef struct interrupt {
-    int descriptor;  /* becomes readable when a request arrives; -1: none */
+    int descriptor;  /* descriptor that becomes readable when a request arrives; -1: none */
     sigset_t before; /* signal mask that interrupt_end restores */
 } interrupt;
 
-/* After this call, requests stay pending until they are read, in this process and in those that
- * it starts. Signals that were ignored (nohup) stay ignored. */
+/* From this call on, requests stay pending until they are read, in this process and in processes
+ * that it starts. Signals that were ignored (nohup) stay ignored. */
 void interrupt_begin(interrupt *);
-/* Restores the signal mask: another request then ends the process at once. */
+/* Restores the signal mask. A further request then ends the process immediately. */
 void interrupt_end(interrupt *);
 
-/* Compares two formulations at equal error: how many elements each one needs. */
+/* Compares the numbers of elements that two formulations need for equal errors. */
 
 /* Result for series 0 and 1 of a sweep with one point. */
 typedef struct meeting {
-    int mesh[2];     /* index of the coarsest mesh at and above which all quantities meet the error
-                        target; -1: none */
-    double error[2]; /* largest relative error on that mesh; NAN: none */
+    /* index of the coarsest mesh for which all quantities are within the error target on this and
+     * all finer meshes; -1: none */
+    int mesh[2];
+    double error[2]; /* largest relative error on this mesh; NAN: none */
 } meeting;
 
-/* Returns 1 if the comparison includes the quantity. Both series need a reference value or an
- * agreement, and the quantity must not be a curve. */
+/* Returns 1 if the comparison includes the quantity. The quantity must not be a curve, and both
+ * series need a reference value or an agreement. */
 int meeting_asks(const sweep *s, const truths *t, int quantity);
 /* Returns the number of quantities in the comparison. */
 int meeting_asked(const sweep *s, const truths *t);
-/* Compares at the relative error target `level`, for all quantities in the comparison. */
+/* Compares all quantities in the comparison at the relative error target `level`. */
 meeting meeting_at(const sweep *s, const truths *t, double level);
 /* Returns 1 if both series meet the target. */
 int meeting_holds(const meeting *);
 
 /* Reduces the last point of a planned sweep to the selected quantities and formulations. */
 
-/* Call before the run. Keeps the quantities and the formulations that appear in at least one
- * selected combination (formulations/formulations.h). select NULL: keeps all. REFUSED: the
- * selection is malformed, has a word that matches no name, or selects nothing. */
+/* Keeps the quantities and the formulations that appear in at least one selected combination
+ * (formulations/formulations.h). Call this function before the run. select NULL: keeps all.
+ * REFUSED: the selection is malformed, has a word that matches no name, or selects nothing. */
 status narrow_to(sweep *s, const char *select, fault *f);
-/* As narrow_to, for a scene before planning. If its formulation is undecided (type NULL), words
- * that may name a formulation change nothing. */
+/* Like narrow_to, for a scene before planning. If the formulation has not been chosen (type NULL),
+ * words that may name a formulation have no effect. */
 status narrow_scene(scene *, const case_type *, const double parameter[], const formulation *,
                     const char *select, fault *);
 
 int noise_cells(const sweep *s); /* returns the number of cells run to measure scatter */
 
 /* Overview of a run: the worst verdict for each case and formulation over all parameter points, and
- * the number of quantities that have it. */
+ * the number of quantities with this verdict. */
 
-/* In increasing order of severity. */
+/* Marks in increasing order of severity. */
 typedef enum overview_mark {
-    OVERVIEW_NOTHING, /* nothing was evaluated: skipped, or no reference value */
+    /* nothing was evaluated: the case was skipped, or there is no reference value */
+    OVERVIEW_NOTHING,
     OVERVIEW_OTHER_MODEL,
     OVERVIEW_PASS,
     OVERVIEW_LOW_ORDER,
     OVERVIEW_UNDECIDED,
     OVERVIEW_BIASED,
     OVERVIEW_WRONG,
-    OVERVIEW_NO_VALUE, /* no value: no solution, or not applicable */
-    OVERVIEW_FLAW,     /* an inconsistent run record, or a deviation from its stored value */
+    OVERVIEW_NO_VALUE, /* there is no value: no solution, or not applicable */
+    OVERVIEW_FLAW, /* inconsistent records of a run, or a deviation from a stored discrete value */
     OVERVIEW_MARKS
 } overview_mark;
 
 typedef struct overview_cell {
     overview_mark mark;
-    int unexpected; /* 1: unexpected; takes precedence over expected marks */
+    int unexpected; /* 1: unexpected; unexpected marks take precedence over expected marks */
     int count;      /* number of quantities (for a flaw: cells) with this mark */
 } overview_cell;
 
 typedef struct overview {
     int rows, columns;
-    int joined;   /* 1: one column for a formulation with all its options */
+    /* number of columns before the columns of new formulations, which do not affect the exit status
+     * */
+    int joined;
     int accepted; /* number of columns before those of new formulations, which do not affect the
                      exit status */
     const case_type **row;
-    const char **column; /* [columns] names; valid as long as the sweep */
+    const char **column; /* [columns] names, valid as long as the sweep exists */
     overview_cell *cell; /* [rows*columns] */
 } overview;
 
@@ -842,31 +867,31 @@ void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
 /* Returns 1 if the row has an evaluated run. */
 int overview_judged(const overview *, int row);
-/* Returns 1 if the row gets a line of its own. All rows do if there are few. Otherwise passing
- * cases share lines, so the table fits on one screen. */
+/* Returns 1 if the row is shown on a separate line. If there are few rows, all of them are.
+ * Otherwise passing cases share lines, so that the table fits on one screen. */
 int overview_shown(const overview *, int row);
-/* Writes the mark as "ok", "~3" or "!#2", which is readable without colour. utf8 1: uses
- * characters outside ASCII. */
+/* Writes the mark, for example "ok", "~3" or "!#2". The mark is readable without colours. utf8 1:
+ * uses characters outside ASCII. */
 void overview_text(const overview_cell *, int utf8, char text[OVERVIEW_TEXT]);
 /* Returns a description of the mark. */
 const char *overview_words(overview_mark mark);
 
-/* Known deviations of the user's project: rules in addition to the built-in list, with the same
+/* Known deviations of a user project: rules in addition to the built-in list, with the same
  * columns. */
 
-/* Adds the rules of a file to those of t. run: the cases of the run, NULL-terminated. Errors in
- * the file are reported to `m`, and the rows that contain them are skipped. FAULT: the file
- * cannot be read. */
+/* Adds the rules of a file to the rules of t. run: cases of the run, NULL-terminated. Errors in the
+ * file are reported to `m`, and rows with errors are skipped. FAULT: the file cannot be read. */
 status own_findings_read(const char *path, const case_type *const run[], truths *t, mistakes *m,
                          fault *f);
 
-/* A user table: CSV with given columns, one record per line. All fields are checked. */
+/* A user table in CSV format, with given columns and one record per line. All fields are checked.
+ * */
 
 enum { OWN_TABLE_COLUMNS = 16 };
 
 typedef struct own_table_row {
     int line;                       /* starting at 1 */
-    char *text;                     /* text of the line; the fields point into it */
+    char *text;                     /* text of the line, into which the fields point */
     char *field[OWN_TABLE_COLUMNS]; /* trimmed, without quotes */
 } own_table_row;
 
@@ -875,18 +900,18 @@ typedef struct own_table {
     own_table_row *row;
 } own_table;
 
-/* Reads a user table. columns: the column names in order, separated by commas, as the first line
- * must list them. Errors in lines are reported to `m`, and these lines are skipped. FAULT: the
- * file cannot be read. The caller frees *out in any case. */
+/* Reads a user table. columns: names of the columns, in order and separated by commas; the first
+ * line of the file must be equal. Errors in lines are reported to `m`, and lines with errors are
+ * skipped. FAULT: the file cannot be read. The caller frees *out, even after a failure. */
 status own_table_read(const char *path, const char *columns, own_table *out, mistakes *m, fault *f);
 void own_table_free(own_table *);
 
-/* Reference values of the user's project in addition to the packed ones, with the columns of
+/* Reference values of a user project, in addition to the packed ones, with the columns of
  * reference/tables. */
 
-/* Adds the rows of a file to those of t. run: the cases of the run, NULL-terminated. only: the
- * single case to read; NULL: all cases. Errors in the file are reported to `m`, and the rows
- * that contain them are skipped. FAULT: the file cannot be read. */
+/* Adds the rows of a file to the rows of t. run: cases of the run, NULL-terminated. only: the only
+ * case to read; NULL: all cases. Errors in the file are reported to `m`, and rows with errors are
+ * skipped. FAULT: the file cannot be read. */
 status own_truths_read(const char *path, const case_type *const run[], const case_type *only,
                        truths *t, mistakes *m, fault *f);
 
@@ -897,21 +922,22 @@ status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fau
 /* Plans one point with the given formulations and meshes. */
 status plan_one(const case_type *type, const double value[], const formulation those[], int count,
                 const int mesh[], int meshes, sweep *out, fault *f);
-/* Adds a point to a sweep that is planned by hand, with its scene changed by the edit (NULL:
- * unchanged). The steps and the condition of the point may be set before the run. */
+/* Adds a point to a sweep that is planned by hand. The edit changes the scene of the point; NULL:
+ * no change. The steps and the condition of the point may be set before the run. */
 status plan_add(sweep *s, const case_type *type, const double value[], const scene_edit *edit,
                 const int mesh[], int meshes, fault *f);
 /* Adds a series to the last point, with the meshes of its scene. */
 status plan_extend(sweep *s, const formulation those[], int count, fault *f);
 
-/* Default formulation and mesh: a formulation that is suitable for the scene as far as can be
- * known without a solution, and a number of elements for which its values have converged. */
+/* Default formulation and mesh: a formulation that suits the scene, as far as this is known without
+ * a solution, and a number of elements for which values have converged. */
 
-/* Chooses a formulation that supports everything the scene requires, has the scene's shear
- * theory, and has no rule by which the limit of a quantity here is wrong or biased. Preference:
- * fewest such rules for other quantities, then highest order in the requested quantities, then
- * name. rules NULL: no list of known deviations. REFUSED: no formulation supports everything the
- * scene requires. why: one line with the reason for the choice. */
+/* Chooses a formulation that supports everything that the scene requires, has the shear theory of
+ * the scene, and has no rule according to which the limit of a requested quantity is wrong or
+ * biased. Among several formulations, those with the fewest such rules for other quantities are
+ * preferred, then those with the highest order in the requested quantities, then the first in the
+ * order of names. rules NULL: no list of known deviations. REFUSED: no formulation supports
+ * everything that the scene requires. why: reason for the choice, in one line. */
 status preference_formulation(const scene *, const rule_subject *where, const rule *rules,
                               int count, formulation *out, char why[FAULT_TEXT], fault *f);
 
@@ -921,40 +947,40 @@ status preference_formulation(const scene *, const rule_subject *where, const ru
 typedef struct preference {
     formulation chosen;
     int elements;
-    int short_of;   /* 1: values still change by more than requested on the finest mesh */
-    double *change; /* [quantities of the scene] relative change from the previous mesh to the
-                       chosen one; NAN: unknown */
+    int short_of; /* 1: values still change by more than the requested error on the finest mesh */
+    /* [quantities of the scene] relative change from the previous mesh to the chosen mesh; NAN:
+     * unknown */
+    double *change;
     char why_formulation[FAULT_TEXT], why_elements[FAULT_TEXT];
 } preference;
 void preference_free(preference *);
 
-/* Finds the coarsest mesh whose values all differ from those of the previous mesh by less than
- * `asked`, or the finest mesh that was tried. Solves all meshes up to that one. request: the cell
+/* Finds the coarsest mesh on which all values differ from those of the previous mesh by less than
+ * `asked`, or the finest mesh that was tried. Solves all meshes up to this mesh. request: the cell
  * without the number of elements. */
 status preference_elements(const cell_request *, const formulation *chosen, double asked,
                            preference *out, fault *f);
 
 /* Chooses formulation and mesh together. Candidates are the formulations that
- * preference_formulation ranks equal to the first one (at most five, two per family); the first
- * candidate that converges is chosen. The mesh with the lowest counted work is always solved
- * next. request: the cell without formulation and elements. */
+ * preference_formulation ranks equal to the first one (at most five, and at most two per family).
+ * The first candidate that converges is chosen. The next mesh to be solved is always the mesh with
+ * the lowest counted work. request: the cell without formulation and elements. */
 status preference_both(const cell_request *, const rule_subject *where, const rule *rules,
                        int count, double asked, preference *out, fault *f);
 
-/* Cost of a cell: each count of its work times a cost coefficient, summed. Counts, and therefore
+/* Cost of a cell: the sum of the counts of its work times cost coefficients. Counts, and therefore
  * costs, are equal in every run and on every machine. Formulations are ranked by cost and not by
- * measured times, because times scatter.
- *
- * The coefficients are fitted once to measured times (`make lab L=prices`) and stored in
- * harness/study/prices.csv, from which the build generates the table. A formulation without
- * coefficients uses the common coefficients ("*"), which depend on its number of strains. */
+ * measured times, because times scatter. The coefficients are fitted to measured times (`make lab
+ * L=prices`) and stored in harness/study/prices.csv, from which the build generates the table. A
+ * formulation without coefficients uses the common coefficients ("*"), which depend on its number
+ * of strains. */
 
-/* Counted work; the names are those of the columns of the table `cells`. */
+/* Counted work. The names are those of the columns of the table `cells`. */
 typedef enum price_count {
     PRICE_one, /* one per cell */
     PRICE_elements_total,
     PRICE_element_kinds,
-    PRICE_strains, /* number of strains of an element, plus its inner unknowns */
+    PRICE_strains, /* number of strains of an element plus its number of inner unknowns */
     PRICE_free,
     PRICE_strain_evaluations,
     PRICE_stress_evaluations,
@@ -971,154 +997,158 @@ typedef enum price_count {
 } price_count;
 
 typedef struct price_row {
-    /* "": the row applies to all formulations; "*": to formulations without coefficients; else a
-     * name, with options if they matter */
+    /* name of the formulation, with options if they affect the coefficient; "": the row applies to
+     * all formulations; "*": it applies to formulations without coefficients */
     const char *formulation;
     price_count first, second; /* the cost is proportional to the product of both counts */
-    double seconds;            /* [s] per unit of the product, on the reference machine */
+    double seconds;            /* [s] cost per unit of the product, on the reference machine */
 } price_row;
 
-extern const price_row price_rows[]; /* generated table; its last row has no formulation */
-/* Smallest ratio of costs that shows which formulation is faster; the cost coefficients are not
- * accurate enough for smaller ones. */
+extern const price_row price_rows[]; /* generated table, whose last row has no formulation */
+/* Smallest ratio of two costs that shows which formulation is faster. The cost coefficients are not
+ * accurate enough for smaller ratios. */
 extern const double price_noise;
 
-/* As price_of with the committed coefficients. */
+/* Like price_of, with the committed coefficients. */
 double price_cost(const formulation *chosen, const cell_result *cell);
-/* Returns 1 if the formulation has its own cost coefficients, 0 when the common ones apply. */
+/* Returns 1 if the formulation has separate cost coefficients, 0 if the common ones apply. */
 int price_own(const price_row *rows, const formulation *chosen);
 
-/* Progress of a long run, in one terminal line that is overwritten and removed at the end. */
+/* Progress of a long run, in one line of the terminal, which is overwritten and finally removed. */
 
 typedef struct progress {
     FILE *to;           /* NULL: no output */
     const char *things; /* "cells" */
-    int count;          /* number of things in the run */
+    int count;          /* number of items in the run */
     double begun;       /* [s] start, by clock_wall_seconds */
     double last;        /* [s] last output */
     int width;          /* width of the present line in columns */
 } progress;
 
-/* now: present time [s] of clock_wall_seconds; likewise below. */
+/* now: present time [s] of clock_wall_seconds, here and below. */
 progress progress_begin(FILE *to, const char *things, int count, double now);
 /* Returns 1 if the next output is due. */
 int progress_is_due(const progress *, double now);
 /* Prints "cells 12 of 40, 25 %, about 3 min left: WHAT". share: completed fraction of the work, 0
- * to 1; the remaining time is estimated from it once it is large enough. */
+ * to 1. The remaining time is estimated from `share` if this is large enough. */
 void progress_show(progress *, double now, int done, double share, const char *what);
 /* Clears the line. */
 void progress_end(progress *);
 
-/* Known deviations that a new formulation would require (reference/findings.csv). */
+/* Known deviations (reference/findings.csv) that a new formulation would need. */
 
-/* Writes CSV with the columns of the list of known deviations, including the header. There is
- * one rule for each formulation, case and verdict, with all its quantities, 4/3 of the largest
- * error found as largest_error, and a placeholder for the cause. Returns the number of rules. */
+/* Writes CSV with the columns of the list of known deviations, including the header. There is one
+ * rule for each formulation, case and verdict, which lists all quantities. largest_error is 4/3 of
+ * the largest error found, and the cause is a placeholder. Returns the number of rules. */
 int proposal_write(FILE *to, const sweep *s, const judgement *j);
 
 /* Determines which formulations meet an error target, and on which mesh. A formulation meets the
- * target from the coarsest mesh for which its own error and the errors of all finer meshes are
- * below the target. Formulations are ranked by their counted work on that mesh with the
- * committed cost coefficients, not by measured times. Formulations with a known deviation in the
- * requested quantity come last. */
+ * target with the coarsest mesh for which the errors of this mesh and of all finer meshes are
+ * within the target. Formulations are ranked by the cost of their counted work on this mesh, with
+ * the committed cost coefficients, and not by measured times. Formulations with a known deviation
+ * in the requested quantity come last. */
 
 enum { REACH_LEVELS = 4, REACH_EVERY = -1 };
 extern const double reach_level[REACH_LEVELS]; /* 10 %, 1 %, 0.1 %, 0.01 % */
 
 /* A formulation that meets the target. */
 typedef struct reached {
-    int series, mesh;      /* index of the series, and of the coarsest mesh that meets the target */
-    double cost;           /* [s] cost of the counted work; INFINITY: derivatives are computed by
-                              finite differences, or the formulation runs in another process; it
-                              is then ranked after all others */
+    /* index of the series, and index of the coarsest mesh that meets the target */
+    int series, mesh;
+    /* [s] cost of the counted work; INFINITY: the formulation uses finite differences or runs in
+     * another process, and is ranked after all others */
+    double cost;
     const verdict *defect; /* first verdict other than pass; NULL: all verdicts are pass */
 } reached;
 
 typedef struct reach_question {
     const sweep *s;
-    const verdict *verdict; /* [verdicts] verdicts on all series; quantities without a reference
-                               value are ignored */
+    /* [verdicts] verdicts on all series; quantities without a reference value are ignored */
+    const verdict *verdict;
     int verdicts, point;
-    int quantity; /* index, or REACH_EVERY: all quantities of the point for which some formulation
-                     has a reference value */
+    /* index of a quantity; REACH_EVERY: all quantities of the point for which at least one
+     * formulation has a reference value */
+    int quantity;
     double level; /* relative error */
 } reach_question;
 
-/* Returns the reason why a type is not ranked by its work, "by differences" or "in another
+/* Returns the reason why a type is not ranked by its work: "by differences" or "in another
  * process"; "": the type is ranked. */
 const char *reach_unranked(const element_type *type);
-/* Returns the index of the coarsest mesh for which its own error and those of all finer meshes
- * meet the target; -1: none. */
+/* Returns the index of the coarsest mesh for which the errors of this mesh and of all finer meshes
+ * are within the target; -1: none. */
 int reach_mesh(const sweep *s, const verdict *v, double level);
-/* Describes a formulation that meets the target in spite of a verdict of this kind. */
+/* Returns a description of a formulation that meets the target but has a verdict of this kind. */
 const char *reach_defect_words(verdict_kind kind);
-/* Ranks the formulations that meet the target: those without a defect first, each group by cost,
- * then by name. Returns the number of formulations. out must have room for all series. Other
- * programs are excluded, because their work is not counted. */
+/* Ranks the formulations that meet the target and returns their number. Formulations without a
+ * defect come first. Both groups are in order of cost, then of name. out must have room for all
+ * series. Other programs are excluded, because their work is not counted. */
 int reach_ranking(const reach_question *q, reached out[]);
-/* Returns the number of tied formulations at the start of the list: none has a defect, and their
- * costs differ by less than the uncertainty of the cost coefficients. 0: no ranked formulation
- * is without a defect; 1: the first one has the lowest cost. */
+/* Returns the number of tied formulations at the start of the list. They have no defect, and their
+ * costs differ by less than the uncertainty of the cost coefficients. 0: no ranked formulation is
+ * without a defect. 1: the first formulation has the lowest cost. */
 int reach_ties(const reached list[], int count);
-/* Returns how the series of the point is included: 1: every quantity has a reference value of its
- * theory; 0: some quantities have none; -1: the series does not run. */
+/* Returns 1 if every quantity of the series has a reference value of the shear theory of the
+ * formulation, 0 if some quantities have none, and -1 if the series does not run. */
 int reach_asks(const reach_question *q, int series_index);
-/* Computes the verdicts on every series and quantity of a sweep that has no judgement. If there
- * is no reference value, the cross-formulation agreement is used. The caller frees the array;
- * NULL: out of memory. */
+/* Computes the verdicts on every series and quantity of a sweep that has no judgement. Quantities
+ * without a reference value use the cross-formulation agreement. The caller frees the array; NULL:
+ * out of memory. */
 verdict *reach_verdicts(const sweep *s, const truths *t, int *count);
 
-/* Formats numbers with their significant digits, as text. */
+/* Writes numbers with their significant digits as text. */
 
 enum { ROUNDING_TEXT = 32, ROUNDING_MOST = 11 /* largest number of digits */ };
 
-/* Formats a number with the given number of digits; "-" if it is not finite. No exponent is used
- * if the result is short: "0.0031", but "3.1e-9". */
+/* Writes a number with the given number of digits, or "-" if the number is not finite. The exponent
+ * is omitted if the result is short: "0.0031", but "3.1e-9". */
 void rounding_digits(double value, int digits, char text[ROUNDING_TEXT]);
-/* Formats a value to the second digit of its uncertainty, which has the same unit (0: exact; not
- * finite: seven digits). */
+/* Writes a value up to the second digit of its uncertainty, which has the same unit. uncertainty 0:
+ * the value is exact. If the uncertainty is not finite, the value has seven digits. */
 void rounding_known(double value, double uncertainty, char text[ROUNDING_TEXT]);
-/* Formats a relative error in percent: "-2.7801 %", "+2.1e-9 %". At most 11 characters. */
+/* Writes a relative error in percent, for example "-2.7801 %" or "+2.1e-9 %", with at most 11
+ * characters. */
 void rounding_percent(double error, char text[ROUNDING_TEXT]);
 
-/* Run time of a cell: the shortest time of enough repetitions, in rounds that alternate with the
- * other cells in the comparison. The differences between rounds give the scatter. */
+/* Run time of a cell: the shortest time of several repetitions. The repetitions are made in rounds
+ * that alternate with the other cells in the comparison. The differences between rounds give the
+ * scatter. */
 
-/* Two cells differ if all rounds of one are faster than all rounds of the other. For equal
- * distributions the probability of this is 2 (5! 5!)/10! = 0.8 %. */
+/* Two cells differ if all rounds of one cell are faster than all rounds of the other. If both have
+ * the same distribution, the probability of this result is 2 (5! 5!)/10! = 0.8 %. */
 enum { ROUNDS_COUNT = 5 };
 
 typedef struct rounds_reading {
-    double setup, solve;        /* [s] set-up and solution of the fastest repetition */
-    double round[ROUNDS_COUNT]; /* [s] shortest time of set-up plus solution in each round */
+    double setup, solve;        /* [s] times for set-up and solution in the fastest repetition */
+    double round[ROUNDS_COUNT]; /* [s] shortest time for set-up and solution in each round */
     int rounds, repeats;
 } rounds_reading;
 
-double rounds_least(const rounds_reading *); /* returns the shortest round [s]; INFINITY: never
-                                                run */
-double rounds_most(const rounds_reading *);  /* returns the longest round [s] */
+/* returns the shortest round [s]; INFINITY: the cell was never run */
+double rounds_least(const rounds_reading *);
+double rounds_most(const rounds_reading *); /* returns the longest round [s] */
 /* Returns -1 if every round of a is faster than every round of b, 1 if every round of a is
  * slower, and 0 if the comparison is undecided. */
 int rounds_compare(const rounds_reading *a, const rounds_reading *b);
 
-/* The published algorithm, for comparison: all coordinates, strains and stresses are unknowns of
- * one system, which is solved by dense Gaussian elimination (newton=dense). */
+/* The published algorithm, for comparison: all coordinates, strains and stresses are unknowns of a
+ * single system, which is solved by dense Gaussian elimination (newton=dense). */
 typedef struct dense_reference {
-    int unknowns;         /* number of unknowns of the dense system; 0: not measured */
-    double iteration;     /* [s] shortest time of one iteration */
-    rounds_reading whole; /* times of whole runs, if they are short enough; otherwise rounds = 0 */
+    int unknowns;     /* number of unknowns of the dense system; 0: not measured */
+    double iteration; /* [s] shortest time of an iteration */
+    /* times of complete runs if these are short enough; otherwise rounds = 0 */
+    rounds_reading whole;
 } dense_reference;
 
-/* Returns the time of a run [s]: measured, or the time of one iteration times the number of
- * iterations, which is that of the other solution; INFINITY: not measured. */
+/* Returns the time [s] of a run: the measured time, or the time of an iteration times the number of
+ * iterations of the usual solution; INFINITY: not measured. */
 double dense_reference_seconds(const dense_reference *b, long iterations);
 
-/* Run times of a cell: unchanged, and with all degrees of freedom kept (--all-dofs). */
+/* Run times of a cell: in its usual form, and with all degrees of freedom kept (--all-dofs). */
 typedef struct cell_timing {
     rounds_reading as_is, keep_all; /* rounds = 0: not measured */
-    int free_keep_all;              /* number of unknowns when all are kept */
-    /* [s] times of the parts of the iterations, from an additional run in which the time of each
-     * part is measured */
+    int free_keep_all;              /* number of unknowns if all degrees of freedom are kept */
+    /* [s] times of the parts of the iterations, from an additional run that measures them */
     double phase[PHASES];
     dense_reference dense; /* measured on request */
 } cell_timing;
@@ -1131,38 +1161,38 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f);
 
 /* Reference values of a scene file. */
 
-/* Adds the reference values of the file that apply at a point of its parameters, evaluated at that
- * point. */
+/* Adds the reference values of the file that apply at a point of its parameters. They are evaluated
+ * at this point. */
 status scene_truths_add(const scene_file *, const double value[], truths *t, fault *f);
-/* As scene_truths_add, at the defaults and at every point that a reference value names. */
+/* Like scene_truths_add, for the default point and for every point that a reference value names. */
 status scene_truths_add_all(const scene_file *, truths *t, fault *f);
 
 /* Verdicts in words. */
 
-/* Writes the verdict in words: "converges to a wrong limit: +0.115 %". */
+/* Writes a verdict in words, for example "converges to a wrong limit: +0.115 %". */
 void sentence_of_verdict(const verdict *v, double least_order, char *text, size_t size);
 enum { SENTENCE_OF_RUN = 1000 };
 
-/* Writes a summary of the whole run in one sentence. It begins with PASS or FAIL (INTERRUPTED
- * after an interruption, INCOMPLETE if batches are missing) and names expected verdicts other
- * than pass. The text is empty if nothing was evaluated. */
+/* Writes a summary of the whole run in one sentence. The sentence starts with PASS, FAIL,
+ * INTERRUPTED (after an interruption) or INCOMPLETE (if batches are missing), and names expected
+ * verdicts other than pass. The text is empty if nothing was evaluated. */
 void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size);
 
-/* Result of a cell as bytes, for transfer to the parent process. */
+/* Result of a cell as bytes, which are sent to the parent process. */
 
 int serialise_write(FILE *to, const cell_result *cell); /* Returns 0, or -1. */
 enum { SERIALISE_DAMAGED = -1, SERIALISE_NO_MEMORY = -2 };
-/* Returns 0, or SERIALISE_DAMAGED when the stream ended or is damaged; the cell is then empty. */
+/* Reads the result of a cell. Returns 0, or SERIALISE_DAMAGED if the stream has ended or is
+ * damaged; the cell is then empty. */
 int serialise_read(FILE *from, cell_result *cell);
 
 int truth_holds(const truth *row, const case_type *type, const double value[]);
-/* Values of truth.kind. A verdict uses the first kind in this list for which there is a value.
- * truth_gates returns whether a verdict may depend on a row. "predicted" is the derived limit of
- * a formulation. */
+/* Values of truth.kind. A verdict uses the first kind in this list that has a value. truth_gates
+ * returns 1 if a verdict may depend on a row. "predicted" is a limit derived for a formulation. */
 extern const char truth_kinds[];
-/* Returns the reference value of the continuum for that model (an exact one before a published
- * one, never a point of a curve), or NULL. Verdicts against the same model affect the exit
- * status. */
+/* Returns the reference value of the continuum for a model; NULL: none. Exact values take
+ * precedence over published values. Points of a curve are never returned. Verdicts of the same
+ * model affect the exit status. */
 const truth *truth_of(const truths *t, const case_type *type, const double value[],
                       const char *quantity, const char *model);
 

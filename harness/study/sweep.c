@@ -203,8 +203,8 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
     return STATUS_OK;
 }
 
-/* Copies the omission from a formulation that omits the same physics at the same point; if there
- * is none, computes it. */
+/* Copies the omission from a formulation that omits the same physics at the same point. If there is
+ * no such formulation, computes the omission. */
 static void find_omission(const sweep *s, int index)
 {
     series *one = &s->series[index];
@@ -218,8 +218,8 @@ static void find_omission(const sweep *s, int index)
     omission_of(here, one->formulation.type, &one->without);
 }
 
-/* Determines the omissions of the series of a point again after the quantities of the point have
- * changed. */
+/* Determines the omissions of the series of a point again. The caller has changed the quantities of
+ * the point. */
 static void plan_omissions(sweep *s, int point_index)
 {
     const sweep_point *p = &s->point[point_index];
@@ -229,7 +229,7 @@ static void plan_omissions(sweep *s, int point_index)
             find_omission(s, i);
 }
 
-/* Largest number of formulations at a point; others are ignored. */
+/* Largest number of formulations at a point. Further formulations are ignored. */
 enum { MOST_FORMULATIONS = 64 };
 typedef struct chosen_cells {
     int count;
@@ -242,7 +242,7 @@ static void choose_given(const sweep_request *request, chosen_cells *out)
         out->list[out->count++] = request->formulation[i];
 }
 
-/* Adds the formulation once for each choice of its evaluated options. */
+/* Adds the formulation once for each choice of the options that are evaluated. */
 static void choose_options(const element_type *type, chosen_cells *out)
 {
     for (int k = 0; k < parameter_count(type->options); k++) {
@@ -277,8 +277,8 @@ static void choose_all(const truths *t, const sweep_point *p, chosen_cells *out)
     choose_stored(t, p, out);
 }
 
-/* Returns 1 if any quantity of the series is selected. Records all words of the selection that
- * match. asked[quantities or 1]: set to 1 for selected quantities. */
+/* Returns 1 if at least one quantity of the series is selected. Records all words of the selection
+ * that match. asked[quantities or 1]: set to 1 for selected quantities. */
 static int is_selected(const sweep *s, const sweep_point *p, const formulation *one,
                        select_words *words, char asked[])
 {
@@ -294,7 +294,7 @@ static int is_selected(const sweep *s, const sweep_point *p, const formulation *
     return selected;
 }
 
-/* Plans the formulations at one point: the requested ones or all, and options with a discrete
+/* Plans the formulations at a point: the requested formulations or all, and options with a discrete
  * reference value. */
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
                           select_words *words, char asked[], fault *f)
@@ -328,7 +328,7 @@ static status plan_point(const sweep_request *request, const truths *t, sweep *s
     if (asked == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a selection");
     const status outcome = plan_series(request, t, s, index, words, asked, f);
-    /* omissions depend on all quantities, so a verdict does not depend on the selection */
+    /* Omissions depend on all quantities, so the verdict does not depend on the selection. */
     plan_omissions(s, index);
     drop_quantities(&s->point[index].scene, asked);
     free(asked);

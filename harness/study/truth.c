@@ -13,7 +13,7 @@ const char truth_kinds[] =
     "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|"
     "unrepeatable";
 
-/* Returns 1 if the row also applies to other values of the parameter: lumped and consistent masses
+/* Returns 1 if the row also applies to other values of the parameter. Lumped and consistent masses
  * have the same limit, and only their discrete values differ. */
 static int may_differ(const truth *row, const parameter_type *p)
 {
@@ -113,7 +113,7 @@ static uint64_t hash_of(const case_type *type, const char *quantity)
 }
 
 /* Returns the position of the first row of the case and quantity in the hash table, or the free
- * position where it belongs. */
+ * position for it. */
 static int place_of(const truths *t, const case_type *type, const char *quantity)
 {
     int at = (int)(hash_of(type, quantity) % (uint64_t)t->places);
@@ -122,7 +122,7 @@ static int place_of(const truths *t, const case_type *type, const char *quantity
     return at;
 }
 
-/* Searches from row i on, without the index. */
+/* Searches from row i on without the index. */
 static int walk(const truths *t, const case_type *type, const char *quantity, int i)
 {
     while (i < t->rows && !is_of(&t->row[i], type, quantity))
@@ -144,7 +144,7 @@ int truth_index_next(const truths *t, int i)
     return walk(t, row->type, row->quantity, i < t->indexed ? t->indexed : i + 1);
 }
 
-/* Fills the index from the last row to the first one, so each entry links to the next row of the
+/* Fills the index from the last row to the first row, so each entry links to the next row of the
  * same quantity. */
 static void chain(truths *t)
 {
@@ -184,7 +184,7 @@ void truth_index_free(truths *t)
     t->indexed = t->places = 0;
 }
 
-/* Reads the parameters of a row and checks that they have the same meaning as when the table was
+/* Reads the parameters of a row and checks that their meaning has not changed since the table was
  * packed. */
 static status check_row(const table_columns *r, const case_type *type, int i, const char *text,
                         uint64_t hash, parameters_words *before, double value[], int any[])
@@ -201,7 +201,7 @@ static status check_row(const table_columns *r, const case_type *type, int i, co
     return STATUS_OK;
 }
 
-/* Conventions: for a moment on a rotating node, and for the order of prescribed rotations. */
+/* Conventions for a moment on a rotating node, and for the order of prescribed rotations. */
 static const char conventions[] =
     "vector|RyRzRx|spatial|spatial vector|spatial RyRzRx|semitangential|semitangential vector|"
     "semitangential RyRzRx|symmetrised|symmetrised vector|symmetrised RyRzRx";

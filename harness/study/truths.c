@@ -7,8 +7,8 @@
 
 #include "elements/shared/parameter.h"
 
-/* Opens the file. FAULT: the file is damaged, or is not a beamwork file. *file below 0: nothing
- * is open. */
+/* Opens the file. FAULT: the file is damaged, or is not a beamwork file. *file is negative if no
+ * file is open. */
 static status truths_file_open(const char *path, hid_t *file, fault *f);
 
 status truths_reserve(truths *t, int more, fault *f)
@@ -65,8 +65,8 @@ static status read_cases(const char *path, hid_t all, const case_type *only, tru
     return STATUS_OK;
 }
 
-/* Finds tables of cases that the program does not have; otherwise they would remain unused without
- * notice. */
+/* Finds tables of cases that the program does not have. Otherwise these tables would remain unused
+ * without notice. */
 static void find_strangers(hid_t all, truths *out)
 {
     char name[64];
@@ -83,7 +83,7 @@ static void find_strangers(hid_t all, truths *out)
 
 /* Tables to be read from a file. */
 typedef struct truths_wanted {
-    const char *group; /* group of tables, one per case; NULL: none */
+    const char *group; /* group that contains one table per case; NULL: none */
     const case_type *only;
     int rules;
 } truths_wanted;
@@ -171,7 +171,7 @@ void truths_free(truths *t)
     memset(t, 0, sizeof *t);
 }
 
-/* Returns FAULT unless the file is a beamwork file of this version. */
+/* Checks the version of the file. FAULT: the file is not a beamwork file of this version. */
 static status check_schema(hid_t file, const char *path, fault *f)
 {
     char name[64] = "";

@@ -18,8 +18,8 @@ static const char *const names[VERDICT_KINDS] = {"pass",
                                                  "skip",
                                                  "no truth",
                                                  "other model"};
-static const double order_slack = 0.3; /* accuracy of orders observed on finite meshes */
-/* a limit differs significantly if it is more than this many uncertainties away */
+static const double order_slack = 0.3; /* accuracy of orders that are observed on finite meshes */
+/* A difference is significant if it is larger than this multiple of the uncertainty. */
 static const double surely = 3;
 
 const verdict_kind verdict_defects[VERDICT_DEFECTS] = {
@@ -49,7 +49,7 @@ double verdict_error(const scene_quantity *q, double value, double truth_value)
     return scale > 0 ? (value - truth_value) / scale : value - truth_value;
 }
 
-/* Values on all meshes, and the failure of the finest one. */
+/* Values on all meshes, and the failure of the finest mesh. */
 typedef struct verdict_history {
     int n[SERIES_MAX_MESHES];
     double value[SERIES_MAX_MESHES]; /* NAN: none */
@@ -120,10 +120,11 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     return limit_of(&sequence);
 }
 
-/* Returns 1 if the order is known and too low. Two low orders may agree by accident: if error terms
- * of opposite sign cancel, or if elements are as long as a boundary layer. Therefore, with five
- * meshes or more, the previous order must also be below the nominal one, and the three orders must
- * be monotonic. Changes below the uncertainty of the reference value are ignored. */
+/* Returns 1 if the order is known and too low. Two low orders may agree by accident: error terms
+ * with opposite signs may cancel, or elements may be as long as a boundary layer. Therefore, if
+ * there are five meshes or more, the previous order must also be below the nominal order, and the
+ * three orders must be monotonic. Changes below the uncertainty of the reference value are ignored.
+ * */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
     const double least = q->least_order - order_slack, nominal = ceil(q->least_order);
@@ -132,8 +133,8 @@ static int order_is_low(const scene_quantity *q, const verdict *v)
            v->fit.last_change > v->truth->uncertainty;
 }
 
-/* Returns 1 if the limit equals the derived one within both uncertainties. The criterion is the
- * same as for a bias, so a significantly different limit is not the derived one. */
+/* Returns 1 if the limit equals the derived limit within both uncertainties. The criterion is the
+ * same as for a bias, so a significantly different limit is not the derived limit. */
 static int is_predicted(const verdict *v)
 {
     if (v->predicted == NULL)
@@ -142,8 +143,8 @@ static int is_predicted(const verdict *v)
     return apart <= surely * v->fit.limit_uncertainty + v->predicted->uncertainty;
 }
 
-/* Returns the verdict with respect to the reference value. A bias is not stated if the
- * uncertainty of the reference value is an estimate. */
+/* Returns the verdict with respect to the reference value. If the uncertainty of the reference
+ * value is only an estimate, the verdict is never a bias. */
 static verdict_kind compare(const scene_quantity *q, const verdict *v)
 {
     const double error = fabs(v->fit.limit - v->truth->value), doubt = v->fit.limit_uncertainty;
@@ -159,9 +160,9 @@ static verdict_kind compare(const scene_quantity *q, const verdict *v)
     return order_is_low(q, v) ? VERDICT_LOW_ORDER : VERDICT_PASS;
 }
 
-/* Returns the values of truth.theory that apply to the formulation; NULL: any. A formulation
- * whose modes exclude shear has a theory of its own; its limits are compared with any reference
- * value. */
+/* Returns the values of truth.theory that apply to the formulation; NULL: any. A formulation whose
+ * modes exclude shear has a separate theory, and its limits are compared with any reference value.
+ * */
 static const char *theories_of(const scene *s, const element_type *type)
 {
     switch (features_theory(s, type)) {
@@ -204,15 +205,15 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
         v->model_truth = truth_agreed(t, p->type, p->parameter, name);
     const int foreign = one->imported != NULL && !imported_same_model(one->imported);
     if ((foreign || one->without.other) && v->truth != NULL) {
-        v->model_truth = v->truth; /* shown as the difference between models, whatever the source of
-                                      the reference value */
+        /* shown as a difference between models, regardless of the source of the reference value */
+        v->model_truth = v->truth;
         v->truth = NULL;
     }
     v->predicted = truth_predicted(t, p->type, p->parameter, name, one->formulation.key);
 }
 
-/* Returns a published value of the same model and theory that ranks below the reference value,
- * if the limit differs from it; otherwise NULL. */
+/* Returns a published value of the same model and theory that differs from the limit and ranks
+ * below the reference value; NULL: none. */
 static const truth *contradiction(const sweep *s, const truths *t, const verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -240,7 +241,7 @@ static void say_other_model(const series *one, verdict *v)
     snprintf(v->reason, sizeof v->reason, "%.*s", (int)sizeof v->reason - 1, words);
 }
 
-/* Returns 1, and sets the verdict, when the series cannot be compared with a reference value. */
+/* Returns 1 and sets the verdict if the series cannot be compared with a reference value. */
 static int is_hindered(const sweep *s, verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -323,7 +324,7 @@ static const char *quantity_of(const sweep *s, const verdict *v)
     return s->point[series_of(s, v)->point].scene.quantity[v->quantity].name;
 }
 
-/* Returns 1 if one rule explains both verdicts. */
+/* Returns 1 if the same rule explains both verdicts. */
 static int same_rule(const sweep *s, const verdict *a, const verdict *b)
 {
     return a->needs_finding && b->needs_finding && a->kind == b->kind &&
@@ -331,8 +332,8 @@ static int same_rule(const sweep *s, const verdict *a, const verdict *b)
            strcmp(series_of(s, a)->formulation.key, series_of(s, b)->formulation.key) == 0;
 }
 
-/* Returns the index of the first verdict with the same rule and, if quantity is 1, with the same
- * quantity. */
+/* Returns the index of the first verdict with the same rule. quantity 1: the quantity must also be
+ * the same. */
 static int first_of(const sweep *s, const judgement *j, int index, int quantity)
 {
     const verdict *v = &j->verdict[index];

@@ -12,7 +12,7 @@
 
 #include "harness/numerics/numerics.h"
 
-/* A task and, if there is one, an earlier task with the same results. */
+/* A task that a worker performs. */
 typedef struct asked {
     const workload *w;
     const cell_request *request;
@@ -62,8 +62,8 @@ static int is_known(void *context, const model *m)
     return a->same >= 0;
 }
 
-/* Runs the equivalent scene of a repetition, for its values only. There is no result if that
- * scene is invalid. */
+/* Runs the equivalent scene of a repetition, of which only the values are needed. If this scene is
+ * invalid, there is no result. */
 static void run_again(const workload *w, const asked *a, cell_request *request, cell_result *out)
 {
     const sweep_point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
@@ -80,7 +80,7 @@ static void run_again(const workload *w, const asked *a, cell_request *request, 
     scene_free(&edited);
 }
 
-/* Returns the task with the same results; -1: the results are in *out. */
+/* Runs a task. Returns the task with the same results; -1: the results are in *out. */
 static int run_task(const workload *w, int i, int alone, cell_result *out)
 {
     cell_request request = sweep_cell(w->s, w->tasks[i].series, w->tasks[i].mesh);
@@ -101,7 +101,7 @@ static int run_task(const workload *w, int i, int alone, cell_result *out)
 
 /* Header of every result. */
 typedef struct heading {
-    int task, same; /* same: task that has the same results; -1: results follow */
+    int task, same; /* same: task with the same results; -1: results follow */
     size_t bytes;
 } heading;
 
@@ -117,7 +117,8 @@ static int write_all(int to, const char *bytes, size_t count)
     return 0;
 }
 
-/* Returns 0, or -1 if the pipe has no reader. */
+/* Sends a result or a reference to a task with the same results. Returns 0, or -1 if the pipe has
+ * no reader. */
 static int tell(int to, int i, int same, const cell_result *cell)
 {
     heading head = {.task = i, .same = same};
@@ -137,7 +138,7 @@ static int tell(int to, int i, int same, const cell_result *cell)
     return bad ? -1 : 0;
 }
 
-/* In the child: runs tasks until none is left. */
+/* Runs tasks in the child process until none is left. */
 static void work(const workload *w, int self, int to)
 {
     int alone, i, bad = 0;
@@ -192,7 +193,7 @@ static int grow(worker *from)
     return 0;
 }
 
-/* Stores a received result. Returns 0, SERIALISE_DAMAGED or SERIALISE_NO_MEMORY. */
+/* Stores a result that has been received. Returns 0, SERIALISE_DAMAGED or SERIALISE_NO_MEMORY. */
 static int take_result(workload *w, const heading *head, char *bytes)
 {
     if (head->same >= 0) {
@@ -209,7 +210,7 @@ static int take_result(workload *w, const heading *head, char *bytes)
     return bad;
 }
 
-/* Returns 1 if this is the header of an unfinished task. A worker with corrupted memory may write
+/* Returns 1 if the header is that of an unfinished task. A worker with corrupted memory may write
  * anything. */
 static int is_heading(const workload *w, const heading *head)
 {
@@ -218,7 +219,7 @@ static int is_heading(const workload *w, const heading *head)
            head->bytes <= LARGEST && (head->same >= 0 ? head->bytes == 0 : head->bytes > 0);
 }
 
-/* Marks the output as damaged; the pipe is then closed. */
+/* Marks the output as damaged. The pipe is then closed. */
 static int spoilt(worker *from)
 {
     from->damaged = 1;
@@ -252,7 +253,8 @@ static int take_whole(workload *w, worker *from)
 int worker_receive(workload *w, worker *from)
 {
     ssize_t got;
-    const int gone = child_is_gone(from->process); /* if it has ended, no more data will arrive */
+    /* after the end of the worker, no more data will arrive */
+    const int gone = child_is_gone(from->process);
     if (grow(from) != 0)
         return WORKER_NO_MEMORY;
     do
@@ -281,7 +283,7 @@ int worker_bury(workload *w, int self, worker *dead)
     if (w->together && !dead->stopped && !dead->damaged && WIFSIGNALED(how) &&
         WTERMSIG(how) == SIGKILL)
         kill(getpid(), SIGKILL);
-    sem_post(&w->board->news); /* replaces a wake-up that the worker may have consumed */
+    sem_post(&w->board->news); /* replaces a wake-up signal that the worker may have received */
     if (i < 0 || w->done[i])
         return dead->stopped || i >= 0;
     solve_result *r = &workload_cell(w, i)->solve;

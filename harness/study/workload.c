@@ -9,9 +9,9 @@
 
 /* Returns the edit that makes equivalent scene number `repetition`. */
 static scene_edit noise_words(const formulation *, int repetition);
-/* Sets series.noise to twice the larger of the two differences, relative to the value or near_zero.
- * If the formulation uses finite differences and their error is larger, noise is that error. NAN: a
- * value or a repetition is missing. Returns -1 if out of memory. */
+/* Sets series.noise to twice the larger of the two differences, relative to the value or to
+ * near_zero. If the formulation uses finite differences and their error is larger, the noise is
+ * this error. NAN: a value or a repetition is missing. Returns -1 if out of memory. */
 static int noise_take(const sweep_point *, const cell_result again[NOISE_REPETITIONS], series *);
 
 static int is_run(const sweep *s, int i)
@@ -41,8 +41,8 @@ static void list_tasks(workload *w)
     w->board->ended = w->due == 0;
 }
 
-/* Allocates a board for the largest number of tasks that may be added: each repetition once, and
- * each separate solution once. */
+/* Allocates a board for the largest number of tasks that may be added: one for each repetition, and
+ * one for each separate solution. */
 static board *alloc_board(int all, size_t *size)
 {
     *size = sizeof(board) + 2 * ((size_t)all + 1) * sizeof(atomic_int);
@@ -103,8 +103,8 @@ void workload_end(workload *w)
 }
 
 /* Takes task i, which is number n of a counter. The worker first records that it works on the task,
- * so the task is not lost if the worker ends in between. Returns 0 if another worker has taken the
- * task. */
+ * so the task is not lost if the worker ends before taking it. Returns 0 if another worker has
+ * taken the task. */
 static int take(board *b, int self, atomic_int *counter, int n, int i)
 {
     b->since[self] = clock_wall_seconds();
@@ -167,8 +167,8 @@ static void begin_noise(workload *w, int i)
         say(w, task_of_noise(w, i, k));
 }
 
-/* Handles a series whose tasks are all done: adds the repetitions of its finest mesh if its
- * scatter is needed, otherwise marks the series as complete. *last: its last task. */
+/* Handles a series whose tasks are all done. If the scatter is needed, adds the repetitions of the
+ * finest mesh. Otherwise marks the series as complete. *last: last task of the series. */
 static void all_done(workload *w, int i, const workload_task *last)
 {
     series *one = &w->s->series[i];
@@ -251,7 +251,7 @@ double workload_share(const workload *w)
     for (int i = 0; i < w->all; i++) {
         const workload_task *t = &w->tasks[i];
         if (t->again > 0 && w->state[t->series] != SERIES_NOISE && !w->done[i])
-            continue; /* not requested, or not now */
+            continue; /* not requested, or not at present */
         const double cost = expense_of_cell(w->s, t->series, t->mesh);
         all += cost;
         done += w->done[i] ? cost : 0;
@@ -286,7 +286,7 @@ void workload_keep_whole(workload *w)
     w->s->seriess = kept;
 }
 
-/* twice the larger of two differences exceeds the standard deviation in 19 of 20 cases */
+/* Twice the larger of two differences exceeds the standard deviation in 19 of 20 cases. */
 static const double cover = 2;
 
 static scene_edit noise_words(const formulation *chosen, int repetition)
@@ -306,7 +306,7 @@ static double value_of(const cell_result *cell, int quantity)
                : NAN;
 }
 
-/* Returns twice the larger difference; NAN if one of the values is unknown. */
+/* Returns twice the larger difference; NAN: one of the values is unknown. */
 static double noise_of(const scene_quantity *q, double value, const double again[NOISE_REPETITIONS])
 {
     double largest = 0;
@@ -332,8 +332,8 @@ static int noise_take(const sweep_point *p, const cell_result again[NOISE_REPETI
             value[k] = value_of(&again[k], q);
         const double measured =
             noise_of(&p->scene.quantity[q], value_of(&one->cell[one->meshes - 1], q), value);
-        /* errors of finite differences are the same on all meshes and in equivalent scenes, so
-         * scatter does not show them */
+        /* Errors of finite differences are the same on all meshes and in equivalent scenes, so
+         * scatter does not show them. */
         one->noise[q] =
             isnan(measured) ? measured : fmax(measured, adapters_error(one->formulation.type));
     }
@@ -348,10 +348,10 @@ int noise_cells(const sweep *s)
     return cells;
 }
 
-/* Claim of one task; key 0: the place is free. */
+/* Claim of a task; key 0: the entry is free. */
 typedef struct process_claim {
     _Atomic uint64_t key, check;
-    atomic_int task; /* task + 1; 0: not yet written */
+    atomic_int task; /* task + 1; 0: not written yet */
 } process_claim;
 
 struct claims {
@@ -378,8 +378,8 @@ void claims_free(claims *c)
         munmap(c, c->size);
 }
 
-/* Returns 1 if the claim is for the same problem. A claim that is still being written counts as a
- * different problem. */
+/* Returns 1 if the claim is for the same problem. A claim that is being written counts as another
+ * problem. */
 static int is_same(process_claim *at, const identity *what)
 {
     return atomic_load(&at->task) != 0 && atomic_load(&at->check) == what->part[1];
