@@ -10,6 +10,15 @@ man: all
 api:
 	@harness/library/packaging/api/pages.sh $(VERSION) $(BUILD)/api
 
+.PHONY: wheel wheel-check
+# Builds the wheel and the source distribution for pip, in build/wheel; with auditwheel and patchelf, for other systems, too.
+wheel:
+	@$(PYTHON) -B harness/library/packaging/build_backend.py $(BUILD)/wheel
+
+# Installs both into new virtual environments and uses them; requires numpy from PyPI.
+wheel-check: wheel
+	@harness/library/packaging/wheel_check.sh $(BUILD)/wheel
+
 .PHONY: deb deb-check
 # Builds the Debian packages, build/deb/*.deb; requires debhelper.
 deb:

@@ -1,4 +1,6 @@
 """Tests the installed files, and the documentation pages of the interfaces."""
+import importlib
+import importlib.util
 import json
 import os
 import pathlib
@@ -6,6 +8,8 @@ import re
 import shlex
 import shutil
 import subprocess
+import sys
+import tarfile
 import unittest
 
 from docs.commands import reader_file
@@ -19,15 +23,23 @@ BUILD = pathlib.Path(PROGRAM).parent
 SECONDS = re.compile(r'"seconds_\w+": [^,\n]+')
 
 
-def make(*arguments):
-    """Runs make with the same program as these tests, but without its job slots, which are counted separately. The
-    file names are the same; otherwise everything would be linked again while other tests run it."""
+def variables():
+    """Returns the variables of make for the same program as these tests. The file names are the same; otherwise
+    everything would be linked again while other tests run it."""
     given = shlex.split(os.environ.get("MAKEFLAGS", "").partition(" -- ")[2])
-    clean = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")
-             and not name.startswith("BEAMWORK")}
-    build = os.path.relpath(BUILD, ROOT)
-    return subprocess.run(["make", "--no-print-directory", f"BUILD={build}", *given, *arguments],
-                          cwd=ROOT, env=clean, text=True, check=False, stdout=subprocess.PIPE,
+    return [f"BUILD={os.path.relpath(BUILD, ROOT)}", *(word for word in given if "=" in word)]
+
+
+def clean():
+    """Returns the environment without the variables of make, whose job slots are counted separately, and of
+    beamwork."""
+    return {name: value for name, value in os.environ.items()
+            if not name.startswith(("MAKE", "BEAMWORK"))}
+
+
+def make(*arguments):
+    return subprocess.run(["make", "--no-print-directory", *variables(), *arguments],
+                          cwd=ROOT, env=clean(), text=True, check=False, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT)
 
 
@@ -45,8 +57,7 @@ class Installed(ProgramTest):
         cls.root = cls.place / "usr" / "local"
         cls.data = cls.root / "share" / "beamwork"
         cls.program = str(cls.root / "bin" / "beamwork")
-        cls.clean = {name: value for name, value in os.environ.items()
-                     if not name.startswith("BEAMWORK")}
+        cls.clean = clean()
 
     def installed(self, *arguments, program=None, code=0, **changes):
         done = run(*arguments, program=program or self.program, cwd=self.folder,
@@ -228,6 +239,68 @@ class Installed(ProgramTest):
         """Python leaves no compiled files in the installed folders."""
         self.test_report()
         self.assertEqual(list(self.place.rglob("*.pyc")), [])
+
+
+# The wheel, installed by pip without a network into a folder, and the source distribution.
+sys.path.insert(0, str(HERE.parent))
+backend = importlib.import_module("build_backend")
+
+
+@unittest.skipIf(is_sanitized(), "Python is not built with sanitizers")
+@unittest.skipIf(importlib.util.find_spec("pip") is None, "needs pip")
+class Wheel(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.place = cls.class_folder() / "a place"
+        built = {**clean(), **dict(word.split("=", 1) for word in variables())}
+        done = run("-m", "pip", "install", "--no-index", "--no-deps", "--target", cls.place, ROOT,
+                   program=sys.executable, env={**built, "HOME": str(cls.place)})
+        assert done.returncode == 0, done.stdout + done.stderr
+        cls.settings = {**clean(), "PYTHONPATH": str(cls.place), "PYTHONDONTWRITEBYTECODE": "1"}
+
+    def test_module_and_program(self):
+        """Both find their data, and give the same bits as the program of the build."""
+        theirs = self.record("solve", "c_column", "-f", "beamw", "-n", "2")["quantities"]
+        code = ("import beamwork as bw, json; r = bw.Scene.case('c_column').solve('beamw', 2);"
+                "print(json.dumps([bw.__version__, bw.path.parent.name, r.document['quantities']]))")
+        done = run("-c", code, program=sys.executable, env=self.settings, cwd=self.folder)
+        self.assertEqual(json.loads(done.stdout), [backend.VERSION, "lib", theirs], done.stderr)
+        done = self.answered("solve", "c_column", "-f", "beamw", "-n", "2", "--format", "json",
+                             program=self.place / "bin" / "beamwork", env=self.settings)
+        self.assertEqual(json.loads(done.stdout)["quantities"], theirs)
+        self.answered("solve", "c_column", "-f", "none", code=2,
+                      program=self.place / "bin" / "beamwork", env=self.settings)
+
+    def test_report(self):
+        program = self.place / "bin" / "beamwork-report"
+        results = self.folder / "r.h5"
+        self.answered("verify", "-k", "elastica/default and collocation", "-o", results)
+        self.answered(results, "-o", self.folder / "site", program=program, env=self.settings)
+        self.assertTrue((self.folder / "site" / "index.html").exists())
+        self.assertIn("usage", self.answered(program=program, env=self.settings, code=2).stdout)
+
+    def test_files(self):
+        """The record lists every file with its hash; nothing of the build's machine is among them."""
+        lines = (next(self.place.glob("*.dist-info")) / "RECORD").read_text("utf-8").splitlines()
+        names = {line.rsplit(",", 2)[0] for line in lines}
+        for name in ("beamwork/__init__.py", "beamwork/bin/beamwork", "beamwork/lib/libbeamwork.so.0",
+                     "beamwork/include/beamwork/elements/element.h", "beamwork_element.py",
+                     "beamwork/share/beamwork/truths.h5"):
+            self.assertIn(name, names)
+        self.assertFalse([name for name in names if name.endswith((".a", ".pc", ".o"))])
+
+    def test_source_distribution(self):
+        """It holds the files that git tracks, and packs the same files again where there is no git."""
+        name = backend.build_sdist(self.folder)
+        with tarfile.open(self.folder / name) as archive:
+            archive.extractall(self.folder)
+        unpacked = self.folder / backend.NAME
+        packed = {str(path.relative_to(unpacked)) for path in unpacked.rglob("*") if path.is_file()}
+        self.assertEqual(packed, {*backend.sources(), "PKG-INFO"})
+        self.assertIn("Makefile", packed)
+        done = run("-B", "-c", "import build_backend as b; print(*b.sources(), sep='\\n')", program=sys.executable,
+                   cwd=unpacked / "harness" / "library" / "packaging")
+        self.assertEqual(set(done.stdout.splitlines()), packed - {"PKG-INFO"}, done.stderr)
 
 
 # Documentation pages of the C interfaces: everything public is documented, and the examples compile.

@@ -17,7 +17,7 @@ def places():
     if asked:
         return [pathlib.Path(asked)]
     here = pathlib.Path(__file__).resolve().parent
-    found = [here / FILE, here.parent / FILE]
+    found = [here / "lib" / FILE, here / FILE, here.parent / FILE]  # lib: in a wheel
     for folder in here.parents:  # PREFIX/lib/python3/dist-packages/beamwork: PREFIX/lib
         found += [folder / FILE, folder / "lib" / FILE, folder / "build" / FILE]
         found += sorted((folder / "lib").glob(f"*/{FILE}"))
