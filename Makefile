@@ -120,14 +120,14 @@ $(BUILD)/peers.h5: reference/peers.csv $(PROGRAM)
 is_newer = PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports.experiments $(BUILD)/results.h5 $(1) $(PROGRAM)
 # RESULTS=FILE: your own results, as 'verify --shapes --scene my.yaml -o FILE' writes them, or a
 # sweep; SWEEP="FILE ...": sweeps beside the results.
-report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify, into build/report/index.html; of RESULTS=NAME.h5, also a sweep, into build/report_NAME/index.html; SWEEP=FILE beside it
+report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify, into build/report/index.html; of RESULTS=NAME.h5, also a sweep, into build/report_NAME/index.html; SWEEP=FILE in addition; FIGURES=pdf also as figures for papers
 ifndef RESULTS
 	@test -f $(BUILD)/results.h5 -a -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify
 	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory lab-newton
 	@$(call is_newer,element-test) || $(MAKE) --no-print-directory lab-certificates >/dev/null
 	@$(call is_newer,stress) || $(MAKE) --no-print-directory stress >$(BUILD)/stress.txt
 endif
-	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) --imported $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) --imported $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") $(foreach form,$(FIGURES),--figures $(form)) $(if $(STYLE),--style "$(STYLE)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
 docs: all library needs-docs ## the documentation as a site that opens from disk, into build/docs/index.html; with verdicts of the last verify
 	@rm -rf $(BUILD)/docs $(BUILD)/docs_trees

@@ -1,11 +1,11 @@
 """python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] [--imported THEIRS.h5]
 [--sweep SWEEP.h5] -o FOLDER writes the report as a self-contained folder of HTML and SVG files. A sweep may replace
-the results. With --film FILM.html instead of -o FOLDER, it writes a motion as a single file that any browser plays
-from disk."""
+the results. With --figures FORMAT, it also writes the charts into FOLDER/figures, for papers. With --film FILM.html
+instead of -o FOLDER, it writes a motion as a single file that any browser plays from disk."""
 import argparse
 import sys
 
-from reports import data
+from reports import data, paper
 
 
 def main():
@@ -15,7 +15,13 @@ def main():
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("-o", dest="folder")
     what.add_argument("--film", help="an HTML file: a motion that plays in any browser")
-    parser.add_argument("-k", dest="case", help="case of the film, if the results contain several")
+    parser.add_argument("-k", dest="case", help="case of the film, if the results contain several; "
+                        "with --figures, the case whose figures are written (default: all)")
+    parser.add_argument("--figures", action="append", choices=paper.FORMATS, default=[], metavar="FORMAT",
+                        help="also write the charts of the report into FOLDER/figures: pdf, pgf (for LaTeX), "
+                        "png or svg; may be repeated")
+    parser.add_argument("--style", metavar="FILE",
+                        help="matplotlib style file for the figures: size, fonts, lines, grid")
     parser.add_argument("--bench",
                         help="times of 'beamwork bench -o'; without it those of single runs")
     parser.add_argument("--imported",
@@ -26,6 +32,10 @@ def main():
     parser.add_argument("--sweep", action="append", default=[],
                         help="results of 'beamwork sweep -o', in addition to those of verify")
     given = parser.parse_args()
+    if given.style and not given.figures:
+        parser.error("--style requires --figures")
+    if given.case and not (given.film or given.figures):
+        parser.error("-k requires --film or --figures")
     if given.film:
         from reports import film
         return film.main([given.results, "-o", given.film, *(["-k", given.case] if given.case else
@@ -33,8 +43,9 @@ def main():
     try:
         from reports import pages
         count = pages.build(given.results, given.truths, given.folder, given.bench, given.imported,
-                            given.sweep)
-    except (data.Unreadable, OSError) as why:
+                            given.sweep, {"formats": given.figures, "style": given.style,
+                                          "only": given.case})
+    except (data.Unreadable, paper.Impossible, OSError) as why:
         print(f"report: {why}", file=sys.stderr)
         return 4
     print(f"{count} parts: {given.folder}/index.html")

@@ -179,8 +179,10 @@ class Chart:
         return self.panels[-1]
 
     def image(self, site, name):
-        """Returns the Image of the chart for the page."""
-        return Writer(self, site, name).image()
+        """Returns the Image of the chart for the page. Also writes the figure for papers, if the site has any."""
+        image = Writer(self, site, name).image()
+        site.paper.chart(self, name)
+        return image
 
 
 class Writer:

@@ -58,20 +58,21 @@ def present(site):
     return [m for m in modules if not hasattr(m, "present") or m.present(site)]
 
 
-def build(results, truths, folder, bench=None, others=(), sweeps=()):
-    """Writes the whole site, or nothing after an error. Returns the number of tasks."""
+def build(results, truths, folder, bench=None, others=(), sweeps=(), figures=None):
+    """Writes the whole site, or nothing after an error. figures: arguments of paper.Paper for figures of papers.
+    Returns the number of tasks."""
     folder = pathlib.Path(folder).absolute()
     folder.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as part:
-        count = _write(results, truths, part, bench, others, sweeps)
-        folder.mkdir(exist_ok=True)
-        for file in pathlib.Path(part).iterdir():
-            os.replace(file, folder / file.name)
+        count = _write(Site(results, truths, part, bench, others, sweeps, figures))
+        for file in (f for f in pathlib.Path(part).rglob("*") if f.is_file()):
+            to = folder / file.relative_to(part)
+            to.parent.mkdir(exist_ok=True)
+            os.replace(file, to)
     return count
 
 
-def _write(results, truths, folder, bench, others, sweeps):
-    site = Site(results, truths, folder, bench, others, sweeps)
+def _write(site):
     modules = present(site)
     for module in modules:
         site.navigation += module.NAVIGATION

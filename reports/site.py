@@ -6,7 +6,7 @@ import pathlib
 import jinja2
 from markupsafe import Markup, escape
 
-from reports import answers, data, experiments, figures, glossary, navigation, style, verdicts
+from reports import answers, data, experiments, figures, glossary, navigation, paper, style, verdicts
 from reports.style import Styles, plt
 from reports.sweep import stored
 
@@ -58,10 +58,10 @@ def file_name(path):
 
 class Site:
     """A report. cases: data.Case records; about, bench: environments of the results and of the times (None: no
-    benchmark); kinds: numbers of reference values by kind; sweeps: stored.Sweep records. If `results` is a sweep,
+    benchmark); paper: writes figures for papers; kinds: numbers of reference values by kind; sweeps: stored.Sweep records. If `results` is a sweep,
     there are no cases."""
 
-    def __init__(self, results, truths, folder, bench=None, others=(), sweeps=()):
+    def __init__(self, results, truths, folder, bench=None, others=(), sweeps=(), figures=None):
         self.alone = stored.is_alone(results)
         own = [results] if stored.is_there(results) else []
         self.sweeps = [stored.read(p) for p in own + list(sweeps)]
@@ -78,6 +78,7 @@ class Site:
         self.marks = {s.key: s.marks for c in self.cases for p in c.points for s in p.series
                       if s.marks}
         self.navigation, self.sections, self.said, self.glances = [], [], [], []
+        self.paper = paper.Paper(folder, [c.name for c in self.cases], **figures or {})
         os.makedirs(folder, exist_ok=True)
         self.write_assets()
         loader = jinja2.FileSystemLoader(pathlib.Path(__file__).parent / "templates")
@@ -163,6 +164,7 @@ class Site:
     def image(self, figure, name, tight=True):
         """Returns the Image of a matplotlib figure for the macro `figure` of a page, and closes the figure. tight: the
         figure is cropped to its contents, for which it is drawn twice."""
+        self.paper.figure(figure, name)
         image = figures.image_of(figure, name, self.said, tight)
         plt.close(figure)
         self.said.clear()

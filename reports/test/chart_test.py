@@ -1,17 +1,20 @@
 """Tests charts, figures and pictures."""
 import json
+import pathlib
 import re
+import tempfile
 import types
 import unittest
 import xml.etree.ElementTree
 
+import matplotlib
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from harness.tools.kit.program import (ProgramTest, TRUTHS, drawn as drawn_of_campbell,
                                        drawn as drawn_of_paths, drawn as drawn_of_pictures,
                                        drawn as drawn_of_sizes)
-from reports import campbell, chart, data, figures, paths, pictures, shapes, style
+from reports import campbell, chart, data, figures, paper, paths, pictures, shapes, style
 from reports.claims import Lookup
 from reports.site import ASSETS, Site
 from reports.style import Styles, plt
@@ -20,7 +23,7 @@ from reports.style import Styles, plt
 # Charts written directly as SVG: positions, ticks, legends, and data of markers.
 def site():
     """Returns the parts of a site that a chart uses."""
-    found = types.SimpleNamespace(said=[], styles=Styles([]))
+    found = types.SimpleNamespace(said=[], styles=Styles([]), paper=paper.Paper("", []))
     found.points = types.MethodType(Site.points, found)
     return found
 
@@ -93,6 +96,80 @@ class Charts(unittest.TestCase):
         self.assertLess(x0, x1)
         self.assertLess(y0, y1)  # a smaller error is farther down
 
+
+# Figures for papers, drawn by matplotlib from the same charts.
+class Papers(unittest.TestCase):
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.addCleanup(matplotlib.rcParams.update, dict(matplotlib.rcParams))
+
+    def chart(self):
+        drawn = chart.Chart(2, (300, 200))
+        for title in ("left", "right"):
+            panel = drawn.panel(title, "elements", "error", whole=True)
+            panel.plot([1, 2, 4], [1e-2, 1e-4, 1e-6], label="beam_1", color="#0072b2", marker="o", gid="f|beam_1")
+            panel.plot([], [], label="open", color="currentColor", marker="o", hollow=True, linestyle="none")
+            panel.level(1e-3, "tolerance")
+            panel.ground(1e-5)
+            panel.note(2, 1e-3, "order 4")
+            panel.cross(8, "#0072b2", "f|beam_1")
+        return drawn
+
+    def written(self, formats, style=None, name="elastica_time", only=None):
+        """Returns the names and contents of the files of one chart."""
+        one = site()
+        one.paper = paper.Paper(self.folder.name, ["elastica", "elastica_motion"], formats, style, only)
+        self.chart().image(one, name)
+        folder = pathlib.Path(self.folder.name, paper.FOLDER)
+        return {f.name: f.read_bytes() for f in folder.iterdir()} if folder.exists() else {}
+
+    def style(self, text):
+        path = pathlib.Path(self.folder.name, "own.mplstyle")
+        path.write_text(text, encoding="utf-8")
+        return str(path)
+
+    def test_formats(self):
+        found = self.written(["pdf", "svg", "png"])
+        self.assertEqual(set(found), {"elastica_time.pdf", "elastica_time.svg", "elastica_time.png"})
+        self.assertTrue(found["elastica_time.pdf"].startswith(b"%PDF"))
+        for words in (b"tolerance", b"order 4", b"beam_1", b"elements", b"right"):
+            self.assertIn(words, found["elastica_time.svg"])
+        self.assertEqual(found["elastica_time.svg"].count(b">beam_1<"), 1)
+
+    def test_equal_results_give_equal_files(self):
+        self.assertEqual(self.written(["pdf", "svg"]), self.written(["pdf", "svg"]))
+
+    def test_nothing_without_a_format(self):
+        self.assertEqual(self.written([]), {})
+
+    def test_one_case(self):
+        self.assertEqual(self.written(["svg"], name="elastica_motion_time", only="elastica"), {})
+        self.assertEqual(set(self.written(["svg"], only="elastica")), {"elastica_time.svg"})
+        with self.assertRaisesRegex(paper.Impossible, "no case 'elastic'; cases: elastica, elastica_motion"):
+            self.written(["svg"], only="elastic")
+
+    def test_style_sets_the_size(self):
+        found = self.written(["svg"], self.style("figure.figsize: 20, 2  # inches\nfont.size: 5\n"))
+        width = float(re.search(rb'width="([\d.]+)pt"', found["elastica_time.svg"]).group(1))
+        self.assertAlmostEqual(width / 72, 20, delta=0.5)
+
+    def test_invalid_styles(self):
+        for text, why in (("axes.gri: on", ":1: 'axes.gri: on' is not"), ("\nfont.size: large x", ":2: 'font.size")):
+            with self.assertRaisesRegex(paper.Impossible, why):
+                self.written(["svg"], self.style(text))
+        with self.assertRaisesRegex(paper.Impossible, "nowhere: No such file"):
+            self.written(["svg"], "nowhere")
+
+    def test_pgf(self):
+        """PGF figures require LaTeX; without it, the message names the packages."""
+        try:
+            found = self.written(["pgf"])
+        except paper.Impossible as why:
+            self.assertIn("apt-get install texlive-latex-recommended", str(why))
+        else:
+            self.assertIn(b"pgfpicture", found["elastica_time.pgf"])
 
 # Figures in pages: unique identifiers, preserved text, colours that change with the page, and curves assigned to their
 # formulations.
