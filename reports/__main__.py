@@ -1,11 +1,27 @@
 """python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] [--imported THEIRS.h5]
 [--sweep SWEEP.h5] -o FOLDER writes the report as a self-contained folder of HTML and SVG files. A sweep may replace
 the results. With --figures FORMAT, it also writes the charts into FOLDER/figures, for papers. With --film FILM.html
-instead of -o FOLDER, it writes a motion as a single file that any browser plays from disk."""
+instead of -o FOLDER, it writes a motion as a single file that any browser plays from disk; with --vtk FILE.pvd, shapes
+as a series of VTK files."""
 import argparse
 import sys
 
 from reports import data, paper
+
+
+def written(results, target):
+    """Writes a series of VTK files, and returns the exit status."""
+    from reports import vtk_series
+    try:
+        count = vtk_series.write(results, target)
+    except vtk_series.NoSeries as why:
+        print(f"report: {why}", file=sys.stderr)
+        return 2
+    except (data.Unreadable, OSError) as why:
+        print(f"report: {why}", file=sys.stderr)
+        return 4
+    print(f"{count} states: {target}")
+    return 0
 
 
 def main():
@@ -15,6 +31,9 @@ def main():
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("-o", dest="folder")
     what.add_argument("--film", help="an HTML file: a motion that plays in any browser")
+    what.add_argument("--vtk", metavar="FILE.pvd",
+                      help="the shapes of 'beamwork solve --shapes -o' as a series of .vtu files, for any version "
+                      "of ParaView and VTK")
     parser.add_argument("-k", dest="case", help="case of the film, if the results contain several; "
                         "with --figures, the case whose figures are written (default: all)")
     parser.add_argument("--figures", action="append", choices=paper.FORMATS, default=[], metavar="FORMAT",
@@ -40,6 +59,8 @@ def main():
         from reports import film
         return film.main([given.results, "-o", given.film, *(["-k", given.case] if given.case else
                                                               [])])
+    if given.vtk:
+        return written(given.results, given.vtk)
     try:
         from reports import pages
         count = pages.build(given.results, given.truths, given.folder, given.bench, given.imported,

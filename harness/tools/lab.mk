@@ -48,6 +48,11 @@ lab-film: all needs-report ## a motion of RESULTS=FILE.h5 (of several: CASE=NAME
 	@mkdir -p $(LAB)
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(RESULTS)" $(TRUTHS) --film $(LAB)/film_$(basename $(notdir $(RESULTS))).html $(if $(CASE),-k "$(CASE)")
 
+lab-vtk: all needs-report ## the shapes of RESULTS=FILE.h5 as a series of .vtu files for any version of ParaView; seconds; build/lab/FILE.pvd
+	@test -n "$(RESULTS)" || { echo "make lab L=vtk: give RESULTS=FILE.h5, of 'beamwork solve CASE --shapes -o FILE.h5'" >&2; exit 2; }
+	@mkdir -p $(LAB)
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(RESULTS)" $(TRUTHS) --vtk $(LAB)/$(basename $(notdir $(RESULTS))).pvd
+
 lab-fuzz: all ## any bytes as every input the program reads (clang's libFuzzer); 20 minutes; build/fuzz.json
 	@harness/tools/fuzz.sh $(BUILD)
 
