@@ -1,6 +1,6 @@
 /* A case: a table of parameters and a function that builds a scene from their values. One file in
- * cases/ defines one const case_type with the symbol case_<file name>, either in C or as a scene
- * file that the build reads (cases/format/format_impl.h). */
+ * cases/ defines one const case_type with the symbol case_<file name>. The file is written in C, or
+ * it is a scene file that the build reads (cases/format/format_impl.h). */
 #ifndef BEAMWORK_CASE_H
 #define BEAMWORK_CASE_H
 
@@ -12,19 +12,20 @@ enum { CASE_MAX_PARAMETERS = 32 };
 typedef struct case_type {
     const char *name, *summary, *source;
     const parameter_type *parameters[PARAMETER_PARTS];
-    /* Builds the scene. value[i] belongs to parameter i of all parts and is within its range.
-     * Rejects invalid combinations of values. */
+    /* Builds the scene. value[i] belongs to entry i of the parameter tables and is within its
+     * range. Rejects invalid combinations of values. */
     status (*build)(const double value[], scene *s, fault *f);
-    /* Like build, for a case from a scene file, for which build is NULL. context: the file. */
+    /* Builds the scene of a case from a scene file, for which `build` is NULL. `context` is the
+     * file. */
     status (*build_from)(const void *context, const double value[], scene *s, fault *f);
     const void *context;
     const char *file; /* path of the scene file; NULL: built-in */
 } case_type;
 
-/* Last part of the parameters of every built-in case. `omit` selects whether the scene omits the
- * physics that the source omits or none. case_mass_omit also selects the mass of members; it is
- * used if the quantities depend on the mass. Names of points contain these parameters only if their
- * values differ from the defaults. */
+/* Last table of the parameters of every built-in case. `omit` selects whether the scene omits the
+ * physics that the source omits, or no physics. case_mass_omit also selects the mass of members,
+ * for cases whose quantities depend on the mass. Names of points contain these parameters only if
+ * their values differ from the defaults. */
 extern const parameter_type case_omit[], case_mass_omit[];
 int case_is_omit(const parameter_type *);
 int case_is_mass(const parameter_type *);

@@ -1,6 +1,6 @@
-/* Flexure-based hexapod: six cranks, six rods, twelve spherical flexure joints, and a platform that
- * moves along z. Computes the support stiffness along z with the cranks fixed. N section 4.3, Fig.
- * 10. The paper does not state the dimensions, which are therefore synthetic. */
+/* Flexure-based hexapod with six cranks, six rods, twelve spherical flexure joints, and a platform
+ * that moves along z. The case computes the support stiffness along z with the cranks fixed (N
+ * section 4.3, Fig. 10). The paper does not state the dimensions, which are therefore synthetic. */
 #include <stddef.h>
 #include <stdio.h>
 
@@ -49,7 +49,7 @@ static status build(const double value[], scene *s, fault *f)
     TRY(hexapod_add(value, s, angle, platform, &profile, legs, f));
 
     const int lifting = scene_add_static(s, steps, station + 1, 1);
-    /* The prescribed height is released here: the cranks keep their angles. */
+    /* the prescribed height is released: the cranks keep their angles */
     const int compliance = scene_add_compliance(
         s, lifting, (scene_compliance){.node = platform, .released = 1u << SCENE_UZ});
     add_stiffnesses(s, compliance, station + 1, steps);

@@ -1,8 +1,8 @@
 /* A cantilever in steady rotation: flap and lag frequencies, axial displacement of the end, and
- * force on the root [EI/L^2]. L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that frequencies are in
- * sqrt(EI/(rho A L^4)). The root is at a distance from the axis, which is normal to the beam or
- * inclined towards it. Flap is motion in the plane of beam and axis; lag is motion normal to this
- * plane. Shear deformation and rotary inertia are neglected. */
+ * force on the root [EI/L^2]. L = 1 m, EI = 1 N m^2 and rho A = 1 kg/m, so frequencies are in
+ * sqrt(EI/(rho A L^4)). The root is at a distance from the rotation axis, which is normal to the
+ * beam or inclined towards it. Flap is motion in the plane of the beam and the axis, and lag is
+ * motion normal to this plane. Shear deformation and rotary inertia are neglected. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -28,7 +28,7 @@ static const parameter_type parameters[] = {
     {0},
 };
 
-static const double two_pi = 2 * PI; /* Hz -> rad/s */
+static const double two_pi = 2 * PI; /* rad/s per Hz */
 
 static scene_quantity *add_frequency(scene *s, const char *stem, int order, const char *ending,
                                      int rotation, scene_family family)
@@ -46,8 +46,8 @@ static void make_curve(scene_quantity *q, double omega)
     scene_set_curve(q, "angular velocity", "1", omega, 0);
 }
 
-/* If the axis is along the beam, all modes are whirling modes, neither flap nor lag, and are
- * counted together. */
+/* If the rotation axis is along the beam, all modes are whirling modes, neither flap nor lag, and
+ * are counted together. */
 static void add_frequencies(scene *s, int rotation, double omega, int curves, int whirl)
 {
     static const struct {
@@ -65,7 +65,7 @@ static void add_frequencies(scene *s, int rotation, double omega, int curves, in
         }
 }
 
-/* Only the products matter; therefore E = G = 1 Pa. */
+/* Only the products matter, so E = G = 1 Pa. */
 static void add_beam(scene *s, double area, double stiffness_ratio, int *root, int *tip)
 {
     const double y_axis[3] = {0, 1, 0};
@@ -81,7 +81,7 @@ static void add_beam(scene *s, double area, double stiffness_ratio, int *root, i
     *tip = scene_add_node(s, 1, 0, 0);
     scene_add_member(s, *root, *tip, profile, y_axis);
     scene_hold_all(s, *root);
-    /* the theory has no trapeze effect and, for an Euler-Bernoulli beam, no rotary inertia */
+    /* the theory neglects the trapeze effect and, for an Euler-Bernoulli beam, rotary inertia */
     scene_omit(s, FEATURE_TRAPEZE | FEATURE_ROTARY_INERTIA);
 }
 
@@ -105,7 +105,7 @@ static status build(const double value[], scene *s, fault *f)
     double path[MOST_STATIONS + 1];
     for (int i = 0; i <= intervals; i++)
         path[i] = intervals > 0 ? (double)i / intervals : 1;
-    /* Rotation about an inclined axis bends the beam, which then has more than one equilibrium. */
+    /* rotation about an inclined axis bends the beam, which then has more than one equilibrium */
     const int steps = value[AXIS] > 0 ? 8 : 1;
     const int rotation = scene_add_rotation(
         s, intervals + 1, path, steps, 2 * MODES,

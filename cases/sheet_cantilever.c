@@ -1,5 +1,5 @@
-/* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z. Computes the
- * compliance of the deformed sheet. N section 4.1, Fig. 5. */
+/* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z. The case
+ * computes the compliance of the deformed sheet (N section 4.1, Fig. 5). */
 #include "cases/shared/shared.h"
 
 #include <math.h>
@@ -23,8 +23,8 @@ static const parameter_type parameters[] = {
     {0},
 };
 
-/* Deformation in the plane of bending is uncoupled from deformation out of the plane, so that the
- * other 18 entries are zero by symmetry. */
+/* Deformation in the plane of bending is uncoupled from deformation out of the plane, so the other
+ * 18 entries are zero by symmetry. */
 static const int entries[][2] = {
     {0, 0}, {0, 1}, {0, 5}, {1, 0}, {1, 1}, {1, 5}, {5, 0}, {5, 1}, {5, 5},
     {2, 2}, {2, 3}, {2, 4}, {3, 2}, {3, 3}, {3, 4}, {4, 2}, {4, 3}, {4, 4},
@@ -104,8 +104,8 @@ static status build(const double value[], scene *s, fault *f)
     if (s->sections > 0)
         add_predictions(value, s);
     if (value[MODES] > 0) {
-        /* Frequencies about the last state of the path. The rotation about z, as a component of the
-         * rotation vector from this state, is fixed. */
+        /* frequencies about the last state of the path; the rotation about z, as a component of the
+         * rotation vector from this state, is fixed */
         add_frequencies(s, scene_add_modal(s, path_analysis), (int)value[MODES]);
         if (value[ROTARY] == 0)
             scene_omit(s, FEATURE_ROTARY_INERTIA);

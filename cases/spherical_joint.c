@@ -1,6 +1,6 @@
-/* Spherical flexure joint: its end effector is tilted about an axis in the xy plane that rotates
- * once around z. Computes the support stiffness along z with the rotations fixed. N section 4.2,
- * Fig. 8, Table 1. */
+/* Spherical flexure joint whose end effector is tilted about an axis in the xy plane. The axis
+ * rotates once about z. The case computes the support stiffness along z with the rotations fixed (N
+ * section 4.2, Fig. 8, Table 1). */
 #include "cases/shared/shared.h"
 #include "elements/math/scalar.h"
 
@@ -18,8 +18,8 @@ static const parameter_type parameters[] = {
     {0},
 };
 
-/* At station k = 1 .. steps, the axis is at the azimuth 2 pi (k - 1)/steps. At path parameter 0,
- * the joint is undeformed. */
+/* Prescribes the rotation. At station k = 1 .. steps, the axis is at the azimuth 2 pi (k -
+ * 1)/steps. At path parameter 0, the joint is undeformed. */
 static void prescribe_rotation(const double value[], scene *s, int effector, double station[])
 {
     static const char *const name[3] = {"rotation_x", "rotation_y", "rotation_z"};

@@ -1,5 +1,5 @@
-/* An extreme: a case in which a variable x takes values at which numerical errors become critical.
- * Data only. */
+/* An extreme: a case in which a variable x takes values at which numerical errors become
+ * critical. */
 #ifndef BEAMWORK_EXTREME_H
 #define BEAMWORK_EXTREME_H
 
@@ -18,13 +18,13 @@ typedef struct extreme_quantity {
     double power;     /* for EXTREME_SAME: value/x^power is equal for all x */
 } extreme_quantity;
 
-/* Effect of x other than setting parameters. */
+/* Effect of x in addition to the settings of parameters. */
 typedef enum extreme_knob {
-    EXTREME_PARAMETERS, /* nothing */
+    EXTREME_PARAMETERS, /* no further effect */
     EXTREME_ELEMENTS,   /* x is the number of elements per member */
     EXTREME_STEPS,      /* x is the number of load steps between two stations */
-    EXTREME_SPLIT,      /* the first member is split at fraction x of its length */
-    EXTREME_REVERSE,    /* x is 1: every member is reversed; 0: unchanged */
+    EXTREME_SPLIT,      /* the first member is split at the fraction x of its length */
+    EXTREME_REVERSE,    /* 1: every member is reversed; 0: members are unchanged */
     EXTREME_WHOLE       /* the steps of a motion are not halved */
 } extreme_knob;
 
@@ -34,21 +34,22 @@ typedef enum extreme_judge {
 } extreme_judge;
 
 typedef struct extreme {
-    const char *name;    /* NULL ends the table */
-    const char *group;   /* extremes of the same kind for several cases; one column of a map */
+    const char *name;  /* NULL ends the table */
+    const char *group; /* extremes of one kind for several cases; a group is one column of a map */
     const char *summary; /* one line */
     const char *base;    /* name of the base case */
-    const char *fixed;   /* "name=value;..." for parameters that differ from the defaults */
+    const char *fixed;   /* "name=value;..." for parameters that differ from their defaults */
     extreme_setting setting[EXTREME_MAX_SETTINGS];
     extreme_quantity quantity[EXTREME_MAX_QUANTITIES];
     const char *x_name, *x_unit;
     extreme_knob knob;
-    int elements; /* per member, if x does not set it */
+    int elements; /* number per member, unless x sets it */
     int values;
-    double value[EXTREME_MAX_VALUES]; /* of x */
+    double value[EXTREME_MAX_VALUES]; /* values of x */
     extreme_judge judge;
-    double same_as;   /* value of x with which the others are compared */
-    double tolerance; /* relative; a value within it is neither under-resolved nor wrong */
+    double same_as;   /* value of x with which the results for other values are compared */
+    double tolerance; /* relative tolerance, within which a value is neither under-resolved nor
+                         wrong */
 } extreme;
 
 extern const extreme extremes[];

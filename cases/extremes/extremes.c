@@ -1,8 +1,8 @@
-/* The extremes: for each, the base case, its settings, and the value with which its results are
- * compared. SI units.
+/* The extremes in SI units. Each row gives the base case, its settings, and the value with which
+ * the results are compared.
  *
- * Order of the fields: name, group | summary | base case, its parameters | settings | quantities |
- * x, its unit, its effect | elements, count and values of x | judge, the x to compare with,
+ * Order of the fields: name, group | summary | base case, parameters | settings | quantities | x,
+ * unit, effect | elements, count and values of x | comparison, value of x for the comparison,
  * tolerance. */
 #include <stddef.h>
 
@@ -104,9 +104,8 @@ const extreme extremes[] = {
      {{NULL, 0, 0, 0}},
      {{"buckling_load", 0}}, "short/whole", "1", EXTREME_SPLIT,
      8, 6, {0.5, 1e-1, 1e-2, 1e-4, 1e-6, 1e-8}, EXTREME_EXACT, 0, 1e-4},
-    /* Equivalent descriptions of the same scene. */
-    /* Another unit of length, with x units per metre; the second scene is smaller by the same
-     * factor. Moduli and density are multiplied by x^-2. */
+    /* Other units of length, with x units per metre. The size of the second scene is divided by x.
+     * Moduli and density are multiplied by x^-2. */
     {"units_sheet", "units", "sheet flexure in m, mm and um",
      "sheet_cantilever", "",
      {{"length", 0, 0.1, 1}, {"width", 0, 0.1, 1}, {"thickness", 0, 0.00225, 1}, {"tip_deflection", 0, 0.015, 1},
@@ -181,7 +180,7 @@ const extreme extremes[] = {
      {{"length", 0, 0.6, 1}},
      {{"buckling_load", 0}}, "length/height", "1", EXTREME_PARAMETERS,
      64, 5, {1, 0.3, 0.1, 0.03, 0.01}, EXTREME_EXACT, 0, 1e-4},
-    /* Motions in time. */
+    /* Transient analyses. */
     {"stiff_pendulum", "EA in motion", "elongation and shear of a swinging rubber rod a million times as stiff",
      "pendulum", "time=0.25",
      {{"stiffening", 0, 1, 1}},
@@ -231,7 +230,7 @@ const extreme extremes[] = {
      1, 4, {0.1, 0.9, 2, 3}, EXTREME_EXACT, 0, 1e-9},
     /* The rotation after a conserving step, 2 atan(x/2), has an error of order 2 and is not
      * included. */
-    /* The first period is 3627.6 s; there are four steps in each period. */
+    /* The first period is 3627.6 s, with four steps in each period. */
     {"long_motion", "long motion", "energy of a cantilever with a heavy body over many periods, integrated by conserving",
      "release", "body=1e6;integrator=conserving;step=907;tolerance=0",
      {{"time", 0, 3628, 1}},

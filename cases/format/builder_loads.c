@@ -3,7 +3,6 @@
 
 #include <string.h>
 
-/* Adds the described load to the scene. Returns its index. */
 static int add(const fields *f, const scene_load *what)
 {
     scene *s = f->b->scene;
@@ -53,8 +52,8 @@ static scene_load at_centre(const scene_load *what)
     return out;
 }
 
-/* Adds gravity for each member with a density and each body with a mass. The same error is reported
- * only once. */
+/* Adds gravity for each member with a density and each body with a mass. An error that several of
+ * them have is reported only once. */
 static void weigh_all(const fields *f, scene_load *what)
 {
     const scene *s = f->b->scene;
@@ -77,7 +76,6 @@ static void weigh_all(const fields *f, scene_load *what)
                    "mass");
 }
 
-/* Checks the weight of a body. */
 static void check_weight(const fields *f, const scene_load *what)
 {
     if (what->where >= 0 && scene_node_at(f->b->scene, what->where)->body.mass == 0)
@@ -109,7 +107,7 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
                          f->b->list[SCENE_LOADS].entry[whole].name);
 }
 
-/* The first keys of the table, up to gravity, are in the order of the kinds of loads; temperature
+/* The first keys of the table, up to gravity, are in the order of the kinds of loads. Temperature
  * follows. */
 enum { OF_TEMPERATURE = SCENE_GRAVITY + 1 };
 
@@ -119,8 +117,8 @@ static int spreads(int given)
            given == OF_TEMPERATURE;
 }
 
-/* Returns the kind of a load. Forces and moments at a position inside a member have other kinds
- * than those at a node. */
+/* Returns the kind of a load. Forces and moments at a position inside a member have different kinds
+ * from those at a node. */
 static scene_load_kind kind_of(const fields *f, int given)
 {
     const int within = fields_have(f, "where");
@@ -130,7 +128,7 @@ static scene_load_kind kind_of(const fields *f, int given)
                                      : (scene_load_kind)given;
 }
 
-/* Reads a fraction of the member's length; returns `otherwise` if the key is missing. */
+/* Reads a fraction of the member length. Returns `otherwise` if the key is missing. */
 static double part_of(const fields *f, const char *key, double otherwise)
 {
     const double part = fields_number(f, key, otherwise);
@@ -212,7 +210,7 @@ static int place_of(const fields *f, const scene_load *what)
 }
 
 /* Rotates the vector to the axes of the scene. A vector in the axes of a member does not change,
- * because these axes already rotate with the instance. */
+ * because these axes rotate with the instance. */
 static void turn_load(const fields *f, scene_load *what)
 {
     if (what->axes == SCENE_AXES_MEMBER)
@@ -262,7 +260,7 @@ void builder_loads(builder *b)
     }
 }
 
-/* Rotates the stiffness from the axes of an instance: K <- T K T^T, T = diag(R, R). */
+/* Rotates the stiffness from the axes of an instance, K <- T K T^T with T = diag(R, R). */
 static void turn_stiffness(const placement *placed, double K[36])
 {
     double turned[36];
@@ -279,11 +277,12 @@ static void turn_stiffness(const placement *placed, double K[36])
                 turned[6 * i + j] = K[6 * j + i];
         memcpy(K, turned, sizeof turned);
     }
-    for (int i = 0; i < 36 && symmetric; i++) /* exactly symmetric */
+    for (int i = 0; i < 36 && symmetric; i++) /* makes K exactly symmetric */
         K[i] = (turned[i] + turned[i / 6 + 6 * (i % 6)]) / 2;
 }
 
-/* Reads a matrix of a spring, or its six diagonal entries. Returns 0 if the key is missing. */
+/* Reads a matrix of a spring, or the six diagonal entries of the matrix. Returns 0 if the key is
+ * missing. */
 static int spring_matrix(builder *b, const fields *f, const char *key, double out[36])
 {
     double *given;
@@ -331,7 +330,7 @@ void builder_springs(builder *b)
     }
 }
 
-/* Reads the nodes of 'equal' or of a diaphragm. */
+/* Reads the nodes of an 'equal' constraint or of a diaphragm. */
 static void read_nodes(const fields *f, const char *key, int least, int index)
 {
     const document_node *n = document_find(f->map, key);
@@ -346,7 +345,7 @@ static void read_nodes(const fields *f, const char *key, int least, int index)
 
 enum { FORMS = 3, OF_FORM = 4 };
 
-/* Returns 0 for equal components, 1 for a ratio, 2 for a diaphragm, and -1 for none of these. */
+/* Returns 0 for equal components, 1 for a ratio, 2 for a diaphragm, and -1 otherwise. */
 static int form_of(const fields *f)
 {
     static const char *const form[FORMS][OF_FORM] = {{"equal", "components", NULL, NULL},
@@ -397,8 +396,6 @@ void builder_constraints(builder *b)
     }
 }
 
-/* Initial shapes. */
-
 void builder_imperfections(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_IMPERFECTIONS].count; i++) {
@@ -433,9 +430,8 @@ void builder_imperfections(builder *b)
     }
 }
 
-/* Load cases and combinations. */
-
-/* Adds the load case that a load or a motion names, unless the list already contains it. */
+/* Adds the load case that a load or a motion names, unless the list already contains the load
+ * case. */
 static void add_case(builder *b, const unrolled *entry)
 {
     const fields f = fields_of(b, entry);
@@ -462,8 +458,7 @@ void builder_cases(builder *b)
         scene_add_case(b->scene, b->list[SCENE_CASES].entry[i].name);
 }
 
-/* Returns 1 if an entry of the map has this load case, regardless of the conditions of the
- * entry. */
+/* Returns 1 if an entry of the map has this load case, whatever the conditions of the entry. */
 static int names_case(const document_node *entries, const char *name)
 {
     for (int i = 0; entries != NULL && entries->kind == DOCUMENT_MAP && i < entries->count; i++) {

@@ -7,7 +7,6 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* Returns 1 if the entry has a function of time. */
 static int builder_has_function(const fields *f);
 
 static int share(const fields *f, const document_node *name)
@@ -68,14 +67,14 @@ static void check_taper(const fields *f, const document_node *n, const int profi
     for (int k = 0; k < 2; k++)
         if (profile[k] < 0 || profile[k] >= s->sections ||
             scene_constants(s, profile[k], &c[k], NULL) != STATUS_OK)
-            return; /* already reported */
+            return; /* the error has already been reported */
     if (profile[0] != profile[1] &&
         section_taper_check(&s->section[profile[0]], &s->section[profile[1]], ends, &why) !=
             STATUS_OK)
         document_mistake(f->b->mistakes, n, 0, "%s", why.text);
 }
 
-/* Reads the name of a section, or two names: [at from, at to]. */
+/* Reads the name of one section, or of two sections: [at from, at to]. */
 static void read_sections(const fields *f, scene_member *m)
 {
     const document_node *n = document_find(f->map, "section");
@@ -93,7 +92,7 @@ static void read_sections(const fields *f, scene_member *m)
     check_taper(f, n, (const int[]){m->section, m->section_q});
 }
 
-/* Reads a word or a list of words, in order. */
+/* Reads a word, or a list of words in order. */
 static void read_released(const fields *f, const char *key, int member, int end)
 {
     const document_node *n = document_find(f->map, key);
@@ -133,7 +132,7 @@ void builder_members(builder *b)
     }
 }
 
-/* Checks that the prescribed coordinate has the unit of the motion. */
+/* Checks that the unit of the motion is that of the prescribed coordinate. */
 static void check_unit(const fields *f, int motion)
 {
     const document_node *given = document_find(f->map, "unit");
@@ -158,7 +157,7 @@ static void check_unit(const fields *f, int motion)
                          angle == 1 ? "a translation" : "an angle", angle == 1 ? "m" : "rad");
 }
 
-/* Checks that the motion has either values (along a path or in time) or a condition. */
+/* Checks that the motion has either values, along a path or in time, or a condition. */
 static void check_given(const fields *f)
 {
     const int known = fields_have(f, "value") || builder_has_function(f),
@@ -197,9 +196,7 @@ void builder_motions(builder *b)
     }
 }
 
-/* Analyses of a scene. */
-
-/* Sets the members of an analysis that its key table does not describe. */
+/* Sets the members of an analysis that the key table of the analysis does not describe. */
 static void complete(const fields *f, int index, scene_analysis *a)
 {
     const fields control = fields_below(f, "continuation"), motion = fields_below(f, "motion"),
@@ -255,16 +252,15 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
 
 enum { MOST_TEXT = 4000 };
 
-/* An expression with the values of its names inserted, and the positions of its characters in the
- * file. */
+/* An expression in which values replace names, and the positions of its characters in the file. */
 typedef struct written_out {
     char text[MOST_TEXT];
     int place[MOST_TEXT];
     size_t used;
 } written_out;
 
-/* Appends text whose characters have the position `place` in the file. Returns 0 if there is no
- * room. */
+/* Appends text whose characters have the position `place` in the file. Returns 0 if the text does
+ * not fit. */
 static int put(written_out *to, const char *text, size_t length, int place)
 {
     if (to->used + length >= MOST_TEXT)
@@ -307,7 +303,7 @@ static int put_name(const fields *f, const document_node *n, int *at, written_ou
     return put(to, number, strlen(number), from);
 }
 
-/* Writes the expression with the values of its names inserted. Returns 0 after an error. */
+/* Writes the expression with values in place of names. Returns 0 after an error. */
 static int write_out(const fields *f, const document_node *n, written_out *to)
 {
     int at = 0;
@@ -316,7 +312,7 @@ static int write_out(const fields *f, const document_node *n, written_out *to)
     while (n->text[at] != '\0') {
         const int length = (int)expression_name_length(n->text + at);
         const char before = at > 0 ? n->text[at - 1] : ' ';
-        /* the e of 1e-3 belongs to the number */
+        /* the e of 1e-3 is part of the number */
         const int named = length > 0 && before != '.' && !(before >= '0' && before <= '9');
         const int taken = length > 0 ? length : 1, errors = f->b->mistakes->count;
         int behind = at;
@@ -370,8 +366,9 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
     }
 }
 
-/* Computes the slopes of the cubic spline that starts and ends at rest and has a continuous second
- * derivative: m[k-1]/h + 2 m[k] (1/h + 1/g) + m[k+1]/g = 3 (rise/h^2 + next rise/g^2). */
+/* Computes the slopes m of the cubic spline that starts and ends at rest and has a continuous
+ * second derivative. They satisfy m[k-1]/h + 2 m[k] (1/h + 1/g) + m[k+1]/g = 3 (rise/h^2 + next
+ * rise/g^2). */
 static void spline_slopes(int count, const double at[], const double value[], double m[],
                           double room[])
 {

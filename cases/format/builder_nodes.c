@@ -8,11 +8,11 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/choice.h"
 
-/* Deviations of a unit vector below this value are round-off. */
+/* Deviations of a unit vector that are smaller than this value are round-off. */
 static const double round_off = 1e-12;
 
 /* Returns the component in the axes of the scene that is parallel to component c of the instance,
- * or SCENE_NONE if the axes are not parallel. *same: 1 if the two have the same direction. */
+ * or SCENE_NONE if no axis is parallel. *same is 1 if both have the same direction. */
 static int component_of(const fields *f, int c, int *same)
 {
     double axis[3] = {0};
@@ -30,8 +30,8 @@ static int component_of(const fields *f, int c, int *same)
 
 static const char held_choices[] = "all|ux|uy|uz|rx|ry|rz";
 
-/* Returns 1 if the node has its own axes: given in the file, or those of a rotated instance, which
- * are then set. */
+/* Returns 1 if the axes of the node are given in the file, or are those of a rotated instance, and
+ * sets the latter. */
 static int has_axes(const fields *f, scene_node *n)
 {
     const unsigned held = fields_words(f, "hold", held_choices);
@@ -64,7 +64,7 @@ static void read_hold(const fields *f, int node, int own)
     }
 }
 
-/* Reads the directions: two of x, y and z. */
+/* Reads the directions of two of the axes x, y and z. */
 static void read_directions(const fields *axes, scene_node *n)
 {
     double z[3] = {0};
@@ -112,15 +112,15 @@ static void read_member_axes(const fields *axes, int node, scene_node *n)
     }
     scene_chord(s, member, chord);
     if (rotation_triad(chord, m->y_axis, R) != 0)
-        return; /* the member has an error, which is reported elsewhere */
+        return; /* the error of the member is reported elsewhere */
     for (int i = 0; i < 3; i++) {
         n->axes[0][i] = R[3 * i];
         n->axes[1][i] = R[3 * i + 1];
     }
 }
 
-/* Reads rotations. A single prescribed rotation is a sequence of one angle; the order of several
- * rotations about the axes of the node would be undefined. */
+/* Reads rotations. A single prescribed rotation is a sequence of one angle. Several rotations about
+ * the axes of the node are rejected, because their order would be undefined. */
 static void turn_about_axes(const fields *f, scene_node *n)
 {
     double R[9];
@@ -184,7 +184,7 @@ static void read_drive(const fields *f, int node, int own)
     }
 }
 
-/* Reads an angle: free, fixed or prescribed by a motion. */
+/* Reads an angle, which is free, fixed or prescribed by a motion. */
 static int angle_of(const fields *f, const document_node *n)
 {
     if (n->kind == DOCUMENT_TEXT && strcmp(n->text, "free") == 0)
@@ -258,7 +258,7 @@ static void check_masters(const fields *f, const scene_node *n)
                          "'rotation' sets all rotations; remove rx, ry, rz and forks");
 }
 
-/* Rotates the inertia tensor of a body with its instance: I <- A I A^T. */
+/* Rotates the inertia tensor of a body with its instance, I <- A I A^T. */
 static void turn_inertia(const placement *placed, double I[6])
 {
     double row[3][3] = {{I[0], I[3], I[5]}, {I[3], I[1], I[4]}, {I[5], I[4], I[2]}};
@@ -293,8 +293,6 @@ void builder_nodes(builder *b)
         read_rotation(&f, n);
     }
 }
-
-/* Sections of a scene. */
 
 /* Returns the index of the point that a wall names, or -1 after an error. */
 static int point_of(const fields *wall, const char *key, const document_node *points)
@@ -393,8 +391,8 @@ static void read_matrices(const fields *f, section_spec *spec)
     read_matrix(f, "mass", spec->constants.mass);
 }
 
-/* Checks the material. Sections given by matrices have no material and no overrides; only they have
- * a mass matrix. */
+/* Checks the material. Sections given by matrices have no material and no overrides; only these
+ * sections have a mass matrix. */
 static void check_material(const fields *f)
 {
     static const struct {
@@ -467,10 +465,8 @@ void builder_sections(builder *b)
     }
 }
 
-/* Motions in time. */
-
-/* Defaults if neither a step nor a tolerance is given. The tolerances are relative to the size of
- * the motion, and the step is relative to the last station. */
+/* Defaults of a transient analysis without a step and without a tolerance. The tolerances are
+ * relative to the size of the motion, and the step is relative to the last station. */
 static const double usual_tolerance = 1e-3, usual_of_radau = 1e-5, usual_step = 1e-3;
 
 /* Reads a parameter of alpha, which must lie between two limits. */
@@ -500,8 +496,8 @@ static scene_alpha alpha_of(const fields *f)
 
 static const char *const of_alpha[] = {"rho", "hht", "trapezoidal", "parameters"};
 
-/* Returns 1 if the file selects alpha without naming an integrator: by a parameter that only alpha
- * has, or by constant steps. */
+/* Returns 1 if the file selects alpha without naming an integrator. It does so by a parameter that
+ * only alpha has, or by constant steps. */
 static int asks_for_alpha(const fields *f)
 {
     int asks = fields_have(f, "step") && !fields_have(f, "tolerance");

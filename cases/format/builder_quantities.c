@@ -28,8 +28,8 @@ static void make_density(char unit[SCENE_UNIT])
         snprintf(unit, SCENE_UNIT, "%s%.8s%s^2/Hz", plain ? "" : "(", of, plain ? "" : ")");
 }
 
-/* Returns 1 if the unit is the same in the units of the scene because it contains neither lengths
- * nor forces. */
+/* Returns 1 if the unit contains neither lengths nor forces and is therefore common to all unit
+ * systems. */
 static int is_kept(const unit_system *u, const char *unit)
 {
     char own[SCENE_UNIT];
@@ -44,7 +44,7 @@ static void read_unit(const fields *f, scene_quantity *q)
     units_translate(&f->b->units, usual_unit(f->b->scene, q), sizeof own, own);
     if (q->transform == SCENE_PSD)
         make_density(own);
-    /* with a factor, any unit is valid; an envelope has the unit of its quantities
+    /* with a factor, any unit is valid; the unit of an envelope is that of its quantities
      * (take_envelopes) */
     if (unit != NULL && !fields_have(f, "factor") && q->what.kind != SCENE_ENVELOPE_OF) {
         if (!f->b->units.given)
@@ -66,7 +66,7 @@ static void read_unit(const fields *f, scene_quantity *q)
     snprintf(q->unit, sizeof q->unit, "%s", unit != NULL ? unit->text : own);
 }
 
-/* Reads an abscissa that is another quantity with a curve. */
+/* Reads an abscissa that is the curve of another quantity. */
 static void read_abscissa_of(const fields *x, scene_quantity *q)
 {
     static const char *const own[] = {"name", "unit", "factor", "offset"};
@@ -79,7 +79,7 @@ static void read_abscissa_of(const fields *x, scene_quantity *q)
     scene_set_curve_over(q, over >= 0 ? x->b->list[SCENE_QUANTITIES].entry[over].name : "", "");
 }
 
-/* Sets the units of abscissae. All quantities must have been read. */
+/* Sets the units of abscissae, after all quantities have been read. */
 static void take_abscissa_units(scene *s)
 {
     for (int i = 0; i < s->quantities; i++) {
@@ -89,7 +89,7 @@ static void take_abscissa_units(scene *s)
     }
 }
 
-/* Reads the quantities of an envelope. At this time, all names are known, but not all units. */
+/* Reads the quantities of an envelope, after all names but not all units have been read. */
 static void read_members(const fields *what, scene_quantity *q)
 {
     const document_node *n = document_find(what->map, "quantities");
@@ -190,9 +190,8 @@ static void check_when(const fields *f, const scene_quantity *q)
                          "motion between its stations, and this quantity is none of these; remove "
                          "it, or change 'take'");
     else
-        for (int i = q->passing.direction == SCENE_RISING; i < 3; i++) /* the direction 'rising' is
-                                                                        * ignored, because it is
-                                                                        * always written */
+        for (int i = q->passing.direction == SCENE_RISING; i < 3;
+             i++) /* the direction 'rising' is ignored, because it is always written */
             if (fields_have(&when, crossing[i]) && q->reduction != SCENE_CROSSING &&
                 q->reduction != SCENE_PERIOD && q->reduction != SCENE_PER_SECOND)
                 document_mistake(f->b->mistakes, document_find(when.map, crossing[i]), 0,
@@ -228,8 +227,8 @@ static int asked_of(const scene *s, int analysis)
     return most;
 }
 
-/* Sets the number of eigenvalues, which follows from the quantities. Reports a contradicting
- * `wanted`. */
+/* Sets the number of eigenvalues to the number that the quantities request. Reports an error if
+ * `wanted` contradicts this number. */
 static void check_wanted(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
@@ -243,7 +242,7 @@ static void check_wanted(builder *b)
     }
 }
 
-/* Reads the combinations of an envelope: one name or a list. */
+/* Reads the combinations of an envelope, one name or a list of names. */
 static void read_overs(const fields *what, scene_quantity *q)
 {
     const document_node *n = document_find(what->map, "combinations");
@@ -302,8 +301,6 @@ void builder_quantities(builder *b)
     check_wanted(b);
 }
 
-/* Default analysis and quantities for a scene file that requests none. */
-
 /* Adds a path to the last station of the motions, or a linear solution if there are no motions. */
 static int add_analysis(builder *b)
 {
@@ -328,8 +325,8 @@ static int is_asked(const scene *s, int node)
     return 0;
 }
 
-/* Returns the largest extent of the positions [m]. Displacements that are far smaller count as
- * zero. */
+/* Returns the largest extent of the positions [m]. Displacements that are far smaller are treated
+ * as zero. */
 static double size_of(const scene *s)
 {
     double least[3] = {INFINITY, INFINITY, INFINITY}, most[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -359,9 +356,9 @@ static void add_displacements(builder *b, int analysis, int node, int prefixed)
     }
 }
 
-/* Adds translations of the nodes that are loaded or driven, or of all free nodes if there are
- * none. For a linear analysis that solves all load cases and combinations, adds their largest
- * magnitudes. */
+/* Adds translations of the nodes that are loaded or driven or, if there are none, of all free
+ * nodes. For a linear analysis that solves all load cases and combinations, the quantities are the
+ * largest magnitudes. */
 static void add_states(builder *b, int analysis, int prefixed)
 {
     const scene *s = b->scene;
@@ -415,7 +412,7 @@ static void add_quantities(builder *b)
                 scene_add_quantity(s, name, "N/m", i, scene_stiffness_entry(SCENE_UX + k));
             }
             break;
-        case SCENE_HARMONIC: /* the unknown input */
+        case SCENE_HARMONIC: /* a harmonic analysis needs an input, which is unknown */
             break;
         case SCENE_CONTINUATION:
             scene_add_quantity(s, b->list[SCENE_ANALYSES].entry[i].name, "1", i, scene_factor_at());
@@ -433,7 +430,8 @@ void builder_defaults(builder *b)
         add_quantities(b);
 }
 
-/* Returns the text after an SI unit and its power, or NULL if there is no SI unit. */
+/* Returns the text after an SI unit and its power, or NULL if the text does not start with an SI
+ * unit. */
 static const char *word_end(const char *at)
 {
     static const char *const si[] = {"1", "m", "rad", "s", "kg", "N", "Pa", "J", "W", "Hz", "K"};
@@ -454,8 +452,8 @@ static const char *product_end(const char *at)
     return at;
 }
 
-/* Returns 1 for a unit such as "N m", "kg/m^3" or "rad/(N m)". The slash is followed by one word or
- * by several words in parentheses. */
+/* Returns 1 for a unit such as "N m", "kg/m^3" or "rad/(N m)". One word, or several words in
+ * parentheses, must follow the slash. */
 static int is_si(const char *unit)
 {
     const char *at = product_end(unit);
@@ -524,7 +522,7 @@ void units_check(const document_node *unit, mistakes *m)
 
 typedef struct named_unit {
     const char *name;
-    double value; /* in SI */
+    double value; /* size of the unit in SI */
 } named_unit;
 
 static const named_unit lengths[] = {{"m", 1},       {"cm", 1e-2},   {"mm", 1e-3}, {"um", 1e-6},
@@ -550,7 +548,7 @@ static const named_unit *find_unit(const named_unit list[], const char *text, si
     return NULL;
 }
 
-/* Reads one of the three words of a unit system. Reports an error and returns 0 if it is
+/* Reads one of the three words of a unit system. Reports an error and returns 0 if the word is
  * invalid. */
 static int units_read_unit(const document_node *n, const char *word, size_t length,
                            unit_system *out, double *stress, mistakes *m)

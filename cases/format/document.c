@@ -23,8 +23,8 @@ static void *refuse(document_reader *r, yaml_mark_t at, const char *what)
     return NULL;
 }
 
-/* Reports a syntax error, with beamwork's message for known errors, otherwise with that of the
- * parser. */
+/* Reports a syntax error, with a message of beamwork for known errors and otherwise with the
+ * message of the parser. */
 static void tell_syntax(document_reader *r)
 {
     const yaml_parser_t *p = &r->parser;
@@ -53,7 +53,7 @@ static void tell_syntax(document_reader *r)
                      context, context[0] != '\0' ? ": " : "", problem);
 }
 
-/* Returns 1 if there is another event; the caller deletes it. */
+/* Returns 1 if there is another event, which the caller must delete. */
 static int next(document_reader *r, yaml_event_t *event)
 {
     if (yaml_parser_parse(&r->parser, event))
@@ -77,7 +77,7 @@ static document_node *new_node(document_reader *r, document_kind kind, yaml_mark
     return n;
 }
 
-/* Columns count characters: continuation bytes are not counted. */
+/* Returns the number of characters in the bytes. Continuation bytes are not counted. */
 static int characters(const char *text, int bytes)
 {
     int count = 0;
@@ -308,7 +308,7 @@ void document_mistake(mistakes *m, const document_node *n, int offset, const cha
 }
 
 enum { BLOCK = 1 << 10, ALIGNMENT = 16 };
-/* Sufficient for the largest allowed file. */
+/* Maximum number of bytes, sufficient for the largest allowed file. */
 static const size_t most = (size_t)1 << 28;
 
 typedef struct arena_block {
@@ -371,7 +371,7 @@ void arena_free(arena *a)
     memset(a, 0, sizeof *a);
 }
 
-/* Returns 1 if the position precedes that of the error. */
+/* Returns 1 if the position precedes the position of the error. */
 static int is_before(int line, int column, const mistake *other)
 {
     return line < other->line || (line == other->line && column < other->column);

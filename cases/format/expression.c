@@ -29,7 +29,7 @@ static int tell_unknown(const name_context *c, const char *text, int from, int l
     return 0;
 }
 
-/* Reads SECTION.CONSTANT. length: length of the name of the section, including the point. */
+/* Reads SECTION.CONSTANT. `length` is the length of the section name including the point. */
 static int constant(const name_context *c, const char *text, int *at, int length, double *out,
                     expression_mistake *why)
 {
@@ -70,7 +70,8 @@ int names_number(const void *context, const char *text, int *at, double *out,
     return known->word == NULL && !isnan(*out); /* the error has already been reported */
 }
 
-/* Like expression_number, for `length` bytes of the text from `from`. */
+/* Evaluates `length` bytes of the text from `from` on, as expression_number does for the whole
+ * text. */
 static int expression_part(const document_node *n, int from, int length, const scope *names,
                            mistakes *m, double *out)
 {
@@ -111,7 +112,7 @@ int expression_vector(const document_node *n, int count, const scope *names, mis
 
 enum { MOST = 10000 };
 
-/* Returns the last position of a string outside parentheses after `from`, or -1. */
+/* Returns the last position after `from` at which a string occurs outside parentheses, or -1. */
 static int find_outside(const char *text, int from, const char *what)
 {
     int depth = 0, found = -1;
@@ -138,7 +139,7 @@ static int fill(double from, double to, double step, int count, arena *a, mistak
     return count;
 }
 
-/* Divides a range: a..b/n has both ends and n - 1 points between them; a..b/n:log has equal
+/* Divides a range. a..b/n has both ends and n - 1 points between them. a..b/n:log has equal
  * ratios. */
 static int divide(const document_node *n, double from, double to, int at, const scope *names,
                   arena *a, mistakes *m, double **out)

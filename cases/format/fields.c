@@ -65,7 +65,6 @@ const char *fields_text(const fields *f, const char *key, const char *otherwise)
     return n != NULL && n->kind == DOCUMENT_TEXT ? n->text : otherwise;
 }
 
-/* The words of "a|b|c". */
 typedef struct word_list {
     char word[20][20];
 } word_list;
@@ -163,8 +162,8 @@ static int find_entry(const fields *f, const char *text, scene_list list, int ow
     return found;
 }
 
-/* Returns the name in a node of the tree: a plain name, or one that contains a loop name or denotes
- * a port. Sets *port to 1 for a port. */
+/* Returns the name in a node of the tree. The name may contain a loop name or denote a port. Sets
+ * *port to 1 for a port. */
 static const char *name_of(const fields *f, const document_node *n, scene_list list, int *port)
 {
     const scope *known = scope_find(f->names, n->text, strlen(n->text));
@@ -205,7 +204,7 @@ int fields_entry_of(const fields *f, const document_node *n, scene_list list)
     if (found >= 0)
         return found;
     if (!substitute_is_left(text) &&
-        !f->b->list[list].incomplete) /* otherwise it has already been reported */
+        !f->b->list[list].incomplete) /* otherwise the error has already been reported */
         document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
                          mistakes_remedy(choice_nearest(text, entry_at, &those),
                                          list == SCENE_CASES

@@ -9,21 +9,21 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* Returns zeroed memory, aligned for every type. If out of memory, returns NULL and sets `failed`.
- * An arena initialised with {0} is empty. */
+/* Returns zeroed memory that is aligned for every type. If out of memory, returns NULL and sets
+ * `failed`. An arena initialised with {0} is empty. */
 void *arena_take(arena *a, size_t size);
 /* Copies the first `length` bytes of a text, and adds a zero. */
 const char *arena_copy(arena *a, const char *text, size_t length);
 
-/* Names that expressions may use: parameters, derived values, loop names. */
-
-/* The name added last; earlier names remain visible. NULL: no names. */
+/* The name that was added last to the names that expressions may use: parameters, derived values
+ * and loop names. Earlier names remain visible. NULL: no names. */
 typedef struct scope {
     const char *name;
-    double number;           /* NAN: its expression has an error that has been reported */
-    const char *word;        /* word of a choice; NULL: a number */
-    const char *choices;     /* "a|b|c" of a parameter; NULL: unknown */
-    const double *constants; /* of a section, whose name ends with a point; NULL: not a section */
+    double number; /* value of the name; NAN: its expression has an error that has been reported */
+    const char *word;    /* word of a choice; NULL: the name stands for a number */
+    const char *choices; /* choices "a|b|c" of a parameter; NULL: unknown */
+    const double
+        *constants; /* constants of a section, whose name ends with a point; NULL: not a section */
     const struct scope *before;
 } scope;
 
@@ -39,14 +39,13 @@ const scope *scope_constants(const scope *names, const char *name, const double 
 const scope *scope_find(const scope *names, const char *name, size_t length);
 /* Returns the known name, constant or function that is nearest to a misspelt name, or NULL. */
 const char *scope_nearest(const scope *names, const char *name);
-/* Returns 1 if `key` can be a new name: at most 40 letters, digits and underscores, starting with a
- * letter, and not used by another name or function. Otherwise reports an error and returns 0. */
+/* Returns 1 if `key` can be a new name. Such a name has at most 40 letters, digits and underscores,
+ * starts with a letter, and is not used by another name or function. Otherwise reports an error and
+ * returns 0. */
 int scope_accepts(const scope *names, const document_node *key, mistakes *m);
 
-/* Builds a scene from a checked tree and parameter values. */
-
-/* Builds the scene. names: the parameters. The scene is valid if no error was found. The caller
- * frees the scene in either case. */
+/* Builds a scene from a checked tree and the parameters `names`. The scene is valid if no error was
+ * found. The caller frees the scene in either case. */
 void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out);
 
 /* Reads only the sections into a builder with root and names, and adds their constants to the
@@ -54,37 +53,35 @@ void build_scene(const document_node *root, const scope *names, arena *a, mistak
 struct builder;
 void build_sections(struct builder *b);
 
-/* Expands loops and local names: the entries of a map or list with `for` and `let`. */
-
-/* An expanded entry: $i is replaced in its name and strings, and its local names have values. */
+/* An entry of a map or list after its loops `for` and its local names `let` have been expanded: $i
+ * is replaced in its name and strings, and its local names have values. */
 typedef struct unrolled {
-    const char *name;           /* for an entry of a map; NULL for a list */
-    const document_node *place; /* position for messages: the key, or the entry itself */
+    const char *name;           /* name of an entry of a map; NULL for a list */
+    const document_node *place; /* position for messages, which is the key or the entry */
     const document_node *value;
     const document_node *written; /* the value as written in the file */
     const scope *names;
     const struct placement
-        *placed; /* instance of a part to which the entry belongs; NULL: the scene itself */
+        *placed; /* instance of a part to which the entry belongs; NULL: the scene */
 } unrolled;
 
 enum { UNROLL_MOST = 10000 };
 
-/* Expands all entries in the order of the file and returns their number. The first loop of an entry
- * is the outermost. An entry with an error in a loop is reported and omitted. */
+/* Expands all entries in the order of the file. Returns their number. The first loop of an entry is
+ * the outermost. An entry with an error in a loop is reported and omitted. */
 int unroll_entries(const document_node *collection, const scope *names, arena *a, mistakes *m,
                    unrolled **out);
-/* Reads NAME: EXPR in order. Each expression may contain the names before it. */
+/* Reads NAME: EXPR in order. An expression may contain the names that precede it. */
 const scope *unroll_let(const document_node *let, const scope *names, arena *a, mistakes *m);
 
-/* Parts and their instances: sub-assemblies described once in their own axes, and placed in the
- * scene. */
-
-/* Position and orientation of an instance. */
+/* Position and orientation of an instance of a part. A part is a sub-assembly that is described
+ * once in its own axes. */
 typedef struct placement {
-    const char *name;             /* name of the instance, whose entries are NAME.ENTRY */
-    double origin[3];             /* [m] */
-    int turned;                   /* 0: its axes are those of the scene */
-    double R[9];                  /* columns: axes of the instance in the scene, row-major */
+    const char *name; /* name of the instance, whose entries have the names NAME.ENTRY */
+    double origin[3]; /* [m] */
+    int turned;       /* 0: the axes of the instance are those of the scene */
+    double R[9];      /* rotation matrix, row-major; its columns are the axes of the instance in the
+                         scene */
     const document_node *connect; /* PORT: NODE; NULL: none */
 } placement;
 
@@ -92,44 +89,43 @@ enum { PLACEMENT_LISTS = 4 };
 /* Lists of a part: "nodes", "members", "springs", "loads". */
 extern const char *const placement_list[PLACEMENT_LISTS];
 
-/* Appends the entries of all instances to each list[k] with its count[k]; k is in the order of
- * placement_list. */
+/* Appends the entries of all instances to each list[k] with its count[k]. The lists are in the
+ * order of placement_list. */
 void placement_unroll(const document_node *root, const scope *names, arena *a, mistakes *m,
                       unrolled *list[], int count[]);
 
-/* Transforms a vector (v <- R v) or a position (p <- origin + R p) to the axes of the scene. NULL:
- * no change. */
+/* Transform a vector (v <- R v) or a position (p <- origin + R p) to the axes of the scene. If the
+ * placement is NULL, nothing changes. */
 void placement_turn(const placement *, double v[3]);
 void placement_move(const placement *, double p[3]);
 /* Returns the node of the scene that is connected to a port of the instance, or NULL if `name` is
  * not a port. */
 const document_node *placement_port(const placement *, const char *name);
 
-/* Units. All values are in SI or in the units of the scene; other units are rejected with the
- * correct form. */
-
-/* Reports an error if the text is not an allowed unit. */
+/* Reports an error if the text is not an allowed unit. Values are in SI or in the units of the
+ * scene. For other units, the message contains the correct form. */
 void units_check(const document_node *unit, mistakes *m);
 
 /* Units of a scene: length and force. The units of stress and mass (force s^2/length) follow from
- * them. */
+ * both. */
 typedef struct unit_system {
     int given;            /* 0: SI */
-    double length, force; /* size of one unit [m], [N] */
+    double length, force; /* size of one unit in m and in N */
     const char *name_of_length, *name_of_force;
     char name_of_stress[16];
 } unit_system;
 
-/* Reads "mm, N, MPa" or [mm, N, MPa]; n NULL: SI. Reports inconsistent units. */
+/* Reads "mm, N, MPa" or [mm, N, MPa]. If n is NULL, the units are SI. Reports inconsistent
+ * units. */
 void units_read(const document_node *n, mistakes *m, unit_system *out);
-/* Translates an SI unit to the unit system: "N m" becomes "N mm". Seconds and angles do not
- * change. */
+/* Translates an SI unit to the unit system; for example, "N m" becomes "N mm". Seconds and angles
+ * do not change. */
 void units_translate(const unit_system *, const char *unit, size_t size, char out[]);
 
 /* Builds a scene from a checked tree, and reads values of its maps by key.
  *
- * The keys of the tree have been checked: a requested value is a number, a word, or a list if one
- * is required. An invalid value is reported, and an arbitrary value is returned. */
+ * The form of the values has been checked: a requested value is a number, a word, or a list if a
+ * list is required. An invalid value is reported, and an arbitrary value is returned. */
 
 typedef struct builder {
     arena *arena;
@@ -142,7 +138,7 @@ typedef struct builder {
         unrolled *entry;
         int count;
         int incomplete;  /* 1: entries were omitted after errors */
-    } list[SCENE_LISTS]; /* in the order of the scene's indices */
+    } list[SCENE_LISTS]; /* entries of each list, in the order of the indices of the scene */
     const char **shared; /* names of warping coordinates shared by members */
     int shares;
     int unsaid_warping; /* number of ends without a specified warping condition */
@@ -154,24 +150,25 @@ typedef struct fields {
     const scope *names;
     const document_node *map; /* NULL: the map is missing and is treated as empty */
     const document_node *place;
-    const placement *placed; /* NULL: in the axes of the scene */
+    const placement *placed; /* NULL: the map is in the axes of the scene */
 } fields;
 
 fields fields_of(builder *b, const unrolled *entry);
 fields fields_below(const fields *f, const char *key);
 int fields_have(const fields *f, const char *key);
-/* Reads all values of the table into the struct of the entry. Values of a missing map do not
- * change. */
+/* Reads all values of the table into the struct of the entry. If a map is missing, its values do
+ * not change. */
 void fields_read(const fields *f, const entry_field *table, void *entry);
 double fields_number(const fields *f, const char *key, double otherwise);
 int fields_whole(const fields *f, const char *key, int otherwise, int least, int most);
-/* Reads a vector. Returns 1, or 0 if the key is missing; out[count] then does not change. */
+/* Reads a vector. Returns 1, or 0 if the key is missing; in this case out[count] does not
+ * change. */
 int fields_vector(const fields *f, const char *key, int count, double out[]);
 /* Reads a list or range. Returns the number of values, or 0 if the key is missing or after an
  * error. *out belongs to the arena. */
 int fields_values(const fields *f, const char *key, double **out);
 const char *fields_text(const fields *f, const char *key, const char *otherwise);
-/* Returns the index in "a|b|c" of a word, or of the word that a parameter of that name has;
+/* Returns the index in "a|b|c" of a word, or of the word that a parameter of that name has. Returns
  * `otherwise` if the key is missing. */
 int fields_word(const fields *f, const char *key, const char *choices, int otherwise);
 int fields_word_of(const fields *f, const document_node *word, const char *what,
@@ -181,21 +178,20 @@ unsigned fields_words(const fields *f, const char *key, const char *choices);
 /* Returns the index of the entry that the key names, or SCENE_NONE. */
 int fields_entry(const fields *f, const char *key, scene_list list);
 int fields_entry_of(const fields *f, const document_node *name, scene_list list);
-/* Returns the name that a string denotes: the string itself or, if it is a name of the scope, its
- * word. */
+/* Returns the name that a string denotes. This is the word of a name of the scope if there is one,
+ * otherwise the string. */
 const char *fields_called(const fields *f, const document_node *name);
 /* Returns 1 if the key names an existing entry. Reports no error. */
 int fields_names(const fields *f, const char *key, scene_list list);
 int fields_names_entry(const fields *f, const document_node *name, scene_list list);
-/* "ux|uy|uz|rx|ry|rz" */
 extern const char fields_components[];
 
-/* Sets the name of an entry of the scene to that of entry i of a list of the file. */
+/* Gives an entry of the scene the name of entry i of a list of the file. */
 void builder_call(builder *b, scene_list list, int index, int i);
 
 void builder_sections(builder *b);
 void builder_nodes(builder *b);
-/* Reads the axes of node supports, after the members. */
+/* Reads the axes of node supports, after the members have been read. */
 void builder_axes(builder *b);
 void builder_members(builder *b);
 void builder_springs(builder *b);
@@ -210,7 +206,7 @@ void builder_read_cases(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
-/* Reads the settings of a transient analysis that the key table does not cover. */
+/* Reads the settings of a transient analysis that the key table does not contain. */
 void builder_in_time(const fields *f, scene_motion *how);
 /* Adds a piece to the function of time of an entry. */
 typedef void builder_piece(scene *, int index, double until, const char *text);
@@ -226,42 +222,39 @@ int builder_stations(const fields *f, const char *values, double **path, double 
 /* Adds default analyses and quantities if the file has none. */
 void builder_defaults(builder *b);
 
-/* Sections given by dimensions: I, channel, Z, angle, box. */
-
-/* Returns 1 and sets the points and walls if the section has one of these forms, otherwise 0. */
+/* Reads a section given by dimensions (I, channel, Z, angle, box). Returns 1 and sets the points
+ * and walls, or returns 0 if the section does not have such a form. */
 int build_shapes_read(const fields *f, section_spec *spec);
 
-/* Entries and values that depend on the values of names. */
-
-/* Returns 1 if, in {NAME: VALUE, NAME: [VALUE, ...], ...}, each name has one of its values, or if
- * conditions is NULL. Returns 0 otherwise and after an error. */
+/* Returns 1 if all conditions {NAME: VALUE, NAME: [VALUE, ...], ...} are satisfied, which requires
+ * that each name has one of its values, or if `conditions` is NULL. Returns 0 otherwise and after
+ * an error. */
 int choose_holds(const document_node *conditions, const scope *names, mistakes *m);
 /* Returns the entry of {NAME: {VALUE: ..., else: ...}} for the present value of the name. A node of
  * another form is returned unchanged. Returns NULL after an error. */
 const document_node *choose_value(const document_node *n, const scope *names, mistakes *m);
 
-/* Numbers given as expressions (cases/scene/expression.c); errors are reported with the position of
- * their character. */
-
-/* An expression_name that finds the names of a scope. names: a name_context. */
+/* Finds the names of a scope in expressions (cases/scene/expression.c). `names` is a
+ * name_context. */
 typedef struct name_context {
     const scope *names;
     int in_time; /* 1: the expression is a function of time */
 } name_context;
 int names_number(const void *context, const char *text, int *at, double *out, expression_mistake *);
 
-/* Returns 1 and the value, or 0 after an error. */
+/* Evaluates an expression. Returns 1 and the value, or 0 after an error, which is reported with the
+ * position of its character. */
 int expression_number(const document_node *n, const scope *names, mistakes *m, double *out);
-/* Reads exactly `count` numbers of a list. */
+/* Reads a list of exactly `count` numbers. */
 int expression_vector(const document_node *n, int count, const scope *names, mistakes *m,
                       double out[]);
 
-/* Replaces `file`, `at` and `value` of tables below the node by the numbers in these files. beside:
- * path of the scene file, to which paths are relative; NULL: none. */
+/* Replaces `file`, `at` and `value` of tables below the node by the numbers in these files.
+ * `beside` is the path of the scene file, to which paths are relative, or NULL. */
 void table_files_read(document_node *, const char *beside, arena *a, mistakes *m);
 
-/* Tables of the keys of scene files, used to check and describe a file and to suggest corrections
- * of keys. */
+/* Tables of the keys of scene files, which are used to check and describe a file and to suggest
+ * corrections of keys. */
 
 extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], keys_parameter[],
     keys_part[], keys_instance[];
@@ -272,46 +265,42 @@ extern const entry_field keys_loop[];
 int keys_loops(const entry_field *table);
 /* Returns 1 if the name is a key of a loop. */
 int keys_is_loop(const char *name);
-/* Returns the value table of a table whose keys are arbitrary names; NULL for any other table. */
+/* Returns the table of the values if the keys of a table are arbitrary names, otherwise NULL. */
 const entry_field *keys_any(const entry_field *table);
 
 /* Checks the whole tree for unknown, missing and misplaced keys and for values of the wrong form.
  * Returns 1 if there are no such errors. */
 int keys_check(const document_node *root, mistakes *m);
 
-/* Parts of the description of a quantity. */
-
 /* A scene file that the build reads, checks and stores in the program (harness/tools/pack_case.c).
- * The stored form contains no pointers and is used like any other case. */
+ * The stored form contains no pointers and is used in the same way as other cases. */
 
 typedef struct document_packed {
-    int kind, line, column, inset; /* as in document_node */
-    /* String: its position among all strings. List: its first entry, followed by the others. Map:
-     * its first key, followed by the other keys, then its entries. */
+    int kind, line, column, inset; /* values of document_node */
+    /* Position of a string among all strings. List: first entry, which the others follow. Map:
+     * first key, which the other keys and then the entries follow. */
     int first;
     int count;
 } document_packed;
 
 typedef struct scene_packed {
     const char *file, *texts;
-    const parameter_type *parameters; /* of the file */
+    const parameter_type *parameters; /* parameters of the file */
     const document_packed *node;      /* the first one is the root */
     int nodes;
 } scene_packed;
 
-/* Builds the scene of a stored file (case_type.build_from). context: a scene_packed. */
+/* Builds the scene of a stored file (case_type.build_from). `context` is a scene_packed. */
 status scene_packed_build(const void *context, const double value[], scene *s, fault *f);
 
-/* Lists of numbers, explicit or as a range. */
-
-/* Reads a list of numbers, or a range: a..b (steps of 1), a..b step c, a..b/n (n equal parts). The
- * last / after .. always separates n; a quotient b must be in parentheses. Both ends are included.
- * Returns the number of values, or -1 after an error. *out belongs to the arena. */
+/* Reads a list of numbers or a range: a..b (steps of 1), a..b step c, or a..b/n (n equal parts).
+ * The last / after .. always precedes n, so a quotient b must be in parentheses. Both ends are
+ * included. Returns the number of values, or -1 after an error. *out belongs to the arena. */
 int range_values(const document_node *n, const scope *names, arena *a, mistakes *m, double **out);
 /* Returns 1 if the node is a range. */
 int range_is(const document_node *n);
 
-/* Data of a scene file, for the sources that read it. */
+/* Data of a scene file, for the sources that read scene files. */
 
 struct scene_file {
     arena arena; /* holds the document and all strings */
@@ -327,20 +316,16 @@ void parameter_table_read(scene_file *file, mistakes *m);
 /* Returns the names of the parameters of a table, with these values. */
 const scope *parameter_table_names(const parameter_type *, const double value[], arena *a);
 
-/* Constants of sections as names in expressions: SECTION.A. */
-
-/* Adds the constants of a section to the scope. c NULL: the section has an error, which has been
- * reported. */
+/* Adds the constants of a section to the scope, with names such as SECTION.A. c is NULL if the
+ * section has an error that has been reported. */
 const scope *section_names_add(const scope *names, const char *section_name, const section *c,
                                arena *a);
 /* Names of all constants, for messages. */
 extern const char section_names_all[];
 
-/* Loop names in strings: $i, or ${i} before letters, is replaced by the value of the loop, which is
- * an integer or a word. */
-
-/* Returns the tree with all loop names replaced: the same tree if it contains none, otherwise a
- * copy, or NULL if out of memory. A name that cannot be replaced is reported and remains. */
+/* Replaces the loop names $i, or ${i} before letters, in strings by the values of the loops, which
+ * are integers or words. Returns the same tree if it contains no loop names, otherwise a copy, or
+ * NULL if out of memory. A name that cannot be replaced is reported and remains. */
 const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
                                      mistakes *m);
 /* Returns the string for use in messages, where numbers have six digits. */
@@ -359,37 +344,36 @@ typedef struct writer {
 
 /* A function that writes a value in a special form, including its key. */
 typedef struct write_own {
-    const char *key; /* "where": in any map; "stress.where": in that map; NULL ends a list */
+    const char *key; /* "where": in any map; "stress.where": only in the map of `stress`; NULL ends
+                        a list */
     void (*write)(writer *, const void *entry);
 } write_own;
 
-/* Writes a map with the keys of an entry whose values differ from the defaults. own: special forms,
- * also for maps inside the entry; NULL: none. */
+/* Writes a map with the keys of an entry whose values differ from the defaults. `own` contains
+ * special forms, even for maps inside the entry, or is NULL. */
 void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[]);
-/* Writes "key: ", after ", " if it is not the first key of its map. */
+/* Writes "key: ", preceded by ", " if it is not the first key of its map. */
 void write_values_key(writer *w, const char *key);
-/* Writes words between [ and ], one for each bit. */
+/* Writes a list of words in brackets, one for each bit. */
 void write_values_bits(writer *w, const char *words, unsigned bits);
 
 /* Writes six digits, or as many as are necessary to reproduce the number. */
 void write_values_number(writer *w, double value);
-/* Writes [a, b, c]. */
 void write_values_numbers(writer *w, int count, const double value[]);
 /* Writes the diagonal of a 6 x 6 matrix, or the whole matrix if other entries are not zero. */
 void write_values_matrix(writer *w, const double A[36]);
 /* Returns 1 if any value is not zero. */
 int write_values_any(int count, const double value[]);
-/* Writes key and number if the number differs from the default. */
+/* Writes the key and the number if the number differs from the default. */
 void write_values_if(writer *w, const char *key, double value, double otherwise);
 /* Writes the text in double quotes. */
 void write_values_quoted(writer *w, const char *text);
-/* Writes the name of an entry in the file: as in the scene if it is unique and allowed in a file,
- * otherwise from its index. */
+/* Writes the name of an entry in the file. This is the name in the scene if it is unique and
+ * allowed in a file, otherwise a name made from the index. */
 void write_values_name(writer *w, scene_list list, int index);
 void write_values_motion(writer *w, int index);
 /* Writes `before` and the name of an entry. */
 void write_values_named(writer *w, const char *before, scene_list list, int index);
-/* "ux" .. "rz" */
 extern const char *const write_values_component[6];
 
 void write_sections(writer *w);

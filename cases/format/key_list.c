@@ -42,7 +42,7 @@ static const char *form_of(const entry_field *k, char text[32])
     return "...";
 }
 
-/* Describes a key: "summary [unit] (word, word); default: 0", or "... *". */
+/* Describes a key, for example "summary [unit] (word, word); default: 0" or "... *". */
 static void describe(const entry_field *k, char text[DESCRIPTION])
 {
     int used =
@@ -121,14 +121,14 @@ void key_list_write(FILE *to, key_list_say *say)
 
 static json_t *map_of(const entry_field *table, const entry_field *loop);
 
-/* Returns the schema of a scalar: text (an expression, a word or the name of a parameter) or a
- * number. */
+/* Returns the schema of a scalar, which is a number or text: an expression, a word or the name of a
+ * parameter. */
 static json_t *scalar(void)
 {
     return json_pack("{s:[s, s]}", "type", "number", "string");
 }
 
-/* Converts "a|b|c" into examples that editors offer. */
+/* Converts "a|b|c" to examples that editors offer. */
 static json_t *words_of(const char *words)
 {
     json_t *list = json_array();

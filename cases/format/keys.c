@@ -173,9 +173,9 @@ const entry_field keys_root[] = {
      .left_out = "none"},
     {.name = NULL}};
 
-/* The names of both tables as one list. */
+/* The names of two tables in one list. */
 typedef struct known_keys {
-    const entry_field *table, *loop; /* loop NULL: entries cannot have loops */
+    const entry_field *table, *loop; /* tables; loop is NULL if entries cannot have loops */
 } known_keys;
 
 static const char *name_at(const void *context, int i)
@@ -302,8 +302,7 @@ static void check_value(const document_node *n, const entry_field *k, const docu
     }
 }
 
-/* Returns the key that corresponds to a word which other programs use and which resembles no key
- * here. */
+/* Returns the key for a word that other programs use and that no key resembles. */
 static const char *elsewhere(const entry_field *table, const char *name)
 {
     static const char *const poisson[] = {"poisson", "poissons_ratio", "poisson_ratio", "nu"};
@@ -320,7 +319,7 @@ static const char *elsewhere(const entry_field *table, const char *name)
     return NULL;
 }
 
-/* Returns the remedy for an unknown key: the nearest known one, or where all keys are listed. */
+/* Returns the remedy for an unknown key: the nearest known key, or where all keys are listed. */
 static const char *remedy_of(const known_keys *known, const char *name, char text[FAULT_TEXT])
 {
     const char *other = elsewhere(known->table, name);
@@ -391,7 +390,7 @@ static void check_missing(const document_node *map, const known_keys *known,
     }
 }
 
-/* Reports that a map is expected: "a map: {mass: ..., stiffness: ..., ratio: ...}". */
+/* Reports that a map is expected, for example "a map: {mass: ..., stiffness: ..., ratio: ...}". */
 static void tell_map(const document_node *n, const known_keys *known, const document_node *name,
                      mistakes *m)
 {

@@ -48,8 +48,8 @@ char *line_trim(char *line)
     return line;
 }
 
-/* Returns the number of continuation bytes after the first byte of a character, or 0 if it does not
- * start a multi-byte character. */
+/* Returns the number of continuation bytes after the first byte of a character, or 0 if the byte
+ * does not start a multi-byte character. */
 static int following(unsigned char first)
 {
     if (first < 0xc2 || first >= 0xf5)
@@ -59,7 +59,7 @@ static int following(unsigned char first)
     return first < 0xf0 ? 2 : 3;
 }
 
-/* Returns the number of bytes of the character that starts here, or 0 if the character is not
+/* Returns the number of bytes of the character that starts at `at`, or 0 if the character is not
  * allowed. */
 static int character_length(const unsigned char *at)
 {
@@ -200,8 +200,6 @@ void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size)
         snprintf(text, size, "%s", sentence);
 }
 
-/* States to which a quantity belongs, and their analysis. */
-
 /* Returns the angular velocity [rad/s] at path parameter 1. */
 static double speed(const scene_analysis *a)
 {
@@ -226,7 +224,7 @@ static const scene_analysis *path_of(const scene *s, const scene_analysis *a)
     return scene_path_of(walked) != NULL ? walked : NULL;
 }
 
-/* Writes the position on the path, which is the last station or the value of the parameter. */
+/* Writes the position on the path: the last station, or the value of the parameter. */
 static void at_station(FILE *to, const scene *s, const scene_quantity *q, const scene_analysis *a)
 {
     const scene_path *path = scene_path_of(a);
@@ -250,7 +248,7 @@ static void at_station(FILE *to, const scene *s, const scene_quantity *q, const 
     }
 }
 
-/* Writes a quantity of a motion between its stations. */
+/* Writes the statistic of a quantity that is evaluated between the stations of a motion. */
 static void passing(FILE *to, const scene_quantity *q)
 {
     static const char *const way[] = {"rises through", "falls through", "passes"};

@@ -22,7 +22,7 @@ static void check_version(const scene_file *file, mistakes *m)
                          "'beamwork: 1' must be the first key; move it to the top");
 }
 
-/* Returns the file name without its extension, with '_' for characters that a name cannot
+/* Returns the file name without its extension, with '_' in place of characters that a name cannot
  * contain. */
 static const char *name_of_file(scene_file *file)
 {
@@ -77,9 +77,9 @@ static status build_from(const void *context, const double value[], scene *s, fa
     return mistakes_status(&m, f);
 }
 
-/* Reads the tree and the tables in other files, checks the keys, and reads the parameters; each
- * step only if the previous one found no errors. folder: path of a file in the folder of the
- * tables; NULL: none. */
+/* Reads the tree and the tables in other files, checks the keys, and reads the parameters. A step
+ * is done only if the previous step found no errors. `folder` is the path of a file in the folder
+ * of the tables, or NULL. */
 static void read_form(scene_file *file, const char *bytes, size_t size, const char *folder,
                       mistakes *m)
 {
@@ -115,8 +115,8 @@ status scene_file_check(const scene_file *file, const double value[], mistakes *
     return mistakes_status(m, f);
 }
 
-/* Reads a file. folder: path of a file in the folder of its tables; built: also builds the scene at
- * its defaults. */
+/* Reads a file. `folder` is the path of a file in the folder of its tables. If `built` is 1, the
+ * scene is also built at its defaults. */
 static status read_from(const char *bytes, size_t size, const char *path, const char *folder,
                         int built, scene_file **out, mistakes *m, fault *f)
 {
@@ -151,7 +151,7 @@ status scene_file_read_bytes(const char *bytes, size_t size, const char *path, s
     return read_from(bytes, size, path, NULL, 1, out, m, f);
 }
 
-/* Reads the bytes of a file, at most one more than is allowed, so that a longer file is
+/* Reads the bytes of a file, at most one byte more than is allowed, so that a longer file is
  * rejected. */
 static status read_bytes(const char *path, char *bytes, size_t room, size_t *size, fault *f)
 {
@@ -164,7 +164,7 @@ static status read_bytes(const char *path, char *bytes, size_t room, size_t *siz
     return failed ? fault_set(f, STATUS_FAULT, "%.200s cannot be read", path) : STATUS_OK;
 }
 
-/* Reads a file. The caller, scene_file_read, frees the bytes, also after a failure. */
+/* Reads a file. The caller, scene_file_read, frees the bytes, even after a failure. */
 static status read_file(const char *path, char *bytes, size_t room, int built, scene_file **out,
                         mistakes *m, fault *f)
 {
@@ -225,11 +225,9 @@ const char *scene_file_path(const case_type *type)
     return type->build_from == build_from ? ((const scene_file *)type->context)->path : NULL;
 }
 
-/* Reference values of a scene file. */
-
 /* A reference value at a point. */
 typedef struct file_truth {
-    int holds; /* 1: the reference value applies at this point */
+    int holds; /* 1: the reference value applies at the present point */
     scene_truth says;
 } file_truth;
 
@@ -241,8 +239,8 @@ static const scene_quantity *quantity_of(const scene *s, const char *name)
     return NULL;
 }
 
-/* Returns the index of a parameter that a reference value names and sets *value to its value there.
- * Returns -1 after an error. */
+/* Returns the index of a parameter that a reference value names, and sets *value to the value of
+ * the parameter. Returns -1 after an error. */
 static int named_value(const scene_file *file, const fields *f, const document_node *those, int i,
                        double *value)
 {
@@ -264,7 +262,7 @@ static int named_value(const scene_file *file, const fields *f, const document_n
 }
 
 /* Sets the parameters in `point` to the values that the reference value names. Returns 1 if they
- * had these values. */
+ * already had these values. */
 static int visit_point(const scene_file *file, const fields *f, double point[])
 {
     const document_node *those = document_find(f->map, "parameters");
@@ -331,7 +329,7 @@ static truth_reader open_truths(const scene_file *file, const double value[], ar
     truth_reader r = {.b = {.arena = a, .mistakes = m, .root = file->root}};
     r.b.names = unroll_let(document_find(file->root, "let"),
                            parameter_table_names(file->parameter, value, a), a, m);
-    /* constants of sections are also names */
+    /* constants of sections, which are names in expressions */
     scene of_sections;
     scene_init(&of_sections, "");
     r.b.scene = &of_sections;
@@ -358,7 +356,7 @@ static void scene_file_truths_check(const scene_file *file, const scene *s, cons
     arena_free(&a);
 }
 
-/* Passes the reference values at a point. The caller, scene_file_truths, frees the workspace, also
+/* Passes the reference values at a point. The caller, scene_file_truths, frees the workspace, even
  * after a failure. */
 static status give_at(const scene_file *file, const double point[], scene *s, arena *a,
                       scene_truth_taker *take, void *to, fault *f)
@@ -392,7 +390,8 @@ status scene_file_truths(const scene_file *file, const double value[], scene_tru
     return outcome;
 }
 
-/* Passes the reference values at the defaults and at every other point for which one is given. */
+/* Passes the reference values at the defaults and at every other point for which a reference value
+ * is given. */
 static status give_everywhere(const scene_file *file, arena *a, scene_truth_taker *take, void *to,
                               fault *f)
 {

@@ -1,4 +1,3 @@
-/* Parameters of a scene file. */
 #include "cases/format/format_impl.h"
 
 #include <float.h>
@@ -38,7 +37,7 @@ static void read_switch(parameter_type *p, const document_node *value, mistakes 
         document_mistake(m, value, 0, "%s: the default is not one of its choices 0|1", p->name);
 }
 
-/* Converts [a, b, c] into "a|b|c"; returns NULL after an error. */
+/* Converts [a, b, c] to "a|b|c". Returns NULL after an error. */
 static const char *join_choices(scene_file *file, const document_node *list, mistakes *m)
 {
     char text[400] = "";
@@ -68,8 +67,8 @@ static void read_choice(parameter_type *p, const document_node *value, mistakes 
                          p->choices);
 }
 
-/* Reads a parameter that is a number. any_unit 1: the scene has its own units, which its parameters
- * may also use. */
+/* Reads a parameter that is a number. If any_unit is 1, parameters may use the units of the
+ * scene. */
 static void read_number(parameter_type *p, const document_node *entry, int any_unit, mistakes *m)
 {
     const document_node *unit = document_find(entry, "unit"), *at = document_find(entry, "value");
@@ -85,7 +84,7 @@ static void read_number(parameter_type *p, const document_node *entry, int any_u
     else if (read && !(p->value >= p->min && p->value <= p->max))
         document_mistake(m, at, 0, "%s = %g %s is outside its range %g .. %g", p->name, p->value,
                          p->unit, p->min, p->max);
-    /* a range from 0 to 1 without a unit would look like a switch in --set */
+    /* a range from 0 to 1 without a unit would be mistaken for a switch in --set */
     if (p->min == 0 && p->max == 1)
         p->max = nextafter(1, 2);
 }
@@ -200,7 +199,7 @@ static void list_entries(builder *b)
             check_name(b, (scene_list)i, k);
 }
 
-/* Reads `needs` of earlier versions, which `omit` replaces. Physics that it does not list is
+/* Reads `needs` of earlier versions, which `omit` replaces. Physics that `needs` does not list is
  * omitted, except warping, which was always active for sections that warp. */
 static void read_needs(const fields *f)
 {
@@ -310,7 +309,7 @@ static void read_meshes(builder *b)
     scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
 }
 
-/* Reports a rejection at the position of the entry that it names ("node tip: ..."). */
+/* Reports a rejection at the position of the entry that the message names ("node tip: ..."). */
 static void tell_refusal(const builder *b, const char *text)
 {
     static const char *const word[SCENE_LISTS] = {
@@ -333,7 +332,7 @@ static void tell_refusal(const builder *b, const char *text)
     document_mistake(b->mistakes, b->root, 0, "%s", text);
 }
 
-/* Reports and returns 1 if `refuse` rejects the parameter values. */
+/* Reports an error and returns 1 if `refuse` rejects the parameter values. */
 static int refuses(const builder *b)
 {
     const document_node *all = document_find(b->root, "refuse");
@@ -349,7 +348,7 @@ static int refuses(const builder *b)
 }
 
 /* Converts the scene from the units of the file to SI. Quantities are reported in the units of the
- * file. own: number of quantities in the file. */
+ * file. `own` is the number of quantities in the file. */
 static void to_si(const builder *b, int own)
 {
     fault f = {""};
@@ -369,8 +368,8 @@ static void hold_warping(builder *b)
     scene_warping_by_supports(b->scene);
 }
 
-/* Builds the lists, each of which refers to previous ones; stops if out of memory. Returns the
- * number of quantities in the file. */
+/* Builds the lists in an order in which each refers only to previous lists. Stops if out of memory.
+ * Returns the number of quantities in the file. */
 static int build_lists(builder *b)
 {
     static void (*const own[])(

@@ -103,7 +103,7 @@ static int has_name(const document_node *n)
     return 0;
 }
 
-/* Returns the length of the loop name after $ or ${ in the text, or 0. */
+/* Returns the length of the loop name that follows $ or ${ at the start of the text, or 0. */
 static size_t substitute_name_at(const char *at, int *braces)
 {
     *braces = at[0] == '$' && at[1] == '{';
@@ -120,8 +120,8 @@ int substitute_is_left(const char *text)
     return 0;
 }
 
-/* Writes the value of a name as text. said 1: for messages. Returns 0 after an error, which is
- * reported. */
+/* Writes the value of a name as text. If `said` is 1, the text is for messages. Returns 0 after an
+ * error, which is reported. */
 static int value_text(const document_node *n, int at, size_t length, int said, const scope *names,
                       mistakes *m, char out[64])
 {

@@ -1,5 +1,5 @@
-/* Sections given by dimensions and rolled sections given by name, as thin walls. All dimensions
- * refer to the centre lines of the walls. */
+/* Sections given by dimensions and rolled sections given by name, represented by thin walls. All
+ * dimensions refer to the centre lines of the walls. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -92,7 +92,7 @@ static void tee(const fields *f, section_spec *spec)
 static void add_box(section_spec *spec, flanged s)
 {
     add_line(spec, &s, s.flange / 2, s.flange / 2);
-    for (int k = 0; k < spec->points; k++) /* the web is one of the two webs */
+    for (int k = 0; k < spec->points; k++) /* the web is one of the two webs of a box */
         spec->point[k][0] += k == 1 || k == 2 ? -s.flange / 2 : 0;
     add_wall(spec, 3, 0, s.web_thickness);
     spec->cells = 1;
@@ -118,10 +118,10 @@ static void angle(const fields *f, section_spec *spec)
               fields_number(f, "thickness", 1));
 }
 
-/* Rolled sections. Dimensions [mm]: depth, flange, web and flange thickness, root radius. For UPN,
+/* Dimensions of rolled sections [mm]: depth, flange width, web and flange thickness, root radius
+ * (EN 10365:2017: IPE, HEA, HEB, HEM, UPN). UPN sections have tapered flanges. For them, the
  * constants [cm^2, cm^4, cm^4, cm^4, 10^3 cm^6] and the distance of the shear centre from the
- * centroid [cm] are also listed, because the flanges are tapered. EN 10365:2017 (IPE, HEA, HEB,
- * HEM, UPN). */
+ * centroid [cm] are also listed. */
 enum { UPN = 12 };
 
 typedef struct rolled {
@@ -243,7 +243,8 @@ static const struct {
               {{280, 280, 95, 10, 15, 15}, 53.3, 6280, 399, 31.0, 48.5, 5.02},
               {{300, 300, 100, 10, 16, 16}, 58.8, 8030, 495, 37.4, 69.1, 5.41}};
 
-/* Legs and root radius of angles [mm] (EN 10056-1:2017); toes have half the radius. */
+/* Leg lengths and root radius of angles [mm] (EN 10056-1:2017). The radius of the toes is half the
+ * root radius. */
 static const double angle_root[][3] = {
     {20, 20, 3.5},  {25, 25, 3.5},  {30, 20, 4},    {30, 30, 5},    {35, 35, 5},    {40, 20, 4},
     {40, 25, 4},    {40, 40, 6},    {45, 30, 4.5},  {45, 45, 7},    {50, 30, 5},    {50, 50, 7},
@@ -254,9 +255,9 @@ static const double angle_root[][3] = {
     {150, 150, 16}, {160, 160, 17}, {180, 180, 18}, {200, 100, 15}, {200, 150, 15}, {200, 200, 18},
     {250, 250, 18}};
 
-/* Area between a corner of a square of side r and its inscribed quarter circle: the area over r^2,
- * the distance of its centroid from the sides over r, and the second moment about an axis through
- * the centroid parallel to a side over r^4. */
+/* Area between a corner of a square of side r and its inscribed quarter circle, divided by r^2.
+ * Distance of its centroid from the sides, divided by r. Second moment about an axis through the
+ * centroid parallel to a side, divided by r^4. */
 static const double spandrel_area = 1 - PI / 4, spandrel_at = (10 - 3 * PI) / (12 - 3 * PI),
                     spandrel_moment = 1. / 3 - PI / 16 - 1 / (36 - 9 * PI);
 
@@ -267,8 +268,8 @@ static void give(double *to, double value)
         *to = value;
 }
 
-/* Adds constants with fillets, exact except It (El Darwish and Johnston, J. Struct. Div. ASCE 91,
- * 1965, as in manufacturers' tables). */
+/* Adds constants with fillets, which are exact except It (El Darwish and Johnston, J. Struct. Div.
+ * ASCE 91, 1965, as in tables of manufacturers). */
 static void add_rolled_i(section_spec *spec, const rolled *p, double mm)
 {
     const double h = p->h * mm, b = p->b * mm, tw = p->tw * mm, tf = p->tf * mm, r = p->r * mm,
@@ -299,8 +300,8 @@ static patch rectangle_patch(double y0, double y1, double z0, double z1)
     return (patch){w * h, (y0 + y1) / 2, (z0 + z1) / 2, w * h * h * h / 12, h * w * w * w / 12, 0};
 }
 
-/* Returns the area between a corner and its inscribed quarter circle, on the side of +y and +z if
- * ky = kz = 1; -1 selects the opposite side. sign: -1 if the area is cut off. */
+/* Returns the area between a corner and its inscribed quarter circle. The area is on the side of +y
+ * and +z if ky = kz = 1; -1 selects the opposite side. `sign` is -1 if the area is cut off. */
 static patch spandrel_patch(double y, double z, double r, int ky, int kz, int sign)
 {
     const double area = spandrel_area * r * r, at = spandrel_at * r,
@@ -329,10 +330,10 @@ static patch sum_of(int count, const patch p[])
     return all;
 }
 
-/* Adds an angle with legs of outer lengths b along y and h along z, and its constants with fillets,
- * which are exact except It (Roark's
- * Formulas for Stress and Strain, 7th ed., table 10.7, case 26, legs of equal thickness). The
- * origin is the intersection of the centre lines, which is the shear centre. */
+/* Adds an angle with legs of outer lengths b along y and h along z. Its constants include fillets
+ * and are exact except It (Roark's Formulas for Stress and Strain, 7th ed., table 10.7, case 26,
+ * legs of equal thickness). The origin is the intersection of the centre lines, which is the shear
+ * centre. */
 static void add_rolled_angle(section_spec *spec, double h, double b, double t, double root)
 {
     const double o = -t / 2, toe = root / 2,
@@ -358,7 +359,7 @@ static void add_rolled_angle(section_spec *spec, double h, double b, double t, d
 }
 
 /* Adds a hot finished hollow section (EN 10210-2:2019, outer radius 1.5 t, inner radius t) with the
- * same formulas. */
+ * formulas of that standard. */
 static void add_hollow(section_spec *spec, double h, double b, double t)
 {
     const double outer = 1.5 * t, inner = t, round = (outer + inner) / 2 * (outer + inner) / 2,
@@ -383,8 +384,8 @@ static void add_hollow(section_spec *spec, double h, double b, double t)
     give(&spec->given.It, t * t * t * line / 3 + 4 * enclosed * enclosed * t / line);
 }
 
-/* Reads the dimensions after the letters of a name, such as "200x100x5". Returns their number, or
- * -1 if other text follows. */
+/* Reads the dimensions after the letters of a name, such as "200x100x5". Returns the number of
+ * dimensions, or -1 if other text follows. */
 static int sizes_of(const char *text, double size[3])
 {
     int count = 0;
@@ -401,8 +402,8 @@ static int sizes_of(const char *text, double size[3])
     return -1;
 }
 
-/* Adds the rolled section of a name without blanks, in capitals. mm: a millimetre in the length
- * unit of the scene. Returns 0 if there is no section of this name. */
+/* Adds the rolled section with this name, which is in capitals without blanks. `mm` is a millimetre
+ * in the length unit of the scene. Returns 0 if there is no section of this name. */
 static int add_profile(section_spec *spec, const char *name, double mm)
 {
     static const struct {

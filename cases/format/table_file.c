@@ -1,5 +1,5 @@
-/* Tables from CSV files: `table: {file: drive.csv, at: t, value: ux}` is replaced by the equivalent
- * table before anything else reads the tree. */
+/* Tables from CSV files. `table: {file: drive.csv, at: t, value: ux}` is replaced by the equivalent
+ * table before other functions read the tree. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,14 +11,14 @@ enum { LINE_BYTES = 8192, COLUMNS = 256, NAME_BYTES = 64, COLUMNS_TOLD = 160 };
 
 /* State of a file that is read for a table. */
 typedef struct table_file {
-    const document_node *place; /* file name in the scene file */
+    const document_node *place; /* name of the CSV file in the scene file */
     arena *arena;
     mistakes *mistakes;
     const char *name;              /* path as written in the scene file */
     const document_node *of[2];    /* how the scene file describes the columns */
     int column[2], columns, begun; /* columns to be read, from 0; number of columns in the first
-                                    * row; 1: the columns are known */
-    double last;                   /* last value in the first of these columns */
+                                      row; 1: the columns are known */
+    double last;                   /* last value in the first of the columns to be read */
     document_node *list[2];
     int line;
     char text[LINE_BYTES], *field[COLUMNS];
@@ -41,8 +41,8 @@ static int split(table_file *t, char *line)
                                      : line_words(line, t->field, COLUMNS);
 }
 
-/* Returns the column with a name in the header, if there is one, or with a number. Reports a
- * missing column and returns -1. */
+/* Returns the column that is given by its name in the header or by a number. Reports a missing
+ * column and returns -1. */
 static int column_of(const table_file *t, const document_node *of, int header)
 {
     char known[COLUMNS_TOLD] = "";
@@ -92,7 +92,7 @@ static int add_number(table_file *t, int k, double value)
     return n->text != NULL;
 }
 
-/* Reads the first row. It is a header if a column is found by its name, or if neither column
+/* Reads the first row. The row is a header if a column is found by its name, or if neither column
  * contains a number. Returns 1 for a header. */
 static int begin(table_file *t)
 {
@@ -111,7 +111,7 @@ static int begin(table_file *t)
     return header || numbers == 0;
 }
 
-/* Reads a row; returns 0 after an error. */
+/* Reads a row. Returns 0 after an error. */
 static int read_row(table_file *t, char *line)
 {
     const int count = split(t, line);
@@ -146,7 +146,7 @@ static int read_row(table_file *t, char *line)
     return 1;
 }
 
-/* Reads the rows; blank lines and lines that start with # are ignored. */
+/* Reads the rows. Blank lines and lines that start with # are ignored. */
 static int read_rows(table_file *t, FILE *from)
 {
     while (fgets(t->text, sizeof t->text, from) != NULL) {
@@ -168,7 +168,7 @@ static int read_rows(table_file *t, FILE *from)
     return 1;
 }
 
-/* Reads rows NODE, dx, dy, dz of `shifts: {file: CSV}`, by the names in a header. */
+/* Reads rows NODE, dx, dy, dz of `shifts: {file: CSV}`, in the order given by a header. */
 typedef struct shift_file {
     table_file t;
     int column[4];
@@ -253,7 +253,7 @@ static int read_shifts_from(shift_file *s, FILE *from)
     return s->map->count > 0 ? 1 : wrong(t, "no rows", "", "; give one per node");
 }
 
-/* Opens a path relative to the folder of the scene file. */
+/* Opens a path that is relative to the folder of the scene file. */
 static FILE *open_beside(const char *beside, const char *name, arena *a)
 {
     const char *slash = strrchr(beside, '/');
@@ -291,7 +291,7 @@ static FILE *open_file(table_file *t, const char *beside)
     return from;
 }
 
-/* Replaces shifts: {file: PATH} by its rows. */
+/* Replaces `shifts: {file: PATH}` by the rows of the file. */
 static void read_shifts(document_node *map, const char *beside, arena *a, mistakes *m)
 {
     const document_node *file =

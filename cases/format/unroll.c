@@ -111,7 +111,7 @@ int unroll_entries(const document_node *collection, const scope *names, arena *a
 }
 
 /* Reads NAME: EXPR, or a choice among expressions and words. After an error the name is still
- * defined, so that the error is reported only once. */
+ * defined, so the error is reported only once. */
 static const scope *add_let(const document_node *key, const document_node *said, const scope *names,
                             arena *a, mistakes *m)
 {
@@ -150,7 +150,7 @@ static const scope *find(const document_node *key, const scope *names, mistakes 
     return known;
 }
 
-/* Returns 1 if the node is the value of the name, otherwise 0, or -1 after an error. */
+/* Returns 1 if the node is the value of the name, 0 if not, or -1 after an error. */
 static int has_value(const scope *known, const document_node *n, const scope *names, mistakes *m)
 {
     double value;
@@ -186,7 +186,7 @@ int choose_holds(const document_node *conditions, const scope *names, mistakes *
     return holds;
 }
 
-/* Returns the entry of the matching key or of else. Returns NULL if there is none or after an
+/* Returns the entry of the matching key or of `else`. Returns NULL if there is none or after an
  * error. */
 static const document_node *entry_of(const scope *known, const document_node *map,
                                      const scope *names, mistakes *m)
@@ -248,7 +248,7 @@ const document_node *placement_port(const placement *p, const char *name)
     return p != NULL ? document_find(p->connect, name) : NULL;
 }
 
-/* Reads axes: {x: [3], z: [3]}, of any length, orthogonal. */
+/* Reads `axes: {x: [3], z: [3]}`, which are orthogonal and of any length. */
 static void read_axes(const document_node *axes, const scope *names, mistakes *m, placement *p)
 {
     double x[3], z[3], y[3];
@@ -264,7 +264,7 @@ static void read_axes(const document_node *axes, const scope *names, mistakes *m
     p->turned = 1;
 }
 
-/* Reads turn: {z: angle}, a rotation about one axis of the scene. */
+/* Reads `turn: {z: angle}`, a rotation about one axis of the scene. */
 static void read_turn(const document_node *turn, const scope *names, mistakes *m, placement *p)
 {
     static const char axis[] = "x|y|z";

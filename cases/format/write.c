@@ -75,8 +75,6 @@ char *write_scene_text(const scene *s, const write_head *head)
     return text;
 }
 
-/* Nodes, members, springs, motions and loads of a scene file. */
-
 /* Returns the number of components whose motion is given along the global axes. */
 static int components_of(const scene_node *n)
 {
@@ -143,7 +141,7 @@ static void write_rotation(writer *w, const void *entry)
     fputs("]}", w->to);
 }
 
-/* Writes a list of the scene: the key, then one entry per line. */
+/* Writes a list of the scene: the key, then each entry on a separate line. */
 static void write_list(writer *w, const char *key, scene_list list, const entry_field *table,
                        const write_own own[])
 {

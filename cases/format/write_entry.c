@@ -1,4 +1,3 @@
-/* Writes entries of a scene file from their tables. */
 #include "cases/format/format_impl.h"
 
 #include <math.h>
@@ -7,7 +6,6 @@
 
 #include "elements/shared/choice.h"
 
-/* Writes the word with this index in "a|b|c". */
 static void write_values_word(writer *w, const char *words, int index);
 
 static void write_value(writer *w, const entry_field *k, const void *entry)
@@ -64,7 +62,7 @@ static const write_own *find_own(const write_own own[], const char *of, const ch
     return NULL;
 }
 
-/* Returns 1 if the key must be written: it is required, or its value is not the default, or it is
+/* Returns 1 if the key must be written: it is required, its value is not the default, or it is
  * always written. */
 static int is_due(const entry_field *k, const void *entry)
 {
@@ -72,7 +70,7 @@ static int is_due(const entry_field *k, const void *entry)
     return (must && (k->kind != ENTRY_NAME || k->size > 0)) || !entry_is_usual(k, entry);
 }
 
-/* Writes a map. of: key of the map. */
+/* Writes a map whose key is `of`. */
 static void write_map(writer *w, const entry_field *table, const void *entry, const write_own own[],
                       const char *of)
 {
@@ -98,8 +96,6 @@ void write_entry(writer *w, const entry_field *table, const void *entry, const w
 {
     write_map(w, table, entry, own, "");
 }
-
-/* Numbers, texts and names of a scene file. */
 
 const char *const write_values_component[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
@@ -179,7 +175,7 @@ void write_values_quoted(writer *w, const char *text)
     fputc('"', w->to);
 }
 
-/* Returns 1 if `gravity` on the name of a node would refer to a member of the same name, because
+/* Returns 1 if `gravity` on the name of a node would refer to a member with that name, because
  * members take precedence. */
 static int is_mistaken(const scene *s, int node, const char *name)
 {
@@ -234,8 +230,6 @@ void write_values_matrix(writer *w, const double A[36])
         diagonal[k] = A[7 * k];
     write_values_numbers(w, whole ? 36 : 6, whole ? A : diagonal);
 }
-
-/* Sections of a scene file: by their constants, walls or dimensions. */
 
 /* Writes D or F, whichever is given (see section_compute). */
 static void write_shear(writer *w, const void *entry)
@@ -308,8 +302,6 @@ void write_sections(writer *w)
     }
 }
 
-/* Analyses of a scene file. */
-
 static void write_largest(writer *w, const void *entry)
 {
     const scene_control *c = &scene_continuation_of(entry)->control;
@@ -345,8 +337,6 @@ void write_analyses(writer *w)
         fputc('\n', w->to);
     }
 }
-
-/* Quantities of a scene file. */
 
 /* Writes the position of a resultant, unless it refers to the whole member. */
 static void write_end(writer *w, const void *entry)

@@ -31,7 +31,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             meaning_axis(e->row), meaning_load(e->column), meaning_axis(e->column));
 }
 
-/* Returns the rotations on which the quantity depends: all rotations of the loaded node. */
+/* Passes all rotations of the loaded node, on which the quantity depends. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     const scene_entry *what = &q->what.of.entry;

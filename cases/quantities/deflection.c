@@ -1,12 +1,12 @@
-/* Displacement of the centroidal axis of a member at a position, or rotation of its section
- * there. */
+/* Displacement of the centroidal axis of a member, or rotation of a cross-section, at a
+ * position. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     {"member", ENTRY_NAME, .needed = 1, .summary = "name of a member",
      ENTRY_IN(scene_quantity, what.of.deflection.member), .of = SCENE_MEMBERS},
-    /* before `end`, which is also a position */
+    /* must precede `end`, which is also a position */
     {"where", ENTRY_NUMBER, .needed = 1, .group = 2,
      .summary = "position in the member, from 0 at its start to 1 at its end",
      ENTRY_IN(scene_quantity, what.of.deflection.place), .most = 1,

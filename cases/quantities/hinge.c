@@ -1,4 +1,4 @@
-/* Rotation or displacement of a member end relative to its node, where the end is released. */
+/* Rotation or displacement of a member end relative to its node, for a released component. */
 #include "cases/scene/scene.h"
 
 enum { MEMBER, COMPONENT = 0, END };

@@ -1,5 +1,5 @@
-/* Velocity, acceleration or jerk of a node, or its angular velocity or acceleration in its own
- * axes. */
+/* Velocity, acceleration or jerk of a node, or angular velocity or acceleration in the axes of the
+ * node. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
@@ -30,7 +30,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             meaning_axis(q->what.of.component.component));
 }
 
-/* Reads the rate. For a jerk, reads the acceleration, which harness/time differentiates. */
+/* Reads the rate. For a jerk, reads the acceleration, whose derivative harness/time computes. */
 static double read(const scene_quantity *q, const quantity_state *state)
 {
     const scene_component *what = &q->what.of.component;
@@ -57,7 +57,7 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the rotation that the quantity reads. */
+/* Passes the rotation that the quantity reads. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     (void)s;

@@ -17,7 +17,8 @@ static const char *unit(const scene *s, const scene_quantity *q)
     return q->what.of.component.component <= SCENE_UZ ? "N" : "N m";
 }
 
-/* Returns 1 if this component of the node, or any rotation of its sequence, is prescribed. */
+/* Returns 1 if the component of the node, or any rotation of the sequence of the node, is
+ * prescribed. */
 static int is_driven(const scene_node *n, int component)
 {
     if (component < SCENE_RX)

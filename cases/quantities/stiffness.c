@@ -32,7 +32,7 @@ static const char *settle(const scene *s, scene_quantity *q, const char **key)
     return NULL;
 }
 
-/* Returns the rotations on which the quantity depends: all rotations of the loaded node. */
+/* Passes all rotations of the loaded node, on which the quantity depends. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     const scene_entry *what = &q->what.of.entry;

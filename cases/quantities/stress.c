@@ -1,4 +1,4 @@
-/* Largest stress in a member or in one of its sections. */
+/* Largest stress in a member or in one of its cross-sections. */
 #include <math.h>
 
 #include "cases/scene/scene.h"

@@ -36,7 +36,7 @@ double along_path_value(const scene_driver *d, double path)
     return interpolate(d->stations, d->path, d->value, path);
 }
 
-/* Range of the path in which loads or drivers change; begin > end: none. */
+/* Range of the path in which loads or drivers change; begin > end if there is none. */
 typedef struct changes {
     double begin, end;
     scene_words last; /* name of the entry that changes last */
@@ -148,7 +148,7 @@ static int called(const scene *s, scene_list list, int i, char *who, int size)
     return 1;
 }
 
-/* Returns the first load acting in the analysis for which `is` is true. */
+/* Returns the first load that acts in the analysis and for which `is` is true. */
 static int load_that(const scene *s, int analysis, int (*is)(const scene_load *), char *who,
                      int size)
 {
@@ -269,8 +269,8 @@ static int has_unsymmetric_dashpot(const scene *s, int analysis, char *who, int 
     return 0;
 }
 
-/* Returns 1 if the stiffness of a spring is unsymmetric. It does not count for damped modes, which
- * use it. */
+/* Returns 1 if the stiffness of a spring is unsymmetric and the analysis does not compute damped
+ * modes, which use unsymmetric stiffness. */
 static int has_unsymmetric_spring(const scene *s, int analysis, char *who, int size)
 {
     for (int i = 0; i < s->springs && !s->analysis[analysis].damped; i++)
@@ -382,8 +382,8 @@ static int has_drive_of_case(const scene *s, int analysis, char *who, int size)
     return 0;
 }
 
-/* Returns 1 if the analysis, or the analysis that it follows, has a rotating frame. *who: name of
- * the analysis with the frame. */
+/* Returns 1 if the analysis, or the analysis that it follows, has a rotating frame. *who is the
+ * name of the analysis with the frame. */
 static int has_spin(const scene *s, int analysis, char *who, int size)
 {
     const int follows = s->analysis[analysis].follows;
@@ -415,10 +415,12 @@ static const char *const
     *const no_spin = "rotates, but this analysis omits the Coriolis forces on moving masses; use a "
                      "'rotation' analysis with that omega for frequencies";
 
-/* The columns are: linear; static; continuation; buckling about the undeformed state and about a
- * path; modal about the undeformed state, a linear analysis, a path and an instant; compliance
- * about the undeformed state and a path; rotation; motion; harmonic about the undeformed state, a
- * linear analysis, a path and an instant. */
+/* The columns are:
+ *   - linear; static; continuation;
+ *   - buckling about the undeformed state and about a path;
+ *   - modal about the undeformed state, a linear analysis, a path and an instant;
+ *   - compliance about the undeformed state and about a path; rotation; motion;
+ *   - harmonic about the undeformed state, a linear analysis, a path and an instant. */
 const scene_input scene_inputs[] = {
     {"force", "uuuuu-uuu-uuu-uuu", NULL, has_force},
     {"follower force", "uusxu-xuu-usu-xuu", no_potential, has_following_force},
@@ -514,7 +516,7 @@ int scene_inputs_flutter(const scene *s, int analysis)
 {
     if (s->analysis[analysis].follows == SCENE_NONE)
         return 0;
-    for (int i = 0; i < s->loads; i++) /* tangents are stored in full for all analyses */
+    for (int i = 0; i < s->loads; i++) /* all analyses store tangents in full */
         if (s->load[i].load_case != SCENE_NONE && scene_load_unsymmetric(&s->load[i]))
             return 1;
     for (const scene_input *i = scene_inputs; i->name != NULL; i++)
@@ -525,7 +527,7 @@ int scene_inputs_flutter(const scene *s, int analysis)
     return 0;
 }
 
-/* Rejects an unknown that is solved for along a path, because a linear solution would treat it as
+/* Rejects an unknown that is determined along a path, because a linear solution would treat it as
  * zero. */
 static status check_unknown(const scene *s, int analysis, scene_column column, fault *f)
 {

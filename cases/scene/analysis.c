@@ -241,7 +241,7 @@ int scene_rotates(const scene_analysis *a)
     return frame != NULL && (frame->omega[0] != 0 || frame->omega[1] != 0 || frame->omega[2] != 0);
 }
 
-/* Doubles a list if its count is a power of two. */
+/* Doubles the memory of a list if its count is a power of two. */
 int scene_grow(scene *s, void *list, int *count, size_t size)
 {
     void *entries;

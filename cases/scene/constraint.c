@@ -23,7 +23,7 @@ int scene_add_constraint(scene *s, unsigned components, double ratio)
 }
 
 /* Changes the rotations of a node from spatial components to a sequence that begins with the
- * normal. */
+ * rotation about the normal. */
 static void turn_across(scene_node *n, int normal)
 {
     if (n->rotation != SCENE_ROTATION_SPATIAL)
@@ -56,7 +56,7 @@ int scene_add_diaphragm(scene *s, int master, int normal)
 
 void scene_constrain(scene *s, int constraint, int node)
 {
-    if (constraint < 0) /* memory ran out */
+    if (constraint < 0) /* out of memory */
         return;
     scene_constraint *c = &s->constraint[constraint];
     const int i = scene_grow(s, &c->node, &c->nodes, sizeof *c->node);
@@ -84,8 +84,8 @@ static status refuse(const scene *s, int constraint, int node, int component, co
                      scene_called(s, SCENE_NODES, node).text, why);
 }
 
-/* Returns 1 if all rotations of the node are free and this constraint couples all three of them
- * with ratio 1. */
+/* Returns 1 if all rotations of the node are free and the constraint couples all three of them with
+ * ratio 1. */
 static int turns_together(const scene_node *n, const scene_constraint *c)
 {
     return n->rotation == SCENE_ROTATION_SPATIAL && n->angle[0] == SCENE_FREE &&
@@ -93,7 +93,7 @@ static int turns_together(const scene_node *n, const scene_constraint *c)
            (c->components & SCENE_TURNS) == SCENE_TURNS;
 }
 
-/* Returns the angle about the axis of a component if it is the only one that moves, otherwise
+/* Returns the angle about the axis of a component if it is the only angle that moves, otherwise
  * SCENE_NONE. */
 static int angle_of(const scene *s, int node, int component)
 {
@@ -140,8 +140,8 @@ static int is_condition(const scene *s, int node, int component, int motion)
     return 0;
 }
 
-/* Finds the coordinate that represents the component of a node, and the motion that prescribes
- * it. */
+/* Finds the coordinate that represents the component of a node, and the motion that prescribes the
+ * coordinate. */
 static status coordinate_of(const scene *s, int constraint, int node, int component,
                             int *coordinate, int *motion, fault *f)
 {
@@ -178,7 +178,7 @@ static status coordinate_of(const scene *s, int constraint, int node, int compon
     return STATUS_OK;
 }
 
-/* Returns the coordinate at the end of the chain of relations, with the product of their ratios. */
+/* Returns the coordinate at the end of the chain of relations, with the product of the ratios. */
 static scene_tie follow(const scene_tie tie[], int node, int coordinate)
 {
     scene_tie at = {node, coordinate, 1};
@@ -210,8 +210,8 @@ static int is_across(const scene *s, int node, int component)
     return 0;
 }
 
-/* Makes the component of node k equal to ratio times that of the first node: relates the
- * coordinates at the ends of their chains. */
+/* Makes the component of node k equal to ratio times that of the first node, by a relation between
+ * the coordinates at the ends of both chains. */
 static status join(const scene *s, int constraint, int k, int component, scene_tie tie[], fault *f)
 {
     const scene_constraint *c = &s->constraint[constraint];
@@ -223,7 +223,7 @@ static status join(const scene *s, int constraint, int k, int component, scene_t
             return refuse(s, constraint, c->node[i == 0 ? 0 : k], component,
                           "also belongs to a diaphragm; remove it from one of them", f);
     const scene_tie first = follow(tie, c->node[0], at[0]), other = follow(tie, c->node[k], at[1]);
-    /* other.ratio root_other = ratio first.ratio root_first */
+    /* ratio_other root_other = ratio ratio_first root_first */
     const double ratio = c->ratio * first.ratio / other.ratio;
     if (first.node == other.node && first.coordinate == other.coordinate)
         return refuse(s, constraint, c->node[k], component,
@@ -272,7 +272,7 @@ static status check_across(const scene *s, int i, int node, fault *f)
     return STATUS_OK;
 }
 
-/* Relates the translations of all nodes across the normal, and their first angles, to those of the
+/* Relates the translations in the plane of all nodes, and their first angles, to those of the
  * master. */
 static status join_across(const scene *s, int i, scene_tie tie[], fault *f)
 {

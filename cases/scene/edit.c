@@ -9,7 +9,7 @@ extern const quantity_type quantity_hinge;
 
 /* Mirrors a section for a reversed member. Seen from the other end and rotated by pi about z, y' =
  * -y and z' = z, and sectorial coordinates change sign with x. The section face also changes sides,
- * so that Qy and Mw keep their signs and Qz changes sign. */
+ * so Qy and Mw keep their signs and Qz changes sign. */
 static void mirror_section(section_spec *spec)
 {
     section *c = &spec->constants;
@@ -21,7 +21,7 @@ static void mirror_section(section_spec *spec)
     for (size_t i = 0; i < sizeof odd / sizeof odd[0]; i++)
         *odd[i] = -*odd[i];
     for (int i = 0; i < 6; i++)
-        for (int j = 0; j < 6; j++) { /* stress resultants, and velocities */
+        for (int j = 0; j < 6; j++) { /* stress resultants, then velocities */
             c->stiffness[6 * i + j] *= (i % 3 == 2) != (j % 3 == 2) ? -1 : 1;
             c->mass[6 * i + j] *= (i % 3 == 2) != (j % 3 == 2) ? -1 : 1;
         }
@@ -34,7 +34,7 @@ static void replace(scene_quantity *q, scene_extract what)
     q->what = what;
 }
 
-/* Reverses a quantity of internal forces for a mirrored section: forces change sides, x and y
+/* Reverses a quantity of internal forces for a mirrored section: forces change sides, and x and y
  * change direction. */
 static void reverse_internal(scene_quantity *q)
 {
@@ -61,7 +61,8 @@ static void reverse_stress(scene_quantity *q)
 static void reverse_load(scene_load *load)
 {
     const double begin = load->range[0];
-    for (int k = 0; k < 2 && load->axes == SCENE_AXES_MEMBER; k++) { /* x and y */
+    for (int k = 0; k < 2 && load->axes == SCENE_AXES_MEMBER;
+         k++) { /* changes the directions of x and y */
         load->vector[k] = -load->vector[k];
         load->last[k] = -load->last[k];
         load->at[k] = -load->at[k];
@@ -96,7 +97,7 @@ static status reverse(scene *s, fault *f)
         m->section_q = section_p;
         m->warp_p = m->warp_q;
         m->warp_q = warp_p;
-        const scene_release released = m->release[0]; /* the released axes do not move */
+        const scene_release released = m->release[0]; /* the released axes do not change */
         m->release[0] = m->release[1];
         m->release[1] = released;
         double beside[3];
@@ -125,8 +126,8 @@ static status reverse(scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Transforms a position on the first member, which now ends at `fraction`, to a position on this
- * member or on the second. */
+/* Transforms a position on the first member, which now ends at `fraction`, to a position on the
+ * first or the second member. */
 static double split_place(double place, int before, double fraction, int second, int *member)
 {
     const int first = before ? place <= fraction : place < fraction;
@@ -174,7 +175,7 @@ static int unused_name(const scene *s)
     return name;
 }
 
-/* Returns the index of the section at `fraction` of the member; adds a section if the member is
+/* Returns the index of the section at `fraction` of the member. Adds a section if the member is
  * tapered. */
 static int section_between(scene *s, const scene_member *m, double fraction)
 {
@@ -201,8 +202,8 @@ static void cut_load(scene_load *load, double from, double to)
     }
 }
 
-/* Splits a load of the first member, which now ends at `fraction`, between that member and the
- * second. */
+/* Splits a load of the first member, which now ends at `fraction`, between the first and the second
+ * member. */
 static void split_load(scene *s, int load, double fraction, int second)
 {
     const scene_load whole = *scene_load_at(s, load);

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* Keys for the active loads. */
+/* Keys that select the active loads. */
 #define ACTING(otherwise)                                                                          \
     {"case",                                                                                       \
      ENTRY_NAME,                                                                                   \

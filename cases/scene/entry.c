@@ -6,7 +6,8 @@
 
 #include "elements/shared/choice.h"
 
-/* Returns 1 if this map of a group is the one that is given, and for every other kind of entry. */
+/* Returns 1 if the map is the one of its group that the entry has, or if the key is not a map of a
+ * group. */
 static int entry_stands(const entry_field *, const void *entry);
 
 /* Returns the member of the entry that the key sets. */
@@ -22,7 +23,8 @@ static int whole_of(const entry_field *k, const void *entry)
     return value;
 }
 
-/* Returns the number of values and sets *out to the first; 0: the value is not numeric. */
+/* Returns the number of values and sets *out to the first value. Returns 0 if the value is not
+ * numeric. */
 static int numbers_of(const entry_field *k, const void *entry, const double **out)
 {
     const scene_path *path = place_of(k, entry);
@@ -156,7 +158,7 @@ static status check_number(const entry_field *k, double value, fault *f)
                                                         k->name, value, entry_range(k, range));
 }
 
-/* Checks that the named entry exists or, without a name, that the key is optional. */
+/* Checks that the named entry exists. Checks that a key without a name is optional. */
 static status check_name(const scene *s, const entry_field *k, int index, fault *f)
 {
     const char *what = scene_list_word(k->of);
@@ -168,7 +170,7 @@ static status check_name(const scene *s, const entry_field *k, int index, fault 
                      index, what);
 }
 
-/* Checks a word. A missing optional word may have a value that belongs to no word. */
+/* Checks a word. If an optional word is missing, its value may belong to no word. */
 static status check_word(const entry_field *k, int value, fault *f)
 {
     char word[SCENE_NAME] = "";
@@ -210,7 +212,7 @@ status entry_check(const scene *s, const entry_field *table, const void *entry, 
 }
 
 /* Returns the power of a base unit (m or kg) in a word of a unit: m, N, kg = N s^2/m, Pa = N/m^2, J
- * = N m, W = N m/s; 0 for other words. */
+ * = N m, W = N m/s. Returns 0 for other words. */
 static int base_power(const char *word, size_t size, entry_base base)
 {
     static const struct {

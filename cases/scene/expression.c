@@ -1,6 +1,6 @@
 /* Expressions for numbers and for functions of time are converted to operations on a stack of
- * values with their derivatives. Parts without t are evaluated at once, so that an expression
- * without t becomes a single number. */
+ * values with their derivatives. Parts without t are evaluated at once, so an expression without t
+ * becomes a single number. */
 #include "cases/scene/scene.h"
 
 #include <ctype.h>
@@ -12,7 +12,7 @@
 
 #include "elements/math/scalar.h"
 
-/* A value with its first two time derivatives, and operations on such values. */
+/* A value with its first two time derivatives. */
 
 typedef struct jet {
     double v, d, dd;
@@ -27,7 +27,7 @@ typedef enum jet_operation {
     JET_MULTIPLY,
     JET_DIVIDE,
     JET_POWER,
-    JET_SIN, /* functions of one value */
+    JET_SIN, /* functions of one value, up to JET_SQRT */
     JET_COS,
     JET_TAN,
     JET_ASIN,
@@ -111,7 +111,7 @@ static jet of_function(jet_operation what, jet x)
     }
 }
 
-/* Applies the operation to a, and to b if it has two operands. The result is not finite if the
+/* Applies the operation to a and, if it has two operands, to b. The result is not finite if the
  * value or a derivative does not exist. The operation must not be JET_NUMBER or JET_TIME. */
 static jet jet_of(jet_operation what, jet a, jet b)
 {
@@ -140,7 +140,7 @@ typedef struct expression_function {
     double (*of_one)(double);
     double (*of_two)(double, double); /* for two or more arguments: applied repeatedly */
     int kinked;                       /* 1: the function has slope discontinuities or jumps */
-    jet_operation in_time;            /* JET_NUMBER: not allowed for arguments that contain t */
+    jet_operation in_time;            /* JET_NUMBER: arguments must not contain t */
 } expression_function;
 
 static double sign_of(double x)
@@ -223,7 +223,7 @@ struct formula {
 
 typedef struct reader {
     const char *text;
-    int at, end;       /* position; end of the expression */
+    int at, end;       /* position in the text; end of the expression */
     int nested, depth; /* nesting depth of parentheses, signs and powers; depth of the stack */
     int in_time;       /* 1: t is the time */
     expression_name *find;
@@ -244,7 +244,7 @@ status expression_wrong(expression_mistake *m, int at, const char *of, ...)
 
 #define WRONG(r, place, ...) expression_wrong((r)->mistake, place, __VA_ARGS__)
 
-/* Returns the next character that is not blank; '\0' at the end of the expression. */
+/* Returns the next character that is not blank, or '\0' at the end of the expression. */
 static char here(reader *r)
 {
     while (r->at < r->end && isspace((unsigned char)r->text[r->at]))
@@ -260,7 +260,7 @@ static int takes(reader *r, char sign)
     return 1;
 }
 
-/* Appends an operation. grows: change of the number of values on the stack. */
+/* Appends an operation, which changes the number of values on the stack by `grows`. */
 static status emit(reader *r, jet_operation what, double number, int grows)
 {
     if (r->to->count == MOST)
@@ -272,8 +272,8 @@ static status emit(reader *r, jet_operation what, double number, int grows)
                : WRONG(r, r->at, "too deeply nested; compute parts with 'let'");
 }
 
-/* Returns the address of the last value if it is a single number, or NULL if it contains t. first:
- * first operation of this value. */
+/* Returns the address of the last value if it is a single number, or NULL if it contains t. `first`
+ * is the first operation of this value. */
 static double *number_from(const reader *r, int first)
 {
     instruction *step = &r->to->step[first];
@@ -296,9 +296,9 @@ static double of_numbers(jet_operation what, double a, double b)
     }
 }
 
-/* Applies an operation to the last two values, which begin at the operations left and right. place:
- * its position in the text. Without t, the result is one number with zero derivatives, even if the
- * derivatives of a function are not finite. */
+/* Applies an operation to the last two values, which begin at the operations `left` and `right`.
+ * `place` is the position of the operation in the text. Without t, the result is one number with
+ * zero derivatives, even if the derivatives of a function are not finite. */
 static status operate(reader *r, jet_operation what, int place, int left, int right)
 {
     const double *b = number_from(r, right);
@@ -322,8 +322,8 @@ static int is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* Returns the length of a number: digits, a point (but not the first of ".."), digits, and an
- * exponent. */
+/* Returns the length of a number. A number consists of digits, a point (but not the first of ".."),
+ * digits, and an exponent. */
 static int number_length(const char *text, int most)
 {
     int n = 0;
@@ -369,7 +369,7 @@ static status read_literal(reader *r)
 
 static status read_sum(reader *r);
 
-/* Reads arguments after "(". Arguments that are numbers are evaluated at once. */
+/* Reads the arguments after "(". Arguments that are numbers are evaluated at once. */
 static status read_arguments(reader *r, const expression_function *f, int word, int *count)
 {
     do {
@@ -392,7 +392,7 @@ static status read_arguments(reader *r, const expression_function *f, int word, 
                          : WRONG(r, r->at, "the arguments of %s are not closed; add ')'", f->name);
 }
 
-/* Reads a call after its "(". */
+/* Reads the rest of a call after "(". */
 static status read_call(reader *r, const expression_function *f, int word)
 {
     static const char *const several[] = {"no argument", "one argument", "two arguments"};

@@ -67,7 +67,7 @@ void function_at(const scene_function *f, double t, double out[3])
         out[k] *= f->scale;
 }
 
-/* Number of intervals between the instants at which a piece is checked, which include both ends. */
+/* Number of intervals between the times at which a piece is checked, including both ends. */
 enum { LOOKS = 64 };
 
 static int is_finite(const double at[3], int derivatives)
@@ -119,7 +119,7 @@ static int by_end(const void *a, const void *b)
     return ((*x)->until > (*y)->until) - ((*x)->until < (*y)->until);
 }
 
-/* Puts the pieces of a function that have an end into the list. Returns their number. */
+/* Stores the pieces of a function that have an end in the list. Returns their number. */
 static int list_ends(const scene_function *f, scene_piece *list[])
 {
     for (int i = 0; i < f->pieces - 1; i++)

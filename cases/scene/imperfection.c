@@ -18,7 +18,7 @@ int scene_add_imperfection(scene *s)
 
 void scene_shift_node(scene *s, int imperfection, int node, const double shift[3])
 {
-    if (imperfection < 0) /* memory ran out */
+    if (imperfection < 0) /* out of memory */
         return;
     scene_imperfection *p = &s->imperfection[imperfection];
     int shifts = p->nodes;

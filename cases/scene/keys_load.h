@@ -19,7 +19,7 @@ KEY(double, tension, , "tension", ENTRY_NUMBER, .needed = 1, .group = 1, .unit =
         "force that pulls the node and the node 'towards' together, along the line between them")
 KEY(int, towards, , "towards", ENTRY_NAME, .summary = "second node of a tension",
     .left_out = "none; required with tension", .of = SCENE_NODES)
-/* between the ends of the range, instead of a temperature */
+/* elongation between the ends of the range, in place of a temperature */
 KEY(double, elongation, , "elongation", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "m",
     .summary = "stress-free elongation of a member: an actuator, a turnbuckle")
 KEY(double, gradient, [2], "gradient", ENTRY_VECTOR, .count = 2, .unit = "K/m",
@@ -41,7 +41,7 @@ KEY(int, lumped, , "lumped", ENTRY_FLAG, .words = "no|yes|false|true",
     .summary = "distributed load or gravity: half of the load of an element on each of its nodes; "
                "second-order accurate",
     .usual = "no")
-/* in `axes`; the offset rotates with the node or the sections */
+/* offset in `axes`, which rotates with the node or the sections */
 KEY(double, at, [3], "at", ENTRY_VECTOR, .count = 3, .unit = "m",
     .summary = "offset of a force from the node or the centroids", .usual = "[0, 0, 0]")
 KEY(scene_load_axes, axes, , "axes", ENTRY_WORD, .words = "fixed|member",

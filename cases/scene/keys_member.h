@@ -1,6 +1,6 @@
-/* Keys of a member that are members of scene_member (scene.h): KEY(type, name there, dimensions,
- * row of entry_member (entries_structure.c)). ROW: keys that special functions read and write. A
- * new key needs only one KEY here. */
+/* Keys of a member that are members of scene_member (scene.h). A key has the form KEY(type, name
+ * there, dimensions, row of entry_member in entries_structure.c). ROW defines keys that special
+ * functions read and write. A new key needs only one KEY line. */
 KEY(int, p, , "from", ENTRY_NAME, .needed = 1, .summary = "start node", .of = SCENE_NODES)
 KEY(int, q, , "to", ENTRY_NAME, .needed = 1, .summary = "end node", .of = SCENE_NODES)
 ROW("section", ENTRY_FORMS, .needed = 1,
@@ -14,16 +14,16 @@ ROW("warping", ENTRY_FORMS,
         "fixed if all six components of the node are fixed or driven, or the node is part_of a "
         "body, and no rotation is released; shared if two members continue in one line; "
         "otherwise free")
-/* about local y and z; the positions of interior nodes follow the arc */
+/* curvatures about local y and z; the positions of interior nodes follow the arc */
 KEY(double, curvature, [3], "curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m",
     .summary = "initial twist and curvatures", .usual = "[0, 0, 0]", .mirrors = "++-")
-/* due to temperature or misfit, for example */
+/* stress-free strains, for example due to temperature or misfit */
 KEY(double, strain, [3], "strain", ENTRY_VECTOR, .group = 1, .count = 3, .unit = "1",
     .summary = "elongation and shears of the unstressed member", .usual = "[0, 0, 0]")
 KEY(double, pretension, , "pretension", ENTRY_NUMBER, .group = 1, .unit = "N",
     .summary = "axial force with the nodes at their given positions, before equilibrium",
     .left_out = "none")
-/* 0: as drawn */
+/* 0: the length as drawn */
 KEY(double, unstressed_length, , "unstressed_length", ENTRY_NUMBER, .group = 1, .unit = "m",
     .summary = "its length before it is mounted between its nodes",
     .left_out = "its length between the given positions", .most = INFINITY)
@@ -44,7 +44,7 @@ KEY(double, damping, , "damping", ENTRY_NUMBER, .unit = "s",
     .summary = "stiffness-proportional damping: adds this value times the "
                "undeformed stiffness times the strain rates to the stresses",
     .usual = "0", .most = INFINITY)
-/* 0: set by the mesh */
+/* 0: number set by the mesh */
 KEY(int, divisions, , "divisions", ENTRY_WHOLE,
     .summary = "number of elements, independent of the mesh; of each piece if loads start, end or "
                "act within the member",

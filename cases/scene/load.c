@@ -65,8 +65,8 @@ int scene_is_free(const scene *s, scene_words *who)
     return 0;
 }
 
-/* Returns EA [N], or 0 if an axial force causes other strains or an elongation that varies along
- * the member. */
+/* Returns EA [N]. Returns 0 if an axial force causes other strains, or an elongation that varies
+ * along the member. */
 static double axial_stiffness(const scene *s, const scene_member *m)
 {
     section c;
@@ -78,11 +78,12 @@ static double axial_stiffness(const scene *s, const scene_member *m)
     return coupled ? 0 : c.matrices ? c.stiffness[0] : c.young * c.A;
 }
 
-/* Strains are relative to the length as drawn: N = EA (L - Lo)/L instead of EA (L - Lo)/Lo. */
+/* Largest misfit for which strains may be relative to the length as drawn: N = EA (L - Lo)/L
+ * instead of EA (L - Lo)/Lo. */
 static const double most_misfit = 0.01;
 
-/* Returns 1 if shifts move nodes in every analysis. Members then differ from their drawn
- * lengths. */
+/* Returns 1 if shifts move nodes in every analysis, so that lengths of members differ from those
+ * drawn. */
 static int is_moved(const scene *s)
 {
     int moved = 0;
@@ -168,7 +169,7 @@ int scene_load_unsymmetric(const scene_load *load)
 
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[])
 {
-    if (load < 0) /* memory ran out */
+    if (load < 0) /* out of memory */
         return;
     s->load[load].stations = stations;
     s->load[load].path = scene_copy(s, stations, path);

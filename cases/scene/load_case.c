@@ -1,4 +1,4 @@
-/* Load cases, their combinations, and the selection of the active loads. */
+/* Load cases, combinations of load cases, and the selection of the active loads. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ int scene_add_combination(scene *s, const char *name)
 
 void scene_add_term(scene *s, int combination, int load_case, double factor)
 {
-    if (combination < 0) /* memory ran out */
+    if (combination < 0) /* out of memory */
         return;
     scene_combination *c = &s->combination[combination];
     const int i = scene_grow(s, &c->term, &c->terms, sizeof *c->term);
@@ -31,8 +31,8 @@ void scene_add_term(scene *s, int combination, int load_case, double factor)
         c->term[i] = (scene_term){load_case, factor};
 }
 
-/* Returns the active loads as a number: 0 for all loads in scenes without load cases; numbers from
- * 1 count the combinations, then the load cases. */
+/* Returns a number for the active loads: 0 for all loads in scenes without load cases. Numbers from
+ * 1 on count the combinations, then the load cases. */
 static int scene_acting_number(const scene *s, scene_acting what)
 {
     if (what.combination != SCENE_NONE)
@@ -83,8 +83,8 @@ scene_words scene_acting_called(const scene *s, int number)
                                     : scene_called(s, SCENE_COMBINATIONS, number - 1);
 }
 
-/* Checks that every load has a load case, because a load without one could act in all cases or in
- * none. */
+/* Checks that every load has a load case, because a load without a load case could act in all cases
+ * or in none. */
 static status check_loads(const scene *s, fault *f)
 {
     for (int i = 0; i < s->loads; i++)
@@ -139,7 +139,7 @@ status scene_validate_cases(const scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Returns "combination: ULS" as an example of what to write. */
+/* Returns an example of what to write, such as "combination: ULS". */
 static scene_words example(const scene *s)
 {
     scene_words out;

@@ -127,8 +127,6 @@ scene_words scene_called(const scene *s, scene_list list, int i)
     return out;
 }
 
-/* Descriptions of nodes, coordinates and ordinals. */
-
 char meaning_axis(int component)
 {
     return "xyzxyz"[component];
@@ -136,7 +134,7 @@ char meaning_axis(int component)
 
 void meaning_node(FILE *to, const scene *s, const char *preposition, int node)
 {
-    const double *at = s->node[node].position; /* + 0 below avoids a minus sign before zero */
+    const double *at = s->node[node].position; /* + 0 avoids a minus sign before zero */
     fprintf(to, " %s %s (%.4g, %.4g, %.4g)", preposition, scene_name(s, SCENE_NODES, node).text,
             at[0] + 0, at[1] + 0, at[2] + 0);
 }

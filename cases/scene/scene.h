@@ -1,6 +1,6 @@
 /* Scenes: structure, loads and prescribed coordinates, analyses and quantities.
  *
- * Sections, in this order: analysis; expression, formula and function of time; quantity; scene;
+ * The order of the sections is analysis; expression, formula and function of time; quantity; scene;
  * values along a path; edit; names; entry (keys of scene files); inputs of analyses; lists;
  * descriptions of quantities and omission; quantity type; unit of length; warping of ends. */
 #ifndef BEAMWORK_CASES_SCENE_SCENE_H
@@ -14,24 +14,25 @@
 #include "elements/shared/status.h"
 
 /* Analyses. An analysis has a kind and the data of this kind. Every scene_add_* returns the index
- * of the new analysis, or -1 if out of memory. The data of a kind are read with its function below,
- * which ends the program if the analysis is of another kind. The union is not used elsewhere. */
+ * of the new analysis, or -1 if out of memory. Each kind has a function below that returns its data
+ * and ends the program if the analysis is of another kind. Other sources do not use the union. */
 
 typedef struct scene scene;
 
 enum { SCENE_NONE = -1, SCENE_NAME = 48, SCENE_UNIT = 16 }; /* sizes include the terminating zero */
 
 typedef enum scene_analysis_kind {
-    SCENE_LINEAR,     /* one linear solution with the loads at factor 1 */
-    SCENE_STATIC,     /* nonlinear equilibrium along the path */
-    SCENE_BUCKLING,   /* linear buckling. About the undeformed state, the prestress is linear: loads
-                       * at path parameter 0 are constant, and their increase up to 1 is multiplied
-                       * by the factor. Otherwise about the last state of a path */
-    SCENE_MODAL,      /* natural frequencies about the present state */
-    SCENE_COMPLIANCE, /* tangent compliance at every station of the preceding static path */
-    SCENE_CONTINUATION, /* path of a load factor, by arc length or by one coordinate */
+    SCENE_LINEAR,   /* one linear solution with all load factors equal to 1 */
+    SCENE_STATIC,   /* nonlinear equilibrium along the path */
+    SCENE_BUCKLING, /* linear buckling about the undeformed state or about the last state of a path.
+                       About the undeformed state, the prestress is linear: loads at path parameter
+                       0 are constant, and their increase up to 1 is multiplied by the factor */
+    SCENE_MODAL,    /* natural frequencies about the present state */
+    SCENE_COMPLIANCE,   /* tangent compliance at every station of the preceding static path */
+    SCENE_CONTINUATION, /* path of a load factor, with arc-length control or control of one
+                           coordinate */
     SCENE_ROTATION,     /* stationary rotation: equilibrium and frequencies in the rotating frame */
-    SCENE_MOTION,       /* motion in time: the path parameter is the time [s] */
+    SCENE_MOTION,       /* transient analysis: the path parameter is the time [s] */
     SCENE_HARMONIC /* steady small vibration about a state; the path parameter is the frequency [Hz]
                     */
 } scene_analysis_kind;
@@ -45,25 +46,25 @@ typedef enum scene_moments {
 #define SCENE_MOMENTS_CHOICES "spatial|semitangential|symmetrised"
 const char *scene_moments_name(scene_moments);
 
-/* Output points (stations): ascending path parameters; for a continuation, values of its control
- * coordinate [m] in the order in which they are reached. */
+/* Output points (stations) in ascending order of the path parameter. For a continuation, the
+ * stations are values of the control coordinate [m] in the order in which the path reaches them. */
 typedef struct scene_path {
     int stations;
     double *value; /* [stations] */
 } scene_path;
 
-/* Rotation of the axes of the scene: constant on a static path or a continuation, multiplied by the
- * path parameter in a stationary rotation. Zero: no rotation. */
+/* Rotation of the axes of the scene. The rotation is constant on a static path or a continuation.
+ * In a stationary rotation, it is multiplied by the path parameter. Zero: no rotation. */
 typedef struct scene_rotating_frame {
     double omega[3];  /* angular velocity [rad/s] */
-    double centre[3]; /* a point on its axis [m] */
+    double centre[3]; /* a point on the rotation axis [m] */
 } scene_rotating_frame;
 
 /* Steps of a static analysis or a stationary rotation. */
 typedef struct scene_walk {
     scene_path path;
     int steps_between; /* initial number of load steps between two stations; >= 1 */
-    int modes; /* for a rotation: number of modes, of all families together, that are computed first
+    int modes; /* for a rotation: number of modes of all families together that are computed first
                 */
     scene_rotating_frame frame;
 } scene_walk;
@@ -72,16 +73,16 @@ typedef struct scene_compliance {
     int node;
     scene_moments moments;
     unsigned released; /* bit i: the prescribed component i of the node is released, and its
-                        * reaction acts as a dead load */
+                          reaction acts as a dead load */
 } scene_compliance;
 
 /* Control of a continuation, the path of proportional loads. The control coordinate is a
- * translation of any node, including attached nodes; with arc-length control, it is only the
- * abscissa of curves. The arc is the root of the mean, over all nodes, of (displacement/size of the
- * scene)^2 + rotation^2, dimensionless. */
+ * translation of any node, even of an attached node. With arc-length control, the control
+ * coordinate is only the abscissa of curves. The arc length is the root of the mean over all nodes
+ * of (displacement/size of the scene)^2 + rotation^2, dimensionless. */
 typedef struct scene_control {
     int node, component;
-    int by_arc;            /* 1: steps measure arc length, 0: the control coordinate */
+    int by_arc; /* 1: steps measure arc length; 0: steps measure the control coordinate */
     double step, step_max; /* first and largest step [m; dimensionless for arc length] */
     int constant_steps;    /* 1: all steps equal `step`, and a branch jump ends the path; 0: steps
                               adapt and avoid jumps */
@@ -95,9 +96,9 @@ typedef struct scene_continuation {
 
 /* Integrators of motions. */
 typedef enum scene_scheme {
-    SCENE_ALPHA,      /* generalized-alpha: order 2, damps unresolved frequencies */
-    SCENE_CONSERVING, /* order 2, conserves energy and momenta */
-    SCENE_RADAU,      /* Radau IIA with three stages: order 5 */
+    SCENE_ALPHA,      /* generalized-alpha method of order 2, which damps unresolved frequencies */
+    SCENE_CONSERVING, /* method of order 2 that conserves energy and momenta */
+    SCENE_RADAU,      /* Radau IIA method with three stages, of order 5 */
     SCENE_EXPLICIT,   /* explicit Runge-Kutta method of order 8, for reference values */
     SCENE_SCHEMES
 } scene_scheme;
@@ -107,10 +108,9 @@ typedef enum scene_scheme {
 /* Distribution of the mass of members. */
 typedef enum scene_mass {
     SCENE_MASS_USUAL, /* consistent, if the formulation and all integrators in the chain of motions
-                       * support this and the scene does not request lumped mass; otherwise
-                       * lumped */
-    SCENE_LUMPED,     /* at the nodes, for all formulations */
-    SCENE_CONSISTENT  /* along the elements, if the formulation supports it */
+                         support it and the scene does not request lumped mass; otherwise lumped */
+    SCENE_LUMPED,     /* lumped at the nodes, for all formulations */
+    SCENE_CONSISTENT  /* distributed along the elements, if the formulation supports it */
 } scene_mass;
 
 #define SCENE_MASS_CHOICES "lumped|consistent"
@@ -122,51 +122,52 @@ typedef struct scene_alpha {
 } scene_alpha;
 
 /* Initial velocities, which are those of a rigid body: the velocity of a point and a rotation about
- * it. */
+ * this point. */
 typedef struct scene_start {
     double velocity[3], spin[3], centre[3]; /* [m/s], [rad/s], [m] */
 } scene_start;
 
 /* A motion starts from rest or with the velocities `start`, in the undeformed state or in the last
- * state of the path that it follows. After another motion, it starts with the rates and the time of
- * that motion. */
+ * state of the path that it follows. A motion that follows another motion starts with the rates and
+ * the time of that motion. */
 typedef struct scene_motion {
-    scene_path path; /* instants of output [s] */
+    scene_path path; /* times of output [s] */
     scene_scheme scheme;
     scene_alpha alpha;
-    double step;      /* [s] first step; without a tolerance, every step */
-    double tolerance; /* error of a step, relative to the size of the structure; 0: constant
-                       * steps */
+    double step; /* first step, or every step if there is no tolerance [s] */
+    double
+        tolerance; /* error of a step, relative to the size of the structure; 0: constant steps */
     scene_start start;
     scene_mass mass;
 } scene_motion;
 
-/* Damping of small vibrations: `mass` times the mass matrix plus `stiffness` times the stiffness of
- * members and springs, without geometric stiffness; and damping ratios of the undamped modes. */
+/* Damping of small vibrations. The damping matrix is `mass` times the mass matrix plus `stiffness`
+ * times the stiffness of members and springs, without geometric stiffness. Damping ratios of the
+ * undamped modes may be added. */
 typedef struct scene_proportional {
     double mass, stiffness; /* [1/s], [s] */
-    double ratio;           /* ratio of the modes that have none in ... */
+    double ratio;           /* ratio of all modes that are not in ... */
     scene_path ratios;      /* ... the ratios of the first modes */
 } scene_proportional;
 
 /* Active loads: those of a load case, or those of a combination with their factors. If both are
- * SCENE_NONE, see scene_acting_of. */
+ * SCENE_NONE, scene_acting_of determines the active loads. */
 typedef struct scene_acting {
     int load_case, combination;
 } scene_acting;
 
 /* Axes of small motions about an instant of a motion. */
 typedef enum scene_turning {
-    SCENE_TURNING_OWN, /* axes of each node, which rotate with it */
+    SCENE_TURNING_OWN, /* axes of each node, which rotate with the node */
     SCENE_TURNING_NONE /* axes fixed in space */
 } scene_turning;
 
 typedef struct scene_analysis {
     scene_analysis_kind kind;
-    int follows; /* analysis about whose states this analysis is made; SCENE_NONE: about the
-                  * undeformed state */
-    double time; /* [s] instant of the motion about which the analysis is made; NAN: the end of the
-                  * motion */
+    int follows; /* analysis that provides the states about which this analysis is made; SCENE_NONE:
+                    the undeformed state */
+    double time; /* time of the instant of the motion about which the analysis is made [s]; NAN: the
+                    end of the motion */
     scene_turning axes; /* axes of the small motions about the instant */
     int axes_of;        /* ... or the axes that rotate with this node; SCENE_NONE: no such node */
     scene_acting acting;
@@ -177,13 +178,13 @@ typedef struct scene_analysis {
         scene_motion motion;
         scene_path harmonic; /* frequencies [Hz] */
     } of;
-    scene_proportional damping; /* damping of small vibrations, in addition to that of members and
-                                 * dashpots */
-    int damped;                 /* 1: modes include damping */
-    int open_loops;             /* 1: small vibrations do not include the feedback of loads */
-    int by_modes;               /* 1: a harmonic analysis is solved by superposition of modes */
-    int modes;                  /* number of modes; 0: all */
-    char name[SCENE_NAME];      /* "": none */
+    scene_proportional
+        damping;    /* damping of small vibrations, in addition to that of members and dashpots */
+    int damped;     /* 1: modes include damping */
+    int open_loops; /* 1: small vibrations do not include the feedback of loads */
+    int by_modes;   /* 1: a harmonic analysis is solved by superposition of modes */
+    int modes;      /* number of modes; 0: all */
+    char name[SCENE_NAME]; /* "": none */
 } scene_analysis;
 
 int scene_add_linear(scene *s);
@@ -197,16 +198,16 @@ int scene_add_continuation(scene *s, int stations, const double path[], scene_co
 int scene_add_rotation(scene *s, int stations, const double path[], int steps_between, int modes,
                        scene_rotating_frame frame);
 int scene_add_motion(scene *s, int follows, int stations, const double path[], scene_motion how);
-/* alpha_m = (2 rho - 1)/(rho + 1), alpha_f = rho/(rho + 1) (Chung & Hulbert 1993). */
+/* Returns alpha_m = (2 rho - 1)/(rho + 1) and alpha_f = rho/(rho + 1) (Chung & Hulbert 1993). */
 scene_alpha scene_alpha_of_radius(double rho);
 /* Sets the rotation of the axes of a static path or a continuation. */
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
 
-/* Returns the instant [s] of the motion about which an analysis is made, or NAN if it is not about
- * a motion. */
+/* Returns the time [s] of the instant of a motion about which an analysis is made, or NAN if the
+ * analysis is not about a motion. */
 double scene_instant_of(const scene *, int analysis);
 
-/* Returns "linear", "static", ...: the key in a scene file. */
+/* Returns the key in a scene file, such as "linear" or "static". */
 const char *scene_analysis_name(scene_analysis_kind);
 
 const scene_walk *scene_walk_of(const scene_analysis *a);
@@ -221,23 +222,21 @@ int scene_spreads(const scene_analysis *a);
 int scene_may_spread(const scene *s, int analysis);
 /* Returns the path, or NULL if the kind of analysis has no path. */
 const scene_path *scene_path_of(const scene_analysis *a);
-/* Returns the analysis from whose state a chain of motions starts: a static path, a continuation or
- * a rotation; SCENE_NONE: the undeformed state. */
+/* Returns the analysis from whose state a chain of motions starts, which is a static path, a
+ * continuation or a rotation. Returns SCENE_NONE for the undeformed state. */
 int scene_origin_of(const scene *s, int analysis);
 const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);
 /* Returns 1 if the axes of the analysis rotate. */
 int scene_rotates(const scene_analysis *a);
 
-/* Expressions as text, in one language for numbers and functions of time. They contain + - * / ^,
- * parentheses, functions and constants (expression_word), names and, in functions of time, the time
- * t [s].
+/* Expressions in text form, for numbers and functions of time. They contain + - * / ^, parentheses,
+ * functions and constants (expression_word), names and, in functions of time, the time t [s].
  *
- * Precedence: ^ (right-associative: -2^2 = -4, 2^3^2 = 512), then signs, then * and /, then + and
- * -. Values are SI, angles are in radians (30*deg*t); parts without t must be finite. A function
- * with slope discontinuities, or whose derivatives are not implemented, accepts only arguments
- * without t.
- * Functions of time with discontinuities are given in pieces (scene_piece), so that steps can end
- * there. */
+ * The operator ^ has the highest precedence and is right-associative (-2^2 = -4, 2^3^2 = 512).
+ * Signs, then * and /, then + and - follow. Values are SI, angles are in radians (30*deg*t); and
+ * parts without t must be finite. A function with slope discontinuities, or whose derivatives are
+ * not implemented, accepts only arguments without t. Functions of time with discontinuities are
+ * given in pieces (scene_piece), so that steps can end at the discontinuities. */
 
 typedef struct expression_mistake {
     int at;                /* position of the character in the text, from 0 */
@@ -257,11 +256,11 @@ const char *expression_word(int i);
 /* Returns 1 if the name is that of a function or a constant. */
 int expression_is_word(const char *name, size_t length);
 
-/* Evaluates text[from .. end - 1] as a number. find: NULL if no names are allowed. REFUSED: the
- * expression is invalid; the reason is given. */
+/* Evaluates text[from .. end - 1] as a number. `find` is NULL if no names are allowed. Returns
+ * REFUSED with the reason if the expression is invalid. */
 status expression_value(const char *text, int from, int end, expression_name *find,
                         const void *names, double *out, expression_mistake *);
-/* Sets the error and its position and returns REFUSED. of: a printf format. */
+/* Sets the error and its position and returns REFUSED. `of` is a printf format. */
 status expression_wrong(expression_mistake *, int at, const char *of, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -269,74 +268,75 @@ status expression_wrong(expression_mistake *, int at, const char *of, ...)
 
 typedef struct formula formula;
 
-/* Parses a function. REFUSED: the text is invalid; FAULT: out of memory. */
+/* Parses a function. Returns REFUSED if the text is invalid, or FAULT if out of memory. */
 status formula_parse(const char *text, formula **out, expression_mistake *);
-/* Like formula_parse. REFUSED: f contains the error and the position of the character (from 1). */
+/* Parses a function. Returns REFUSED if the text is invalid; f then contains the error and the
+ * position of the character (from 1). */
 status formula_read(const char *text, formula **out, fault *f);
 void formula_free(formula *);
 /* Computes the value and the first two derivatives with respect to t. Undefined values are not
  * finite. */
 void formula_at(const formula *, double t, double out[3]);
 
-/* A function of time in pieces, each a formula. Slope discontinuities and jumps are allowed between
- * pieces; no step crosses them. */
+/* A function of time in pieces, each of which is a formula. Slope discontinuities and jumps are
+ * allowed between pieces. No step crosses them. */
 
 typedef struct scene_piece {
-    double until; /* [s] end of the piece; the last piece has no end */
+    double until; /* end of the piece [s]; the last piece has no end */
     char *text;
-    formula *is; /* NULL: the text is invalid, see function_check */
+    formula *is; /* NULL: the text is invalid, which function_check reports */
 } scene_piece;
 
 typedef struct scene_function {
     int pieces;
-    scene_piece *piece; /* [pieces] ascending */
+    scene_piece *piece; /* pieces in ascending order [pieces] */
     double scale;       /* factor of the value; 0 stands for 1 */
 } scene_function;
 
-/* Appends a piece; copies the text. Returns -1 if out of memory. */
+/* Appends a piece and copies the text. Returns -1 if out of memory. */
 int function_add(scene_function *, double until, const char *text);
-/* Copies the pieces and the scale of another function; `to` must be empty. Returns -1 if out of
- * memory. */
+/* Copies the pieces and the scale of another function to `to`, which must be empty. Returns -1 if
+ * out of memory. */
 int function_copy(scene_function *to, const scene_function *from);
 void function_free(scene_function *);
-/* Checks the pieces. REFUSED: f contains the error. */
+/* Checks the pieces. Returns REFUSED with the error in f. */
 status function_check(const scene_function *, fault *);
-/* Computes the value and the first two derivatives at t. At the boundary of two pieces, they are
- * those of the second piece. */
+/* Computes the value and the first two derivatives at t. At the boundary of two pieces, the values
+ * are those of the second piece. */
 void function_at(const scene_function *, double t, double out[3]);
-/* Returns 1 if the function and this number of its derivatives (0 to 2) are finite from 0 to `end`:
- * at both ends of all pieces and at 63 instants inside each. Otherwise returns 0 and sets *time to
- * an instant at which they are not. */
+/* Returns 1 if the function and this number of its derivatives (0 to 2) are finite from 0 to `end`.
+ * They are checked at both ends of all pieces and at 63 times inside each piece. Otherwise returns
+ * 0 and sets *time to a time at which they are not finite. */
 int function_finite(const scene_function *, double end, int derivatives, double *time);
-/* Returns 1 if value and velocity are continuous between pieces before `end`. Returns 0 if the
- * value (*derivative 0) or the velocity (1) is discontinuous at *time. */
+/* Returns 1 if value and velocity are continuous between pieces before `end`. Otherwise returns 0
+ * and sets *time to the discontinuity, and *derivative to 0 for the value or 1 for the velocity. */
 int function_smooth(const scene_function *, double end, double *time, int *derivative);
 
 /* Quantities of an analysis. A quantity has a name, an extracted value (one struct for each kind)
- * and a statistic. The data of a kind are read with its function below, which ends the program if
- * the quantity is of another kind. The union is not used elsewhere. */
+ * and a statistic. Each kind has a function below that returns its data and ends the program if the
+ * quantity is of another kind. Other sources do not use the union. */
 
 typedef enum scene_quantity_kind {
-    SCENE_COORDINATE,       /* displacement or rotation-vector component of a node */
+    SCENE_COORDINATE,       /* displacement component or rotation-vector component of a node */
     SCENE_REACTION,         /* reaction of a prescribed component at a node */
-    SCENE_COMPLIANCE_ENTRY, /* entry of the 6 x 6 matrix of the node of the analysis */
-    SCENE_STIFFNESS_ENTRY,  /* reciprocal of compliance entry (i, i), with all fixed coordinates
-                             * remaining fixed */
+    SCENE_COMPLIANCE_ENTRY, /* entry of the 6 x 6 compliance matrix of the node of the analysis */
+    SCENE_STIFFNESS_ENTRY,  /* reciprocal of compliance entry (i, i), while all fixed coordinates
+                               remain fixed */
     SCENE_CRITICAL_FACTOR,  /* load factor of linear buckling */
     SCENE_GROWTH,           /* largest growth rate of all modes [1/s]; 0: stable */
     SCENE_FREQUENCY,        /* [Hz] */
     SCENE_FACTOR_AT,        /* load factor of a continuation at a value of the control coordinate */
     SCENE_CRITICAL_POINT,   /* critical point of a continuation */
     SCENE_DRIVER_VALUE,     /* value of an unknown driver */
-    SCENE_INTERNAL,         /* resultant of the stresses on a section of a member */
-    SCENE_STRESS,           /* largest stress of a section or a member */
-    SCENE_RATE, /* velocity of a node, its angular velocity in its own axes, or a time derivative of
-                 * these */
+    SCENE_INTERNAL,         /* resultant of the stresses on a cross-section of a member */
+    SCENE_STRESS,           /* largest stress of a cross-section or of a member */
+    SCENE_RATE,          /* velocity of a node, angular velocity in the axes of the node, or a time
+                            derivative of either */
     SCENE_BALANCE,       /* energy or momentum of a motion */
     SCENE_RELATIVE,      /* displacement or rotation of a node in the axes of another node */
-    SCENE_RESPONSE,      /* of a harmonic analysis */
+    SCENE_RESPONSE,      /* response in a harmonic analysis */
     SCENE_DAMPING_RATIO, /* damping ratio of a damped mode, or its decay rate */
-    SCENE_DEFLECTION,    /* displacement or rotation of a section of a member */
+    SCENE_DEFLECTION,    /* displacement or rotation of a cross-section of a member */
     SCENE_ENVELOPE_OF,   /* largest or smallest of other quantities */
     SCENE_READING        /* value of nodes that only the file of the quantity type evaluates */
 } scene_quantity_kind;
@@ -359,21 +359,21 @@ typedef enum scene_reduction {
     SCENE_MIN,
     SCENE_AT,
     SCENE_CURVE,
-    /* For motions, at any time; only for positions and rates. */
+    /* Statistics over all times of a motion, only for positions and rates. */
     SCENE_MAX_TIME,   /* time of the largest value [s] */
     SCENE_MIN_TIME,   /* time of the smallest value [s] */
     SCENE_CROSSING,   /* time at which a level is crossed [s] */
     SCENE_PERIOD,     /* mean time between crossings in the same direction [s] */
     SCENE_PER_SECOND, /* reciprocal of the period [Hz] */
-    SCENE_MEAN,       /* over time */
+    SCENE_MEAN,       /* mean over time */
     SCENE_RMS,        /* root of the time mean of the square */
     SCENE_REDUCTIONS
 } scene_reduction;
 
-/* Largest and smallest values refer to reported values: if the factor is negative, they are the
- * smallest and largest extracted values. Times are those of extracted values. */
-
-/* Returns 1 if the result is a time or a frequency instead of a value of the extracted quantity. */
+/* Returns 1 if the result is a time or a frequency. Otherwise the result is a value of the
+ * extracted quantity. Largest and smallest values refer to reported values: if the factor is
+ * negative, they are the smallest and largest extracted values. Times are those of extracted
+ * values. */
 static inline int scene_is_timed(scene_reduction how)
 {
     return how > SCENE_CURVE && how < SCENE_MEAN;
@@ -382,29 +382,30 @@ static inline int scene_is_timed(scene_reduction how)
 /* Direction in which a level is crossed. */
 typedef enum scene_direction { SCENE_RISING, SCENE_FALLING, SCENE_EITHER } scene_direction;
 #define SCENE_DIRECTION_CHOICES "rising|falling|either"
-/* The last two are also curves. */
+/* The last two choices are also curves. */
 #define SCENE_TAKE_CHOICES                                                                         \
     "last|max|min|curve|max_time|min_time|crossing|period|per_second|mean|rms|spectrum|psd"
 
 /* Transform of a curve of a motion over time to a curve over frequency. The stations x[0 .. N] are
- * spaced evenly by d, and x[N] starts the next period: X[k] = sum w[n] x[n] exp(-2 pi i k n/N) at
+ * spaced evenly by d, and x[N] starts the next period. X[k] = sum w[n] x[n] exp(-2 pi i k n/N) at
  * the frequency k/(N d). */
 typedef enum scene_transform {
     SCENE_HISTORY,
-    SCENE_SPECTRUM, /* amplitudes 2 |X|/sum w; half of this at the frequencies 0 and 1/(2 d) */
-    SCENE_PSD       /* one-sided power spectral density 2 d |X|^2/sum w^2 [per Hz]; half of this at
-                     * the same frequencies */
+    SCENE_SPECTRUM, /* amplitudes 2 |X|/sum w; half of this value at the frequencies 0 and 1/(2 d)
+                     */
+    SCENE_PSD /* one-sided power spectral density 2 d |X|^2/sum w^2 [per Hz]; half of this value at
+                 the frequencies 0 and 1/(2 d) */
 } scene_transform;
-/* The weights w: 1, or sin^2(pi n/N). */
+/* The weights w are 1 or sin^2(pi n/N). */
 typedef enum scene_taper { SCENE_TAPER_NONE, SCENE_TAPER_HANN } scene_taper;
 #define SCENE_TAPER_CHOICES "none|hann"
 
 /* Event of a motion from which a value is taken. */
 typedef struct scene_passing {
-    double level; /* as extracted, in SI units */
+    double level; /* level of the extracted value, in SI units */
     scene_direction direction;
     int order;          /* index among the crossings in this direction, from 0 */
-    double from, until; /* [s] window; until 0: to the end */
+    double from, until; /* start and end of the time window [s]; until 0: the end of the motion */
     scene_taper taper;  /* window function of a spectrum */
 } scene_passing;
 
@@ -421,10 +422,11 @@ typedef struct scene_rated {
 } scene_rated;
 
 /* Resultants: forces and moments that the part of a member towards end q exerts on the part towards
- * p, in the principal axes of the rotated section, with moments about its centroid. The parts of
- * the torque add up to the torque about the shear centre, Mx - (ys Qz - zs Qy): Saint-Venant
- * torsion, restrained warping (the rate at which the bimoment decreases along the member), and the
- * contribution of stresses along the fibres, which the twist rotates. */
+ * p, in the principal axes of the rotated cross-section, with moments about the centroid. The parts
+ * of the torque are Saint-Venant torsion, restrained warping, and the contribution of stresses
+ * along the fibres, which the twist rotates. They add up to the torque about the shear centre, Mx -
+ * (ys Qz - zs Qy). The torque due to restrained warping is the rate at which the bimoment decreases
+ * along the member. */
 typedef enum scene_resultant {
     SCENE_N,
     SCENE_QY,
@@ -439,49 +441,49 @@ typedef enum scene_resultant {
     SCENE_RESULTANTS
 } scene_resultant;
 
-/* The section of a member at which a value is taken. */
+/* The cross-section of a member at which a value is taken. */
 typedef enum scene_along {
     SCENE_ALONG_PLACE,  /* at a position */
-    SCENE_ALONG_MAX,    /* at the section with the largest value */
-    SCENE_ALONG_MIN,    /* at the section with the smallest value */
-    SCENE_ALONG_LARGEST /* at the section with the largest magnitude; the result is this
-                         * magnitude */
+    SCENE_ALONG_MAX,    /* at the cross-section with the largest value */
+    SCENE_ALONG_MIN,    /* at the cross-section with the smallest value */
+    SCENE_ALONG_LARGEST /* at the cross-section with the largest magnitude, which is the result */
 } scene_along;
 
 typedef struct scene_internal {
     int member;
     scene_resultant resultant;
     scene_along along;
-    double place; /* for SCENE_ALONG_PLACE: 0 at p .. 1 at q, of the initial length */
-    int before;   /* at a discontinuity: 1 on the side of p, 0 on that of q */
+    double place; /* for SCENE_ALONG_PLACE: position as a fraction of the initial length, 0 at p to
+                     1 at q */
+    int before;   /* side at a discontinuity: 1 on the side of p, 0 on that of q */
 } scene_internal;
 
-/* Displacement of the centroid, or rotation of the section, in fixed axes. */
+/* Displacement of the centroid, or rotation of the cross-section, in fixed axes. */
 typedef struct scene_deflection {
     int member, component;
-    double place; /* 0 at p .. 1 at q, of the initial length */
+    double place; /* position as a fraction of the initial length, 0 at p to 1 at q */
 } scene_deflection;
 
-/* Measures over all points of a section (elements/section/stress.h) [Pa]. */
+/* Measures over all stress points of a cross-section (elements/section/stress.h) [Pa]. */
 typedef enum scene_stress_measure {
     SCENE_VON_MISES,
-    SCENE_NORMAL_MAX, /* along the fibres, tension positive */
+    SCENE_NORMAL_MAX, /* stress along the fibres; tension is positive */
     SCENE_NORMAL_MIN
 } scene_stress_measure;
 
 typedef struct scene_stress {
     int member;
     scene_stress_measure measure;
-    int whole;    /* 1: over all sections of the member; 0: of the section at ... */
-    double place; /* 0 at p .. 1 at q, of the initial length */
-    int before;   /* as for scene_internal */
+    int whole;    /* 1: largest over all cross-sections of the member; 0: at the position ... */
+    double place; /* ... as a fraction of the initial length, 0 at p to 1 at q */
+    int before;   /* side at a discontinuity: 1 on the side of p, 0 on that of q */
 } scene_stress;
 
 /* Energies and momenta of the whole structure during a motion. */
 typedef enum scene_balance {
     SCENE_KINETIC,    /* [J] */
-    SCENE_STRAIN,     /* stored in members and springs [J] */
-    SCENE_ENERGY,     /* both */
+    SCENE_STRAIN,     /* energy stored in members and springs [J] */
+    SCENE_ENERGY,     /* sum of both energies [J] */
     SCENE_WORK,       /* work of loads and prescribed coordinates since t = 0 */
     SCENE_DISSIPATED, /* energy dissipated by damping since t = 0 */
     SCENE_DRIFT,      /* energy-balance error: energy + dissipated energy - initial energy - work */
@@ -495,13 +497,13 @@ typedef enum scene_balance {
 } scene_balance;
 #define SCENE_BALANCE_CHOICES "kinetic|strain|energy|work|dissipated|drift|px|py|pz|lx|ly|lz"
 
-/* Displacement of a node relative to another node: the change of its position in the axes of that
- * node, or its rotation relative to that node. */
+/* Displacement of a node relative to another node: the change of its position in the axes of the
+ * other node, or its rotation relative to the other node. */
 typedef struct scene_relative {
     int node, component, from;
 } scene_relative;
 
-/* Data of kinds without their own struct; the key tables of these kinds list the members that they
+/* Data of kinds without a separate struct. The key tables of these kinds list the members that they
  * use. */
 typedef struct scene_reading {
     int node[4], component[4];
@@ -518,7 +520,7 @@ typedef enum scene_vibration {
 } scene_vibration;
 typedef enum scene_vibration_part {
     SCENE_AMPLITUDE,
-    SCENE_PHASE, /* [rad] phase lead relative to the input, -pi to pi */
+    SCENE_PHASE, /* phase lead relative to the input [rad], -pi to pi */
     SCENE_REAL,
     SCENE_IMAGINARY
 } scene_vibration_part;
@@ -526,45 +528,47 @@ typedef enum scene_vibration_part {
 #define SCENE_VIBRATION_PARTS   "amplitude|phase|real|imaginary"
 typedef struct scene_response {
     int node, component;
-    int from;                 /* the same value of this node is subtracted; SCENE_NONE: none */
+    int from;                 /* node whose response is subtracted; SCENE_NONE: none */
     int forced, forced_along; /* node and component of a force or moment; otherwise ... */
     int driver;               /* ... the driver that moves; otherwise ... */
     int reference;            /* ... the load with feedback whose reference moves; otherwise ... */
-    int unbalanced, spinning; /* ... the node of an unbalance, and SCENE_RX .. of its rotation */
+    int unbalanced, spinning; /* ... the node of an unbalance, and the component SCENE_RX ..
+                                 SCENE_RZ of its rotation */
     scene_vibration of;
     scene_vibration_part part;
 } scene_response;
 
 typedef struct scene_entry {
-    int row, column; /* response, load: SCENE_UX .. SCENE_RZ */
+    int row, column; /* component of the response and component of the load, SCENE_UX .. SCENE_RZ */
 } scene_entry;
 
 typedef struct scene_critical_load {
     int sign;  /* 1: positive factors, -1: negative factors */
-    int order; /* index among the factors of this sign, sorted by magnitude, from 0 */
+    int order; /* index among the factors of this sign in order of magnitude, from 0 */
 } scene_critical_load;
 
 typedef struct scene_mode {
-    int order; /* index among the modes of the family and half-waves, from 0 */
+    int order; /* index among the modes with this family and number of half-waves, from 0 */
     scene_family family;
-    int half_waves; /* 0: any */
-    int decay;      /* for a damping ratio, 1: the decay rate [1/s] instead */
+    int half_waves; /* number of half-waves; 0: any number */
+    int decay;      /* for a damping ratio, 1: the decay rate [1/s] is extracted instead */
 } scene_mode;
 
 typedef enum scene_ordinate { SCENE_LOAD_FACTOR, SCENE_CONTROL } scene_ordinate;
 
 typedef struct scene_point {
     scene_critical kind;
-    int order;               /* index among the points of the kind along the path, from 0 */
+    int order;               /* index among the points of this kind along the path, from 0 */
     scene_ordinate ordinate; /* extracted value: load factor, or control coordinate [m] */
 } scene_point;
 
-/* The extracted value. It is made by the functions of the kinds below. */
+/* The extracted value, which the functions of the kinds below return. */
 typedef struct scene_extract {
-    scene_quantity_kind kind;         /* kind of the type: the value requested from an analysis */
-    const struct quantity_type *type; /* its file in cases/quantities, with everything else */
+    scene_quantity_kind kind;         /* kind of value that is requested from an analysis */
+    const struct quantity_type *type; /* type defined in a file of cases/quantities */
     union {
-        scene_component component; /* for coordinate, reaction; position of a rate */
+        scene_component
+            component; /* component for coordinates and reactions, and for the position of a rate */
         scene_rated rated;
         scene_entry entry; /* for compliance and stiffness */
         scene_critical_load load;
@@ -594,22 +598,23 @@ scene_extract scene_factor_at(void);
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
 scene_extract scene_driver_value(int driver);
 scene_extract scene_rate(int node, int component);
-/* Extracts an entry of the rotation matrix: row and column 0 .. 2. */
+/* Extracts an entry of the rotation matrix; row and column are 0 .. 2. */
 scene_extract scene_orientation_entry(int node, int row, int column);
 scene_extract scene_balance_of(scene_balance what);
 scene_extract scene_relative_to(int node, int component, int from);
 scene_extract scene_response_to(scene_response what);
-/* Returns the axis (0 to 2) along which an unbalance acts at the start (k 0) and a quarter of a
- * turn later (k 1). */
+/* Returns the axis (0 to 2) along which an unbalance acts at the start (k 0), or a quarter of a
+ * revolution later (k 1). */
 int scene_unbalance_along(const scene_response *r, int k);
-/* place: from 0 at p to 1 at q; at a discontinuity, on the side of q. */
+/* Extracts a resultant at `place`, from 0 at p to 1 at q. At a discontinuity, the value is on the
+ * side of q. */
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);
-/* Extracts the maximum over the sections of a member; for SCENE_NORMAL_MIN, the minimum. */
+/* Extracts the maximum over the cross-sections of a member, or the minimum for SCENE_NORMAL_MIN. */
 scene_extract scene_stress_along(int member, scene_stress_measure measure);
 scene_extract scene_stress_at(int member, double place, scene_stress_measure measure);
-/* Returns `what`, a resultant or a stress at a position, with its side at a discontinuity: that of
- * p if `before` is 1, otherwise that of q. */
+/* Returns `what`, a resultant or a stress at a position, on one side of a discontinuity: that of p
+ * if `before` is 1, otherwise that of q. */
 scene_extract scene_beside(scene_extract what, int before);
 /* Words of scene files. */
 #define SCENE_STRESS_CHOICES    "von_mises|normal_max|normal_min"
@@ -619,12 +624,13 @@ scene_extract scene_beside(scene_extract what, int before);
 typedef struct scene_abscissa {
     char name[SCENE_NAME], unit[SCENE_UNIT];
     int is_quantity; /* 1: the abscissa is the curve of another quantity at the same stations, in
-                      * its unit; 0: it is */
-    double factor, offset; /* the path parameter, or the control coordinate, times factor plus
-                              offset */
+                        the unit of that quantity; 0: the abscissa is ... */
+    double factor,
+        offset; /* ... factor times the path parameter or control coordinate, plus offset */
 } scene_abscissa;
 
-/* Value of an analytic model with a model error: shown for information, without a verdict. */
+/* Value of an analytic model with a model error, which is shown for information without a
+ * verdict. */
 typedef struct scene_prediction {
     double value;       /* [unit of the quantity] */
     const char *source; /* NULL: no prediction */
@@ -642,28 +648,29 @@ typedef enum scene_envelope {
 typedef struct scene_quantity {
     char name[SCENE_NAME], unit[SCENE_UNIT];
     int analysis;
-    scene_acting acting; /* for a linear analysis that solves all load cases and combinations: one
-                          * of them, or ... */
+    scene_acting acting; /* load case or combination, for a linear analysis that solves all of them;
+                            otherwise ... */
     scene_envelope envelope;
     int overs;
-    int *over; /* [overs] combinations of the envelope. overs 0: all combinations, or all load cases
-                * if there are no combinations. For SCENE_ENVELOPE_OF: the quantities */
+    int *over; /* ... [overs] combinations of the envelope. overs 0: all combinations, or all load
+                  cases if there are no combinations. For SCENE_ENVELOPE_OF: the quantities */
     scene_extract what;
     scene_reduction reduction; /* statistic over the stations of a path */
-    scene_transform transform; /* of a curve */
+    scene_transform transform; /* transform of a curve */
     double at;                 /* path parameter or control coordinate, for SCENE_AT */
-    scene_passing passing;     /* of a motion */
+    scene_passing passing;     /* event of a motion */
     scene_abscissa x;          /* of a curve */
     double factor, offset;     /* reported value = factor * extracted value + offset */
     double near_zero;          /* scale for relative errors of values near zero; 0: |value| */
-    double tolerance;   /* of the limit, relative to the reference value: SCENE_TOLERANCE unless a
-                         * case states a reason for another value */
-    double least_order; /* lowest order of convergence in the number of elements */
+    double tolerance;   /* tolerance of the limit, relative to the reference value: SCENE_TOLERANCE
+                           unless a case states a reason for another value */
+    double least_order; /* lowest order of convergence with respect to the number of elements */
     scene_prediction prediction;
 } scene_quantity;
 
-/* Adds a quantity and returns it for completion; the result is never NULL. Defaults: value at the
- * last station, factor 1, tolerance SCENE_TOLERANCE, and 0 for all other members. */
+/* Adds a quantity and returns it for completion. The result is never NULL. The defaults are the
+ * value at the last station, the factor 1, the tolerance SCENE_TOLERANCE, and 0 for all other
+ * members. */
 scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, int analysis,
                                    scene_extract what);
 /* Makes the quantity a curve over the path parameter or the control coordinate, times factor plus
@@ -677,11 +684,11 @@ void scene_set_curve_over(scene_quantity *q, const char *quantity, const char *u
 int scene_abscissa_of(const scene *s, const scene_quantity *q);
 /* Sets the quantity to its value at one path parameter or control coordinate. */
 void scene_set_at(scene_quantity *q, double at);
-/* Sets the quantity to a statistic over the whole time of a motion: SCENE_MAX, SCENE_MIN, or
+/* Sets the quantity to a statistic over all times of a motion: SCENE_MAX, SCENE_MIN, or
  * SCENE_MAX_TIME to SCENE_RMS. */
 void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
-/* Finds the stations of a spectrum: *count of them from *first, including the last. REFUSED: the
- * stations are not evenly spaced. */
+/* Finds the stations of a spectrum: *count stations from *first on, including the last. Returns
+ * REFUSED if the stations are not evenly spaced. */
 status scene_spectrum_stations(const scene *, const scene_quantity *, int *first, int *count,
                                fault *);
 /* Returns 1 if the quantity is evaluated between the stations of a motion. */
@@ -703,28 +710,28 @@ const scene_stress *scene_stress_of(const scene_quantity *q);
 int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
 /* Returns 1 if the quantity needs reactions, resultants or stresses. */
 int scene_reads_forces(const scene_quantity *q);
-/* Returns 1 if the analysis is used by a quantity, by an imperfection, or by a used analysis that
- * follows it. Without quantities, all analyses are used. */
+/* Returns 1 if a quantity, an imperfection, or a used analysis that follows it uses the analysis.
+ * Without quantities, all analyses are used. */
 int scene_reads(const scene *s, int analysis);
 /* Removes all quantities whose names do not occur in the other scene. */
 void scene_keep_quantities(scene *s, const scene *of);
-/* Returns the unit of a response to a force or a moment; both arguments are SCENE_UX to
+/* Returns the unit of a response to a force or a moment. Both arguments are SCENE_UX to
  * SCENE_RZ. */
 const char *scene_compliance_unit(int row, int column);
 /* Returns 1 if the quantity can be extracted from an analysis of this kind. */
 int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
 
 /* A scene: a structure, its supports and prescribed motions, its analyses and the requested
- * quantities. It consists of data that could be in a file; no solver is called and no formulation
- * is used here.
+ * quantities. A scene consists of data that could be in a file. The functions of this header use no
+ * solver and no formulation.
  *
- * Every scene_* function that adds an entry returns its index in its list, or -1 if out of memory
- * (scene_valid reports this once, at the end). */
+ * Every scene_* function that adds an entry returns the index of the entry in its list, or -1 if
+ * out of memory (scene_valid reports this once, at the end). */
 
 /* Largest number of meshes in a scene or a command. */
 enum { SCENE_MESHES = 24 };
 
-/* Components of a node: three translations, three rotations (about global axes). */
+/* Components of a node: three translations and three rotations about global axes. */
 enum { SCENE_UX, SCENE_UY, SCENE_UZ, SCENE_RX, SCENE_RY, SCENE_RZ };
 
 /* Warping coordinate at an end of a member. Ends with the same value >= 0 share one coordinate. */
@@ -745,101 +752,102 @@ typedef enum scene_plane {
 typedef enum scene_rotation {
     SCENE_ROTATION_SPATIAL,  /* three increments about global axes, each free or fixed (all fixed:
                                 clamped) */
-    SCENE_ROTATION_SEQUENCE, /* R = exp(axis_1 t_1) exp(axis_2 t_2) exp(axis_3 t_3); each angle
+    SCENE_ROTATION_SEQUENCE, /* R = exp(axis_1 t_1) exp(axis_2 t_2) exp(axis_3 t_3); each angle is
                                 free, fixed or prescribed */
     SCENE_ROTATION_VECTOR,   /* rotation vector prescribed by three drivers */
-    SCENE_ROTATION_FORK      /* no rotation about the axis of the section, the other two rotations
-                              * free: see scene_fork */
+    SCENE_ROTATION_FORK /* no rotation about the axis of the cross-section, the other two rotations
+                           free: see scene_fork */
 } scene_rotation;
 
 /* A rigid body that moves with a node. */
 typedef struct scene_body {
     double mass;       /* [kg] */
-    double centre[3];  /* centre of mass relative to the node, undeformed [m] */
-    double inertia[6]; /* tensor of the undeformed body about its centre, for axes through it along
-                          x, y, z: Ixx, Iyy, Izz = int (y^2 + z^2) dm ..., and Ixy, Iyz, Izx = -int
-                          x y dm ... [kg m^2] */
+    double centre[3];  /* centre of mass relative to the node in the undeformed state [m] */
+    double inertia[6]; /* inertia tensor of the undeformed body about its centre of mass, for axes
+                          along x, y, z: Ixx, Iyy, Izz = int (y^2 + z^2) dm ..., and Ixy, Iyz, Izx =
+                          -int x y dm ... [kg m^2] */
 } scene_body;
 
 typedef struct scene_node {
     double position[3]; /* [m] */
-    int attached; /* node to which this node is rigidly attached (a node and the nodes attached to
-                   * it form a rigid body), or SCENE_NONE */
-    int translation[3]; /* SCENE_FREE, SCENE_HELD or a driver */
+    int attached; /* node to which this node is rigidly attached, or SCENE_NONE; a node and the
+                     nodes attached to it form a rigid body */
+    int translation[3]; /* motion: SCENE_FREE, SCENE_HELD or a driver */
     scene_rotation rotation;
-    int angle[3]; /* SCENE_FREE, SCENE_HELD or a driver: for the spatial components, the angles or
-                     the vector */
-    double axis[3][3]; /* axes of the sequence; a zero axis ends it. For a fork: the axis of the
-                        * section and the direction of the web */
+    int angle[3];      /* motion of the spatial components, the angles or the vector: SCENE_FREE,
+                          SCENE_HELD or a driver */
+    double axis[3][3]; /* rotation axes of the sequence, which ends at a zero axis; for a fork, the
+                          axis of the cross-section and the direction of the web */
     double axes[2]
                [3]; /* x and y axes of the translations, of any length; zero: axes of the scene */
     scene_body body;
     char name[SCENE_NAME]; /* "": no name, as for every entry */
 } scene_node;
 
-/* Released components of a member end, which the end does not transmit to its node, in the axes of
- * the member at this end (y as in scene_member): rotations, in order, and translations. With r and
- * R of the node, the end is at r + R_end s, where R_end = R exp(a_1 t_1) exp(a_2 t_2). Of two
- * rotations, the first axis belongs to the node and the second to the member (a universal joint);
- * translations are along the rotated end. Three rotations are a ball joint. */
+/* Released components of a member end: rotations, in order, and translations that the end does not
+ * transmit to its node. They are in the axes of the member at this end (y as in scene_member). With
+ * r and R of the node, the end is at r + R_end s, where R_end = R exp(a_1 t_1) exp(a_2 t_2). Of two
+ * rotations, the first axis belongs to the node and the second to the member (a universal joint).
+ * Translations are along the rotated end. Three rotations are a ball joint. */
 enum { SCENE_RELEASED = 5 };
 typedef struct scene_release {
-    int count;                     /* 0: joined */
-    int component[SCENE_RELEASED]; /* SCENE_UX .. SCENE_RZ, each once */
+    int count;                     /* number of released components; 0: rigidly joined */
+    int component[SCENE_RELEASED]; /* SCENE_UX .. SCENE_RZ, each at most once */
 } scene_release;
 
-/* Struct members that are also keys of scene files are in keys_member.h, with one line for both. */
+/* Members of the struct that are also keys of scene files are in keys_member.h, which defines both
+ * in one line. */
 #define KEY(type, name, dimensions, ...) type name dimensions;
 #define ROW(...)
 typedef struct scene_member {
 #include "cases/scene/keys_member.h"
-    int section, section_q; /* at p and at q; the section constants change linearly in between
-                               (elements/section/section.h), and each element has the section at its
-                               middle */
-    int warp_p, warp_q;     /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
-    double bow[2];  /* amplitude of the initial shape relative to the straight line, along y and z
-                       [m], stress-free: bow sin(half_waves pi s/length) */
+    int section, section_q; /* sections at p and at q. The section constants change linearly between
+                               them (elements/section/section.h), and each element has the section
+                               at its middle */
+    int warp_p, warp_q; /* SCENE_WARP_FREE, SCENE_WARP_FIXED or the number of a shared coordinate */
+    double bow[2];  /* amplitudes of the stress-free initial shape bow sin(half_waves pi s/length)
+                       along y and z, relative to the straight line [m] */
     int half_waves; /* >= 1 */
     scene_release release[2]; /* at p, q */
-    double offset[2][3];  /* from the nodes p, q to the ends of the member, which move rigidly with
-                             them; undeformed, in global axes [m] */
-    double foundation[6]; /* springs to the ground along the member. They act on the displacements
-                           * and rotations of its sections from the undeformed state, along its
-                           initial axes (y as above), which do not rotate [N/m^2, N] */
+    double offset[2][3];      /* vectors from the nodes p, q to the ends of the member, which move
+                                 rigidly with the nodes; undeformed, in global axes [m] */
+    double foundation[6];     /* springs to the ground along the member [N/m^2, N]. They act on the
+                                 displacements and rotations of the cross-sections from the undeformed
+                                 state, along the initial axes of the member, which do not rotate */
     char name[SCENE_NAME];
 } scene_member;
 
-/* A force as a function of a displacement, or a moment as a function of a rotation. It is linear
- * between points and extrapolated linearly beyond both ends. */
+/* A force as a function of a displacement, or a moment as a function of a rotation. The function is
+ * linear between points and extrapolated linearly beyond both ends. */
 typedef struct scene_table {
     scene_path at,
-        value; /* ascending [m, rad], not decreasing, zero at zero [N, N m]; none: no table */
+        value; /* displacements or rotations in ascending order [m, rad]; forces or moments that do
+                  not decrease and are zero at zero [N, N m]. No points: no table */
 } scene_table;
 
-/* Spring between two nodes, or a node and the ground: energy 1/2 d^T K d. d contains the six
- * components of the motion of the frame of q relative to p from the undeformed state, in axes that
- * rotate with p and were initially the global ones: the change of distance [m], and the rotation
- * vector [rad], of less than 3 rad. */
+/* Spring between two nodes, or between a node and the ground, with the energy 1/2 d^T K d. d is the
+ * motion of the frame of q relative to p from the undeformed state. Its six components are the
+ * change of distance [m] and the rotation vector [rad], of less than 3 rad. The axes of d rotate
+ * with p and were initially the global axes. */
 typedef struct scene_spring {
-    int p, q;             /* p: SCENE_NONE: the ground */
-    double stiffness[36]; /* K, row-major [N/m, N, N m]; if not symmetric: forces K d without a
-                             potential */
-    double asymmetry;     /* asymmetry of the given K relative to its diagonal, if it is only
-                           * rounding and the symmetric part is used; otherwise 0 */
-    double damping[36];   /* in motions, adds forces damping x rates of d [N s/m, N s, N m s] */
+    int p, q;             /* nodes; SCENE_NONE for p: the ground */
+    double stiffness[36]; /* K, row-major [N/m, N, N m]. If K is not symmetric, the forces K d have
+                             no potential */
+    double asymmetry;   /* asymmetry of the given K relative to its diagonal, if it is only rounding
+                           and the symmetric part is used; otherwise 0 */
+    double damping[36]; /* damping matrix of forces on the rates of d, used in motions [N s/m, N s,
+                           N m s] */
     scene_table table[6]; /* tables of the components of d, in addition to K */
     char name[SCENE_NAME];
 } scene_spring;
 
-/* Equal components of nodes, or components in a fixed ratio: those of each node after the first are
- * `ratio` times those of the first, along the axes of the nodes. */
+/* Equal components of nodes, or components in a fixed ratio. The components of each node after the
+ * first are `ratio` times those of the first, along the axes of the nodes. */
 typedef struct scene_constraint {
     int nodes, *node;    /* [nodes] */
     unsigned components; /* bits 1 << SCENE_UX .. SCENE_RZ */
     double ratio;
-    int master, normal; /* for a diaphragm, which is rigid in its plane: the node that the others
-                         * follow, and the axis normal to the plane (0, 1 or 2); otherwise
-                         * SCENE_NONE */
+    int master, normal; /* diaphragm (rigid in its plane): leading node, normal axis 0 .. 2 */
     char name[SCENE_NAME];
 } scene_constraint;
 
@@ -847,54 +855,55 @@ typedef struct scene_constraint {
  * structure, or shifts of nodes, between which members retain their shape. */
 typedef struct scene_imperfection {
     int analysis, order; /* buckling or modal, and its mode from 0; SCENE_NONE: shifts */
-    double amplitude;    /* of a mode: largest displacement of a point of a member [m] */
-    double direction[3]; /* direction of that displacement; zero: positive along an axis */
+    double amplitude;    /* for a mode: largest displacement of a point of a member [m] */
+    double direction[3]; /* direction of the largest displacement; zero: positive along an axis */
     int nodes, *node;    /* [nodes] */
     double (*shift)[3];  /* [nodes] [m] */
-    double factor;       /* of the shifts */
+    double factor;       /* factor of the shifts */
     char name[SCENE_NAME];
 } scene_imperfection;
 
-/* A scalar that prescribes coordinates; piecewise linear in the path parameter between its
+/* A scalar that prescribes coordinates. It is piecewise linear in the path parameter between its
  * stations. */
 typedef struct scene_driver {
     char name[SCENE_NAME];
     int stations;
     double *path,
-        *value; /* [stations]; value in m or rad; NULL: unknown, determined by the condition */
-    scene_function function; /* function of time instead of the stations; no pieces: none */
+        *value; /* values at the stations [m or rad]; NULL: unknown, determined by the condition */
+    scene_function function; /* function of time in place of the stations; no pieces: none */
     int condition_node,
-        condition_component; /* for an unknown driver: this coordinate is prescribed instead, with
-                              * ... */
-    int condition_driver;    /* ... the value of this driver; SCENE_NONE for a known driver */
-    int load_case;           /* SCENE_NONE: the driver moves in all load cases */
+        condition_component; /* for an unknown driver: this coordinate is prescribed ... */
+    int condition_driver; /* ... and has the value of this driver; SCENE_NONE for a known driver */
+    int load_case; /* load case of the driver; SCENE_NONE: the driver moves in all load cases */
 } scene_driver;
 
 /* Returns 1 if the driver prescribes rotations. */
 int scene_driver_turns(const scene *, int driver);
 
 typedef enum scene_load_kind {
-    SCENE_FORCE,              /* [N] at a node */
-    SCENE_MOMENT,             /* [N m] at a node */
-    SCENE_DISTRIBUTED,        /* [N/m] along a member, per initial length */
-    SCENE_DISTRIBUTED_MOMENT, /* [N m/m] along a member */
-    SCENE_GRAVITY,            /* [m/s^2] on the mass of a member */
-    SCENE_WEIGHT,             /* [m/s^2] on the mass of the body of a node, at its centre of mass */
-    SCENE_MEMBER_FORCE,       /* [N] at a position inside a member */
-    SCENE_MEMBER_MOMENT,      /* [N m] at a position inside a member */
-    SCENE_TEMPERATURE         /* [K] change for a member, which expands */
+    SCENE_FORCE,              /* force at a node [N] */
+    SCENE_MOMENT,             /* moment at a node [N m] */
+    SCENE_DISTRIBUTED,        /* force per initial length along a member [N/m] */
+    SCENE_DISTRIBUTED_MOMENT, /* moment per initial length along a member [N m/m] */
+    SCENE_GRAVITY,            /* acceleration of the mass of a member [m/s^2] */
+    SCENE_WEIGHT, /* acceleration of the mass of the body of a node, at its centre of mass [m/s^2]
+                   */
+    SCENE_MEMBER_FORCE,  /* force at a position inside a member [N] */
+    SCENE_MEMBER_MOMENT, /* moment at a position inside a member [N m] */
+    SCENE_TEMPERATURE    /* temperature change of a member, which expands [K] */
 } scene_load_kind;
 
 /* Axes of a load: global axes, or those of the undeformed member (y as in scene_member). */
 typedef enum scene_load_axes { SCENE_AXES_FIXED, SCENE_AXES_MEMBER } scene_load_axes;
 
-/* The factor of a load at a node in a motion: proportional e + derivative e' + integral (int e dt),
- * limited to the magnitude `limit`. The error e is the load's function of time (the reference
- * value, or 0 without a function) minus the measured component of a node. */
+/* Feedback of a load at a node in a motion. The factor of the load is proportional e + derivative
+ * e' + integral (int e dt), limited to the magnitude `limit`. The error e is the reference minus
+ * the measured component of a node. The reference is the function of time of the load, or 0 if the
+ * load has none. */
 typedef struct scene_feedback {
-    int node, component; /* SCENE_NONE: no feedback */
-    int from;            /* the same component of this node is subtracted; SCENE_NONE: none */
-    double proportional, derivative, integral; /* per m or rad, times s, by s */
+    int node, component; /* measured component; SCENE_NONE: no feedback */
+    int from;            /* node whose component is subtracted; SCENE_NONE: none */
+    double proportional, derivative, integral; /* [1/m, s/m, 1/(m s)], or rad for m */
     double limit;                              /* 0: none */
 } scene_feedback;
 
@@ -904,22 +913,23 @@ typedef struct scene_load {
 #include "cases/scene/keys_load.h"
     scene_load_kind kind;
     int where;        /* node or member (see scene_load_along) */
-    double vector[3]; /* in `axes` of the undeformed structure; if the load varies, the value at
-                         range[0] */
-    double last[3];   /* if the load varies, the value at range[1]; linear in between */
-    int varies;       /* 0: constant over the range */
-    double range[2];  /* range on a member, relative to its initial length from p. For a distributed
-                         load: 0 and 1 are the whole member, as for gravity. For a force or a moment
-                         inside a member: both are its position. 0 and 0 for loads at nodes */
-    int stations;     /* 0: proportional to the path parameter (factor = path) */
+    double vector[3]; /* vector in `axes` of the undeformed structure; if the load varies, the value
+                         at range[0] */
+    double last[3];   /* value at range[1] if the load varies linearly */
+    int varies;       /* 0: the load is constant over the range */
+    double range[2];  /* range on a member, as a fraction of the initial length from p. For a
+                         distributed load, 0 and 1 are the whole member, as for gravity. For a force
+                         or a moment inside a member, both are its position. For loads at nodes, both
+                         are 0 */
+    int stations;     /* number of stations; 0: the factor equals the path parameter */
     double *path, *factor;
-    scene_function function; /* factor as a function of time instead of the stations; no pieces:
-                              * none */
+    scene_function
+        function; /* factor as a function of time, in place of the stations; no pieces: none */
     scene_feedback feedback;
     char name[SCENE_NAME];
 } scene_load;
 
-/* A load case; loads refer to it by its name. */
+/* A load case, to which loads refer by its name. */
 typedef struct scene_load_case {
     char name[SCENE_NAME];
 } scene_load_case;
@@ -954,7 +964,7 @@ enum {
 typedef enum scene_shear {
     SCENE_SHEAR_HARINGX,
     SCENE_SHEAR_ENGESSER,
-    SCENE_SHEAR_OWN /* each formulation uses its own */
+    SCENE_SHEAR_OWN /* each formulation uses its own theory */
 } scene_shear;
 /* Shear theories in stability on which a reference value can depend. */
 #define SCENE_SHEAR_THEORIES "engesser|haringx"
@@ -982,17 +992,17 @@ struct scene {
     scene_imperfection *imperfection;
     scene_analysis *analysis;
     scene_quantity *quantity;
-    scene_plane plane; /* plane to which everything is restricted; SCENE_SPACE: none */
-    unsigned omits;    /* bits of SCENE_OMITTABLE that the scene omits: set by scene_omit */
-    unsigned demands;  /* FEATURE_* bits required in addition to those that its data require: set by
+    scene_plane plane; /* plane to which the scene is restricted; SCENE_SPACE: no restriction */
+    unsigned omits;    /* bits of SCENE_OMITTABLE that the scene omits, set by scene_omit */
+    unsigned demands;  /* FEATURE_* bits required in addition to those that the data require, set by
                           scene_demand */
     scene_shear shear_theory;
     int lumped; /* 1: the mass of members is lumped at nodes, except in motions that specify their
-                 * mass */
+                   mass */
     int meshes; /* default -n values of verify and converge */
     int mesh[SCENE_MESHES];
     int out_of_memory;
-    /* Target of returned pointers after memory has run out, so that a case can write without
+    /* Target of returned pointers if memory has run out, so that a case can write without
      * checks. */
     union {
         scene_node node;
@@ -1010,18 +1020,19 @@ int scene_add_node(scene *s, double x, double y, double z);
 int scene_add_attached(scene *s, int body, double x, double y,
                        double z); /* absolute undeformed position */
 int scene_add_member(scene *s, int p, int q, int profile,
-                     const double y_axis[3]); /* profile: section at both ends */
+                     const double y_axis[3]); /* profile is the section at both ends */
 /* Computes the stress-free elongation of a member of this length [m] from its pretension or its
- * unstressed length. REFUSED: the section does not determine an elongation for the pretension. */
+ * unstressed length. Returns REFUSED if the section does not determine an elongation for the
+ * pretension. */
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f);
 /* Returns 1 if the scene has a temperature load or a member with a stress-free elongation or
- * curvature. *who: name of the load or member; may be NULL. */
+ * curvature. *who is the name of the load or member; `who` may be NULL. */
 int scene_is_free(const scene *s, scene_words *who);
 /* Return 1 if the member is tapered, or if any member of the scene is tapered. */
 int scene_member_tapers(const scene_member *m);
 int scene_tapers(const scene *s);
-/* Computes the position of an end of a member (0 at p, 1 at q), and the vector from its start to
- * its end. */
+/* Compute the position of an end of a member (0 at p, 1 at q), and the vector from its start to its
+ * end. */
 void scene_end(const scene *s, int member, int end, double at[3]);
 void scene_chord(const scene *s, int member, double chord[3]);
 /* Returns 1 if this end of the member is offset from its node. */
@@ -1030,16 +1041,17 @@ int scene_is_founded(const scene_member *m);
 /* Sets the table of one component. */
 void scene_set_table(scene *s, int spring, int component, int points, const double at[],
                      const double value[]);
-/* Returns the value of a table at x and sets *slope to its slope there. At a point of the table,
- * the slope is that of the next segment. */
+/* Returns the value of a table at x and sets *slope to the slope at x. At a point of the table, the
+ * slope is that of the next segment. */
 double scene_table_at(const scene_table *, double x, double *slope);
 /* Returns the integral of the table from `from` to `to`. */
 double scene_table_work(const scene_table *, double from, double to);
-/* Releases this component at an end of a member (0 at p, 1 at q), in addition to earlier ones;
- * scene_validate rejects more than SCENE_RELEASED. */
+/* Releases this component at an end of a member (0 at p, 1 at q), in addition to components
+ * released before. scene_validate rejects more than SCENE_RELEASED. */
 void scene_release_end(scene *s, int member, int end, int component);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
-/* Adds a constraint without nodes. All nodes that are added to it follow the first one. */
+/* Adds a constraint without nodes. All nodes that are added to the constraint follow the first
+ * one. */
 int scene_add_constraint(scene *s, unsigned components, double ratio);
 void scene_constrain(scene *s, int constraint, int node);
 /* Adds a diaphragm, to which scene_constrain adds nodes. From then on, these nodes rotate by a
@@ -1049,18 +1061,19 @@ int scene_add_diaphragm(scene *s, int master, int normal);
 /* Adds an imperfection without a mode or shifts. */
 int scene_add_imperfection(scene *s);
 void scene_shift_node(scene *s, int imperfection, int node, const double shift[3]);
-/* Returns 1 if the analysis uses the perfect structure: it computes a mode used as an imperfection,
- * the state about which such a mode is computed, or another result about the same state. */
+/* Returns 1 if the analysis uses the perfect structure. Such an analysis computes a mode that is
+ * used as an imperfection, the state about which such a mode is computed, or another result about
+ * the same state. */
 int scene_is_perfect(const scene *s, int analysis);
 
 /* Relation of a coordinate of a node (0 .. 5 as in translation and angle), which is `ratio` times
  * another coordinate. */
 typedef struct scene_tie {
     int node, coordinate; /* the other coordinate, or the coordinate itself if others follow it;
-                           * SCENE_NONE: no relation */
+                             SCENE_NONE: no relation */
     double ratio;
 } scene_tie;
-/* Fills tie[6 nodes]. REFUSED: constraints contradict each other or the supports. */
+/* Fills tie[6 nodes]. Returns REFUSED if constraints contradict each other or the supports. */
 status scene_ties(const scene *, scene_tie tie[], fault *);
 /* Adds a dashpot to the spring. */
 void scene_damp_spring(scene *s, int spring, const double damping[36]);
@@ -1072,27 +1085,26 @@ int scene_add_driver(scene *s, const char *name, int stations, const double path
                      const double value[]);
 /* Adds a driver given by a function of time, whose pieces are added later. */
 int scene_add_moving_driver(scene *s, const char *name);
-/* Append a piece to the function of a driver, or of the factor of a load. until [s]: ignored for
- * the last piece. */
+/* Append a piece to the function of a driver, or of the factor of a load. `until` [s] is ignored
+ * for the last piece. */
 void scene_drive_piece(scene *s, int driver, double until, const char *text);
 void scene_load_piece(scene *s, int load, double until, const char *text);
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component,
                              int condition_driver);
-/* Returns a dead load; a distributed load acts along the whole member. */
+/* Returns a dead load. A distributed load acts along the whole member. */
 scene_load scene_load_of(scene_load_kind kind, int where, double x, double y, double z);
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);
-/* Adds a force or a moment inside a member at position 0 (p) .. 1 (q) of the initial length. */
+/* Adds a force or a moment inside a member at the position 0 (p) to 1 (q) of the initial length. */
 int scene_add_load_within(scene *s, scene_load_kind kind, int member, double place, double x,
                           double y, double z);
-/* Returns a load for completion; never NULL. */
+/* Returns a load for completion. The result is never NULL. */
 scene_load *scene_load_at(scene *s, int index);
-/* Returns 1 if the load acts on a member: along it, or at a position inside it. */
+/* Returns 1 if the load acts on a member, either along it or at a position inside it. */
 int scene_load_along(const scene_load *load);
 /* Returns 1 if the load acts at a position inside a member. */
 int scene_load_within(const scene_load *load);
 /* Returns 1 if the vector of the load is a moment. */
 int scene_load_turns(const scene_load *load);
-/* Returns "a temperature" or "an elongation". */
 const char *scene_heat_word(const scene_load *load);
 int scene_has_feedback(const scene *s);
 /* Returns 1 if the load closes a loop in a harmonic analysis or in damped modes. */
@@ -1113,53 +1125,55 @@ void scene_add_term(scene *s, int combination, int load_case, double factor);
 int scene_acting_of(const scene *s, int analysis);
 /* Returns 1 for a linear analysis that solves every load case and combination. */
 int scene_solves_all(const scene *s, int analysis);
-/* Returns the number of the i-th load case or combination that a quantity uses, i from 0. Returns 0
- * if there are no more, or if all loads act. */
+/* Returns the number of the i-th load case or combination that a quantity uses, with i from 0.
+ * Returns 0 if there are no more, or if all loads act. */
 int scene_acting_in(const scene *s, const scene_quantity *q, int i);
-/* Returns the factor of the entries of a load case when the load case or combination of this number
- * acts. */
+/* Returns the factor of the entries of a load case while the load case or combination of this
+ * number acts. */
 double scene_acting_factor(const scene *s, int number, int load_case);
-/* Returns "combination ULS" or "case dead"; "" for 0. */
+/* Returns text such as "combination ULS" or "case dead", or "" for 0. */
 scene_words scene_acting_called(const scene *s, int number);
-/* Return an entry of a list for completion; never NULL. */
+/* Return an entry of a list for completion. The result is never NULL. */
 scene_node *scene_node_at(scene *s, int index);
 scene_member *scene_member_at(scene *s, int index);
 void scene_hold(scene *s, int node, int first,
-                int last); /* components SCENE_UX .. SCENE_RZ, inclusive */
+                int last); /* from first to last, SCENE_UX .. SCENE_RZ, inclusive */
 void scene_hold_all(scene *s, int node);
 void scene_drive(scene *s, int node, int component,
-                 int driver); /* a translation, or a spatial rotation component */
-/* Computes the unit vectors along the support axes of the node, in columns. Returns 0 if these are
- * the axes of the scene. */
+                 int driver); /* component: a translation or a spatial rotation component */
+/* Computes the unit vectors along the support axes of the node, in columns. Returns 0 if the
+ * support axes are those of the scene. */
 int scene_node_axes(const scene_node *n, double R[9]);
-/* Returns the coordinate of a component. For a rotation sequence, this is the angle about the
- * corresponding axis, if there is one. */
+/* Returns the coordinate of a component. For a rotation sequence, the coordinate is the angle about
+ * the corresponding axis, if there is one. */
 int scene_node_coordinate(const scene_node *n, int component);
 /* Adds a fork support, which has guides on both sides of the web with the fixed normal n = web x
- * axis. For any bending, the web remains between the guides, R web . n = 0, so that R = exp(n t_1)
- * exp(web t_2). For bending in the plane of axis and web, the section does not rotate about its
- * present axis, R axis, and the moment of the fork is along this axis. (The moment of a fixed
- * SCENE_RX is along the fixed x axis.) axis, web: directions in the undeformed section,
- * perpendicular and of any length. Translations are fixed separately. */
+ * axis. For any bending, the web remains between the guides: R web . n = 0, so R = exp(n t_1)
+ * exp(web t_2). For bending in the plane of axis and web, the cross-section does not rotate about
+ * its present axis R axis, and the moment of the fork is along this axis. (The moment of a fixed
+ * SCENE_RX is along the fixed x axis.) `axis` and `web` are perpendicular directions of any length
+ * in the undeformed cross-section. Translations are fixed separately. */
 void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
-/* Adds a rigid body to the node. Its centre may be offset from the node. */
+/* Adds a rigid body to the node. The centre of mass may be offset from the node. */
 void scene_set_body(scene *s, int node, scene_body body);
 /* Returns 1 if the node has a mass or an inertia. */
 int scene_has_body(const scene_node *n);
 /* Returns 1 if any part of the scene has a mass. */
 int scene_has_mass(const scene *s);
-/* Finds rotations of a node that all its members release and that nothing else resists. They are
- * undefined and therefore fixed. Returns 0 if there are none, or SCENE_IDLE_AXIS for the rotation
- * about `axis`, which rotates with the node, or SCENE_IDLE_ALL for all rotations. */
+/* Finds rotations of a node that all members at the node release and that no other entry resists.
+ * Such rotations are undefined and therefore fixed. Returns 0 if there are none, SCENE_IDLE_AXIS
+ * for the rotation about `axis`, which rotates with the node, or SCENE_IDLE_ALL for all
+ * rotations. */
 enum { SCENE_IDLE_AXIS = 1, SCENE_IDLE_ALL };
 int scene_idle_turn(const scene *s, int node, double axis[3]);
-/* Returns the convention of moments on which a quantity depends, or NULL if there is none. */
+/* Returns the convention of moments on which a quantity depends, or NULL if the quantity does not
+ * depend on it. */
 const char *scene_convention(const scene *s, const scene_quantity *q);
 /* Returns the normal of the plane to which the scene is restricted, 0 to 2, or SCENE_NONE. */
 int scene_normal(const scene *s);
-/* Returns "xy", for example; "" without a plane. */
+/* Returns the name of the plane, such as "xy", or "" if there is no plane. */
 const char *scene_plane_name(const scene *s);
-/* Omits physics (bits of SCENE_OMITTABLE). By default a scene has all physics that its sections,
+/* Omits physics (bits of SCENE_OMITTABLE). By default, a scene has all physics that its sections,
  * loads and analyses require. */
 void scene_omit(scene *s, unsigned features);
 /* Requires FEATURE_* bits that a formulation must support in addition to those that the data
@@ -1169,27 +1183,24 @@ void scene_meshes(scene *s, int count, const int mesh[]);
 /* Sets meshes of `first`, 2 `first`, 4 `first`, ... elements, up to `last`. */
 void scene_meshes_doubled(scene *s, int first, int last);
 
-/* Computes the constants of section i, which are cached until its description changes. Not
- * thread-safe. */
+/* Computes the constants of section i, which are cached until the description of the section
+ * changes. Not thread-safe. */
 status scene_constants(const scene *s, int i, section *out, fault *f);
 
 /* Makes the ends of pieces of functions of time equal if they differ only by rounding, and equal to
- * the end of a motion that differs only by rounding. Otherwise, a motion would make a step between
- * them, the rates of which are rounding errors. */
+ * the end of a motion if they differ from it only by rounding. Otherwise a motion would make a step
+ * between such times, and the rates of that step would be rounding errors. */
 void scene_join_instants(scene *s);
-/* Checks the scene. REFUSED, with the cause: for example, indices out of range, members of zero
- * length, contradictory supports, unused drivers, or names of curves or entries that are not
- * unique. */
+/* Checks the scene. Returns REFUSED with the cause, for example indices out of range, members of
+ * zero length, contradictory supports, unused drivers, or names that are not unique. */
 status scene_validate(const scene *s, fault *f);
 
-/* Values along the path of a static analysis: linear between stations, constant before the first
- * and after the last. */
-
-/* Returns the factor of the load at a path parameter. Without stations, it is the parameter
- * itself. */
+/* Returns the factor of the load at a path parameter. The factor is linear between stations, and
+ * constant before the first and after the last station. Without stations, the factor is the path
+ * parameter. */
 double along_path_factor(const scene_load *, double path);
-/* Returns the derivative of the factor with respect to the path parameter. At a station, it is that
- * of the following interval. */
+/* Returns the derivative of the factor with respect to the path parameter. At a station, the
+ * derivative is that of the following interval. */
 double along_path_rate(const scene_load *, double path);
 /* Returns the value of a known driver [m or rad]. */
 double along_path_value(const scene_driver *, double path);
@@ -1199,25 +1210,25 @@ typedef struct along_path_words {
     char text[256];
 } along_path_words;
 along_path_words along_path_end(const scene *, int acting);
-/* REFUSED: a value is not proportional to the path parameter from 0 to 1. */
+/* Returns REFUSED if a value is not proportional to the path parameter from 0 to 1. */
 status along_path_proportional(const scene *, int acting, fault *);
 
 /* Changes of a scene that must not change its results, used for checks without reference values. */
 
 typedef enum scene_edit_kind {
     SCENE_EDIT_NONE,
-    SCENE_EDIT_REVERSE, /* every member is reversed, from q to p */
-    SCENE_EDIT_SPLIT,   /* the first member is split in two at fraction `amount` of its length */
-    SCENE_EDIT_UNIT     /* all lengths are expressed in another unit, with `amount` units in 1 m;
-                         * quantities are still reported in metres */
+    SCENE_EDIT_REVERSE, /* every member is reversed and runs from q to p */
+    SCENE_EDIT_SPLIT, /* the first member is split in two at the fraction `amount` of its length */
+    SCENE_EDIT_UNIT   /* all lengths are expressed in another unit, with `amount` units in 1 m;
+                         quantities are still reported in metres */
 } scene_edit_kind;
 
 typedef struct scene_edit {
     scene_edit_kind kind;
-    double amount; /* fraction of the length, 0 .. 1; or units in 1 m */
+    double amount; /* fraction of the length, 0 .. 1; or number of units in 1 m */
 } scene_edit;
 
-/* REFUSED: the change is not possible for a member. */
+/* Changes the scene. Returns REFUSED if the change is not possible for a member. */
 status scene_edit_apply(scene *s, const scene_edit *edit, fault *f);
 
 /* Names of entries of a scene, which are given by the user or made from the index. */
@@ -1241,49 +1252,51 @@ enum { SCENE_LISTS = SCENE_IMPERFECTIONS + 1 };
 /* Return the number of entries of a list, and the singular of its name, such as "node". */
 int scene_count(const scene *s, scene_list list);
 const char *scene_list_word(scene_list list);
-/* Sets the name of an entry. Truncates a longer name; does nothing if there is no such entry. */
+/* Sets the name of an entry. A name that is too long is truncated. Nothing happens if there is no
+ * such entry. */
 void scene_set_name(scene *s, scene_list list, int index, const char *name);
-/* Returns the name given to the entry, or "" if it has no name or does not exist. */
+/* Returns the name given to the entry, or "" if the entry has no name or does not exist. */
 const char *scene_own_name(const scene *s, scene_list list, int index);
 /* Returns a name such as "node_3" that is unique in the list. */
 scene_words scene_numbered(const scene *s, scene_list list, int index);
-/* Returns the name given to the entry or, if it has none, the result of scene_numbered. */
+/* Returns the name given to the entry or, if there is none, the result of scene_numbered. */
 scene_words scene_name(const scene *s, scene_list list, int index);
-/* Returns "node tip" for messages, or "node 3" for an entry without a name. */
+/* Returns text for messages, such as "node tip", or "node 3" for an entry without a name. */
 scene_words scene_called(const scene *s, scene_list list, int index);
 
-/* Tables of the keys of entries of a scene: a row for each key, with its name in files, the
- * position of its value, its unit and range. The rows are used to read, check, describe and write
- * files, to change units, to reverse members, and to compare scenes. */
+/* Tables of the keys of entries of a scene. The row of a key contains its name in files, the
+ * position of its value, its unit and its range. The rows are used to read, check, describe and
+ * write files, to change units, to reverse members, and to compare scenes. */
 
 typedef enum entry_kind {
     ENTRY_TEXT,   /* any text */
-    ENTRY_NAME,   /* name of another entry: int (its index or SCENE_NONE) */
+    ENTRY_NAME,   /* name of another entry: int, its index or SCENE_NONE */
     ENTRY_WORD,   /* one of `words`, or a parameter with such choices: int; double: unchanged if the
                      key is missing */
-    ENTRY_FLAG,   /* one of `words`, where odd indices mean 1: int */
-    ENTRY_WORDS,  /* one or several of `words`: unsigned, one bit each */
+    ENTRY_FLAG,   /* one of `words`, of which odd indices mean 1: int */
+    ENTRY_WORDS,  /* one or several of `words`: unsigned, with one bit for each word */
     ENTRY_NUMBER, /* an expression: double */
     ENTRY_WHOLE,  /* an integer: int */
     ENTRY_VECTOR, /* a list of `count` expressions: double[] */
-    ENTRY_DIRECTION, /* a direction: rotates with the instance of a part */
-    ENTRY_POSITION,  /* a position: moves with the instance of a part */
+    ENTRY_DIRECTION, /* a direction, which rotates with the instance of a part */
+    ENTRY_POSITION,  /* a position, which moves with the instance of a part */
     ENTRY_NUMBERS,   /* a list of any length, or a range: scene_path */
-    ENTRY_FORMS,     /* several forms, described in the summary */
+    ENTRY_FORMS,     /* several forms, which the summary describes */
     ENTRY_MAP,       /* a map with the keys `below`, whose values are in the same struct */
-    ENTRY_ENTRIES,   /* entries with names, each a map of this kind */
-    ENTRY_LIST,      /* a list of such maps */
-    ENTRY_NAMES,     /* user-defined names, each with one value as described by `below` (its
-                        first key) */
-    ENTRY_LATER      /* rejected; summary: its replacement; NULL: not implemented yet */
+    ENTRY_ENTRIES,   /* entries with names; the value of each is a map with the keys `below` */
+    ENTRY_LIST,      /* a list of maps with the keys `below` */
+    ENTRY_NAMES, /* user-defined names, each with one value that the first key of `below` describes
+                  */
+    ENTRY_LATER  /* rejected; the summary is the replacement, or NULL if the key is not implemented
+                  */
 } entry_kind;
 
-/* How the components in a word change when the axes are rotated. */
+/* How the components in a word change if the axes are rotated. */
 typedef enum entry_turns {
     ENTRY_STAYS,
-    ENTRY_COMPONENT, /* like a displacement or a rotation along the axes */
-    ENTRY_AXIS,      /* like a direction */
-    ENTRY_DIAGONAL   /* like a component, but without a change of sign */
+    ENTRY_COMPONENT, /* in the same way as a displacement or a rotation along the axes */
+    ENTRY_AXIS,      /* in the same way as a direction */
+    ENTRY_DIAGONAL   /* in the same way as a component, but without a change of sign */
 } entry_turns;
 
 /* Largest number of an eigenvalue, a critical point or a crossing. */
@@ -1302,26 +1315,27 @@ typedef struct entry_field {
     /* For a number, the powers of length and force in its unit determine its scaling. For other
      * kinds, the unit is only information. */
     const char *unit, *summary;
-    /* Default of every optional key: the value as written in a file, or a description. */
+    /* Default of an optional key: the value as written in a file, or a description. */
     const char *usual, *left_out;
-    /* Position of the value in the struct of the entry: ENTRY_IN. size 0: none; special
-     * functions read and write the value. For a map: position of the int that selects the member
-     * of a group. */
+    /* Position of the value in the struct of the entry (ENTRY_IN). If the size is 0, special
+     * functions read and write the value. For a map, position of the int that selects the member of
+     * a group. */
     size_t at, size;
-    int first, falls;   /* value of the first word, or of the map. The value decreases by 1 for each
-                         * following word */
-    double otherwise;   /* numeric default if `usual` does not state it; NAN: none */
+    int first, falls;   /* value of the first word, or of the map; the value decreases by 1 for each
+                           following word */
+    double otherwise;   /* numeric default if `usual` does not state it; NAN: no default */
     double least, most; /* range of a number; both 0: no limits */
     const char *range;  /* description of the range; NULL: derived from least and most */
     scene_list of;      /* NAME: the list to which it refers */
     size_t zeros;       /* position of the unsigned whose bit `zero` records that zero was given
                            explicitly */
-    unsigned zero;      /* 0: not recorded */
-    int always;         /* 1: also written if it has its default value */
+    unsigned zero;      /* bit of the key; 0: not recorded */
+    int always;         /* 1: the key is written even if it has its default value */
     entry_turns turns;
     const struct quantity_type
-        *type;           /* of a map: the kind of quantity, with its summary, keys and value */
-    const char *mirrors; /* "++-": signs of its numbers when the ends of the member are exchanged */
+        *type; /* kind of quantity of a map, with its summary, keys and value */
+    const char
+        *mirrors; /* signs of the numbers if the ends of the member are exchanged, such as "++-" */
 } entry_field;
 
 #define ENTRY_IN(type, member) .at = offsetof(type, member), .size = sizeof(((type *)0)->member)
@@ -1335,7 +1349,7 @@ extern const entry_field entry_section[], entry_node[], entry_member[], entry_sp
 /* Returns the row of the key that contains the vector of a load of this kind, such as "force". */
 const entry_field *entry_of_load(scene_load_kind);
 
-/* Returns the keys of a map; the summary of a key. */
+/* Return the keys of a map, and the summary of a key. */
 const entry_field *entry_below(const entry_field *);
 const char *entry_summary(const entry_field *);
 /* Returns the default of a numeric key. */
@@ -1349,13 +1363,13 @@ int entry_is_usual(const entry_field *, const void *entry);
 /* Returns the range in words, such as "at least 0". */
 const char *entry_range(const entry_field *, char text[FAULT_TEXT]);
 int entry_in_range(const entry_field *, double value);
-/* REFUSED: a value is not numeric or out of range ("damping = -1; give at least 0"), or a name or a
- * word is unknown. */
+/* Returns REFUSED if a value is not numeric or out of range ("damping = -1; give at least 0"), or
+ * if a name or a word is unknown. */
 status entry_check(const scene *s, const entry_field *table, const void *entry, fault *f);
 
 typedef enum entry_base { ENTRY_LENGTH, ENTRY_FORCE } entry_base;
-/* Returns the power of length or force in a unit, with seconds and angles unchanged: -4 and 1 for
- * "kg/m^3". */
+/* Returns the power of length or force in a unit. Seconds and angles do not change. The powers are
+ * -4 and 1 for "kg/m^3". */
 int entry_power(const char *unit, entry_base);
 /* Scales all numbers with a unit for a change of unit: one former unit is `times` new units. */
 void entry_scale(const entry_field *table, void *entry, entry_base, double times);
@@ -1365,11 +1379,10 @@ void entry_mirror(const entry_field *table, void *entry);
  * write. */
 int entry_same(const entry_field *table, const void *a, const void *b);
 
-/* Table of the entries of a scene that affect each kind of analysis. Analyses reject entries only
- * according to this table. `beamwork explain inputs` prints the table, and a test checks every
- * cell. */
-
-/* Column of an analysis. Eigenvalues and compliances about a loaded state have separate columns. */
+/* Column of an analysis in the table of the entries of a scene that affect each kind of analysis.
+ * Analyses reject entries only according to this table. `beamwork explain inputs` prints the table,
+ * and a test checks every cell. Eigenvalues and compliances about a loaded state have separate
+ * columns. */
 typedef enum scene_column {
     SCENE_OF_LINEAR,
     SCENE_OF_STATIC,
@@ -1398,19 +1411,19 @@ typedef enum scene_part {
      * on inertia. Otherwise without effect. */
     SCENE_PART_INERTIA = 'i',
     SCENE_PART_NONE = '-',   /* without effect by the nature of the analysis */
-    SCENE_PART_REFUSED = 'x' /* rejected with its name, for this analysis only */
+    SCENE_PART_REFUSED = 'x' /* rejected by name, for this analysis only */
 } scene_part;
 
 typedef struct scene_input {
     const char *name;                   /* "loads that follow" */
-    const char part[SCENE_COLUMNS + 1]; /* scene_part */
+    const char part[SCENE_COLUMNS + 1]; /* a scene_part for each column */
     const char *why; /* reason for the rejection, and the remedy; NULL: never rejected */
-    /* Returns 1 if the scene or this analysis has the entry, and sets `who` to its name, such as
-     * "load p". */
+    /* Returns 1 if the scene or this analysis has the entry, and sets `who` to the name of the
+     * entry, such as "load p". */
     int (*stands)(const scene *, int analysis, char *who, int size);
 } scene_input;
 
-/* The table; ends with name NULL. */
+/* The table, which ends with a NULL name. */
 extern const scene_input scene_inputs[];
 /* Names of the columns, such as "buckling about a path". */
 extern const char *const scene_column_name[SCENE_COLUMNS];
@@ -1419,32 +1432,29 @@ scene_column scene_column_of(const scene *, int analysis);
 /* Returns 1 for an analysis about a state whose tangent may be unsymmetric, so that stability
  * depends on the masses. */
 int scene_inputs_flutter(const scene *, int analysis);
-/* REFUSED: the analysis cannot include an entry of the scene that other analyses can. */
+/* Returns REFUSED if the analysis cannot include an entry of the scene that other analyses can
+ * include. */
 status scene_inputs_check(const scene *, int analysis, fault *);
 
-/* Lists of a scene, for files that add entries. */
-
-/* Makes room for an entry of `list` (the address of its pointer), set to zero. Returns its index,
- * or -1. */
+/* Makes room for an entry of `list` (the address of its pointer) and sets the entry to zero.
+ * Returns the index of the entry, or -1. */
 int scene_grow(scene *s, void *list, int *count, size_t size);
-/* Copies [n] numbers; NULL if out of memory. */
+/* Copies n numbers. Returns NULL if out of memory. */
 double *scene_copy(scene *s, int n, const double from[]);
-
-/* Parts of the description of a quantity: nodes, members, coordinates and ordinals. */
 
 /* Writes the node with the given preposition, such as " of node_1 (0.1, 0, 0)". */
 void meaning_node(FILE *to, const scene *s, const char *preposition, int node);
-/* Writes " of member_0 (node_0 to node_1)". */
+/* Writes the member, such as " of member_0 (node_0 to node_1)". */
 void meaning_member(FILE *to, const scene *s, int member);
-/* Writes " at the end" or " at 0.5 of the length"; before: side at a discontinuity. */
+/* Writes the position, such as " at the end" or " at 0.5 of the length". `before` is the side at a
+ * discontinuity. */
 void meaning_place(FILE *to, double where, int before);
 /* Returns 'x' for SCENE_UX and SCENE_RX. */
 char meaning_axis(int component);
 /* Returns "force along" or "moment about". */
 const char *meaning_load(int component);
-/* Writes "first", "second", ... for 0, 1, ... */
 void meaning_ordinal(FILE *to, int order);
-/* Writes "displacement of node_1 (...) along x" or "rotation of ... about x". */
+/* Writes text such as "displacement of node_1 (...) along x" or "rotation of ... about x". */
 void meaning_coordinate(FILE *to, const scene *s, int node, int component);
 
 /* A word of scene files for physics that a scene may omit. */
@@ -1454,7 +1464,7 @@ typedef struct scene_omission {
     const char *word;
 } scene_omission;
 
-/* All words in the order in which they are written; the last is NULL. */
+/* All words in the order in which they are written. The last entry is NULL. */
 extern const scene_omission scene_omissions[];
 
 enum { SCENE_OMISSION_WORDS = 100 };
@@ -1464,26 +1474,25 @@ void scene_omission_words(unsigned omits, char words[SCENE_OMISSION_WORDS]);
 /* Returns the word of scene files, such as "haringx". */
 const char *scene_shear_word(scene_shear theory);
 
-/* A kind of quantity with everything that defines it. Each kind has a file in cases/quantities,
- * which the build finds. */
-
-/* Values of one state of a structure that a kind can read. The members below `path` belong to the
- * kinds that request them (scene_quantity_kind). A value of NAN is unknown, which the analysis
- * reports. */
+/* Values of one state of a structure that a quantity can read. Each kind of quantity has a file in
+ * cases/quantities, which the build finds. The members below `path` belong to the kinds that
+ * request them (scene_quantity_kind). A value of NAN is unknown, which the analysis reports. */
 typedef struct quantity_state {
-    /* displacement [m] or rotation-vector component [rad]; NAN: its direction is lost */
+    /* displacement [m] or rotation-vector component [rad]; NAN if the direction of the rotation is
+     * undefined */
     double (*component)(const struct quantity_state *, int node, int component);
-    /* displacement or rotation relative to the node `from`, in its axes */
+    /* displacement or rotation relative to the node `from`, in the axes of that node */
     double (*relative)(const struct quantity_state *, int from, int node, int component);
     /* position [m], and rotation matrix, row-major */
     void (*frame)(const struct quantity_state *, int node, double place[3], double R[9]);
-    /* in a motion: velocity [m/s], or angular velocity in the node's axes [rad/s] */
+    /* in a motion: velocity [m/s], or angular velocity in the axes of the node [rad/s] */
     double (*rate)(const struct quantity_state *, int node, int component);
-    /* in a motion: acceleration [m/s^2], or angular acceleration in the node's axes [rad/s^2] */
+    /* in a motion: acceleration [m/s^2], or angular acceleration in the axes of the node
+     * [rad/s^2] */
     double (*acceleration)(const struct quantity_state *, int node, int component);
     double (*driver)(const struct quantity_state *, int driver);
     /* rotation or displacement of an end of a member (0 at p, 1 at q) relative to its node, for a
-     * component that is released there */
+     * released component */
     double (*released)(const struct quantity_state *, int member, int end, int component);
     double path; /* parameter, load factor or time */
     /* for SCENE_REACTION, SCENE_INTERNAL, SCENE_STRESS and SCENE_DEFLECTION */
@@ -1499,8 +1508,8 @@ typedef struct quantity_state {
 
 /* Eigenvalue of the requested mode. */
 typedef struct quantity_eigenvalue {
-    double value; /* SCENE_CRITICAL_FACTOR: load factor; SCENE_FREQUENCY, SCENE_DAMPING_RATIO:
-                     angular frequency [rad/s] */
+    double value; /* load factor for SCENE_CRITICAL_FACTOR, angular frequency [rad/s] for
+                     SCENE_FREQUENCY and SCENE_DAMPING_RATIO */
     double decay; /* decay rate of a damped mode [1/s] */
 } quantity_eigenvalue;
 
@@ -1513,26 +1522,27 @@ typedef enum quantity_passing {
 
 typedef struct quantity_type {
     const char *key, *summary;
-    /* SCENE_READING for quantities that depend on nodes only; otherwise the kind that an analysis
-     * computes, with its struct. Several files may have the same kind */
+    /* SCENE_READING for quantities that depend only on nodes; otherwise the kind that an analysis
+     * computes, with the struct of that kind. Several files may have the same kind. */
     scene_quantity_kind kind;
     const entry_field *field; /* keys of the map below the key of the quantity */
-    unsigned analyses;        /* bits 1 << kind, for all kinds of analysis that have the quantity */
+    unsigned analyses;        /* bits 1 << kind for all kinds of analysis that have the quantity */
     quantity_passing passing;
-    /* Returns the default unit of the value. Its powers of length and force determine scaling. */
+    /* Returns the default unit of the value. The powers of length and force in the unit determine
+     * scaling. */
     const char *(*unit)(const scene *, const scene_quantity *);
-    /* Writes a description of the quantity. names_analysis 1: the description includes the
+    /* Writes a description of the quantity. If names_analysis is 1, the description includes the
      * analysis. */
     void (*meaning)(FILE *, const scene *, const scene_quantity *);
     int names_analysis;
-    /* Reads the extracted value, without factor and offset, from a state or from an eigenvalue;
+    /* Reads the extracted value, without factor and offset, from a state or from an eigenvalue.
      * *part is the part of the value to which the error of the quantity refers. */
     double (*read)(const scene_quantity *, const quantity_state *);
     double (*eigenvalue)(const scene_quantity *, const quantity_eigenvalue *, double *part);
-    /* The following functions are NULL for most kinds. turns: sets *out to the i-th rotation
-     * component that the quantity needs and returns 1, or returns 0 if there are no more. settle:
-     * completes the data read from a file; returns an error message for *key, or NULL. check:
-     * REFUSED for errors that the table does not cover. */
+    /* The following functions are NULL for most kinds. `turns` sets *out to the i-th rotation
+     * component that the quantity needs and returns 1, or returns 0 if there are no more. `settle`
+     * completes the data read from a file, and returns an error message for *key, or NULL. `check`
+     * returns REFUSED for errors that the table does not cover. */
     int (*turns)(const scene *, const scene_quantity *, int i, scene_component *out);
     const char *(*settle)(const scene *, scene_quantity *, const char **key);
     status (*check)(const scene *, const scene_quantity *, fault *);
@@ -1542,7 +1552,7 @@ const quantity_type *quantity_type_of(const scene_quantity *q);
 /* Starts a quantity of this kind, which the caller completes. */
 void quantity_type_begin(const quantity_type *, scene_quantity *q);
 
-/* Keys common to most kinds, for the start and the end of their tables. */
+/* Keys that are common to most kinds, for the start and the end of their tables. */
 #define QUANTITY_ANALYSIS                                                                          \
     {"analysis",                                                                                   \
      ENTRY_NAME,                                                                                   \
@@ -1632,30 +1642,31 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
 #define QUANTITY_ALL_STATES                                                                        \
     (1u << SCENE_STATIC | 1u << SCENE_MOTION | 1u << SCENE_CONTINUATION | 1u << SCENE_ROTATION)
 
-/* A scene in another unit of length. */
-
 /* Converts all lengths to another unit, with x > 0 units in 1 m. Newtons and seconds do not change,
- * so that masses are divided by x. Quantities are reported in their former units. REFUSED: x is not
- * positive, or a driver prescribes both lengths and angles. */
+ * so masses are divided by x. Quantities are reported in their former units. Returns REFUSED if x
+ * is not positive, or if a driver prescribes both lengths and angles. */
 status scene_change_unit(scene *s, double x, fault *f);
 /* Converts all forces to another unit, with y units in 1 N, and masses accordingly. Metres and
  * seconds do not change. Quantities are reported in their former units. */
 void scene_change_force(scene *s, double y);
-/* Returns 1 if the numbers suggest units other than SI, and writes these units and the reason;
- * otherwise 0. Scenes without dimensions are not checked. */
+/* Returns 1 if the numbers suggest units other than SI, and writes these units and the reason.
+ * Otherwise returns 0. Scenes without dimensions are not checked. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT]);
 
-/* Warping at an end of a member if the scene does not specify it. */
-
-/* Not specified yet. */
+/* Warping at an end of a member that the scene does not specify. */
 enum { SCENE_WARP_BY_SUPPORT = -3 };
 
-/* Sets the warping of every end that is SCENE_WARP_BY_SUPPORT. Warping is restrained if all six
- * components of the node are fixed or prescribed, or if the node is part of a rigid body to which
- * members or springs are joined at other nodes. It is free if a rotation is released at the end, or
- * if the node has a fork support, is free, or has only a mass. If exactly two members meet at such
- * a node and continue in one line with the same section and axes, without releases and without
- * specified warping, they share the coordinate, because a node does not interrupt a beam. */
+/* Sets the warping of every end that is SCENE_WARP_BY_SUPPORT.
+ *
+ * Warping is restrained if all six components of the node are fixed or prescribed, or if the node
+ * is part of a rigid body to which members or springs are joined at other nodes. Warping is free if
+ * a rotation is released at the end, or if the node has a fork support, is free, or has only a
+ * mass.
+ *
+ * If exactly two members meet at a node with a fork support, with only a mass or without supports,
+ * and continue in one line with the same section and axes, both ends share the warping coordinate,
+ * because a node does not interrupt a beam. This rule does not apply to released ends or if the
+ * scene specifies the warping. */
 void scene_warping_by_supports(scene *s);
 
 #endif

@@ -5,11 +5,11 @@
 #include "cases/scene/scene.h"
 
 /* Relative tolerance of a limit: the accuracy that engineers require of a model. A biased limit
- * within this tolerance is still detected by means of its uncertainty. */
+ * within this tolerance is still detected by its uncertainty. */
 #define SCENE_TOLERANCE 1e-3
 
-/* Returns the first component whose table has a slope discontinuity at zero, so that its stiffness
- * in the undeformed state is undefined, or SCENE_NONE. */
+/* Returns the first component whose table has a slope discontinuity at zero, where the stiffness of
+ * the undeformed state is undefined. Returns SCENE_NONE if there is no such component. */
 int scene_spring_kink(const scene_spring *);
 
 /* Bits of rx, ry and rz. */
@@ -17,46 +17,38 @@ int scene_spring_kink(const scene_spring *);
 /* Returns 1 if a constraint contains any of these components of the node. */
 int scene_is_constrained(const scene *, int node, unsigned components);
 
-/* Requirements on transient analyses, and on the functions of time that they contain. */
-
 /* Checks the functions of drivers and loads, even if there is no transient analysis. */
 status scene_validate_functions(const scene *s, fault *f);
 
-/* Requirements on a node: its position, supports, fork, body and attachment. */
-
-/* Checks node i. REFUSED: f contains the cause and the remedy. */
+/* Checks the position, supports, fork, body and attachment of node i. Returns REFUSED with the
+ * cause and the remedy in f. */
 status scene_validate_node(const scene *s, int i, fault *f);
 
 /* Checks that the geometry, motion and loads of a scene restricted to a plane are all in that
- * plane. */
-
-/* REFUSED: an entry lies, moves or acts out of the plane; f contains the entry and the remedy. */
+ * plane. Returns REFUSED with the entry and the remedy in f. */
 status scene_validate_plane(const scene *s, fault *f);
 
-/* Requirements on released ends of members: parts of scene_validate. */
-
-/* Checks one member. Each released component must exist and be released once. The releases must not
- * separate an end completely, or leave the member free to move between its ends. */
+/* Checks the released ends of one member. Each released component must exist and be released once.
+ * The releases must not separate an end completely, or leave the member free to move between its
+ * ends. */
 status scene_validate_release(const scene *s, int member, fault *f);
-/* Checks that something resists the rotations of a node: a member, a support or a spring. */
+/* Checks that a member, a support or a spring resists the rotations of a node. */
 status scene_validate_turns(const scene *s, int node, fault *f);
 
-/* REFUSED: a constraint contains a node twice, a supported component or a body, or constraints form
- * a loop. */
+/* Returns REFUSED if a constraint contains a node twice, a supported component or a body, or if
+ * constraints form a loop. */
 status scene_validate_constraints(const scene *s, fault *f);
 
-/* REFUSED: an imperfection has neither a mode nor shifts, or no analysis uses it. */
+/* Returns REFUSED if an imperfection has neither a mode nor shifts, or if no analysis uses it. */
 status scene_validate_imperfections(const scene *s, fault *f);
 
-/* Requirements on load cases and combinations, and on the entries that select them. */
+/* Checks load cases and combinations, and the entries that select them. */
 
 status scene_validate_cases(const scene *s, fault *f);
 status scene_validate_acting(const scene *s, int analysis, fault *f);
 status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f);
 
-/* Requirements on the analyses and quantities of a scene. */
-
-/* Check analysis or quantity i. REFUSED: f contains the cause and the remedy. */
+/* Check analysis or quantity i. Return REFUSED with the cause and the remedy in f. */
 status scene_validate_analysis(const scene *s, int i, fault *f);
 status scene_validate_quantity(const scene *s, int i, fault *f);
 

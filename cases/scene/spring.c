@@ -6,8 +6,8 @@
 
 #include "elements/math/dense.h"
 
-/* Sets A to `given`, or to its symmetric part if the asymmetry is only rounding. Returns the
- * asymmetry relative to the diagonal in this case, otherwise 0. */
+/* Sets A to `given`, or to the symmetric part of `given` if its asymmetry is only rounding. In the
+ * latter case, returns the asymmetry relative to the diagonal, otherwise 0. */
 static double take_matrix(const double given[36], double A[36])
 {
     memcpy(A, given, 36 * sizeof *A);
@@ -64,14 +64,14 @@ int scene_add_spring(scene *s, int p, int q, const double stiffness[36])
 void scene_set_table(scene *s, int spring, int component, int points, const double at[],
                      const double value[])
 {
-    if (spring < 0) /* memory ran out */
+    if (spring < 0) /* out of memory */
         return;
     scene_table *t = &s->spring[spring].table[component];
     t->at = (scene_path){points, scene_copy(s, points, at)};
     t->value = (scene_path){points, scene_copy(s, points, value)};
 }
 
-/* Returns the index i of the segment at x, between points i and i + 1. */
+/* Returns the index i of the segment that contains x, between points i and i + 1. */
 static int line_of(const scene_table *t, double x)
 {
     int i = 0;

@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-/* A number and its power of length; it is multiplied by x raised to this power. */
+/* A number and its power of length. For a unit change by x, the number is multiplied by x raised to
+ * this power. */
 typedef struct scaled {
     double *number;
     int power;
@@ -52,7 +53,7 @@ static void scale_section(section_spec *spec, double x)
 }
 
 /* Returns 1 if the driver prescribes translations or a translation determines it, 0 for angles
- * only, -1 for both. */
+ * only, and -1 for both. */
 static int is_length(const scene *s, int driver)
 {
     int lengths = 0, angles = 0;
@@ -161,7 +162,7 @@ static void scale_steps(scene_analysis *a, double x)
 }
 
 /* Returns 1 if the stations of the quantity are coordinates [m], as for a continuation or an
- * analysis that follows one. */
+ * analysis that follows a continuation. */
 static int stations_are_lengths(const scene *s, const scene_quantity *q)
 {
     if (q->analysis < 0 || q->analysis >= s->analyses)
@@ -248,9 +249,8 @@ static double longest(const scene *s)
     return most;
 }
 
-/* Uses bounds that a structure in SI units satisfies. For example, in solids stiffer and heavier
- * than foam, waves travel faster than 30 m/s, and in no solid do they travel faster than 30
- * km/s. */
+/* The bounds are satisfied by structures in SI units. For example, waves travel faster than 30 m/s
+ * in solids stiffer and heavier than foam, and not faster than 30 km/s in any solid. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT])
 {
     static const double soft[2] = {1e3, 1e6}, stiff = 1e8, wide = 15, slow = 30, fast = 3e4;

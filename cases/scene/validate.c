@@ -269,7 +269,7 @@ static status check_temperature(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Rejects members that a kind of load cannot have. */
+/* Rejects settings that a kind of load cannot have. */
 static status check_load_kind(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];

@@ -67,7 +67,7 @@ static status check_resumed(const scene *s, const scene_analysis *a, int i, faul
     return STATUS_OK;
 }
 
-/* REFUSED: no moving part has inertia in a transient analysis. */
+/* Returns REFUSED if no moving part has inertia in a transient analysis. */
 static status scene_validate_mass(const scene *s, int i, fault *f)
 {
     if (scene_has_mass(s))
@@ -95,7 +95,7 @@ static status check_follows(const scene *s, int i, fault *f)
     return scene_validate_mass(s, i, f);
 }
 
-/* Returns the value of a table at a path parameter, interpolated. */
+/* Returns the interpolated value of a table at a path parameter. */
 static double along_table(int stations, const double at[], const double value[], double path)
 {
     int k = 0;
@@ -222,8 +222,8 @@ static status check_load(const scene *s, int l, int i, fault *f)
     return load->kind == SCENE_TEMPERATURE ? check_temperature(s, l, i, f) : STATUS_OK;
 }
 
-/* Checks a transient analysis. REFUSED: f contains the cause. The nodes, members, drivers and loads
- * must be valid. */
+/* Checks a transient analysis. Returns REFUSED with the cause in f. The nodes, members, drivers and
+ * loads must be valid. */
 static status scene_validate_motion(const scene *s, int i, fault *f)
 {
     const scene_motion *m = scene_motion_of(&s->analysis[i]);
@@ -258,7 +258,7 @@ static int moves(const scene *s)
     return 0;
 }
 
-/* Checks one function of time. idle 1: there is no transient analysis. */
+/* Checks one function of time. `idle` is 1 if there is no transient analysis. */
 static status check_function(const scene_function *of, int idle, fault *f)
 {
     if (of->pieces == 0)
@@ -374,7 +374,7 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
                          : "");
 }
 
-/* Returns 1 if a quantity is of this analysis. */
+/* Returns 1 if a quantity belongs to this analysis. */
 static int is_asked(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++)

@@ -25,7 +25,7 @@ static int has_member_along(const scene *s, int node, const double direction[3])
     return along || ends == 0;
 }
 
-/* Checks a fork. It must define all rotations, and its axis must be that of a member. */
+/* Checks a fork, which must define all rotations and whose axis must be that of a member. */
 static status check_fork(const scene *s, int i, fault *f)
 {
     const scene_node *n = &s->node[i];
@@ -55,7 +55,7 @@ static status check_fork(const scene *s, int i, fault *f)
 static int is_inertia(const double I[6])
 {
     const double half = (I[0] + I[1] + I[2]) / 2;
-    /* all principal minors of int x x^T dm = (trace/2) 1 - I */
+    /* all principal minors of int x x^T dm = (trace/2) 1 - I must be nonnegative */
     const double A[3] = {half - I[0], half - I[1], half - I[2]}, xy = -I[3], yz = -I[4], zx = -I[5],
                  small = 1e-9 * half;
     const double determinant =
@@ -150,8 +150,8 @@ status scene_validate_node(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Directions and positions are considered to be in the plane if they deviate by less than this
- * fraction of their size. */
+/* Largest deviation, as a fraction of their size, of directions and positions that count as in the
+ * plane. */
 static const double within = 1e-9;
 
 static int is_across(const scene *s, const double v[3])
@@ -246,8 +246,8 @@ static status check_node(const scene *s, int i, fault *f)
     return check_turns(s, i, f);
 }
 
-/* Computes the axes at the start of a member: x along the chord. For a member in the plane, one of
- * y and z is normal to the plane at every point. */
+/* Computes the axes at the start of a member, with x along the chord. For a member in the plane,
+ * either y or z is normal to the plane at every point. */
 static void axes_of(const scene *s, int member, double R[9])
 {
     const scene_member *m = &s->member[member];
@@ -328,8 +328,8 @@ static status check_load(const scene *s, int i, fault *f)
     return is_across(s, at) ? refuse(s, who, "it acts outside the plane", f) : STATUS_OK;
 }
 
-/* Checks the axis of rotation. An axis in the plane or normal to it causes forces in the plane; an
- * oblique axis also causes forces out of it. */
+/* Checks the axis of rotation. An axis in the plane or normal to it causes forces in the plane,
+ * whereas an oblique axis also causes forces out of the plane. */
 static status check_frame(const scene *s, int i, fault *f)
 {
     const scene_rotating_frame *r = scene_rotating_frame_of(&s->analysis[i]);
@@ -372,7 +372,7 @@ static status check_driver(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Checks a quantity: a fixed coordinate has no stiffness, compliance or growth rate. */
+/* Checks a quantity. A fixed coordinate has no stiffness, compliance or growth rate. */
 static status check_quantity(const scene *s, int i, fault *f)
 {
     const scene_quantity *q = &s->quantity[i];

@@ -171,7 +171,7 @@ static int releases_at(const scene *s, int node)
     return count;
 }
 
-/* Rotations of a node that nothing resists; axis: for LOOSE_AXIS. */
+/* Rotations of a node that nothing resists. The axis is used for LOOSE_AXIS. */
 typedef enum loose { LOOSE_NOTHING, LOOSE_AXIS, LOOSE_PLANE, LOOSE_ALL } loose;
 
 static loose loose_at(const scene *s, int node, double axis[3])
@@ -192,7 +192,7 @@ static loose loose_at(const scene *s, int node, double axis[3])
     return vec3_norm(axis) > 0 ? LOOSE_AXIS : largest > 1e-9 ? LOOSE_PLANE : LOOSE_ALL;
 }
 
-/* Returns 1 if a load acts on the rotations of a node, or if anything depends on them. */
+/* Returns 1 if a load acts on the rotations of a node, or if a result depends on them. */
 static int turn_matters(const scene *s, int node)
 {
     const scene_body *b = &s->node[node].body;
@@ -206,7 +206,7 @@ static int turn_matters(const scene *s, int node)
     }
     for (int i = 0; i < s->springs; i++) {
         const scene_spring *spring = &s->spring[i];
-        matters |= spring->p == node; /* its axes rotate with the node */
+        matters |= spring->p == node; /* the axes of the spring rotate with the node */
         for (int k = 3; k < 6; k++)
             matters |= spring->q == node && spring->table[k].at.stations > 0;
         for (int k = 0; k < 36 && spring->q == node; k++)
@@ -216,7 +216,7 @@ static int turn_matters(const scene *s, int node)
     return matters;
 }
 
-/* Returns bits of the free angles of the node. */
+/* Returns the free angles of the node as bits. */
 static int free_angles(const scene_node *n)
 {
     int bits = 0;
@@ -263,7 +263,7 @@ status scene_validate_turns(const scene *s, int node, fault *f)
                            scene_called(s, SCENE_NODES, node).text);
 }
 
-/* Directions that differ by less are equal, because positions contain round-off. */
+/* Largest difference of equal directions. Directions contain the round-off of positions. */
 static const double round_off = 1e-9;
 
 static int is_held(const scene_node *n)
@@ -373,8 +373,8 @@ static int *warp_of(scene *s, member_end e)
     return e.end == 0 ? &s->member[e.member].warp_p : &s->member[e.member].warp_q;
 }
 
-/* Returns 1 if the second member is the straight continuation of the first across their node, with
- * the same section. */
+/* Returns 1 if the second member is the straight continuation of the first member across their
+ * node, with the same section. */
 static int runs_on(const scene *s, member_end first, member_end second)
 {
     const member_end both[2] = {first, second};
@@ -393,7 +393,7 @@ static int runs_on(const scene *s, member_end first, member_end second)
            is_symmetric(s, profile[0], sign);
 }
 
-/* Number of element ends at a node, the sum of their indices, and whether the node belongs to a
+/* Data of a node: number of element ends, sum of their indices, and whether the node belongs to a
  * body, possibly with members or springs at other nodes. */
 typedef struct warping_place {
     int ends, tied;

@@ -1,5 +1,5 @@
-/* Parameters common to all built-in cases: the omitted physics (as in the source, or none) and, if
- * there is mass, the mass of members. */
+/* Parameters that are common to all built-in cases: the omitted physics (as in the source, or none)
+ * and, if there is mass, the mass of members. */
 #include "cases/shared/shared.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ static void place_mass(scene *s, scene_mass mass)
             s->analysis[i].of.motion.mass = mass;
 }
 
-/* Sets the mass of members if the case has a parameter for it; otherwise the scene specifies the
+/* Sets the mass of members if the case has a parameter for it. Otherwise the scene specifies the
  * mass. */
 static void choose_mass(const case_type *c, const double value[], scene *s)
 {
@@ -80,8 +80,8 @@ const parameter_type hexapod_parameters[] = {
     {0},
 };
 
-/* Computes joint axes for a rod: z along `direction`, x in the plane of the rod and the global z
- * axis, on the upper side. */
+/* Computes joint axes for a rod: z along `direction`, and x in the plane of the rod and the global
+ * z axis, on the upper side. */
 static void joint_axes(const double direction[3], double axes[9])
 {
     double x[3] = {-direction[2] * direction[0], -direction[2] * direction[1],
@@ -224,9 +224,9 @@ static void add_sheet(const double value[], scene *s, int profile, int body, con
     *(from_fold ? &sheet->warp_p : &sheet->warp_q) = at_fold[(int)value[JOINT_FOLD_WARPING]];
 }
 
-/* Adds a fold at one azimuth; up = +1: first set, with the fold line above the centre; -1: mirror
- * image in the xy plane. The sheet on the side of larger azimuth is attached to body[0], the other
- * to body[1]. */
+/* Adds a fold at one azimuth. If `up` is +1, the fold belongs to the first set, with the fold line
+ * above the centre. If -1, the fold is the mirror image in the xy plane. The sheet on the side of
+ * larger azimuth is attached to body[0], the other sheet to body[1]. */
 static void add_fold(const double value[], scene *s, int profile, const double centre[3],
                      const double axes[9], double azimuth, int up, const int body[2])
 {

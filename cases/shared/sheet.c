@@ -87,13 +87,11 @@ void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int c
 
 /* Let zp and zq be the end angles in the frame of the chord, a = (zp + zq)/2 and c = (zq - zp)/2.
  * After elimination of the stresses of N Eq. 49, the potential in the plane of bending is V = 6 EIz
- * a^2/L + 2 EIz
- * c^2/L + g^2/2k,  g = u + L (a^2/10 + c^2/6),  k = L/EA + (L^3/EIz) (a^2/700 + c^2/180), with the
- * axial force F = g/k. Out of this plane, M_x = M~x - u_y (M~yp + M~yq)/L + u_y' M_y (N Eq. 49 with
- * the sign corrected) and M_y = M~yp (x - 1) + M~yq x, x = s/L; the terms of N Eq. 50 reduce to sum
- * M~y y +
- * int [M_x phi_x' + M_y phi_x M_z/EIz - M_x kappa_x/2 - M_y^2/2EIy - F_z^2/2kGA] ds with the twist
- * rate kappa_x of N Eq. 51. */
+ * a^2/L + 2 EIz c^2/L + g^2/2k, g = u + L (a^2/10 + c^2/6), k = L/EA + (L^3/EIz) (a^2/700 +
+ * c^2/180), where the axial force is F = g/k. Out of this plane, M_x = M~x - u_y (M~yp + M~yq)/L +
+ * u_y' M_y (N Eq. 49 with the sign corrected) and M_y = M~yp (x - 1) + M~yq x, where x = s/L. The
+ * terms of N Eq. 50 reduce to sum M~y y + int [M_x phi_x' + M_y phi_x M_z/EIz - M_x kappa_x/2 -
+ * M_y^2/2EIy - F_z^2/2kGA] ds with the twist rate kappa_x of N Eq. 51. */
 
 enum { IN_PLANE = 3, STRESSES = 3, LOCAL = 4, POINTS = 20 };
 
@@ -116,7 +114,7 @@ static void energy(plane *p, double u, double zp, double zq)
     const double d2g[3] = {0, L / 5, L / 3}, d2k[3] = {0, flexible / 350, flexible / 90},
                  V0[3] = {0, 12 * p->EIz / L, 4 * p->EIz / L};
     const double T[3][3] = {{1, 0, 0}, {0, 0.5, 0.5}, {0, -0.5, 0.5}},
-                 at[3] = {0, a, c}; /* (u, a, c) by (u, zp, zq) */
+                 at[3] = {0, a, c}; /* derivatives of (u, a, c) with respect to (u, zp, zq) */
     double gradient[3], hessian[3][3];
     p->F = g / k;
     for (int i = 0; i < 3; i++) {
@@ -138,8 +136,8 @@ static void energy(plane *p, double u, double zp, double zq)
     }
 }
 
-/* Computes the forces and the stiffness for X = L + w, Y and the rotation of the tip. With alpha
- * the angle of the chord, u = sqrt(X^2 + Y^2) - L, zp = -alpha and zq = rotation - alpha. */
+/* Computes the forces and the stiffness for X = L + w, Y and the rotation of the tip. With the
+ * angle alpha of the chord, u = sqrt(X^2 + Y^2) - L, zp = -alpha and zq = rotation - alpha. */
 static void tip(plane *p, double w, double Y, double force[3], double K[9])
 {
     const double X = p->L + w, l = hypot(X, Y), alpha = atan2(Y, X), n[2] = {X / l, Y / l},
@@ -163,13 +161,14 @@ static void tip(plane *p, double w, double Y, double force[3], double K[9])
     }
 }
 
-/* Returns sinh(lambda x)/sinh(lambda). Without warping, lambda is infinite. */
+/* Returns sinh(lambda x)/sinh(lambda). If there is no warping, lambda is infinite. */
 static double hyperbolic(double lambda, double x)
 {
     return isinf(lambda) ? 0 : exp(lambda * (x - 1)) * expm1(-2 * lambda * x) / expm1(-2 * lambda);
 }
 
-/* Returns the twist rate times GJ at x for the polynomial m[4] of M_x, zero at both ends. */
+/* Returns the twist rate times GJ at x for the polynomial m[4] of M_x. The twist rate is zero at
+ * both ends. */
 static double twist(double lambda, const double m[4], double x)
 {
     const double more = isinf(lambda) ? 0 : 1 / (lambda * lambda);
@@ -201,8 +200,7 @@ static status local_stiffness(const section *s, const plane *p, double zp, doubl
                      phi[2] = {x * x * (3 - 2 * x), -L * x * x * (1 - x)};
         const double rate[2] = {6 * x * (1 - x) / L,
                                 -x * (2 - 3 * x) -
-                                    hyperbolic(lambda, x)}; /* for Wq, minus its contribution to
-                                                             * kappa_x */
+                                    hyperbolic(lambda, x)}; /* minus the contribution to kappa_x */
         const double curvature =
             (M * (2 * x - 1) + L * zp * x * (1 - x) * (1 - 2 * x) * p->F) / p->EIz;
         for (int i = 0; i < STRESSES; i++) {
@@ -245,8 +243,8 @@ static double compliance_zz(const section *s, const plane *p, double X, double Y
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
                 K[LOCAL * i + j] -= K[LOCAL * i + 3] * K[LOCAL * 3 + j] / WW;
-    /* phi_x = theta'_x/cos, yp = u_z/l, yq = yp + theta'_y + phi_x sin, with theta' in the axes of
-     * the chord */
+    /* phi_x = theta'_x/cos, yp = u_z/l, yq = yp + theta'_y + phi_x sin, where theta' is in the axes
+     * of the chord */
     const double T[3][3] = {
         {0, 1, sine / cosine}, {1 / l, 0, 0}, {1 / l, 0, cosine + sine * sine / cosine}};
     for (int i = 0; i < 3; i++)

@@ -1,5 +1,5 @@
-/* Checks edits of a scene for each field: some change their sign, side or position, others do not
- * change. */
+/* Edits of a scene for each field: some fields change their sign, side or position, and others do
+ * not change. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 #include "cases/scene/scene.h"
 #include "cases/test/refuse.h"
 
-/* Makes a member with warping names, divisions, and a follower load along it in its own axes. */
+/* Makes a member with warping names, divisions, and a follower load in the axes of the member. */
 static void make(scene *s)
 {
     const double path[] = {0, 1, 2}, factor[] = {0, 3, 4};
@@ -65,8 +65,8 @@ static void reversed(void)
     scene_free(&s);
 }
 
-/* In the full stiffness and mass matrices of a section, entries that couple a resultant along or
- * about z with one along or about x or y change sign; other entries do not. */
+/* In the stiffness and mass matrices of a section, entries that couple a resultant along or about z
+ * with one along or about x or y must change sign. Other entries must not change. */
 static void reversed_section(void)
 {
     scene s;
@@ -94,9 +94,9 @@ static void reversed_section(void)
 /* Loads on parts of a member of length 2 along x that is reversed or split in two. */
 static const struct {
     scene_load_kind kind;
-    double from, to, last;      /* range, and value at its end relative to the start; last 0: the
-                                 * load does not vary */
-    double turned[3];           /* expected range and value at its start */
+    double from, to, last; /* range, and value at its end relative to the start; last 0: the load
+                              does not vary */
+    double turned[3];      /* expected range and value at its start */
     double first[4], second[4]; /* split at 0.25: expected range and values at its start and end */
 } on_part[] = {
     {SCENE_DISTRIBUTED, 0, 1, 0, {0, 1, 1}, {0, 1, 1, 1}, {0, 1, 1, 1}},
@@ -206,7 +206,6 @@ static void unchanged(scene *s)
     (void)s;
 }
 
-/* Edits that are not defined for the scene are rejected. */
 static void refused(void)
 {
     static const struct {
@@ -234,7 +233,6 @@ static void refused(void)
     }
 }
 
-/* Edited scenes are valid. */
 static void stay_scenes(void)
 {
     static const scene_edit edit[] = {
@@ -249,7 +247,6 @@ static void stay_scenes(void)
     }
 }
 
-/* A motion in millimetres has the same forces in newtons and times in seconds. */
 static void in_millimetres(void)
 {
     static const struct {
@@ -288,7 +285,7 @@ static void in_millimetres(void)
     scene_free(&s);
 }
 
-/* A position keeps its side of a discontinuity, which becomes the other side if the member is
+/* A position keeps its side of a discontinuity, which is the opposite side if the member is
  * reversed. If the member is split at the position, the side determines the half. */
 static void sides(void)
 {
@@ -332,8 +329,6 @@ static void edit_tests(void)
     refused();
     stay_scenes();
 }
-
-/* Checks functions of the entry tables: other units, ranges, comparison, and exchanged ends. */
 
 static void has_powers(void)
 {
@@ -477,8 +472,8 @@ static void check_order(void)
     function_free(&f);
 }
 
-/* Checks the smoothness of two pieces that meet at 1 s. derivative: the first discontinuous one, or
- * -1 if smooth. */
+/* Checks the smoothness of two pieces that meet at 1 s. `derivative` is the first derivative that
+ * must be discontinuous, or -1. */
 static void check_joint(const char *before, const char *behind, double end, int derivative)
 {
     const double until[] = {1, 0};
@@ -504,7 +499,7 @@ static void check_joints(void)
     check_joint("t^2", "7", 0.5, -1);
 }
 
-/* Checks that the function is finite up to the time `where`; NAN: everywhere. */
+/* Checks that the function is finite up to the time `where`, or everywhere if `where` is NAN. */
 static void check_finite(const char *before, const char *behind, int derivatives, double end,
                          double where)
 {

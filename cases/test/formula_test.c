@@ -22,7 +22,6 @@ static int at(const char *text, double t, double out[3])
     return 1;
 }
 
-/* Compares the derivatives with sixth-order finite differences. */
 static void check_differences(const char *text, double t)
 {
     static const double first[] = {-1. / 60, 3. / 20, -3. / 4, 0, 3. / 4, -3. / 20, 1. / 60};
@@ -80,7 +79,6 @@ static void check_value(const char *text, double t, double expected)
         gsl_test_rel(out[0], expected, 1e-15, "%s at %g", text, t);
 }
 
-/* Operators have the same precedence as in other expressions of scene files. */
 static void check_binding(void)
 {
     check_value("-2^2", 0, -4);
@@ -99,7 +97,6 @@ static void check_binding(void)
     check_value("sinh(atan2(0, 1)) + t", 3, 3);
 }
 
-/* Checks whether the value, velocity and acceleration are finite (1) or not (0). */
 static void check_edge(const char *text, double t, int value, int velocity, int acceleration)
 {
     const int expected[3] = {value, velocity, acceleration};
@@ -125,7 +122,7 @@ static void check_edges(void)
     check_edge("exp(1000*t)", 1, 0, 0, 0);
     check_edge("asin(t)", 1, 1, 0, 0);
     check_edge("sqrt(t - 2)", 1, 0, 0, 0);
-    /* The derivatives of constants are zero, even if those of the function are not finite. */
+    /* the derivatives of constants are zero, even if those of the function are not finite */
     check_edge("t*sqrt(0)", 1, 1, 1, 1);
     check_edge("t + asin(1)", 1, 1, 1, 1);
 }
@@ -195,9 +192,6 @@ static void formula_tests(void)
     check_refusals();
 }
 
-/* Computed constants of a section change with its description. */
-
-/* The constants are updated even if they have been requested before. */
 static void constants_follow(void)
 {
     scene s;
@@ -271,7 +265,6 @@ static void read_driver(const void *q)
     scene_driver_of(q);
 }
 
-/* Makes a scene with analyses and quantities of every kind. */
 static void everything(scene *s)
 {
     const double end = 1;

@@ -11,7 +11,7 @@ enum { ROOT, TIP, BODY };
 
 static const double y_axis[3] = {0, 1, 0};
 
-/* Makes a cantilever with a body at its tip, which is driven along y, and a static path. */
+/* Makes a cantilever with a static path and with a body at its tip, which is driven along y. */
 static inline void refuse_sound(scene *s)
 {
     const double station[2] = {0, 1};
@@ -33,7 +33,7 @@ typedef void spoil(scene *);
 
 typedef struct refusal {
     spoil *how;
-    const char *culprit, *words; /* how the message starts, and words that it contains */
+    const char *culprit, *words; /* start of the message, and words in the message */
 } refusal;
 
 static inline void refuse_one_line(const char *what, const fault *f)

@@ -1,4 +1,4 @@
-/* Rejected motions in time and functions of time. */
+/* Rejected transient analyses and functions of time. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -21,7 +21,8 @@ static scene_motion *moves(scene *s)
     return moves_from(s, 0);
 }
 
-/* Moves the driver by a function of time and, from 1 s on, by another function (NULL: none). */
+/* Moves the driver by a function of time and, from 1 s on, by another function, which may be
+ * NULL. */
 static void drives(scene *s, const char *first, const char *then)
 {
     moves(s);
@@ -254,7 +255,6 @@ static void goes_on(scene *s)
     scene_load_piece(s, 0, 0, "sqrt(t)");
 }
 
-/* alpha is ignored for other integrators. */
 static void without_alpha(scene *s)
 {
     scene_motion *m = moves(s);
@@ -286,8 +286,8 @@ static void validate_motion_tests(void)
     accepts(weighs_at_a_node, "a mass at a node only");
 }
 
-/* Rejected nodes. Every rejection states the cause and the remedy in one line. Each invalid scene
- * has a single error; the scene from which it was made is accepted. */
+/* Rejected nodes. Every rejection must state the cause and the remedy in one line. Each invalid
+ * scene has a single error, and the scene from which it was made is accepted. */
 
 static const double x_axis[3] = {1, 0, 0}, zero[3] = {0, 0, 0};
 
@@ -406,8 +406,8 @@ static void validate_node_tests(void)
     refuse_all(sizeof node_refusals / sizeof node_refusals[0], node_refusals);
 }
 
-/* Rejected analyses and quantities. Every rejection states the cause and the remedy in one line.
- * Each invalid scene has a single error; the scene from which it was made is accepted. */
+/* Rejected analyses and quantities. Every rejection must state the cause and the remedy in one
+ * line. Each invalid scene has a single error, and the scene from which it was made is accepted. */
 
 /* Replaces the analyses by a continuation: a path with an unknown load factor. */
 static void driven(scene *s)

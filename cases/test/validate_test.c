@@ -1,5 +1,6 @@
-/* Rejected springs, members, motions and loads. Every rejection states the cause and the remedy in
- * one line. Each invalid scene has a single error; the scene from which it was made is accepted. */
+/* Rejected springs, members, motions and loads. Every rejection must state the cause and the remedy
+ * in one line. Each invalid scene has a single error, and the scene from which it was made is
+ * accepted. */
 #include <math.h>
 
 #include "cases/scene/scene.h"
@@ -349,7 +350,6 @@ static void says_that_memory_ran_out(void)
     scene_free(&s);
 }
 
-/* Only a path can determine unknown drivers. */
 static void says_what_is_sought_along_paths(void)
 {
     scene s;
@@ -365,7 +365,6 @@ static void says_what_is_sought_along_paths(void)
     scene_free(&s);
 }
 
-/* Loads on the whole member and other valid loads are accepted. */
 static void accepts(void)
 {
     static const double place[] = {0, 0.5, 1};
@@ -389,7 +388,6 @@ static void accepts(void)
     }
 }
 
-/* A load that is zero at its start still acts, and makes the tangent unsymmetric. */
 static void acts_where_it_ends(void)
 {
     scene_load l = scene_load_of(SCENE_DISTRIBUTED, 0, 0, 0, 0);

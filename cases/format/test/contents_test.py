@@ -1,4 +1,4 @@
-"""Tests the contents of scene files: data as read, the examples, and scenes with closed-form solutions."""
+"""Contents of scene files: data as read, the examples, and scenes with closed-form solutions."""
 import json
 import pathlib
 import re
@@ -9,9 +9,7 @@ from harness.tools.kit.program import ProgramTest, ROOT
 from harness.tools.kit.scenes import LEAF
 
 
-# Contents of scene files: loads, sections, resultants and bodies. Reading and writing preserves them bit for bit.
 
-# All ways to define a section. The constants of three sections define the position of a node.
 SHAPES = """\
 beamwork: 1
 parameters: {h: {value: 0.2, unit: m}}
@@ -71,8 +69,6 @@ omit: [wagner_torque]
         return self.scene(text, name)
 
     def test_loads(self):
-        """Loads of every kind and with every key are written and read bit for bit, and a rotated structure has the
-        same displacements."""
         first = self.loads("first.yaml", TIP="[1, 0, 0]", Y="[0, 1, 0]", FORCE="[1, 2, 3]", AT="[0.1, 0.2, 0.3]", TURN="[0, 4, 1]",
                            GRAVITY="[0, 0, -9.81]", X="ux", Z="uz")
         turned = self.loads("turned.yaml", TIP="[0, 1, 0]", Y="[0, 0, 1]", FORCE="[3, 1, 2]", AT="[0.3, 0.1, 0.2]", TURN="[1, 0, 4]",
@@ -86,8 +82,6 @@ omit: [wagner_torque]
                 self.assertGreater(abs(value), 1e-4)
 
     def test_shapes(self):
-        """Shapes given by dimensions, tubes and cells are written bit for bit, and expressions can use their
-        constants."""
         path = self.scene(SHAPES, "shapes.yaml")
         text = self.answered("scene", "--scene", path).stdout
         again = self.scene(text, "again.yaml")
@@ -95,8 +89,8 @@ omit: [wagner_torque]
         where = ("-f", "collocation", "-n", 1)
         once, twice = (values(self.record("solve", "--scene", p, *where)) for p in (path, again))
         self.assertEqual(once, twice)
-        # Expected values: e = 3 b^2 t_f/(h t_w + 6 b t_f) for the mid-lines of a channel, a ring, and Bredt's formula
-        # for a polygon.
+        # closed forms: e = 3 b^2 t_f/(h t_w + 6 b t_f) for the mid-lines of a channel, a ring, and Bredt's formula for a
+        # polygon
         height, width, flange, web = 0.2, 0.06, 6e-3, 4e-3
         centre = 3*width**2*flange/(height*web + 6*width*flange)
         ring = (0.05**4 - 0.044**4)*3.141592653589793/32
@@ -129,8 +123,7 @@ quantities:
 """
 
     def test_internal(self):
-        """Resultants at both ends follow from statics for every formulation that supports a channel, and the written
-        scene gives the same values bit for bit."""
+        """Resultants at both ends must follow from statics for every formulation that supports a channel."""
         path = self.scene(self.INTERNAL, "internal.yaml")
         exact = {"N": (5, 5), "Qy": (0.7, 0.7), "Qz": (0.7, 0.3), "Mx": (1, 1), "My": (-1, 0), "Mz": (1.4, 0)}
         for formulation in ("collocation", "geometrically_exact", "beamw", "beamw_consistent"):
@@ -175,7 +168,7 @@ quantities:
 
     def test_stress(self):
         """The stress in a box that is free to warp, under tension and torsion, contains Bredt's flow and the part that
-        varies through its thinnest wall; the written scene gives the same values bit for bit."""
+        varies through the thinnest wall."""
         area, swept, perimeter = 2*(0.1*3e-3 + 0.06*2e-3), 2*0.1*0.06, 2*(0.1/3e-3 + 0.06/2e-3)
         It = swept**2/perimeter + 2*(0.1*3e-3**3 + 0.06*2e-3**3)/3
         tau = max(300/It*(swept/perimeter/t + t) for t in (2e-3, 3e-3))
@@ -193,7 +186,6 @@ quantities:
         self.assertEqual(values(self.record("solve", "--scene", again, "-f", formulation, "-n", 2)), got)
 
     def test_sections_by_sizes(self):
-        """Channel, Z, I and angle sections given by dimensions equal the corresponding walls."""
         sizes = {"channel_portal": "channel: {depth: depth, flange: flange, flange_thickness: t_f, "
                                    "web_thickness: t_w}",
                  "zed_purlin": "zed: {depth: depth, flange: flange, flange_thickness: thickness, "
@@ -223,8 +215,7 @@ quantities:
         self.assertEqual(*written)
 
     def test_weight_of_a_body(self):
-        """A weight at a centre of mass that rotates with its body gives P L^3/3 E I + P a L^2/2 E I, bit for bit as
-        the equal force does."""
+        """A weight at a centre of mass that rotates with its body gives P L^3/3 E I + P a L^2/2 E I."""
         heavy = LEAF.replace("  push: {force: [0, 1, 0], on: tip}", "  weight: {gravity: [0, -9.81, 0], on: tip}")
         body = heavy.replace("tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}")
         self.assertNotIn("push", body)
@@ -240,8 +231,6 @@ quantities:
             self.refused(2, words, "scene", "--scene", self.scene(body.replace(*change)))
 
     def test_weight_of_all(self):
-        """Gravity on all acts once on each member with a density and each body with a mass, but not on a massless
-        member."""
         one = LEAF.replace("push: {force: [0, 1, 0], on: tip}", "weight: {gravity: [0, -9.81, 0], on: all}").replace(
             "tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}\n  end:  {at: [0.2, 0, 0]}").replace(
             "loads:", "  more: {from: tip, to: end, section: light, y: [0, 1, 0]}\nloads:").replace(
@@ -261,7 +250,6 @@ quantities:
             self.refused(2, words, "scene", "--scene", self.scene(text))
 
     def test_the_analysis_that_was_made_up(self):
-        """If the scene has no analysis, the default analysis is reported."""
         where = ("-f", "collocation", "-n", 1)
         done = self.answered("solve", "--scene", self.scene(LEAF), *where)
         self.assertIn("has no analysis; a linear one is run", done.stderr)
@@ -273,7 +261,6 @@ quantities:
         self.assertEqual(done.stderr, "")
 
 
-# The examples pass together and have their known values.
 class ExamplesTest(SceneCase):
 
     def test_examples_are_understood(self):
@@ -281,8 +268,6 @@ class ExamplesTest(SceneCase):
             self.answered("list", "--scene", path)
 
     def test_folder(self):
-        """All examples, run together with a case, give the expected verdict for every formulation, and their names are
-        unique."""
         verdicts = self.folder / "verdicts.json"
         done = self.answered("verify", "--scene", EXAMPLES, "-v", "--json", verdicts)
         judged = {v["case"] for v in json.loads(verdicts.read_text(encoding="utf-8"))["verdicts"]}
@@ -311,8 +296,7 @@ class ExamplesTest(SceneCase):
         self.refused(2, "would overwrite", "verify", "--scene", self.folder, "-o", taken)
 
     def test_leaf_spring_guide(self):
-        """Stiffnesses in the undeformed state equal closed forms; those of the displaced stage equal the reference
-        program's."""
+        """Stiffnesses in the undeformed state have closed forms. Those of the displaced stage are values of the reference program."""
         path = EXAMPLES / "leaf_spring_guide.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 4))
         self.assertAlmostEqual(got["k_drive"] / 2624.536778, 1, delta=1e-9)
@@ -322,7 +306,6 @@ class ExamplesTest(SceneCase):
         self.assertIn("5 pass", done.stdout)
 
     def test_double_cross(self):
-        """The out-of-plane stiffness does not change the sixteen in-plane frequencies."""
         path, count = EXAMPLES / "double_cross.yaml", 0
         for formulation in ("collocation", "beamw_vlasov"):
             where = ("solve", "--scene", path, "-f", formulation, "-n", 8)
@@ -334,7 +317,6 @@ class ExamplesTest(SceneCase):
         self.assertEqual(count, 32)
 
     def test_cross_flexure_hinge(self):
-        """Moment, displacement and stiffness at 20 degrees have their reference values."""
         got = values(
             self.record("solve", "--scene", EXAMPLES / "cross_flexure_hinge.yaml", "-f",
                         "collocation", "-n", 2))
@@ -342,7 +324,7 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(got[name] / value, 1, delta=1e-6)
 
     def test_folded_leaf_stage(self):
-        """Three instances at 120 degrees have equal stiffness in all directions in their plane."""
+        """Three instances at 120 degrees must have equal stiffness in all directions in their plane."""
         path = EXAMPLES / "folded_leaf_stage.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 2))
         self.assertAlmostEqual(got["k_x"] / got["k_y"], 1, delta=1e-12)
@@ -353,29 +335,27 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(again[name] / value, 1, delta=1e-11)
 
     def test_box_girder(self):
-        """A closed section in torsion with warping restrained agrees with Benscoter's beam."""
+        """A closed section in torsion with warping restrained is compared with Benscoter's beam."""
         path = EXAMPLES / "box_girder.yaml"
         done = self.answered("verify", "--scene", path)
         self.assertRegex(done.stdout, r"12 verdicts against reference values: 12 pass")
         self.assertRegex(done.stdout, r"sheet_second, [\w,\s]+: another model: warping not modelled")
 
 
-# Scenes as a new user would write them, without specified physics, are compared with closed forms.
-#
-# The first lines of each file in cases/textbook describe the scene and its correct values, which the file contains as
-# reference values. The formulation that solve selects, and formulations with all physics, must give these values. A
-# wrong value must never have status ok.
+# Scenes as a new user would write them, without specified physics, are compared with closed forms. The first lines of
+# each file in cases/textbook describe the scene and its correct values, which the file contains as reference values.
+# The formulation that solve selects, and formulations with all physics, must give these values. A wrong value must
+# never have status ok.
 SCENES = sorted((ROOT / "cases" / "textbook").glob("*.yaml"))
 # Relative tolerance of a value on the mesh that solve selects.
 CLOSE = 2e-3
 
-# Scenes in which the elements of this formulation are too long for their axial force, for any number of elements: the
-# formulation is reported as failed, and no value is shown.
+# Scenes in which the elements of this formulation are too long for their axial force, for any number of elements. The
+# formulation must be reported as failed, without a value.
 REFUSED = {"rotating_string": "geometrically_exact"}
 
 
 def wrong(solution):
-    """Returns the quantities that differ from their reference values or have no value."""
     found = []
     for row in solution["quantities"]:
         for truth in row["truths"][:1]:
@@ -388,21 +368,16 @@ def wrong(solution):
 
 
 class ClosedFormsTest(ProgramTest):
-    """There is one test for each scene."""
-
     def holds(self, path, *options):
-        """Checks that the scene has its correct values with these options."""
         solution = self.record("solve", "--scene", path, *options)
         self.assertEqual(solution["cell"]["status"], "ok", solution["cell"]["reason"])
         self.assertEqual(wrong(solution), [], path.name)
 
     def test_that_there_are_enough(self):
-        """There are at least thirty scenes, and each has a reference value or is known to have no value."""
         self.assertGreaterEqual(len(SCENES), 30)
 
 
 def add(path):
-    """Adds the tests of a scene to the class."""
     def chosen(self):
         self.holds(path)
 

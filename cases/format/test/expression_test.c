@@ -1,4 +1,4 @@
-/* Expressions and ranges: values, and the position and remedy of invalid ones. */
+/* Expressions and ranges: values, and the position and remedy of invalid input. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -168,8 +168,6 @@ static void expression_tests(void)
     arena_free(&a);
 }
 
-/* YAML as a tree: positions, and rejected documents. */
-
 static void check_tree(void)
 {
     static const char text[] = "# first\n"
@@ -234,7 +232,6 @@ static void check_refused(void)
     }
 }
 
-/* Loops: order, names, local values. */
 static void check_loops(void)
 {
     static const char text[] = "n_$i: {for: {i: 0..2}, let: {a: 2*i}, at: [a, i]}\n"
@@ -284,7 +281,7 @@ static void check_bad_loops(void)
     }
 }
 
-/* Twenty errors are stored, sorted by position; further errors are only counted. */
+/* Twenty errors are stored, sorted by position. Further errors are only counted. */
 static void check_many(void)
 {
     static mistakes m = {.file = "f"};
@@ -308,10 +305,9 @@ static void document_tests(void)
     check_many();
 }
 
-/* Units of scene files: SI units are accepted; for others, the remedy gives the correct factor and
- * an accepted unit. */
+/* Units of scene files: SI units are accepted. For other units, the remedy must give the correct
+ * factor and an accepted unit. */
 
-/* Returns the error message for a unit, or "" if there is none. */
 static const char *said(const char *unit, mistakes *m)
 {
     const document_node text = {
@@ -351,7 +347,8 @@ static const struct {
                {"kHz", "Hz", 1e3},
                {"rpm", "rad/s", PI / 30}};
 
-/* Checks "write 20 mm as 20e-3 with unit: m": 20 mm are 20 times the factor of m. */
+/* The remedy "write 20 mm as 20e-3 with unit: m" is correct if 20 mm are 20 times the factor of
+ * m. */
 static void remedy_of(const char *unit, const char *si, double factor)
 {
     mistakes m;

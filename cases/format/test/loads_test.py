@@ -10,7 +10,6 @@ from harness.tools.kit.program import run
 from harness.tools.kit.scenes import LEAF
 
 
-# Every key with every kind of load: allowed and rejected combinations.
 SCENE = """beamwork: 1
 UNITS
 sections:
@@ -43,7 +42,7 @@ KINDS = {
 FORCES, MOMENTS = ("force", "force within", "distributed"), ("moment", "moment within", "distributed moment")
 ON_MEMBERS = ("force within", "moment within", "distributed", "distributed moment")
 SPREAD = ("distributed", "distributed moment")
-# for each key, the kinds that can have it; a force or a moment within a member already has `where`
+# for each key, the kinds of loads that can have it; a force or a moment within a member already has `where`
 KEYS = {
     "where: 0.75": (),
     "from: 0.25": SPREAD,
@@ -85,8 +84,8 @@ class LoadsTest(SceneCase):
         return [line for line in self.written(text).partition("\nloads:\n")[2].splitlines() if line.startswith("  l")]
 
     def test_every_key(self):
-        """A key that a kind of load can have is preserved by writing and reading. Any other key is rejected with one
-        line that contains the key and a remedy."""
+        """A key that a kind of load can have must be preserved by writing and reading. Any other key must be rejected
+        with one line that contains the key and a remedy."""
         taken, refused = [], 0
         for (kind, said), (key, kinds) in itertools.product(KINDS.items(), KEYS.items()):
             where = key.startswith("where") and "within" in kind
@@ -111,8 +110,8 @@ class LoadsTest(SceneCase):
             self.assertIn(key, once)
 
     def test_analyses(self):
-        """Files with every kind of load and every analysis are reproduced. Loads without a potential are rejected,
-        with their name, by analyses that require one."""
+        """Files with every kind of load and every analysis must be reproduced. Loads without a potential must be rejected
+        by name in analyses that require a potential."""
         several = [said for kind, said in KINDS.items() if kind != "all"]
         several += [f"{KINDS[kind]}, from: 0.25, to: 0.5, to_value: [4, 5, 6], follower: true" for kind in SPREAD]
         for analysis, said in ANALYSES.items():
@@ -127,7 +126,7 @@ class LoadsTest(SceneCase):
             self.assertRegex(done.stderr, r"\bl0 \(moments? .*\): it has no potential")
 
     def test_nothing(self):
-        """An explicit default is equivalent to a missing key."""
+        """An explicit default must be equivalent to a missing key."""
         for kind, said in KINDS.items():
             for key in NOTHING:
                 if kind not in SPREAD and key.startswith("from"):
@@ -137,7 +136,6 @@ class LoadsTest(SceneCase):
                 self.assertEqual(self.loads_of(text_of([f"{said}, {key}"])), self.loads_of(text_of([said])), (kind, key))
 
     def test_plane(self):
-        """A load that points out of the plane at its start or its end is rejected."""
         inside = ["force: [1, 2, 0], on: bar, where: 0.25", "moment: [0, 0, 3], on: bar, where: 0.25",
                   "distributed: [1, 2, 0], on: bar, to_value: [2, 1, 0]", "distributed_moment: [0, 0, 0], on: bar, to_value: [0, 0, 1]"]
         outside = ["force: [1, 2, 3], on: bar, where: 0.25", "moment: [1, 0, 3], on: bar, where: 0.25, axes: member",
@@ -151,8 +149,7 @@ class LoadsTest(SceneCase):
             self.assertRegex(done.stderr, r":11:3: l0: it (acts|rotates) out of the plane, .*; remove this, or remove plane: xy\n$")
 
     def test_units(self):
-        """In mm and N, fractions of a length have no unit, and vectors at both ends have the unit of their kind of
-        load."""
+        """In mm and N, fractions of a length have no unit, and vectors at both ends have the unit of their kind of load."""
         def loads(millimetre):
             force, moment, line, moments, arm = (f"[{x}, {2*x}, {3*x}]" for x in (1, 0.5*millimetre, 2/millimetre, 0.25, 0.125*millimetre))
             more = [f"distributed: {line}, on: bar, from: 0.25, to: 0.5, at: {arm}, to_value: [0, {8/millimetre}, 0]",
@@ -162,9 +159,7 @@ class LoadsTest(SceneCase):
         self.assertNotEqual(self.loads_of(text_of(loads(1000))), self.loads_of(text_of(loads(1))))
 
 
-# Motions in time from scene files, with several verbs.
 
-# A block on a spring and a light wire, under a small force.
 BLOCK = """\
 beamwork: 1
 parameters:
@@ -209,14 +204,13 @@ class MotionTest(SceneCase):
         self.assertAlmostEqual(doubled / exact, 2, delta=1e-3)
 
     def stiffness(self):
-        """Returns the stiffness of spring and wire [N/m], from a static force."""
+        """Returns the stiffness of the spring and the wire [N/m], from a static force."""
         text = BLOCK.replace(", TIME", "").replace(", at: 0.5", "")
         path = self.scene(text.replace("ANALYSES", "swing: {linear: {}}"))
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1))
         return PUSH / got["u"]
 
     def test_functions(self):
-        """An expression, pieces and a table that define the same function of time give the same motion."""
         ramp = self.moved("pieces: [{until: 0.2, is: 5*t}, {is: 1}]")["u"]
         self.assertAlmostEqual(self.moved("table: {at: [0, 0.2], value: [0, 1]}")["u"], ramp,
                                delta=1e-9 * abs(ramp))
@@ -224,7 +218,6 @@ class MotionTest(SceneCase):
         self.assertEqual(self.moved("time: 1")["u"], self.moved("")["u"])
 
     def test_release(self):
-        """If the load is zero after the end of a static path, the block swings back."""
         walk = "walk: {static: {stations: [1]}}\n  "
         about = walk + SWING.replace("radau,", "radau, about: walk,")
         k = self.stiffness()
@@ -234,7 +227,6 @@ class MotionTest(SceneCase):
         self.assertAlmostEqual(held * k / PUSH, 0.5, delta=1e-6)
 
     def test_usual_choices(self):
-        """Without a step and a tolerance, steps adapt. Without quantities, positions and energies are reported."""
         path = self.scene(re.sub(r"(?s)quantities:.*?omit", "omit", BLOCK.replace(
             ", TIME", "").replace("ANALYSES", "swing: {motion: {stations: [0.5]}}")))
         written = self.answered("scene", "--scene", path).stdout
@@ -243,7 +235,6 @@ class MotionTest(SceneCase):
         self.assertEqual(set(values(record)), {"block_ux", "energy"})
 
     def test_chosen_integrators(self):
-        """rho is accepted if a parameter chooses the integrator; all integrators agree on the motion."""
         swing = SWING.replace("radau, step: step", "how, step: 1e-3, rho: 0.8")
         text = BLOCK.replace(", TIME", ", time: sin(20*t)").replace("ANALYSES", swing)
         path = self.scene(text.replace(
@@ -255,8 +246,8 @@ class MotionTest(SceneCase):
         self.assertNotEqual(got[0], got[1])
 
     def test_mass(self):
-        """By default and on request, mass is distributed along members; lumped mass is less accurate. Elements with
-        three nodes and integrators without support reject consistent mass, with their names."""
+        """By default and on request, mass is distributed along members. Lumped mass is less accurate. Elements with three
+        nodes and integrators without support must be named in the rejection of consistent mass."""
         text = reader_file("howto/dynamics.md", "swing.yaml")
         lumped = self.scene(text.replace("0..1/100", "0..1/100, mass: lumped"), "lumped.yaml")
         usual = self.scene(text, "usual.yaml")
@@ -277,7 +268,6 @@ class MotionTest(SceneCase):
                      "geometrically_exact")
 
     def test_mass_of_what_goes_on(self):
-        """An integrator that supports only lumped mass cannot continue a motion with consistent mass."""
         go = "{a: {motion: {stations: [0.01], MASSstep: 1e-4}}, "
         go += "b: {motion: {stations: [0.02], about: a, integrator: conserving, step: 1e-4}}}"
         text = reader_file("howto/dynamics.md", "swing.yaml")
@@ -290,8 +280,6 @@ class MotionTest(SceneCase):
             self.assertEqual("only lumped mass" in done.stdout + done.stderr, code == 2)
 
     def test_forms_of_newton(self):
-        """Newton's method in displacements gives the same motion; a form of Newton's method that the integrator does
-        not support is rejected."""
         path = self.block("time: sin(20*t)")
         where = ("solve", "--scene", path, "-n", 1, "-f")
         mixed, alone = (values(self.record(*where, f"collocation:newton={how}"))["u"]
@@ -303,7 +291,6 @@ class MotionTest(SceneCase):
                      "collocation:newton=displacement")
 
     def test_other_verbs(self):
-        """Sweeps can vary the step, a deck rejects a motion, and a written scene gives the same values bit for bit."""
         path = self.block("time: sin(20*t)")
         self.answered("sweep", "--scene", path, "--vary", "step=1e-3..4e-3/2:log", "-f",
                       "collocation", "-n", 1, "-o", self.folder / "steps.h5")
@@ -322,7 +309,6 @@ class MotionTest(SceneCase):
         self.assertIn("0.5 s after the start of the motion", re.sub(r"\s+", " ", listed))
 
     def test_loads_that_jump(self):
-        """A load that jumps between the end of the path and the start of the motion is reported."""
         follows = ("bent: {static: {stations: [1]}}\n"
                    "  swing: {motion: {stations: [0.25, 0.5], step: step, about: bent}}")
         for time, told in (("time: 0", True), ("time: 1 - t", False),
@@ -333,7 +319,6 @@ class MotionTest(SceneCase):
                              told, text)
 
     def test_what_ends_too_early(self):
-        """If a load grows without bound, the motion stops, and the message gives remedies."""
         path = self.block("time: exp(1000*t)")
         done = self.answered("solve", "--scene", path, "-f", "beamw", "-n", 1, code=1)
         self.assertIn("it ends before 0.5 s: give a smaller step", re.sub(r"\s+", " ", done.stdout))
@@ -344,7 +329,6 @@ class MotionTest(SceneCase):
         self.refused(2, "did you mean 't'?", "solve", "--scene", self.block("time: 2*time"))
 
     def test_curves_are_over_time(self):
-        """The abscissa of curves is the time by default; a name in the file takes precedence."""
         path = self.block("time: 1")
         for x, wanted in (("", ("time", "s")), (", x: {factor: 1000}", ("time", "1")),
                           (", x: {name: a, unit: s}", ("a", "s"))):
@@ -355,8 +339,6 @@ class MotionTest(SceneCase):
             self.assertEqual((curve["x_name"], curve["x_unit"]), wanted)
 
     def test_one_reason_once(self):
-        """If a quantity has no value for the same reason as the previous quantity, its message refers to that
-        quantity."""
         path = self.block("time: 1")
         late = "{rate: {analysis: swing, node: block, component: ux, at: 0.9}}"
         path.write_text(path.read_text("utf-8").replace(
@@ -367,7 +349,8 @@ class MotionTest(SceneCase):
 
 # Stability at each station of a path in tables and records, and its effect on the choice of a mesh.
 
-# A column in a plane, clamped at the bottom and free at the top. It remains straight and buckles at path parameter 1.
+# Critical load of a column in a plane, clamped at the bottom and free at the top. The column remains straight and
+# buckles at the path parameter 1.
 EULER = math.pi**2/4*210e9*50e-3*5e-3**3/12
 COLUMN = f"""beamwork: 1
 sections: {{strip: {{rectangle: {{width: 50e-3, thickness: 5e-3}}, young: 210e9, shear_modulus: 81e9, density: 7800}}}}
@@ -410,15 +393,13 @@ class StabilityTest(SceneCase):
                          ["yes", "yes", "no", "no"])
 
     def test_meshes(self):
-        """converge reports where the stability changes; solve refines to the finest mesh, because coarser meshes might
-        miss the change."""
+        """converge reports where the stability changes. solve refines to the finest mesh, because coarser meshes might miss the change."""
         text = self.answered("converge", "--scene", self.scene(COLUMN), "-f", "collocation", "-f", "beamw").stdout
         self.assertIn("collocation met unstable states:\n  n = 1: stable up to 0.95", text)
         line = self.answered("solve", "--scene", self.scene(COLUMN), "-f", "collocation").stdout
         self.assertIn("-n 8", line)
 
     def test_turning(self):
-        """For rotating shafts, no stability is derived from pivots."""
         found = self.steps(SHAFT, "press", "collocation")
         self.assertEqual(found[1], "undecided")
         done = run("solve", "--scene", self.scene(SHAFT), "-f", "collocation", "-n", 4)

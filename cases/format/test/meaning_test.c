@@ -1,5 +1,5 @@
-/* Every quantity of every case and example has a description of its own, which is derived from the
- * data of the scene. */
+/* Every quantity of every case and example must have a unique description, which is derived from
+ * the data of the scene. */
 #include <dirent.h>
 #include <gsl/gsl_test.h>
 #include <stdio.h>
@@ -106,7 +106,7 @@ static void check_examples(void)
 
 extern const quantity_type quantity_envelope_of;
 
-/* Two nodes, a member, a static path of two stations and a compliance. */
+/* Makes two nodes, a member, a static path of two stations and a compliance. */
 static void check_words(void)
 {
     static const double path[] = {0.5, 1}, y[] = {0, 1, 0};
@@ -149,7 +149,6 @@ static void check_words(void)
     scene_free(&s);
 }
 
-/* Checks quantities of a motion. */
 static void check_motion(void)
 {
     scene_extract acceleration = scene_rate(1, SCENE_UX);
@@ -204,8 +203,8 @@ static void meaning_tests(void)
     printf("%d quantities\n", asked);
 }
 
-/* Cases that the build makes from scene files equal the files in their parameters and, bit for bit,
- * in the scene and the names of its entries. */
+/* Cases that the build makes from scene files must equal the files in their parameters, in the
+ * names of the entries and, bit for bit, in the scene. */
 
 static void compare_parameters(const char *name, const parameter_type *packed,
                                const parameter_type *read)

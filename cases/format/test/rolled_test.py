@@ -1,4 +1,4 @@
-"""Compares rolled sections given by name with manufacturers' tables (EN 10365 sections catalogue, ArcelorMittal 2021;
+"""Compares rolled sections given by name with tables of manufacturers (EN 10365 sections catalogue, ArcelorMittal 2021;
 EN 10210-2:2019 tables for hollow sections)."""
 import math
 import re
@@ -102,8 +102,8 @@ PRINTED = {
     "CHS114.3x5": ("17.2", "257", "257", "514", None),
 }
 SCALE = (1e-4, 1e-8, 1e-8, 1e-8, 1e-9)
-# Angles (EN 10056-1:2017; sections catalogue, ArcelorMittal 2021): A [cm^2], larger and smaller
-# principal moment [cm^4].
+# Angles (EN 10056-1:2017; sections catalogue, ArcelorMittal 2021): A [cm^2], larger and smaller principal moment
+# [cm^4].
 ANGLES = {
     "L30x3": ("1.74", "2.22", "0.585"),
     "L50x5": ("4.80", "17.4", "4.55"),
@@ -136,8 +136,7 @@ CONSTANTS = ("A", "Iy", "Iz", "It", "Iw", "ys")
 
 
 def half_unit(printed):
-    """Returns half a unit of the last printed digit. Integers with five or more digits are printed with four
-    significant digits."""
+    """Returns half a unit of the last printed digit. Integers with five or more digits are printed with four significant digits."""
     digits = len(printed.replace(".", "").lstrip("0"))
     if "." in printed:
         return 0.5 * 10**-len(printed.split(".")[1])
@@ -145,8 +144,7 @@ def half_unit(printed):
 
 
 def scene(sections, material="young: 210e9, shear_modulus: 81e9, density: 7850", loads=None):
-    """Returns a scene file with these sections. loads: text with the loads; by default, forces that contain the
-    constants of each section."""
+    """Returns a scene file with these sections and `loads`. The default loads are forces that contain the constants of each section."""
     loads = loads or {
         f"{name}_{k}": f"[{name}.{k}*1e12, 0, 0]" for name in sections for k in CONSTANTS
     }
@@ -159,7 +157,6 @@ def scene(sections, material="young: 210e9, shear_modulus: 81e9, density: 7850",
 class ProfilesTest(SceneCase):
 
     def constants(self, sections):
-        """Returns the constants of each section by name."""
         written = self.answered("scene", "--scene", self.scene(scene(sections))).stdout
         found = re.findall(r"^  (\w+)_([A-Z]\w?|ys): \{force: \[([^,]*),", written, re.M)
         out = {}
@@ -168,7 +165,6 @@ class ProfilesTest(SceneCase):
         return out
 
     def test_printed(self):
-        """The constants of every size agree with all printed digits."""
         names = {f"s{i}": name for i, name in enumerate(PRINTED)}
         sections = {key: f"profile: {name}" for key, name in names.items()}
         for first in range(0, len(names), 20):
@@ -182,7 +178,7 @@ class ProfilesTest(SceneCase):
                             half_unit(printed) * 1.001, f"{constant} of {name}: {got[constant]}")
 
     def test_channels(self):
-        """The printed constants of channels are close to those of their walls, so that no misprint was copied."""
+        """The printed constants of channels must be close to those of their walls, so that no misprint was copied."""
         sections = {name: f"profile: {name}" for name in UPN}
         got = self.constants(sections)
         written = self.answered("scene", "--scene", self.scene(scene(sections))).stdout
@@ -198,8 +194,7 @@ class ProfilesTest(SceneCase):
                                        msg=f"{constant} of {name}")
 
     def test_sizes_without_fillets(self):
-        """T-sections and non-standard angles consist of walls without fillets, with the exact area of sharp
-        corners."""
+        """T-sections and non-standard angles consist of walls without fillets, with the exact area of sharp corners."""
         got = self.constants({
             "t": "t: {depth: 0.1, flange: 0.1, flange_thickness: 0.01, web_thickness: 0.01}",
             "l": "profile: L100x77x8",
@@ -213,8 +208,7 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["given"]["A"], 28.48e-4, delta=5e-7)
 
     def test_angles(self):
-        """The constants of angles agree with all printed digits, exchanged legs rotate the section, and the shear
-        centre of equal legs is the intersection of their centre lines."""
+        """The shear centre of equal legs is the intersection of their centre lines. Exchanged legs rotate the section."""
         sections = {f"s{i}": f"profile: {name}" for i, name in enumerate(ANGLES)}
         got = self.constants(sections)
         for key, printed in zip(sections, ANGLES.values()):
@@ -236,8 +230,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(e[2], -23.22e-3, delta=1e-5)
 
     def test_angle_bends_askew(self):
-        """A load along one leg of L100x75x8 causes the deflection that follows from the second moments about axes
-        along the legs: d = F L^3/3E [Iz, -Iyz; -Iyz, Iy]/(Iy Iz - Iyz^2), including fillets."""
+        """A load along one leg of L100x75x8 causes the deflection d = F L^3/3E [Iz, -Iyz; -Iyz, Iy]/(Iy Iz - Iyz^2), with
+        the second moments about axes along the legs, including fillets."""
         text = scene({"l": "profile: L100x75x8"}, loads={"p": "[0, 0, 10]", "t": "[0, 0, 0]"})
         text = text.replace("  t: {force: [0, 0, 0], on: b}", "  t: {moment: [10*l.ey, 0, 0], on: b}")
         text = text.replace("  uz:", "  uy: {displacement: {analysis: run, node: b, component: uy}}\n  uz:")
@@ -249,8 +243,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["uy"] / (-flexibility * Iyz), 1, delta=4e-3)
 
     def test_stresses_of_an_angle(self):
-        """Stresses at the heel and the sharp toes are -M (Iy y - Iyz z)/(Iy Iz - Iyz^2) about axes along the legs,
-        with the constants of the outline with fillets integrated here."""
+        """Stresses at the heel and the sharp toes are -M (Iy y - Iyz z)/(Iy Iz - Iyz^2) about axes along the legs. The
+        constants are integrated here over the outline with fillets."""
         def spandrel(sign, y, z, sy, sz, r, n=4000):
             strips = [(r / n * h, (i + 0.5) * r / n, h) for i in range(n)
                       for h in [r - math.sqrt(r * r - (r - (i + 0.5) * r / n)**2)]]
@@ -278,8 +272,8 @@ class ProfilesTest(SceneCase):
             self.assertEqual(max(stress), stress[0])
 
     def test_stresses_of_mid_lines(self):
-        """Stresses are those at the outer surfaces and corners also in sections given by mid-lines: M_y z/Iy + M_z y/Iz
-        of the outer box over the inertias of the mid-lines."""
+        """Stresses are at the outer surfaces and corners even for sections given by mid-lines: M_y z/Iy + M_z y/Iz with
+        the outer box and the inertias of the mid-lines."""
         h, b, t = 0.2, 0.1, 0.01
         Iy, Iz = t * h**3 / 6 + b * t * h**2 / 2, t * b**3 / 6 + h * t * b**2 / 2
         box = f"box: {{depth: {h}, flange: {b}, flange_thickness: {t}, web_thickness: {t}}}"
@@ -290,8 +284,7 @@ class ProfilesTest(SceneCase):
             self.assertAlmostEqual(got / (My * (h + t) / 2 / Iy + Mz * (b + t) / 2 / Iz), 1, delta=1e-9, msg=(My, Mz))
 
     def test_beam(self):
-        """The deflection and stress of a cantilever follow from the printed constants, P L^3/(3 E Iy) and P L/Wel with
-        Wel = 194.3 cm^3, for all formulations that support the section."""
+        """The printed constants determine the deflection and stress of a cantilever: P L^3/(3 E Iy) and P L/Wel with Wel = 194.3 cm^3."""
         text = scene({"beam": "profile: ipe 200"}, loads={"p": "[0, 0, 1000]"})
         text += "omit: {shear: yes}\n"
         for formulation in ("beamw_consistent", "geometrically_exact", "collocation"):
@@ -301,7 +294,6 @@ class ProfilesTest(SceneCase):
             self.assertAlmostEqual(got["s"] / (1000 / 194.3e-6), 1, delta=1e-3)
 
     def test_other_units(self):
-        """A named section has the dimensions of the standard in any unit of the file."""
         text = scene({"beam": "profile: IPE200"}, loads={"p": "[0, 0, 1]"})
         ours = values(self.record("solve", "--scene", self.scene(text), "-n", 2))["uz"]
         text = text.replace("beamwork: 1", "beamwork: 1\nunits: mm, N, MPa").replace(

@@ -5,8 +5,6 @@ EXAMPLES = ROOT / "cases/examples"
 
 
 class SceneCase(ProgramTest):
-    """A test that writes scenes."""
-
     def scene(self, text, name="scene.yaml"):
         path = self.folder / name
         path.write_text(text, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Tests scene files: their form, names, choices, and parts with their instances."""
+"""Form, names and choices of scene files, and parts with their instances."""
 import csv
 import json
 import math
@@ -12,16 +12,14 @@ from harness.tools.kit.program import ProgramTest, ROOT, run
 from harness.tools.kit.scenes import LEAF, bad_scenes
 
 
-# Scene files read by the program: positions of errors, equality with the cases bit for bit, parameters, and keys.
 GOOD = ROOT / "cases/format/test/good"
-# Only a part of the motion with twelve joints, because the whole motion takes as long as many other cases together.
+# only a part of the motion with twelve joints, because the whole motion takes as long as many other cases together
 PART = {"hexapod_motion": ("--set", "time=0.05")}
 
 
 class SceneTest(SceneCase):
 
     def test_bad_files(self):
-        """Each injected error is reported at its position with its remedy, and no other error is reported."""
         self.assertGreaterEqual(len(bad_scenes()), 160)
         for name, text in bad_scenes():
             path = self.folder / f"{name}.yaml"
@@ -33,7 +31,6 @@ class SceneTest(SceneCase):
             self.assertEqual((done.returncode, told, done.stdout), (2, expected, ""), path.name)
 
     def test_mistakes_for_editors(self):
-        """--format json reports the same errors, with numeric positions and text."""
         path = self.folder / "several_mistakes.yaml"
         path.write_text(dict(bad_scenes())[path.stem], encoding="utf-8")
         done = self.answered("scene", "--scene", path, "--format", "json", code=2)
@@ -58,8 +55,7 @@ class SceneTest(SceneCase):
         self.assertAlmostEqual(values(record)["tip_uy"] / exact, 1, delta=1e-9)
 
     def test_bytes(self):
-        """Line endings and byte order marks of other editors and letters of other languages do not change the
-        results."""
+        """Line endings and byte order marks of other editors, and letters of other languages, must not change the results."""
         own = self.answered("scene", "--scene", self.scene(LEAF)).stdout
         for name, text in (("ends", LEAF.replace(
                 "\n", "\r\n")), ("mark", "\ufeff" + LEAF), ("letters", LEAF + "# Größe – 大きさ\n")):
@@ -68,7 +64,6 @@ class SceneTest(SceneCase):
             self.assertEqual(self.answered("scene", "--scene", path).stdout, own, name)
 
     def test_same_bits(self):
-        """A case and the file that `scene` writes for it give the same values, bit for bit."""
         listed = self.answered("list", "cases").stdout.splitlines()
         cases = [line.split()[0] for line in listed if re.match("  [^ ]", line)]
         self.assertGreater(len(cases), 20)
@@ -89,13 +84,11 @@ class SceneTest(SceneCase):
         self.assertGreater(compared, 40)
 
     def test_written_again(self):
-        """A written file that is read and written again gives the same text."""
         for path in sorted(EXAMPLES.glob("*.yaml")):
             once = self.answered("scene", "--scene", path).stdout
             self.assertEqual(self.answered("scene", "--scene", self.scene(once)).stdout, once)
 
     def test_everything(self):
-        """All data that a scene can contain are read as intended and are preserved by writing."""
         for path in sorted(GOOD.glob("*.yaml")):
             written = path.with_suffix(".written").read_text(encoding="utf-8")
             self.assertEqual(self.answered("scene", "--scene", path).stdout, written)
@@ -103,8 +96,7 @@ class SceneTest(SceneCase):
             self.assertEqual(again, written)
 
     def test_needs_of_earlier_versions(self):
-        """Physics that `needs` does not list is omitted, except warping, and one line states the replacement of this
-        key."""
+        """Physics that `needs` does not list is omitted, except warping, and one line states the replacement of this key."""
         rest = ["shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia"]
         buckles = LEAF + ("analyses:\n  run: {buckling: {}}\nquantities:\n"
                           "  P: {critical_factor: {analysis: run}, unit: \"1\"}\n")
@@ -123,7 +115,6 @@ class SceneTest(SceneCase):
             self.assertEqual(self.answered("scene", "--scene", again).stdout, done.stdout)
 
     def test_parameters(self):
-        """--set changes the parameters of a scene within their ranges, and reference values follow."""
         where = ("solve", "--scene", EXAMPLES / "leaf_spring_guide.yaml", "-f", "collocation", "-n",
                  1)
         got = values(self.record(*where, "--set", "width=0.1"))
@@ -132,8 +123,7 @@ class SceneTest(SceneCase):
         self.refused(2, "did you mean 'width'", *where, "--set", "wdth=0.1")
 
     def test_truths_of_a_point(self):
-        """A reference value that names parameters applies only at this parameter point, and `verify` runs this
-        point."""
+        """A reference value that names parameters applies only at this parameter point, and `verify` runs this point."""
         path = self.scene(
             LEAF.replace("width: 50e-3", "width: width").replace(
                 "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +
@@ -149,7 +139,6 @@ class SceneTest(SceneCase):
         self.assertIn("1 verdict against reference values: 1 pass", done.stdout)
 
     def test_refusals(self):
-        """Errors that do not concern the contents of the file are reported in one line."""
         self.refused(4, "cannot be read", "solve", "--scene", self.folder / "none.yaml", "-f",
                      "beamw", "-n", 1)
         self.refused(2, "give one of them", "solve", "elastica", "--scene", self.scene(LEAF), "-f",
@@ -159,7 +148,6 @@ class SceneTest(SceneCase):
         self.assertEqual(path.read_text(encoding="utf-8"), LEAF)
 
     def test_schema(self):
-        """The schema contains every list of a scene and the required keys of the entries."""
         schema = json.loads(self.answered("scene", "--schema").stdout)
         self.assertEqual(schema["required"], ["beamwork", "sections"])
         member = schema["properties"]["members"]["additionalProperties"]
@@ -167,7 +155,6 @@ class SceneTest(SceneCase):
         self.assertIn("for", member["properties"])
 
     def test_list_of_keys(self):
-        """--keys lists the names in the schema, and all keys used in the examples are in both."""
         listed = {
             line.split()[0]
             for line in self.answered("scene", "--keys").stdout.splitlines() if line.strip()
@@ -179,7 +166,7 @@ class SceneTest(SceneCase):
             self.assertLessEqual(used, set(schema["properties"]))
 
     def test_summaries_say_more_than_keys(self):
-        """A summary does not only repeat the key: "'node' is missing (node)" would not state what is required."""
+        """A summary must not only repeat the key: "'node' is missing (node)" would not state what is required."""
         self.assertEqual(re.findall(r"^ *(\w+) +(?:NAME|TEXT|EXPR|\.\.\.) +\1(?: \[| \*|$)",
                                     self.answered("scene", "--keys").stdout, re.M), [])
 
@@ -276,7 +263,6 @@ class NamesTest(SceneCase):
         self.same_again(path, "-f", "collocation", "-n", 2)
 
     def test_written_weight(self):
-        """A node with the name of a member, and a load on several entries, are written correctly."""
         both = GUIDE.replace("peak", "brace_1").replace("0.2, 0]}", "0.2, 0], mass: 0.1}") + "omit: all\n"
         weight = both.replace("push: {force: [0, 1e-3, 0], on: stage}", "load_1: {gravity: [0, 1e-3, 0], on: all}").replace(
             "shear_modulus: 77e9}", "shear_modulus: 77e9, density: 7800}")
@@ -307,7 +293,6 @@ class NamesTest(SceneCase):
 
 class OfFile(ProgramTest):
     def test_any_file_name(self):
-        """Each character that a name cannot contain becomes '_'."""
         text = (ROOT / "cases" / "examples" / "euler_column.yaml").read_text(encoding="utf-8")
         text = "\n".join(line for line in text.splitlines() if not line.startswith("name:"))
         for file, name in (("my-leaf.yaml", "my_leaf"), ("2 blätter.yaml", "scene_2_bl_tter"),
@@ -317,7 +302,6 @@ class OfFile(ProgramTest):
             self.assertIn(f"\nname: {name}\n", self.answered("scene", "--scene", path).stdout)
 
 
-# Parts of a scene file that depend on its parameters.
 CHOSEN = """\
 beamwork: 1
 parameters:
@@ -358,7 +342,6 @@ class ChoicesTest(SceneCase):
         return " ".join(loads), ends["omit"], ends["meshes"]
 
     def test_values_choose(self):
-        """Entries, values, physics and meshes depend on the values of the parameters."""
         self.assertEqual(self.written(),
                          ("push_1: {force: [0, 1.5, 0], on: tip} push_2: {force: [0, 1.5, 0], on: tip}",
                           "omit: [shear, trapeze]", "meshes: [1, 2]"))
@@ -369,17 +352,14 @@ class ChoicesTest(SceneCase):
         self.assertIn("force: [0, 2.5, 0]", self.written("size=20", "shear=1")[0])
 
     def test_refused(self):
-        """Parameter values without a valid scene are rejected at the position of the cause; a switch has two
-        values."""
         path = self.scene(CHOSEN)
         self.refused(2, f"{path}:11:49: size = 12.5 N on the root's side; give less than 10 N", "solve",
                      "--scene", path, "--set", "load=root_side", "--set", "size=12.5")
         self.refused(2, "shear", "solve", "--scene", path, "--set", "shear=0.5")
 
 
-# An instance of a part equals its members, springs and supports written explicitly.
+# An instance of a part must equal its members, springs and supports written explicitly.
 
-# The scene LEAF along z, as an instance of a part.
 PLACED = """\
 beamwork: 1
 sections:
@@ -401,7 +381,6 @@ loads:
 class PartsTest(SceneCase):
 
     def test_instance_by_axes(self):
-        """An instance placed by its axes equals its members written explicitly."""
         got = values(self.record("solve", "--scene", self.scene(PLACED), "-f", "collocation",
                                  "-n", 1))
         own = values(self.record("solve", "--scene", self.scene(LEAF), "-f", "collocation", "-n",
@@ -409,8 +388,7 @@ class PartsTest(SceneCase):
         self.assertAlmostEqual(abs(got["tip_ux"]) / own["tip_uy"], 1, delta=1e-12)
 
     def test_springs_of_a_part(self):
-        """The spring of a rotated part has the rotated matrix T K T^T, both at a port and between nodes of the
-        part."""
+        """The spring of a rotated part has the rotated matrix T K T^T, both at a port and between nodes of the part."""
         turn, a = 0.4, [3e3, 1e3, 2e3, 4.0, 5.0, 6.0]
         c, s = math.cos(turn), math.sin(turn)
         R = np.kron(np.eye(2), [[c, -s, 0], [s, c, 0], [0, 0, 1]])
@@ -437,12 +415,10 @@ loads:""") + "  pull: {force: [0.5, 1, 2], on: own}\n"
         self.assertGreater(min(map(abs, own.values())), 1e-9)
 
     def test_components_of_a_turned_part(self):
-        """Supports and motions are along the axes of the part, even if a motion is opposite to an axis of the
-        scene."""
         part = PLACED.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
         where = ("-f", "collocation", "-n", 1)
-        got = self.same_again(self.scene(part, "part.yaml"), *where)  # x of the part is z of the scene
+        got = self.same_again(self.scene(part, "part.yaml"), *where)  # the x axis of the part is the z axis of the scene
         plain = LEAF.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
         self.assertNotEqual(plain, LEAF)

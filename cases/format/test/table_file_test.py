@@ -50,7 +50,6 @@ class TableFileTest(SceneCase):
             (self.folder / name).write_text(text, encoding="utf-8")
 
     def test_same_as_inline(self):
-        """Files with headers, numbers, separators and comments give bit for bit the same scene as explicit numbers."""
         self.files()
         inline, read = self.filled(INLINE, "inline.yaml"), self.filled(FILES, "read.yaml")
         texts = [self.answered("scene", "--scene", p).stdout.replace(p.stem, "NAME") for p in (inline, read)]
@@ -60,7 +59,6 @@ class TableFileTest(SceneCase):
         self.assertAlmostEqual(got["half"], 1e-3, delta=1e-15)
 
     def test_scene_elsewhere(self):
-        """Paths are absolute or relative to the scene file, not to the folder in which the program runs."""
         self.files()
         path = self.filled({**FILES, "STOP": f"{{file: {self.folder}/stop.csv, at: 1, value: 2}}"})
         done = run("solve", "--scene", path, "-f", "collocation", "-n", 1, cwd="/")
@@ -89,7 +87,6 @@ class TableFileTest(SceneCase):
                 self.assertIn("scene.yaml:12:", done.stderr)
 
     def test_mixed_row(self):
-        """A first row with a number is not a header and is not skipped."""
         self.files()
         (self.folder / "in/drive.csv").write_text("0,nan\n1,0\n2,1\n", encoding="utf-8")
         done = run("scene", "--scene", self.filled({**FILES, "SHAKE": "{file: in/drive.csv, at: 1, value: 2}"}))
@@ -111,7 +108,6 @@ class TableFileTest(SceneCase):
                 self.assertIn("scene.yaml:12:", done.stderr)
 
     def test_listed(self):
-        """The schema for editors contains the key."""
         schema = json.loads(self.answered("scene", "--schema").stdout)
         self.assertIn("CSV", json.dumps(schema))
 

@@ -9,7 +9,6 @@ from cases.format.test.scene_case import EXAMPLES, SceneCase, values
 from harness.tools.kit.program import ROOT, run
 
 
-# Defaults of the keys of a scene file.
 GOOD = ROOT / "cases/format/test/good"
 
 # Entries of every kind that no other scene contains, with as few keys as possible.
@@ -126,7 +125,6 @@ class KeysTest(SceneCase):
         cls.schema = json.loads(run("scene", "--schema").stdout)
 
     def test_words_of_keys(self):
-        """The words that an editor offers are those in the list of keys."""
         said = "".join(self.answered("scene", "--keys").stdout.split())
         offered = []
 
@@ -143,7 +141,6 @@ class KeysTest(SceneCase):
             self.assertTrue(f"({','.join(words)})" in said, words)
 
     def test_every_key(self):
-        """Each key is required, or the list and the schema state its default."""
         lines = []
         for line in self.answered("scene", "--keys").stdout.partition("is replaced:\n")[2].splitlines():
             if re.match(r" {0,11}\S", line):
@@ -170,7 +167,6 @@ class KeysTest(SceneCase):
         self.assertGreater(said, 150)
 
     def test_written(self):
-        """Writing a default explicitly does not change the scene."""
         wanted = {(place, key)
                   for place, properties, _ in tables(self.schema)
                   for key, value in properties.items() if "default" in value}
@@ -199,7 +195,6 @@ class KeysTest(SceneCase):
         self.assertEqual({one for one in wanted - tried if one[0][:1] != ("parts",)}, set())
 
 
-# Scenes in other units equal scenes in SI, and numbers that suggest other units cause a warning.
 
 # Units, one length unit in metres and one force unit in newtons, and the names of the units of values.
 SYSTEMS = (("mm, N, MPa", 1e-3, 1), ("[mm, N]", 1e-3, 1), ("m, kN, kPa", 1, 1e3), ("in, lbf, psi", 0.0254, 4.4482216152605),
@@ -337,7 +332,6 @@ class UnitsTest(SceneCase):
         return self.record("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 2, *where)
 
     def test_systems(self):
-        """Every number is converted according to its unit, and values are reported in the units of the scene."""
         exact = values(self.solved(scene("", 1, 1)))
         for units, metre, newton in SYSTEMS:
             record = self.solved(scene(units, metre, newton))
@@ -353,7 +347,6 @@ class UnitsTest(SceneCase):
                                  "C": "1/N", "K": "N/mm", "f": "Hz", "line": "mm"})
 
     def test_written(self):
-        """beamwork scene writes the scene in SI, with the same values."""
         self.same_again(self.scene(scene("mm, N, MPa", 1e-3, 1)), "-f", "collocation", "-n", 2)
 
     def test_motion(self):
@@ -363,7 +356,7 @@ class UnitsTest(SceneCase):
             self.assertAlmostEqual(found[name]/1e3/exact[name], 1, delta=1e-6, msg=name)
 
     def test_continued(self):
-        """Stations of a continuation are lengths, also for a compliance about the continuation."""
+        """Stations of a continuation are lengths, even for a compliance about the continuation."""
         si, mm = [self.solved(filled(CONTINUED, UNITS=units, NEAR=near, FAR=4*near, **numbers))
                   for units, near, numbers in (("", 1e-3, METRES), ("units: mm, N, MPa", 1, MILLIMETRES))]
         exact, found = values(si), values(mm)
@@ -376,7 +369,6 @@ class UnitsTest(SceneCase):
             self.assertAlmostEqual(there["curve_value"][i]*1e-3/here["curve_value"][i], 1, delta=1e-7)
 
     def test_leaf(self):
-        """The tip moves by 3.0448 mm."""
         found = values(self.solved(filled(LEAF, **MILLIMETRES).replace("beamwork: 1", "beamwork: 1\nunits: mm, N, MPa")))
         self.assertAlmostEqual(found["tip"], 3.0448, delta=1e-3)
 
@@ -395,7 +387,6 @@ class UnitsTest(SceneCase):
         return "warning" in done.stderr
 
     def test_warnings(self):
-        """Suspicious numbers cause a one-line warning and do not change the exit status."""
         self.assertTrue(self.warned(filled(LEAF, **MILLIMETRES)))
         self.assertTrue(self.warned(filled(LEAF, **{**MILLIMETRES, "YOUNG": 210e9, "SHEAR": 81e9})))
         self.assertTrue(self.warned(filled(MOTION, UNITS="", **{**METRES, "YOUNG": 210e3, "SHEAR": 81e3})))
@@ -406,7 +397,6 @@ class UnitsTest(SceneCase):
             self.assertFalse(self.warned(filled(LEAF, **right)), right)
 
     def test_of_another_kind(self):
-        """A frequency is in Hz; another unit requires a factor."""
         scene = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.01}, young: 200e9, shear_modulus: 80e9, density: 7800}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -420,7 +410,6 @@ quantities: {f: {frequency: {analysis: v, which: 0}, unit: %s}}
             self.assertEqual("the value is in Hz" in done.stderr, code == 2, (unit, done.stderr))
 
     def test_verbs(self):
-        """Each verb that reads the scene reports the warning once."""
         path = self.scene(filled(LEAF, **MILLIMETRES))
         for words in (("solve", "-n", 1), ("converge", "-n", 1), ("verify",), ("bench", "-n", 1), ("truth",)):
             told = run(words[0], "--scene", path, *words[1:]).stderr
@@ -453,8 +442,6 @@ quantities: {dT: {critical_factor: {analysis: buck}, unit: K}}
 
 
 class Doubtful(SceneCase):
-    """Numbers that suggest units other than those of the scene."""
-
     def told(self, density, force):
         text = IN_MM.replace("DENSITY", density).replace("FORCE", force).replace(", divide: 2", "")
         return self.answered("solve", "--scene", self.scene(text), "-f", "beamw", "-n", 2)
@@ -465,7 +452,7 @@ class Doubtful(SceneCase):
                       "densities are in t/mm^3", self.told("7850", "1").stderr)
 
     def test_larger_than_the_structure(self):
-        """A displacement larger than the structure causes a warning: EA/l = 84000 N/mm gives 2000 mm at 168 MN."""
+        """EA/l = 84000 N/mm gives 2000 mm at 168 MN."""
         self.assertEqual(self.told("7.85e-9", "167e6").stderr, "")
         self.assertIn("ux: a linear analysis gives a displacement of 1.01 times the size of the structure",
                       self.told("7.85e-9", "169e6").stderr)
@@ -474,8 +461,7 @@ class Doubtful(SceneCase):
         self.assertRegex(self.told("7.85e-9", "1").stdout, r"\nN +0 N mm")
 
     def test_kelvin(self):
-        """The unit of a load factor may be that of its load, which is K in any unit system; another unit requires a
-        factor."""
+        """The unit of a load factor may be that of its load, which is K in any unit system. Another unit requires a factor."""
         self.assertRegex(self.answered("solve", "--scene", self.scene(WARM), "-f", "beamw", "-n", 8).stdout,
                          r"\ndT +\S+ K")
         self.refused(2, "or 'unit: MPa, factor: 1' if the load has the value 1 in this unit", "solve", "--scene",

@@ -1,4 +1,4 @@
-"""Tests warping at member ends in scene files, and curves."""
+"""Warping at member ends in scene files, and curves."""
 import csv
 import io
 import json
@@ -10,9 +10,8 @@ from cases.format.test.scene_case import SceneCase, values
 from harness.tools.kit.program import run
 
 
-# Warping of member ends for which the scene does not specify it.
 E, G, IT, IW, LENGTH, TORQUE = 210e9, 81e9, 4e-7, 9e-7, 3.0, 50.0
-K = math.sqrt(G * IT / (E * IW))  # 1/m; K*LENGTH: 1.2
+K = math.sqrt(G * IT / (E * IW))  # 1/m; K*LENGTH is 1.2
 SAINT_VENANT = TORQUE * LENGTH / (G * IT)
 ONE_HELD = TORQUE / (G * IT) * (LENGTH - math.tanh(K * LENGTH) / K)
 BOTH_HELD = TORQUE / (G * IT) * (LENGTH - 2 * math.tanh(K * LENGTH / 2) / K)
@@ -41,7 +40,7 @@ TIP = f"  tip: {{at: [{LENGTH}, 0, 0]"
 class WarpingTest(SceneCase):
 
     def words(self, scene):
-        """Returns the warping words at both ends of the members, in order; shared coordinates are numbers."""
+        """Returns the warping words at both ends of the members, in order. Shared coordinates are numbers."""
         text = self.answered("scene", "--scene", self.scene(HEAD + scene)).stdout
         return [
             re.sub(r"\{shared: (w\d+)\}", r"\1", word)
@@ -60,12 +59,11 @@ class WarpingTest(SceneCase):
             self.twist(scene, "-f", "collocation") / expected, 1, delta=1e-6, msg="collocation")
 
     def test_numbers(self):
-        """The closed-form values differ sufficiently to distinguish the conditions."""
+        """The closed-form values must differ sufficiently to distinguish the conditions."""
         self.assertGreater(SAINT_VENANT, 1.5 * ONE_HELD)
         self.assertGreater(ONE_HELD, 1.5 * BOTH_HELD)
 
     def test_held(self):
-        """Warping is restrained if all six components are fixed or prescribed, in any combination."""
         drives = "motions: {still: {path: [0, 1], value: [0, 0]}}\n"
         for base in ("hold: all", "hold: [all]", "hold: [ux, uy, uz, rx, ry, rz]",
                      "hold: [rz, ry, rx, uz, uy, ux]",
@@ -82,8 +80,6 @@ class WarpingTest(SceneCase):
                     self.is_twisted(scene + TWIST, ONE_HELD)
 
     def test_free(self):
-        """Warping is free if a component is free, if the node has only a mass or a fork support, or if a word
-        specifies it."""
         drives = "motions: {still: {path: [0, 1], value: [0, 0]}}\n"
         held = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         for tip in ("", ", mass: 3", ", mass: 3, inertia: [1, 1, 1, 0, 0, 0], centre: [0.1, 0, 0]",
@@ -106,7 +102,7 @@ class WarpingTest(SceneCase):
                 self.is_twisted(said + TWIST, expected)
 
     def test_released(self):
-        """A released rotation leaves the warping free; a released translation does not."""
+        """A released rotation leaves the warping free. A released translation does not."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  tip: {at: [3, 0, 0], hold: all}\n"
         for word, told in (("rz", "free"), ("[rx]", "free"), ("[rx, ry, rz]", "free"),
                            ("[ux, ry]", "free"), ("ux", "fixed"), ("[uy, uz]", "fixed")):
@@ -116,8 +112,8 @@ class WarpingTest(SceneCase):
                     [f"fixed, {told}"])
 
     def test_tied(self):
-        """Warping is restrained at the attached nodes of a body, and at the node of the body itself if other entries
-        are joined to the body elsewhere."""
+        """Warping is restrained at the attached nodes of a body. It is also restrained at the node of the body if other
+        entries are joined to the body elsewhere."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         part = base + "  body: {at: [4, 0, 0]}\n" + TIP + ", part_of: body}\n" + CANTILEVER
         self.assertEqual(self.words(part), ["fixed, fixed"])
@@ -134,8 +130,8 @@ class WarpingTest(SceneCase):
         self.assertEqual(self.words(both), ["fixed, fixed", "fixed, fixed"])
 
     def test_guide(self):
-        """A guide of two leaves between clamped bases, one of them driven, and a stage has the expected transverse
-        stiffness at the end of its stroke."""
+        """A guide consists of two leaves between clamped bases and a stage. One base is driven. The transverse stiffness
+        is compared at the end of the stroke."""
         guide = """nodes:
   base_a: {at: [0, 0, 0], hold: all}
   base_b: {at: [0.06, 0, 0], hold: [ux, uy, uz, ry, rz], drive: {rx: tilt}}
@@ -167,7 +163,6 @@ omit: [trapeze, wagner_torque]
         self.assertAlmostEqual(free / 111916, 1, delta=1e-4)
 
     def test_parts(self):
-        """The same rules apply in an instance of a part, whose nodes are its own or the scene's."""
         scene = f"""parts:
   arm:
     places: [hub]
@@ -186,7 +181,7 @@ instances:
         self.assertEqual(self.words(scene), ["fixed, free"] * 4)
 
     def test_continued(self):
-        """A node does not interrupt a beam: two members that continue in one line share their warping."""
+        """A node does not interrupt a beam, so two members that continue in one line share their warping."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  mid: {at: [1, 0, 0], mass: 2}\n" + TIP + "}\n"
         two = base + "members:\n  one: {from: base, to: mid, section: SECTION, y: [0, 1, 0]}\n" + \
             "  two: {from: mid, to: tip, section: SECTION, y: [0, 1, 0]}\n"
@@ -246,7 +241,6 @@ instances:
                         delta=1e-9)
 
     def test_told(self):
-        """Text and JSON list the ends, and stderr is empty."""
         torsion = HEAD + "nodes:\n  base: {at: [0, 0, 0], hold: all}\n" + TIP + "}\n" + CANTILEVER
         ends = "held at base; free at tip"
         scene = self.scene(torsion + TWIST)
@@ -268,8 +262,6 @@ instances:
             self.assertEqual("\nwarping: " in done.stdout, words != "")
 
     def test_told_at_members(self):
-        """If the ends at a node differ, they are listed by their members; if there are many, only the first are
-        listed."""
         scene = HEAD + "nodes:\n  base: {at: [0, 0, 0], hold: all}\n" + TIP + "}\n  side: {at: [3, 2, 0]}\n" + \
             "members:\n  beam: {from: base, to: tip, section: post, y: [0, 1, 0], warping: free}\n" + \
             "  leg: {from: tip, to: side, section: post, y: [1, 0, 0], warping: fixed}\n" + TWIST
@@ -284,15 +276,12 @@ instances:
                          r"warping: held at base, end_0, .*, end_6 and 13 more; free at tip quantity")
 
     def test_written(self):
-        """The written scene contains the word and gives the same values bit for bit."""
         for base in ("hold: all", "hold: [ux, uy, uz, rx]"):
             scene = f"nodes:\n  base: {{at: [0, 0, 0], {base}}}\n{TIP}, hold: [uy, uz]}}\n{CANTILEVER}"
             self.same_again(self.scene(HEAD + scene + TWIST), "-n", 3)
 
 
-# Curves: tables in text, rows in CSV, the choice of the abscissa, and errors of the meshes.
 
-# A leaf guide whose transverse stiffness decreases over the stroke.
 GUIDE = """beamwork: 1
 sections:
   leaf: {rectangle: {width: 30e-3, thickness: 0.3e-3}, young: 200e9, shear_modulus: 77e9}
@@ -333,8 +322,6 @@ class CurvesTest(SceneCase):
         return list(csv.DictReader(io.StringIO(text)))
 
     def test_abscissa(self):
-        """The abscissa contains the values of another quantity on the same path, also for quantities of analyses that
-        follow the path."""
         found = curves(self.record("solve", "--scene", self.scene(FEW), *WHERE))
         places = found["place"]["curve_value"]
         self.assertEqual(len(places), 21)
@@ -346,7 +333,6 @@ class CurvesTest(SceneCase):
         self.same_again(self.scene(FEW), *WHERE)
 
     def test_csv(self):
-        """CSV contains every point with its abscissa, for a single mesh and for several."""
         found = curves(self.record("solve", "--scene", self.scene(MANY), *WHERE))
         rows = self.rows(self.answered("solve", "--scene", self.scene(MANY), *WHERE, "--format", "csv").stdout)
         for name, curve in found.items():
@@ -360,8 +346,6 @@ class CurvesTest(SceneCase):
         self.assertEqual(len([r for r in rows if r["quantity"] == "force"]), 3*21)
 
     def test_text(self):
-        """Curves with the same abscissa are in one table. If there are many points, only some are shown, with the
-        command that shows all."""
         text = self.answered("solve", "--scene", self.scene(FEW), *WHERE).stdout
         lines = [line.split() for line in text.splitlines()]
         at = lines.index(["place", "[mm]", "force", "[N]", "k_z", "[N/m]", "stable"])
@@ -374,7 +358,6 @@ class CurvesTest(SceneCase):
         self.assertLess(len(many.splitlines()), 120)
 
     def test_largest_error(self):
-        """The error of each mesh is the largest over all points, relative to the largest value of the finest mesh."""
         path = self.scene(FEW)
         value = {n: curves(self.record("solve", "--scene", path, "-f", "beamw", "-n", n))["k_z"]["curve_value"]
                  for n in (1, 2, 4)}
@@ -399,7 +382,6 @@ class CurvesTest(SceneCase):
         self.assertIn("place [mm]: the same curve on all meshes", text)
 
     def test_chosen(self):
-        """-k also keeps the quantity on the abscissa of a curve."""
         text = self.answered("converge", "--scene", self.scene(FEW), "-f", "collocation", "-k", "force").stdout
         self.assertIn("force [N] over place [mm]", text)
 
