@@ -46,6 +46,34 @@ static int is_stuck(const analysis_outcome *o)
            (!outcome_has_path(o) || outcome_path_of(o)->reached == 0);
 }
 
+/* Adds a remedy for a structure that only pretension or temperatures make stiff. */
+static void advise_prestressed(const analysis_context *c, int analysis, fault *f)
+{
+    const scene_analysis *a = &c->scene->analysis[analysis];
+    const int base = a->follows, is_linear = a->kind == SCENE_LINEAR || a->kind == SCENE_BUCKLING,
+              of_linear = base != SCENE_NONE && c->scene->analysis[base].kind == SCENE_LINEAR;
+    const size_t used = strlen(f->text);
+    snprintf(f->text + used, sizeof f->text - used,
+             "; if pretension or temperatures make it stiff, use %s",
+             of_linear || (base == SCENE_NONE && is_linear)
+                 ? "a static path, which includes that stiffness"
+                 : "more elements or stations");
+}
+
+/* Explains why the analysis failed, if it was because the structure can move. */
+static void explain(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    fault why = {""};
+    if (o->status == STATUS_SINGULAR && c->work->singular)
+        singular_explain(c, f);
+    else if (!is_stuck(o))
+        return;
+    else
+        o->status = singular_mechanism(c, o->status, f);
+    if (model_frees(c->model) && singular_mechanism(c, STATUS_OK, &why) != STATUS_OK)
+        advise_prestressed(c, analysis, f);
+}
+
 /* Returns 1 if the analysis has a step with an indefinite tangent. */
 static int has_negative(const solve_result *r, int from)
 {
@@ -111,10 +139,7 @@ static void run_analyses(analysis_context *c, int perfect)
         history_judge_steps(c->result, c->scene, i, first_step);
         if (a->kind == SCENE_ROTATION)
             rotation_judge_stations(&own, i, o);
-        if (o->status == STATUS_SINGULAR && c->work->singular)
-            singular_explain(&own, &f);
-        else if (is_stuck(o))
-            o->status = singular_mechanism(&own, o->status, &f);
+        explain(&own, i, o, &f);
         o->status = judge_rest(&own, o, first_step, &f);
         snprintf(o->reason, sizeof o->reason, "%s", f.text);
         if (o->status != STATUS_OK && c->result->status == STATUS_OK) {

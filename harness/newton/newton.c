@@ -233,11 +233,39 @@ static status direction(newton_run *n, double path, step_record *record, fault *
     return STATUS_OK;
 }
 
+/* Returns 1 if the state is the undeformed one without stresses, although members have strains or
+ * temperatures. */
+static int is_unstressed(const newton_run *n)
+{
+    const model *m = n->c->model;
+    const int count = model_elements(m) * model_strains(m);
+    if (!model_frees(m) || n->state->path != 0)
+        return 0;
+    for (int k = 0; k < count; k++)
+        if (n->state->sigma[k] != 0)
+            return 0;
+    return 1;
+}
+
+/* Sets the stresses at `path` of the undeformed state, as if all nodes were fixed. A structure that
+ * only its prestress makes stiff starts from these stresses. */
+static status prestress(newton_run *n, double path, fault *f)
+{
+    kinematics_state_copy(n->c->model, kinematics_rest(n->c->model), n->state);
+    n->state->path = path;
+    return linearise_make_compatible(&n->c->eq, n->state, f);
+}
+
 status newton_direction(newton_run *n, double path, step_record *record, fault *f)
 {
     phases *p = &n->c->run->phases;
     phases_start(p);
-    const status outcome = direction(n, path, record, f);
+    status outcome = direction(n, path, record, f);
+    if (outcome == STATUS_SINGULAR && is_unstressed(n)) {
+        outcome = prestress(n, path, f);
+        if (outcome == STATUS_OK)
+            outcome = direction(n, path, record, f);
+    }
     phases_stop(p);
     return outcome;
 }
@@ -263,8 +291,16 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
 
 status newton_to(newton_run *n, double path, step_record *record, fault *f)
 {
-    newton_use use = newton_on_path(n, n, correct);
+    const newton_use use = newton_on_path(n, n, correct);
+    const int unstressed = is_unstressed(n);
+    const step_record first = *record;
     n->path = path;
+    const status outcome = newton_iterate(n->c, &use, &n->arrival, record, f);
+    if (!unstressed || (outcome != STATUS_SINGULAR && outcome != STATUS_NOT_CONVERGED))
+        return outcome;
+    history_drop_step(n->c->result, record);
+    *record = first;
+    TRY(prestress(n, path, f));
     return newton_iterate(n->c, &use, &n->arrival, record, f);
 }
 

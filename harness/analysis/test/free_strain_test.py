@@ -3,6 +3,9 @@ import json
 import math
 import unittest
 
+import numpy
+import scipy.optimize
+
 from harness.cli.test.plugin import EXAMPLES, compile_shared
 from harness.tools.kit.program import ProgramTest, run
 
@@ -14,6 +17,32 @@ HEAD = f"""beamwork: 1
 sections:
   s: {{constants: {{A: {A}, Iy: {I}, Iz: {I}, It: {2 * I}, F: [0, 0, 0, 0, 0, 0, 0, 0, 0], Iw: 0}}, young: {E},
       shear_modulus: {G}, density: {RHO}, expansion: {ALPHA}}}
+"""
+
+
+TIES = """plane: xy
+nodes: {a: {at: [-0.4, 0, 0], hold: [ux, uy]}, n: {at: [0, 0, 0], mass: 20, hold: [rz]}, b: {at: [0.6, 0, 0], hold: [ux, uy]}}
+members:
+  l: {from: a, to: n, section: s, y: [0, 1, 0]%s, release: {from: [rz], to: [rz]}}
+  r: {from: n, to: b, section: s, y: [0, 1, 0], release: {from: [rz], to: [rz]}}
+loads: {t: {temperature: %g, on: r, path: [0, 1], factor: [1, 1]}, p: {force: [0, 30, 0], on: n}}
+analyses:
+  st: {static: {stations: [1]}}
+  on: {static: {stations: 0.25..1/4}}
+  fr: {modal: {about: st}}
+  co: {continuation: {control: {node: n, component: uy}, to: [2e-3], step: 1e-3}}
+  ro: {rotation: {omega: [0, 0, 1e-6], centre: [0, 0, 0], stations: [1]}}
+  li: {linear: {}}
+  bu: {buckling: {}}
+quantities:
+  N: {internal: {analysis: st, member: r, end: to, resultant: N}}
+  uy: {displacement: {analysis: st, node: n, component: uy}}
+  uy_on: {displacement: {analysis: on, node: n, component: uy, at: 1}}
+  uy_ro: {displacement: {analysis: ro, node: n, component: uy}}
+  f: {frequency: {analysis: fr}}
+  uy_co: {displacement: {analysis: co, node: n, component: uy}}
+  li: {displacement: {analysis: li, node: n, component: uy}}
+  bu: {critical_factor: {analysis: bu}}
 """
 
 
@@ -55,33 +84,63 @@ quantities:
         """Analyses of a structure under the loads of a failed analysis have no value, only its failure."""
         text = """nodes: {a: {at: [0, 0, 0], hold: all}, n: {at: [1, 0, 0], hold: [rx, ry, rz], mass: 2}, b: {at: [2, 0, 0], hold: all}}
 members:
-  l: {from: a, to: n, section: s, y: [0, 1, 0], pretension: 800, release: {from: [ry, rz], to: [ry, rz]}}
+  l: {from: a, to: n, section: s, y: [0, 1, 0]%s, release: {from: [ry, rz], to: [ry, rz]}}
   r: {from: n, to: b, section: s, y: [0, 1, 0], release: {from: [ry, rz], to: [ry, rz]}}
 loads: {p: {force: [1, 0, 0], on: n}}
 analyses:
-  li: {linear: {}}
-  st: {static: {stations: [1]}}
-  ml: {modal: {about: li}}
-  dl: {modal: {about: li, damped: yes}}
-  hl: {harmonic: {about: li, frequencies: [3]}}
-  ms: {modal: {about: st}}
-  bs: {buckling: {about: st}}
-  hs: {harmonic: {about: st, frequencies: [3]}}
+  base: {%s}
+  modal: {modal: {about: base}}
+  other: {%s}
+  harmonic: {harmonic: {about: base, frequencies: [3]}}
 quantities:
-  ml: {frequency: {analysis: ml}}
-  dl: {frequency: {analysis: dl}}
-  hl: {response: {analysis: hl, node: n, component: ux, force: n, along: ux, at: 3}}
-  ms: {frequency: {analysis: ms}}
-  bs: {critical_factor: {analysis: bs, which: 0}}
-  hs: {response: {analysis: hs, node: n, component: ux, force: n, along: ux, at: 3}}
+  modal: {frequency: {analysis: modal}}
+  other: {%s: {analysis: other, which: 0}}
+  harmonic: {response: {analysis: harmonic, node: n, component: ux, force: n, along: ux, at: 3}}
 """
-        done = run("solve", "--scene", "/dev/stdin", "-f", "collocation", "-n", 1, "--format", "json", input=HEAD + text)
-        self.assertEqual(done.returncode, 1, done.stderr + done.stdout)
-        for quantity in json.loads(done.stdout)["quantities"]:
-            with self.subTest(quantity=quantity["quantity"]):
-                self.assertNotEqual(quantity["status"], "ok")
-                self.assertIsNone(quantity["value"])
-                self.assertIn("can move along", quantity["reason"])
+        for scene in ((", pretension: 800", "linear: {}", "modal: {about: base, damped: yes}", "frequency"),
+                      ("", "static: {stations: [1]}", "buckling: {about: base}", "critical_factor")):
+            done = run("solve", "--scene", "/dev/stdin", "-f", "collocation", "-n", 1, "--format", "json", input=HEAD + text % scene)
+            self.assertEqual(done.returncode, 1, done.stderr + done.stdout)
+            for quantity in json.loads(done.stdout)["quantities"]:
+                with self.subTest(base=scene[1], quantity=quantity["quantity"]):
+                    self.assertNotEqual(quantity["status"], "ok")
+                    self.assertIsNone(quantity["value"])
+                    self.assertIn("can move along", quantity["reason"])
+
+    def test_prestressed_mechanism(self):
+        """Ties that only pretension or cold make stiff: forces, deflections, frequencies. Linear statics and buckling
+        refuse them and name the static path."""
+        for pretension, heat in ((8000, 0), (8000, -20), (0, -20)):
+            text = TIES % (f", pretension: {pretension}" * (pretension > 0), heat)
+            u, forces, frequency = self.ties(pretension, heat)
+            for formulation in FORMULATIONS:
+                done = run("solve", "--scene", "/dev/stdin", "-f", formulation, "-n", 4, "--format", "json",
+                           input=HEAD.replace(f", density: {RHO}", "") + text)
+                self.assertEqual(done.returncode, 1, done.stderr)
+                got = {q["quantity"]: q for q in json.loads(done.stdout)["quantities"]}
+                exact = {"N": forces[1], "uy": u[1], "uy_on": u[1], "uy_ro": u[1], "f": frequency, "uy_co": 2e-3}
+                for name, value in exact.items():
+                    with self.subTest(formulation=formulation, quantity=name, pretension=pretension, heat=heat):
+                        self.assertEqual(got[name]["status"], "ok", got[name])
+                        self.assertAlmostEqual(got[name]["value"], value, delta=1e-6 * abs(value))
+                for name in ("li", "bu"):
+                    self.assertIsNone(got[name]["value"])
+                    self.assertIn("; if pretension or temperatures make it stiff, use a static path", got[name]["reason"])
+
+    def ties(self, pretension, heat):
+        """Returns the displacement, the forces and the lowest frequency of two hinged bars with a mass between them."""
+        def forces(u):
+            a, b = math.hypot(0.4 + u[0], u[1]), math.hypot(0.6 - u[0], u[1])
+            return pretension + E * A * (a / 0.4 - 1), E * A * (b / 0.6 - 1 - ALPHA * heat), a, b
+
+        def balance(u):
+            l, r, a, b = forces(u)
+            return numpy.array((l * (0.4 + u[0]) / a - r * (0.6 - u[0]) / b, l * u[1] / a + r * u[1] / b - 30))
+
+        u = scipy.optimize.fsolve(balance, (0, 1e-3), xtol=1e-14)
+        h = 1e-7
+        K = numpy.array([(balance(u + h * d) - balance(u - h * d)) / (2 * h) for d in numpy.eye(2)])
+        return u, forces(u), math.sqrt(numpy.linalg.eigvalsh((K + K.T) / 2)[0] / 20) / (2 * math.pi)
 
     def test_where_the_path_begins(self):
         """At station 0 pretension and constant loads act, also in analyses that follow this state."""
