@@ -382,7 +382,7 @@ static int has_drive_of_case(const scene *s, int analysis, char *who, int size)
     return 0;
 }
 
-/* Returns 1 if the analysis, or the analysis that it follows, has a rotating frame. *who is the
+/* Returns 1 if the analysis, or the analysis that it follows, has a rotating frame. *`who` is the
  * name of the analysis with the frame. */
 static int has_spin(const scene *s, int analysis, char *who, int size)
 {
