@@ -1,1 +1,1 @@
-"""Pages of the documentation, and the programs that build a site from them."""
+"""Pages of the documentation, and the programs that convert them to a site."""

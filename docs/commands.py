@@ -1,10 +1,10 @@
-"""Runs the commands shown on pages as a reader would: in order, from the root of a clone.
+"""Runs the commands shown on pages as a reader would, in order, from the root of a clone.
 
-Commands are in `console` blocks: a line that begins with `$ ` is a command, `> ` continues it, and its output follows.
-Files of the reader are in blocks whose `:caption:`, or first line `# NAME`, is the file name. In outputs, `...`
-matches any text of a line; a line `...` matches any lines.
+Commands are in `console` blocks. A line that begins with `$ ` is a command, and lines that begin with `> ` continue
+the command. Its output follows. Blocks with files of the reader have the file name in `:caption:` or in the first line
+`# NAME`. In expected outputs, `...` matches any text of a line; a line `...` matches any lines.
 
-usage: commands.py PAGE...     prints pages whose output differs, and writes what was printed
+usage: commands.py PAGE... prints pages whose output differs, and replaces the outputs on the pages
 """
 import os
 import pathlib
@@ -54,14 +54,14 @@ def match(expected, printed):
 
 
 def reader_file(page, name):
-    """Returns a file of the reader as shown on a page."""
+    """Returns a file of the reader, as shown on a page."""
     bodies = [body for _, body in BLOCK.findall((DOCS / page).read_text(encoding="utf-8"))]
     body, = (b for b in bodies if CAPTION.match(b) and CAPTION.match(b).group(1) == name)
     return body[CAPTION.match(body).end():]
 
 
 class Folder:
-    """A temporary folder that looks like the root of a clone."""
+    """A temporary folder with the content of the root of a clone."""
 
     def __init__(self, path, program):
         self.path = pathlib.Path(path)
@@ -110,7 +110,7 @@ def shown(command, lines):
 
 
 def main(names):
-    """Writes the outputs of commands into pages. Lines that already match the printed ones do not change."""
+    """Writes the outputs of commands to pages. Lines that already match the printed lines do not change."""
     program = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
     for name in map(pathlib.Path, names):
         text = name.read_text(encoding="utf-8")

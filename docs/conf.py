@@ -1,4 +1,4 @@
-"""Configuration of the site of `make docs`: Sphinx, MyST, and equations as MathML, which needs no network access."""
+"""Configuration of the site of `make docs`: Sphinx, MyST, and equations in MathML, which needs no network access."""
 import pathlib
 import re
 import sys
@@ -23,7 +23,7 @@ html_title = f"beamwork {version}"
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_copy_source = False
-html_show_search_summary = False  # a summary would be fetched, which browsers forbid for local files
+html_show_search_summary = False  # the summary would be fetched, which browsers forbid for local files
 html_math_renderer = "mathml"
 suppress_warnings = ["myst.header"]  # descriptions of formulations begin below the title of their page
 
@@ -41,5 +41,5 @@ def displayed_equation(translator, node):
 
 
 def setup(app):
-    """Registers the rendering of equations; called by Sphinx."""
+    """Registers the rendering of equations. Sphinx calls this function."""
     app.add_html_math_renderer("mathml", (inline_equation, None), (displayed_equation, None))

@@ -1,4 +1,4 @@
-"""Collects the pages of docs/ and writes those generated from the program's tables.
+"""Collects the pages of docs/ and writes those that are generated from the tables of the program.
 
 usage: generate.py PROGRAM FOLDER [RESULTS.h5]     FOLDER is then the source of sphinx-build
 """
@@ -49,7 +49,7 @@ def literal(text):
 
 
 def table(head, rows):
-    """Returns rows of words as a Markdown table."""
+    """Returns rows of words in the form of a Markdown table."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(str(c).replace("|", r"\|") for c in line) + " |"
                      for line in lines)
@@ -104,7 +104,7 @@ def write_interfaces(site):
 
 
 def arguments(value):
-    """Returns the arguments of a callable as written in a call, or '' for any other object."""
+    """Returns the arguments of a callable in the form of a call, or '' for any other object."""
     member = value.__func__ if isinstance(value, (classmethod, staticmethod)) else value
     if not callable(member) or inspect.isclass(member) and issubclass(member, Exception):
         return ""
@@ -114,7 +114,7 @@ def arguments(value):
 
 
 def write_terms(site):
-    """Writes the page of verdicts and terms, from the output of `explain` for each."""
+    """Writes the page of verdicts and terms, with the output of `explain` for each term."""
     groups = re.findall(r"^(\w[^\n]*)\n((?:  [^\n]*\n)+)", site.ask("explain").partition("\n")[2], re.M)
     parts = ["# Verdicts and terms\n\nThe same as `beamwork explain TERM`."]
     for group, terms in groups:
@@ -127,7 +127,7 @@ def write_terms(site):
 
 
 def write_formulations(site, formulations):
-    """Writes a page for each formulation: its declarations and its theory."""
+    """Writes a page for each formulation, with its declarations and its theory."""
     for one in formulations:
         name = one["formulation"]
         theory = "" if not (ROOT / "elements" / f"{name}.md").exists() else \
@@ -194,13 +194,13 @@ def write_verification(site, cases):
 
 
 def collect(folder):
-    """Copies the pages that are written by hand, and the files that they include."""
+    """Copies the pages that are written by hand, and the files that these pages include."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(DOCS, folder, ignore=shutil.ignore_patterns("test", "static", "*.py", "__pycache__"))
     for name in (*INCLUDED, *(p.relative_to(ROOT) for p in (ROOT / "elements").glob("*.md"))):
         target = folder / "sources" / name
         target.parent.mkdir(parents=True, exist_ok=True)
-        # Links in these files are relative to their location; only the link texts remain.
+        # links in these files are relative to their location, so only the link texts are kept
         target.write_text(LINK.sub(r"\1", (ROOT / name).read_text("utf-8")), encoding="utf-8")
 
 

@@ -31,7 +31,7 @@ def read(path, case):
 
 
 def percent(verdict):
-    """Returns the relative error of the limit."""
+    """Returns the relative error of the limit in percent."""
     return f"{100 * verdict.error:+.2g} %" if math.isfinite(verdict.error) else "-"
 
 

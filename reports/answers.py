@@ -1,19 +1,19 @@
 """Finds the formulation and the number of elements that reach a tolerance at the lowest cost.
 
-The rule is that of harness/study/study.h. n is the coarsest mesh for which the errors of that mesh and of all finer
-meshes are within the level. Formulations are sorted by the cost of their counted work on that mesh, so that two runs
-give the same order. Costs that differ by less than the uncertainty of the cost model tie. A formulation that does not
-pass in the requested quantity is listed but is never the cheapest. The pages show measured times. They omit variants
-that give the same results as the formulation without the options.
+The rule is that of harness/study/study.h. n is the number of elements of the coarsest mesh for which the errors of
+that mesh and of all finer meshes are within the level. Formulations are sorted by the cost of their counted work on
+that mesh, so two runs give the same order. Costs that differ by less than the uncertainty of the cost model tie. A
+formulation that does not pass in the requested quantity is listed but is never the cheapest. The pages show measured
+times. They omit variants that give the same results as the formulation without the options.
 
-    found = answers.answer(point, quantity, level)    # quantity: a name, or ALL
-    found.best       [Way] the cheapest formulation and those whose costs tie with it; may be empty
-    `found.dearer`   [Way] the other formulations that pass, by cost
-    found.defective  [Way] those within the level but with a verdict other than pass, by cost
-    found.faster     [Way] those of `dearer` that were measured faster than the cheapest in every round
-    found.unranked   [Way] those that pass but have no rank (Way.unranked gives the reason), by name
-    found.missed     [key] formulations that are not within the level on these meshes
-    found.unjudged   [key] formulations without a reference value of their theory for all requested quantities
+    found = answers.answer(point, quantity, level) # quantity: a name, or ALL
+    found.best [Way] the cheapest formulation and those whose costs tie with it; may be empty
+    `found.dearer` [Way] the other formulations that pass, by cost
+    found.defective [Way] formulations within the level but with a verdict other than pass, by cost
+    found.faster [Way] formulations of `dearer` that were measured faster than the cheapest in every round
+    found.unranked [Way] formulations that pass but have no rank (Way.unranked gives the reason), by name
+    found.missed [key] formulations that are not within the level on these meshes
+    found.unjudged [key] formulations without a reference value of their theory for all requested quantities
 """
 import math
 from dataclasses import dataclass, field
@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from reports import data, verdicts as words
 
 ALL = "all quantities"
-NO_COSTS = "the results have no costs"  # results written before cost coefficients existed
+NO_COSTS = "the results have no costs"  # in results that were written before cost coefficients existed
 SOUND = ("pass", *words.UNJUDGED)
 LEVELS = tuple(data.REACH)
 
@@ -31,12 +31,12 @@ class Way:
     """The coarsest mesh for which a formulation is within a level on that mesh and on all finer meshes."""
     key: str
     n: int
-    cost: float  # [s] of counted work, with the cost coefficients of the reference machine
+    cost: float  # cost of counted work, with the cost coefficients of the reference machine [s]
     clock: object  # data.Clock: measured time
-    error: float  # the largest error of the requested quantities on that mesh
+    error: float  # largest error of the requested quantities on the mesh
     worst: object  # data.Verdict: the worst verdict on the requested quantities
     defects: list  # the verdicts other than pass
-    priced: bool = True  # the formulation has its own cost coefficients, not the general ones
+    priced: bool = True  # True if the formulation has its own cost coefficients, not the general ones
     unranked: str = ""  # reason why the formulation has no rank and therefore no cost
 
     @property
@@ -59,7 +59,7 @@ class Answer:
 
     @property
     def ways(self):
-        """Returns [(Way, rank, tie)] of all formulations within the level; the rank is 0 for defective and unranked
+        """Returns [(Way, rank, tie)] of all formulations within the level. The rank is 0 for defective and unranked
         formulations."""
         ranked = self.best + self.dearer
         return [(w, i + 1, len(self.best) > 1 and i < len(self.best))
@@ -88,7 +88,7 @@ def error_of(mesh, quantities):
 
 
 def first_within(series, quantity, level):
-    """Returns the number of elements of the coarsest mesh for which its own error and those of all finer meshes are
+    """Returns the number of elements of the coarsest mesh for which the errors of that mesh and of all finer meshes are
     within the level, or None if there is no such mesh."""
     found = None
     for mesh in reversed(series.meshes):
@@ -99,23 +99,23 @@ def first_within(series, quantity, level):
 
 
 def reach(series, v, level):
-    """Returns the same number as first_within, but as stored by the evaluation for its levels."""
+    """Returns the number of first_within as stored by the evaluation for its levels."""
     if not math.isfinite(v.truth):
         return None
     return v.reach.get(level) if level in data.REACH else first_within(series, v.quantity, level)
 
 
 def verdicts_on(series, quantities):
-    """Returns the verdicts on all quantities, or None if a quantity has no reference value of the formulation's
-    theory."""
+    """Returns the verdicts on all quantities, or None if a quantity has no reference value of the theory of the
+    formulation."""
     found = [verdict_of(series, q) for q in quantities]
     known = not series.missing and found and all(v and math.isfinite(v.truth) for v in found)
     return found if known else None
 
 
 def repeats(point, series, quantities):
-    """Returns whether the options of a variant have no effect: errors and work are the same on every mesh as without
-    the options."""
+    """Returns True if the options of a variant have no effect: on every mesh, errors and work are the same as without the
+    options."""
     name, colon, _ = series.key.partition(":")
     plain = next((s for s in point.series if colon and s.key == name and not s.missing), None)
 
@@ -126,8 +126,7 @@ def repeats(point, series, quantities):
 
 
 def way(series, quantities, level):
-    """Returns the Way of a formulation: the coarsest mesh from which all these quantities are within the level, with
-    its cost; or None."""
+    """Returns the Way of a formulation for all these quantities together, or None if no mesh is within the level."""
     verdicts = verdicts_on(series, quantities)
     if verdicts is None:
         return None
@@ -158,7 +157,7 @@ def by_cost(w):
 
 
 def answer(point, quantity, level):
-    """Returns the Answer of a point (see above)."""
+    """Returns the Answer of a point, according to the rule at the start of this file."""
     quantities = judged(point) if quantity == ALL else [quantity]
     out, sound = Answer(quantity, level), []
     for series in point.series:
@@ -182,20 +181,20 @@ def answer(point, quantity, level):
 
 
 def faster(a, b):
-    """Returns whether all rounds of clock a were faster than all rounds of clock b."""
+    """Returns True if all rounds of clock a were faster than all rounds of clock b."""
     return a.repeats > 1 and b.repeats > 1 and a.most < b.least
 
 
 def differ(a, b):
-    """Returns whether two clocks differ by more than their noise: all rounds of one are below all rounds of the other,
-    or, for single runs, the times differ by a factor of two."""
+    """Returns True if two clocks differ by more than their noise. This is the case if all rounds of one are below all
+    rounds of the other or, for single runs, if the times differ by a factor of two."""
     if a.repeats > 1 and b.repeats > 1:
         return a.most < b.least or b.most < a.least
     return max(a.least, b.least) > 2 * min(a.least, b.least)
 
 
 def front(point, quantity):
-    """Returns [(series, mesh)] of the ranked meshes for which no other is better in both time and error, sorted by
+    """Returns [(series, mesh)] of the ranked meshes for which no other mesh is better in both time and error, sorted by
     time."""
     cells = [(s, m) for s in point.series if not s.missing and not s.other and not s.unranked
              for m in s.meshes
@@ -227,7 +226,7 @@ def savings(point):
     return [(s, m) for s in point.series for m in s.meshes if m.kept is not None]
 
 
-# Finds the lowest-cost mesh of every case for each level, for the heat map and the index.
+# The lowest-cost mesh of every case for each level, for the heat map and the index.
 
 
 @dataclass
@@ -235,7 +234,7 @@ class CaseLine:
     """A case at its defaults, with the verdicts on all its quantities together."""
 
     case: object  # data.Case
-    quantities: list  # those with a reference value
+    quantities: list  # the quantities with a reference value
     found: dict  # level -> answers.Answer
 
 

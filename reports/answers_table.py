@@ -3,7 +3,7 @@
     python -m reports.answers_table RESULTS [--error 0.3%] [--format text|csv|json] [-k WORDS] [-o FILE]
 
 There is a row for each formulation within the tolerance, sorted by counted work. Rank 0 means that the formulation
-does not pass or has no rank (`unranked` gives the reason); it then has no place in that order.
+does not pass or has no rank. In the latter case, `unranked` gives the reason.
 """
 import argparse
 import csv
@@ -23,11 +23,11 @@ from reports.answers import LEVELS
 COLUMNS = ("case", "parameters", "quantity", "tolerance", "formulation", "n", "cost", "seconds",
            "error", "rank", "tie", "defect", "priced", "unranked")
 UNITS = {"cost": "s", "seconds": "s", "tolerance": "1", "error": "1"}
-ASKED = 4  # number of columns of the request; the other columns belong to the answers
+ASKED = 4  # number of columns of the request, which the columns of the answers follow
 
 
 def asked_of(point):
-    """Returns the requests at a point: all quantities together, if there are several, then each quantity."""
+    """Returns the requests at a point: all quantities together, if there are several, then each quantity alone."""
     names = answers.judged(point)
     return ([answers.ALL] if len(names) > 1 else []) + names
 
@@ -38,7 +38,7 @@ def short(value):
 
 
 def rows(cases, levels=LEVELS, everywhere=False):
-    """Returns the rows [{column: value}] at the defaults or, with `everywhere`, at all parameter points."""
+    """Returns the rows [{column: value}] at the defaults or, if `everywhere` is True, at all parameter points."""
     out = []
     for case in cases:
         for point in case.points if everywhere else case.points[:1]:
@@ -63,9 +63,8 @@ def as_csv(found):
 
 def as_json(found, about):
     """Returns one JSON object: the run, the names and units of the columns, and an entry for each request. An entry
-    contains case, parameters, quantity and tolerance, then the answers as lists, each of which begins with the index
-    of its
-    formulation."""
+    contains case, parameters, quantity and tolerance, then the answers. Each answer is a list that begins with the
+    index of its formulation."""
     keys = sorted({row["formulation"] for row in found})
     head = {"commit": about.get("commit", ""), "clock": about.get("clock", ""),
             "asked": COLUMNS[:ASKED], "columns": COLUMNS[ASKED:], "units": UNITS,
@@ -80,7 +79,7 @@ def as_json(found, about):
 
 
 def sentence(answer):
-    """Returns an answer as text: the formulation with the lowest cost, ties, and formulations with a wrong limit."""
+    """Returns an answer in text form: the formulation with the lowest cost, ties, and formulations with a wrong limit."""
     def told(ways):
         return ", ".join(f"{w.key} n = {w.n}" for w in ways)
 
@@ -115,7 +114,7 @@ def as_text(cases, levels, everywhere=False):
 
 
 def tolerance(text):
-    """Converts 0.3% or 0.003 to a fraction of the value."""
+    """Converts a tolerance such as 0.3% or 0.003 to a fraction of the value."""
     value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
     if not 0 < value < 1:
         raise argparse.ArgumentTypeError(f"'{text}': give an error such as 0.3% or 0.003")
@@ -151,7 +150,7 @@ if __name__ == "__main__":
     main()
 
 
-# Page of answers for a tolerance that the reader selects, with the tables to download.
+# Page of answers for a tolerance that the reader selects, with tables for download.
 
 NAVIGATION = [("answers.html", "answers")]
 
@@ -167,7 +166,7 @@ def outward(value):
 
 
 def staying(series, quantities):
-    """Returns for each mesh the largest error of this mesh and all finer meshes, or None if a value is missing."""
+    """Returns for each mesh the largest error of this mesh and of all finer meshes, or None if a value is missing."""
     out, worst = [], 0.0
     for mesh in reversed(series.meshes):
         worst = max([worst, *(abs(mesh.errors.get(q, math.nan)) for q in quantities)],
@@ -178,8 +177,9 @@ def staying(series, quantities):
 
 
 def points_of(case, keys):
-    """Returns the data of a case at its defaults for the script of the page: for each formulation, its meshes with
-    cost and time; for each requested quantity, the largest error of each mesh and all finer meshes."""
+    """Returns the data of a case at its defaults for the script of the page. For each formulation, they contain its
+    meshes with cost and time. For each requested quantity, they contain the largest error of each mesh and of all
+    finer meshes."""
     point, meshes, asked = case.points[0], {}, []
     for series in point.series:
         if series.meshes:
@@ -208,7 +208,7 @@ def short_seconds(value):
 
 
 def defect_of(verdicts):
-    """Describes the worst verdict; returns an empty string if all pass."""
+    """Describes the worst verdict. Returns an empty string if all verdicts are passes."""
     bad = [v for v in verdicts if v.verdict not in answers.SOUND]
     return answers.words_of(answers.words.worst(bad)) if bad else ""
 

@@ -12,7 +12,7 @@ NAVIGATION = [("rotation.html", "rotation")]
 
 CASE, CHANNEL = "rotating_cantilever", "c_cantilever"
 KEY = "beamw_consistent"
-ACROSS = "omega_star=12;stations=13"  # axis normal to the beam
+ACROSS = "omega_star=12;stations=13"  # rotation axis normal to the beam
 ALONG = "axis=1.5707963267948966;omega_star=10;stations=41;stiffness_ratio=4"
 EXACT_AT = {0: "omega_star=0", 2: "omega_star=2", 6: "", 12: "omega_star=12"}
 SPEEDS = (0, 10, 20, 40)  # rad/s
@@ -68,7 +68,7 @@ def draw_across(site, look):
 
 
 def draw_along(site, look):
-    """Draws the frequencies of an unsymmetric shaft in the rotating frame, and the rate of growth between its critical
+    """Draws the frequencies of an unsymmetric shaft in the rotating frame, and the growth rate between the critical
     speeds."""
     mesh = finest(look, CASE, ALONG, KEY)
     if mesh is None or "whirl_1_curve" not in mesh.curves:
@@ -114,7 +114,7 @@ def channel_at(speed, w=1.0):
 
 
 def draw_channel(site, look):
-    """Draws J Fig. 13: load against deflection at several angular velocities, with exact points where known."""
+    """Draws J Fig. 13: load against deflection at several angular velocities, with exact points where they are known."""
     figure, ax = plt.subplots(figsize=(7.2, 4.8))
     drawn = False
     for speed, shade in zip(SPEEDS, np.linspace(0.75, 0, len(SPEEDS))):
@@ -143,7 +143,7 @@ def draw_channel(site, look):
 
 
 def channel_rows(look):
-    """Returns [(angular velocity, w, printed form with lumped mass, consistent form, error of the latter, exact
+    """Returns [(angular velocity, w, printed form with lumped mass, consistent form, error of the consistent form, exact
     value)]."""
     for speed in SPEEDS[1:]:
         for w in (0.25, 0.5, 1.0):
@@ -157,8 +157,7 @@ def channel_rows(look):
 
 
 def orders(look, parameters, quantities):
-    """Yields (formulation, [(error of the finest mesh, order)]) at one point; the list has an entry for each
-    quantity."""
+    """Yields (formulation, [(error of the finest mesh, order)]) at one point. The list has an entry for each quantity."""
     point = look.points.get((CASE, canonical(parameters)))
     for series in point.series if point else []:
         found = [next((v for v in series.verdicts if v.quantity == q), None) for q in quantities]

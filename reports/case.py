@@ -1,4 +1,4 @@
-"""Writes a page for each case: its scene, the quantities, the best formulations, one figure per question, and folded
+"""Writes a page for each case with its scene, the quantities, the best formulations, one figure per question, and folded
 details."""
 import functools
 import math
@@ -15,8 +15,8 @@ from reports.verdicts import BY_NAME, UNJUDGED, percent, remarks
 
 @dataclass
 class Drawing:
-    """The drawing of a scene. figure, sections: images of the site; sections is None if no section has a shape. lines:
-    [(heading, lines)]."""
+    """The drawing of a scene. `figure` and `sections` are images of the site; `sections` is None if no section has a
+    shape. `lines` are [(heading, lines)]."""
     figure: object
     sections: object
     counts: str
@@ -41,8 +41,8 @@ MOST_DIGITS = 15
 
 @dataclass(frozen=True)
 class Truth:
-    """A reference value of a quantity, in the unit of the quantity. of: the formulations to which it applies, if not
-    all."""
+    """A reference value of a quantity, in the unit of the quantity. `of` lists the formulations to which the value
+    applies, if not all."""
     value: str
     digits: int
     kind: str
@@ -52,7 +52,8 @@ class Truth:
 
 @dataclass
 class Quantity:
-    """A quantity of a point. meaning: its description; truths: its reference values, empty if it has no verdict."""
+    """A quantity of a point. `meaning` is its description. `truths` are its reference values; the list is empty if the
+    quantity has no verdict."""
     name: str
     unit: str
     meaning: str
@@ -134,12 +135,12 @@ def tally_of(point):
 
 
 NAVIGATION = [("convergence.html", "to print")]
-MOST_POINTS = 3  # parameter points with a figure
-MOST_PANELS = 6  # number of small figures of the other quantities, and of model errors
-# Number of verdicts on one page; if there are more, the other parameter points have separate pages.
+MOST_POINTS = 3  # largest number of parameter points with a figure
+MOST_PANELS = 6  # largest number of small figures of the other quantities, and of model errors
+# Largest number of verdicts on one page. If there are more, the other parameter points have separate pages.
 MOST_ROWS = 1500
 
-# Figures about the first quantity, and the formulations that they do not show.
+# Figures about the first quantity, and the formulations that these figures do not show.
 NOTHING = {"elements": None, "time": None, "work": None, "further": None,
            "left_out": []}
 
@@ -160,7 +161,7 @@ def question_of(site, point, quantity, name):
 
 
 def told_of(point, quantity):
-    """Returns whether any error of the quantity exceeds round-off."""
+    """Returns True if any error of the quantity exceeds round-off."""
     return any(e > plots.FLOOR for s in point.series for _, e in plots.finite(s, quantity))
 
 
@@ -197,7 +198,7 @@ def figures_of(site, case, index):
 
 
 def cost_of(cell):
-    """Returns the cost of a cell for sorting; a cell without cost comes last."""
+    """Returns the cost of a cell for sorting. A cell without cost comes last."""
     return cell[0].cost if math.isfinite(cell[0].cost) else math.inf
 
 
@@ -231,8 +232,8 @@ def limits_of(point):
 
 
 def verdicts_of(point, index):
-    """Returns [(series, verdicts)] for the table: all verdicts at the first parameter point; at the other points, only
-    verdicts other than pass."""
+    """Returns [(series, verdicts)] for the table. At the first parameter point, these are all verdicts; at the other
+    points, only verdicts other than pass."""
     def told(v):
         own = v.verdict not in ("skip", "no truth", *(("pass",) if index else ()))
         return own or math.isfinite(v.model_truth) and v.verdict != "pass"
@@ -241,7 +242,7 @@ def verdicts_of(point, index):
 
 
 def causes_of(point):
-    """Returns [(entry of the list of known deviations, its cause)] for the verdicts of a point."""
+    """Returns [(entry of the list of known deviations, cause of the entry)] for the verdicts of a point."""
     return sorted({v.finding: v.cause for s in point.series for v in s.verdicts
                    if v.finding and not s.missing}.items())
 
@@ -274,12 +275,12 @@ def rows_of(point):
 
 
 def own_pages(case):
-    """Returns whether the other parameter points of the case have separate pages."""
+    """Returns True if the other parameter points of the case have separate pages."""
     return sum(rows_of(p) for p in case.points[1:]) > MOST_ROWS
 
 
 def page_of(case, index):
-    """Returns the page and the place on it where a parameter point is shown."""
+    """Returns the page of a parameter point and its position on that page."""
     point = case.points[index]
     if index and own_pages(case):
         return f"{case.name}_{point.name}.html"
@@ -320,13 +321,13 @@ def tasks(site):
             *(functools.partial(write, site, case) for case in site.cases)]
 
 
-# A convergence report for printing: every case on an A4 sheet (headless: chromium --print-to-pdf).
+# A convergence report for printing, with every case on an A4 sheet (headless: chromium --print-to-pdf).
 
 
 
 def sheet(site, case):
-    """Returns the sheet of the first quantity with verdicts at the defaults: its figure, and for each formulation its
-    limit, order, errors, and time to every level."""
+    """Returns the sheet of the first quantity with verdicts at the defaults. It contains the figure and, for each
+    formulation, the limit, the order, the errors, and the time to every level."""
     point = case.points[0]
     names = answers.judged(point)
     if not names:

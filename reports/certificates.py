@@ -1,6 +1,5 @@
-"""Certificates: the properties that a paper should report about its element. For each formulation, they contain the
-results of `beamwork element-test` for each interface requirement, for uniform and linear states, for locking and for
-orders of
+"""Certificates: the properties that a paper should report about its element. For each formulation, a certificate contains
+the results of `beamwork element-test` for interface requirements, uniform and linear states, locking and orders of
 convergence."""
 import functools
 import math
@@ -17,7 +16,7 @@ MARKS = {"holds": "✔", "broken": "✘", "not claimed": "–"}
 
 
 def part_of(record, formulation, family, points):
-    """Returns the group of a formulation: its requirements, and its measurements with their points."""
+    """Returns the group of a formulation, which contains its requirements and its measurements with their points."""
     def own(table):
         return [row for row in record[table]
                 if (row["formulation"], row["family"]) == (formulation, family["family"])]
@@ -32,8 +31,7 @@ def points_of(points, measure):
 
 
 def read(path):
-    """Reads the results of `beamwork element-test`: each formulation with its parts. Returns None if there are
-    none."""
+    """Reads the results of `beamwork element-test`, with the parts of each formulation. Returns None if there are none."""
     record = experiments.read(path, "element-test")
     if record is None:
         return None
@@ -63,7 +61,7 @@ def present(site):
 
 
 def names(site):
-    """Returns the formulations that have a certificate, for their pages."""
+    """Returns the formulations that have a certificate, for the pages of formulations."""
     return {c["formulation"] for c in shown(site)}
 
 
@@ -78,7 +76,7 @@ def percent(error):
 
 
 def standing(part):
-    """Returns (worst outcome of the requirements, number of those that are satisfied or violated)."""
+    """Returns the worst outcome of the requirements, and the number of requirements that are satisfied or violated."""
     made = [c["outcome"] for c in part["claims"] if c["outcome"] != "not claimed"]
     return "broken" if "broken" in made else made[0] if made else "not claimed", len(made)
 
@@ -124,7 +122,7 @@ def draw(site, certificate):
 
 
 def order(one):
-    """Returns the order and the declared range as text, such as "2.0, declared 2 to 4"."""
+    """Returns the order and the declared range in text form, such as "2.0, declared 2 to 4"."""
     declared = f"declared {one['least']} to {one['highest']}"
     if one["order"] is None or not math.isfinite(one["order"]):
         exact = one["error"] and one["error"][-1] is not None and abs(one["error"][-1]) < EXACT

@@ -1,5 +1,5 @@
-"""Charts of curves in panels, written directly as SVG. Most figures of the report are such charts, and matplotlib
-takes a hundred times as long for their ticks.
+"""Charts of curves in panels, written directly in SVG. Most figures of the report are such charts. matplotlib takes a
+hundred times as long for their ticks.
 
 A chart has panels in rows. A panel contains curves with markers, levels, labels and shaded areas, in data coordinates.
 Sizes in the picture are in pixels. The attributes of a curve (colour, marker, line, formulation) are those that
@@ -53,7 +53,7 @@ def linear_ticks(low, high):
 
 
 class Axis:
-    """An axis of a panel. log: logarithmic; whole: the ticks are whole numbers."""
+    """An axis of a panel. If `log` is True, the axis is logarithmic. If `whole` is True, the ticks are whole numbers."""
 
     def __init__(self, log, whole=False):
         self.log, self.whole, self.low, self.high = log, whole, math.inf, -math.inf
@@ -96,7 +96,7 @@ LETTER = 6.7  # mean width of a letter of 11 pixels
 
 @functools.lru_cache(None)
 def marker_path(marker, size):
-    """Returns the corners of a marker as a path about its centre."""
+    """Returns the corners of a marker in the form of a path about its centre."""
     form = MarkerStyle(marker)
     path = form.get_path().transformed(form.get_transform().scale(size))
     lines = path.to_polygons(closed_only=False)
@@ -106,7 +106,7 @@ def marker_path(marker, size):
 
 
 def form(marker, size):
-    """Returns a marker as an SVG element to which fill and stroke can be applied."""
+    """Returns a marker in the form of an SVG element to which fill and stroke can be applied."""
     if marker == "o":
         return f'circle r="{number(0.5 * size, 2)}"'
     return f'path d="{marker_path(marker, size)}"'
@@ -117,8 +117,8 @@ def dashes(line):
 
 
 def colour(given):
-    """Returns the colour for SVG: a variable for the colour of a formulation, and a grey of the text colour for a
-    number such as `0.6`."""
+    """Returns the colour for SVG: a variable for the colour of a formulation, and a grey of the text colour for a number
+    such as `0.6`."""
     return style.VARIABLES.get(given, given)
 
 
@@ -131,9 +131,9 @@ class Panel:
         self.curves, self.back, self.words, self.lows = [], [], [], []
 
     def plot(self, x, y, back=False, **look):
-        """Adds a curve. look: color, marker, linestyle, gid, label, markersize, linewidth, alpha, hollow, marks
-        (indices of the points with markers; default: all). back: the curve is drawn behind all others, without a
-        label."""
+        """Adds a curve. `look` may contain color, marker, linestyle, gid, label, markersize, linewidth, alpha, hollow and
+        marks, the indices of the points with markers (default: all). If `back` is True, the curve is drawn behind all
+        others, without a label."""
         self.x.take(x)
         self.y.take(y)
         (self.back if back else self.curves).append((x, y, look))
@@ -164,22 +164,22 @@ class Panel:
 
 
 class Chart:
-    """A chart. columns: number of panels in a row; size: of the axes of a panel, in pixels; apart: the panels of a row
-    show different curves, so that each has a legend below it."""
+    """A chart. `columns` is the number of panels in a row. `size` is the size of the axes of a panel in pixels. `apart`
+    is True if the panels of a row show different curves, so that each needs a legend below it."""
 
     def __init__(self, columns, size, gap=(62, 52), apart=False):
         self.columns, self.size, self.gap, self.apart = columns, size, gap, apart
         self.panels, self.names = [], {}
 
     def panel(self, title="", xlabel="", ylabel="", xlog=True, ylog=True, whole=False, like=None):
-        """Adds a panel; like: a panel whose vertical axis it shares."""
+        """Adds a panel. `like` is a panel whose vertical axis the new panel shares."""
         y = like.y if like else Axis(ylog)
         self.panels.append(Panel(title, xlabel, ylabel, Axis(xlog, whole), y))
         self.panels[-1].shares = like is not None
         return self.panels[-1]
 
     def image(self, site, name):
-        """Returns the Image of the chart for the page. Also writes the figure for papers, if the site has any."""
+        """Returns the Image of the chart for the page. Writes the figure for papers, if the site has such figures."""
         image = Writer(self, site, name).image()
         site.paper.chart(self, name)
         return image
@@ -317,7 +317,7 @@ class Writer:
                 f"{self.text(33, 4, words)}</g>")
 
     def legend(self, top, left, step, width):
-        """Returns the entries in columns below the panels: (SVG, height)."""
+        """Returns (SVG, height) of the entries in columns below the panels."""
         words = list(self.labels)
         wide = 44 + LETTER * max((len(one) for one in words), default=0)
         if self.chart.apart:

@@ -1,5 +1,5 @@
-"""Page of checks: reference values by kind, runs with verdicts, uncertainties of limits, the smallest faults that
-`make verify` detects, injected faults, and runs with random bytes as input."""
+"""Page of checks: reference values by kind, runs with verdicts, uncertainties of limits, the smallest faults that `make
+verify` detects, injected faults, and runs with random bytes as input."""
 import csv
 import functools
 import json
@@ -21,8 +21,8 @@ def stored(site, name):
 
 
 def noticed(cases):
-    """Returns the committed tables of the smallest detected faults of these cases, or a false value if they do not
-    exist, as in an installed copy."""
+    """Returns the committed tables of the smallest detected faults of these cases, or a false value if they do not exist,
+    as in an installed copy."""
     paths = [ROOT / "harness" / name for name in ("blind_spots.csv", "planted_faults.csv")]
     if not all(path.is_file() for path in paths):
         return None
@@ -73,8 +73,8 @@ def of_formulation(rows, key):
 
 
 def coverages(cases):
-    """Returns the coverages on the page: for each consistent formulation, for these together, for all formulations,
-    and for each case."""
+    """Returns the coverages on the page: for each consistent formulation, for all consistent formulations together, for
+    all formulations, and for each case."""
     rows = [row for case in cases for row in case.coverages]
     names = sorted({row["formulation"] for row in rows})
     by_case = [
@@ -111,7 +111,7 @@ def tasks(site):
 # Page of the programs and the machine of the results, the measurement of times, and the detection of injected delays.
 
 OUTCOME = ("outcome", "sentence")  # attributes of the run that the first page shows
-# (make command, files that it writes next to the results, their contribution to the report)
+# (make command, files that the command writes next to the results, contribution of the command to the report)
 ADDS = (
     ("lab L=bench-check", ("bench_check.json", ), "injected delays that the times must show"),
     ("lab L=bench-mechanisms", ("mechanisms_joint.h5", "mechanisms_hexapod.h5"),
@@ -122,7 +122,7 @@ ADDS = (
     ("lab L=faults", ("faults.json", ), "injected faults"),
     ("lab L=fuzz", ("fuzz.json", ), "random bytes as input"),
 )
-# (make command, experiment whose group it writes into the results, its contribution to the report)
+# (make command, experiment whose group the command writes to the results, contribution of the command to the report)
 GROUPS = (
     ("bench", "bench", "times with their noise"),
     ("lab L=certificates", "element-test", "interface requirements and features of each formulation"),
@@ -138,7 +138,7 @@ def planted(site):
 
 
 def more(site):
-    """Returns [(command, its contribution)] of the commands whose results are missing."""
+    """Returns [(command, contribution to the report)] of the commands whose results are missing."""
     here = pathlib.Path(site.results).parent
     groups = [(command, what) for command, name, what in GROUPS
               if not experiments.holds(site.results, name)]
@@ -147,7 +147,7 @@ def more(site):
 
 
 def noise(site):
-    """Returns {case: (timed runs, median and largest spread between rounds)}."""
+    """Returns {case: (number of timed runs, median and largest spread between rounds)}."""
     out = {}
     for case in site.cases:
         spread = sorted(m.clock.most / m.clock.least - 1 for p in case.points for s in p.series

@@ -11,11 +11,11 @@ from reports.site import ROOT, number, percent
 from reports.style import plt
 from reports.verdicts import OWN_LIMITS
 
-# Errors of beamwork's formulations compared with those of other programs, which were run elsewhere.
 
 
 def peers_figure(site, ours, others, name):
-    """Draws errors against unknowns and time. `ours`: [(key, meshes)], others: {program: [data.Mesh]}."""
+    """Draws errors against unknowns and time for formulations of beamwork and for other programs, which were run
+    elsewhere. `ours` is [(key, meshes)], and `others` is {program: [data.Mesh]}."""
     chart = Chart(2, (470, 260))
     labels = ("unknowns", "time of the solution [ms]; open marks: measured elsewhere")
     for quantity in ("C_xx", "C_zz"):
@@ -33,7 +33,7 @@ def peers_figure(site, ours, others, name):
     return chart.image(site, name)
 
 
-# Figure on the page of the column: the printed form levels off at its derived limit.
+# Figure on the page of the column. The printed form levels off at its derived limit.
 
 COLUMN_CASE, COLUMN_POINT, COLUMN_QUANTITY = "c_column", "section_data=printed", "buckling_load"
 COLUMN_ALT = ("Error of the buckling load against elements: beamw levels off, "
@@ -48,7 +48,7 @@ def column_words(verdict):
 
 
 def draw_column(axes, series, style):
-    """Draws one formulation with its verdict next to its last mesh and its derived limit as a dashed line."""
+    """Draws one formulation with its verdict next to its last mesh, and its derived limit as a dashed line."""
     pairs = plots.finite(series, COLUMN_QUANTITY)
     verdict = answers.verdict_of(series, COLUMN_QUANTITY)
     axes.plot([m.n for m, _ in pairs], [e for _, e in pairs], label=series.key, **style)
@@ -90,8 +90,8 @@ def column_section(site, case):
 NAVIGATION = [("claims.html", "claims"), ("papers.html", "papers")]
 PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # parameters of sheet_cantilever for the model of reference/peers.csv
 SECTIONS = ("printed constants", "section_data=printed"), (
-    "shear flow", "")  # sets for J Table 2; no single set reproduces all four of its entries
-TARGET = 0.01, 2e-4  # both errors of the case of other programs within 1 %, in less than 0.2 ms of solving
+    "shear flow", "")  # sets for J Table 2; no single set reproduces all four entries of the table
+TARGET = 0.01, 2e-4  # both errors of the case of other programs within 1 %, in less than 0.2 ms of solution time
 
 
 class Lookup:
@@ -176,21 +176,21 @@ def column(look, truths):
 
 
 def claims(cases, truths):
-    """Returns [(claim, published, measured)] as far as the results contain them."""
+    """Returns [(claim, published, measured)] for the claims that the results contain."""
     look = Lookup(cases)
     rows = [row for family in (sheets, joint, column) for row in family(look, truths)]
     return [row for row in rows if "nan" not in row[2] and not row[2].endswith("–")]
 
 
 def interval(slow, fast):
-    """Returns the ratio of two times, with the interval that follows from their rounds."""
+    """Returns the ratio of two times, with the interval from the times of their rounds."""
     middle = slow.least / fast.least
     return f"{middle:.2f}" if slow.repeats == 1 else f"{middle:.2f} ({slow.least / fast.most:.2f} to {slow.most / fast.least:.2f})"
 
 
 def baseline(site):
-    """Returns the times of the joint and the hexapod with the dense baseline, if 'make lab L=bench-mechanisms' wrote
-    them next to the results."""
+    """Returns the times of the joint and the hexapod with the dense baseline, if 'make lab L=bench-mechanisms' wrote them
+    next to the results."""
     files = {"spherical_joint": "mechanisms_joint.h5", "hexapod": "mechanisms_hexapod.h5"}
     here = pathlib.Path(site.results).parent
     return [
@@ -215,7 +215,7 @@ def row_of(look, claim, fast, slow):
 
 
 def row_dense(look, claim, fast, slow):
-    """Returns the row of the same comparison with the published algorithm, or None."""
+    """Returns the row of row_of for the published algorithm, or None."""
     row = row_of(look, claim, fast, slow)
     times = [look.mesh(claim[0], "", *cell).dense for cell in (slow, fast)] if row else [None]
     if None in times:
@@ -232,8 +232,7 @@ CLAIMS = (("spherical_joint", "support_stiffness_max", "N 4.2: 68 % less time", 
 
 
 def headlines(site):
-    """Returns (rows, cheapest): the two claims about time, and the formulations of lowest cost within 1 % and 0.1
-    %."""
+    """Returns (rows, cheapest): the two claims about time, and the formulations of lowest cost within 1 % and 0.1 %."""
     look, dense = Lookup(site.cases), Lookup(baseline(site))
     rows, soonest = [], []
     for claim in CLAIMS:
@@ -295,8 +294,8 @@ def write(site):
 
 
 def peers_section(site, case):
-    """Returns a section for the page of the case with a link to the results of other programs, if it was run at their
-    parameters."""
+    """Returns a section for the page of the case with a link to the results of other programs, if the case was run with
+    the parameters of these programs."""
     if case.name != "sheet_cantilever" or peers_point(site) is None:
         return []
     return [(
@@ -313,7 +312,7 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_papers, site)]
 
 
-# The papers compared figure by figure (reference/papers.csv) with the values measured here, and equation by equation
+# The papers compared with the values measured here, figure by figure (reference/papers.csv) and equation by equation
 # (reference/equations.csv).
 
 TABLE = ROOT / "reference" / "papers.csv"
@@ -332,7 +331,7 @@ def read(path=TABLE):
 
 
 def measured(look, truths, row):
-    """Describes the measured value of a row; returns '' if the row names no run or the run was not made."""
+    """Describes the measured value of a row. Returns '' if the row names no run or the run was not made."""
     if not row["elements"]:
         return ""
     cell = row["case"], row["parameters"], row["formulation"], int(row["elements"]), row["quantity"]

@@ -1,4 +1,4 @@
-"""Reads results.h5 and truths.h5 into plain records, with the column names of the tables, which `beamwork schema`
+"""Reads results.h5 and truths.h5 into plain records. Their column names are those of the tables, which `beamwork schema`
 describes."""
 import math
 import multiprocessing
@@ -9,7 +9,7 @@ from reports.records import Case, Clock, Dense, Kept, Mesh, Point, Series, Verdi
 
 
 class Unreadable(Exception):
-    """Raised for a file that is missing, damaged or of another kind; the message contains its name."""
+    """Raised for a file that is missing, damaged or of another kind. The message contains the name of the file."""
 
 
 def text(value):
@@ -18,7 +18,7 @@ def text(value):
 
 REACH = {0.1: "reach_10", 0.01: "reach_1", 0.001: "reach_0.1", 0.0001: "reach_0.01"}
 SCHEMA, VERSIONS = "beamwork-results", (2, 3)
-BENCH = "experiments/bench"  # group with the times; in version 2, they were in a separate file
+BENCH = "experiments/bench"  # group of the times; in version 2, times were in a separate file
 
 
 def column(values):
@@ -107,8 +107,8 @@ def read_verdict(row):
 
 
 def unranked(declared):
-    """Returns the reason why a formulation has no rank, from its row of /declarations, or an empty string if it has a
-    rank."""
+    """Returns the reason why a formulation has no rank, from its row of /declarations, or an empty string if the
+    formulation has a rank."""
     if declared.get("differences"):
         return "by differences"
     if declared.get("misprint"):
@@ -117,7 +117,7 @@ def unranked(declared):
 
 
 def mark(series, declared):
-    """Adds the declarations of its formulation to a series; a series without a rank has no cost."""
+    """Adds the declarations of its formulation to a series. A series without a rank has no cost."""
     series.unranked, series.is_new = unranked(declared), bool(declared.get("is_new"))
     for mesh in series.meshes if series.unranked else []:
         mesh.cost = math.nan
@@ -200,7 +200,7 @@ def read_case(path, name, bench=None, root=of_root):
 
 
 def read_bench(path, name, meshes):
-    """Copies the times of a benchmark into the runs of the same name."""
+    """Copies the times of a benchmark to the runs of the same name."""
     with h5py.File(path) as file:
         cases = root_of_bench(file)["cases"]
         if name in cases:
@@ -226,7 +226,7 @@ def read_about(path, root=of_root):
 
 
 def read_results(path, bench=None):
-    """Returns (environment, [Case]); cases are read in parallel."""
+    """Returns (environment, [Case]). Cases are read in parallel."""
     environment = read_about(path)
     try:
         with h5py.File(path) as file:
@@ -239,8 +239,8 @@ def read_results(path, bench=None):
 
 
 def holds(parameters, at):
-    """Returns whether a reference value with these parameters (`*` for any value) applies at a point. Both are
-    `name=value;...`."""
+    """Returns True if a reference value with these parameters applies at a point. Both are `name=value;...`, where `*`
+    stands for any value."""
     said = dict(item.split("=", 1) for item in parameters.split(";") if item)
     there = dict(item.split("=", 1) for item in at.split(";") if item)
     return all(value == "*" or there.get(name) == value
@@ -260,7 +260,7 @@ def read_other_model(path, case, parameters, quantity):
 
 
 def read_rules(path):
-    """Returns [{column: value}] of the list of known deviations (reference/findings.csv) that was packed with the
+    """Returns [{column: value}] of the list of known deviations (reference/findings.csv), which is packed with the
     reference values."""
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
@@ -308,7 +308,7 @@ def read_truth_counts(path):
 
 
 # Values of other programs (`beamwork import`), which are shown together with those of beamwork. They are stored
-# separately, so that they are not counted as formulations.
+# separately, so they are not counted as formulations.
 
 
 def truths_of(point):
@@ -318,7 +318,7 @@ def truths_of(point):
 
 
 def with_errors(series, truths):
-    """Returns the series with errors relative to beamwork's reference values. Errors relative to another model are
+    """Returns the series with errors relative to the reference values of beamwork. Errors relative to another model are
     model errors."""
     for mesh in series.meshes:
         into = mesh.errors if series.model == "beam" else mesh.model_errors

@@ -1,4 +1,4 @@
-"""The list of known deviations (reference/findings.csv): a line for each known cause, with its verdicts."""
+"""The list of known deviations (reference/findings.csv), with a line for each known cause and its verdicts."""
 import functools
 import math
 import re
@@ -14,7 +14,7 @@ NAVIGATION = [("deviations.html", "deviations"), ("errata.html", "errata")]
 
 
 def slug(title):
-    """Returns the anchor of a heading, as the toc extension of markdown forms it."""
+    """Returns the anchor of a heading, in the form that the toc extension of markdown uses."""
     return re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", title).strip().lower())
 
 
@@ -33,8 +33,8 @@ def link_of(proof, titles):
 
 
 def predictions(rows):
-    """Returns the numbers of derived limits that agree with the observed limit, that disagree, and that are undecided
-    because the observed limit is too uncertain. Returns None if no limit was derived."""
+    """Returns three numbers of derived limits: those that agree with the observed limit, those that disagree, and those
+    that are undecided because the observed limit is too uncertain. Returns None if no limit was derived."""
     told = [r for r in rows if math.isfinite(met(r.verdict))]
     if not told:
         return None
@@ -55,14 +55,14 @@ def predictions(rows):
 
 def left(v):
     """Returns the unexplained deviation of a limit: its distance from the derived limit or, if there is none, from the
-    reference value. The distance is relative to the reference value, like all errors."""
+    reference value. The distance is relative to the reference value, as are all errors."""
     if not math.isfinite(v.predicted) or not v.error:
         return abs(v.error)
     return abs((v.limit - v.predicted) * v.error / (v.limit - v.truth))
 
 
 def line(rule, rows, titles):
-    """Returns the line of an entry. rows: its verdicts, including those that are not counted."""
+    """Returns the line of an entry. `rows` are the verdicts of the entry, including those that are not counted."""
     own = [r for r in rows if r.standing == verdicts.OWN]
     seen, left_out = verdicts.counts(rows)
     known = [r for r in own if math.isfinite(r.verdict.error)]
@@ -135,7 +135,7 @@ def tasks(site):
 
 
 def verdict_of(study):
-    """Returns the conclusion of the experiments on one verdict as text for the heading of its table."""
+    """Returns the conclusion of the experiments on one verdict in text form, for the heading of its table."""
     gone = [e for e in study["experiments"] if e["gone"]]
     if any(e["kind"] == "finer" for e in gone):
         return "the meshes of the verdict are too coarse"
@@ -147,7 +147,7 @@ def verdict_of(study):
 
 
 def by_rule(record):
-    """Returns {entry: [(study, its conclusion)]}, sorted by the names of the entries."""
+    """Returns {entry: [(study, conclusion)]}, sorted by the names of the entries."""
     found = {}
     for study in record["studies"]:
         found.setdefault(study["finding"], []).append((study, verdict_of(study)))
@@ -166,7 +166,6 @@ def write_causes(site):
                solved=solved)
 
 
-# reference/ERRATA.md as a page.
 
 
 

@@ -1,5 +1,5 @@
-"""Reads the results of experiments other than verify. Each has a group below /experiments. `beamwork schema` describes
-their tables; the column names are used here.
+"""Reads the results of experiments other than verify. Each experiment has a group below /experiments. `beamwork schema`
+describes the tables, whose column names are used here.
 
     python -m reports.experiments RESULTS.h5 EXPERIMENT PROGRAM
 

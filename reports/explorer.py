@@ -1,10 +1,9 @@
 """A page on which the reader selects the case, the quantity and the axes; assets/explorer.js draws the figure.
 
 The numbers of each case are in a separate file, data_CASE.js, which is loaded when the case is selected. Lists are
-strings of numbers separated by blanks, with `-` for missing ones. A string that occurs more than once is in the list
-`w` and is replaced by its index. If a reference value is known, values are not stored, because reference x (1 + error)
-gives them to seven
-digits."""
+strings of numbers separated by blanks, with `-` for missing numbers. Strings that occur more than once are in the list
+`w` and are replaced by their indices. If a reference value is known, values are not stored, because reference x (1 +
+error) gives them to seven digits."""
 import collections
 import functools
 import json
@@ -14,7 +13,7 @@ import os
 from reports import answers, chart, style
 
 NAVIGATION = [("explorer.html", "explorer")]
-COLUMNS = "fnscui"  # columns of a series: the formulation, then those in AXES
+COLUMNS = "fnscui"  # columns of a series: the formulation, then the columns in AXES
 AXES = (("elements per member", "n"), ("time [s]", "s"), ("cost of counted work [s]", "c"),
         ("unknowns", "u"), ("iterations", "i"))
 
@@ -36,15 +35,15 @@ def error_text(error):
 
 
 def follow(values, errors, truth):
-    """Returns whether all finite values equal reference x (1 + error)."""
+    """Returns True if all finite values equal reference x (1 + error)."""
     return truth != 0 and all(
         not math.isfinite(v) and not math.isfinite(e) or abs(truth * (1 + e) - v) <= 1e-9 * abs(v)
         for v, e in zip(values, errors))
 
 
 def columns_of(values, errors, verdict):
-    """Returns [errors, verdict, reference value, values] of a quantity, with an empty string for missing entries and
-    for values that follow from the other entries."""
+    """Returns [errors, verdict, reference value, values] of a quantity. Missing entries, and values that follow from the
+    other entries, are empty strings."""
     said = verdict.verdict if verdict else ""
     truth = verdict.truth if verdict else math.nan
     if math.isfinite(truth) and follow(values, errors, truth):
@@ -54,8 +53,8 @@ def columns_of(values, errors, verdict):
 
 
 def series_of(series, names):
-    """Returns the data of a formulation at a parameter point: the formulation, the columns of its meshes in the order
-    of COLUMNS, then a list of columns for each quantity (0 if there are no values)."""
+    """Returns the data of a formulation at a parameter point: the formulation, the columns of its meshes in the order of
+    COLUMNS, then a list of columns for each quantity (0 if there are no values)."""
     meshes, out = series.meshes, []
     for name in names:
         found = [m.values.get(name, math.nan) for m in meshes]
@@ -80,8 +79,7 @@ def data_of(case):
 
 
 def shared(points):
-    """Returns {"w": strings that occur more than once, "points": the points with indices in place of these
-    strings}."""
+    """Returns {"w": strings that occur more than once, "points": the points with indices in place of these strings}."""
     every = [s for p in points for s in p["s"]]
     count = collections.Counter()
     for *columns, quantities in every:

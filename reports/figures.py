@@ -1,11 +1,11 @@
 """Converts a figure to a short SVG that is embedded in the page. The output of matplotlib is parsed and rewritten:
 coordinates are rounded to a tenth of a point, identifiers are made unique in the page, and common attributes of
-children are moved to their parent. Black and grey become the colour of the text, so that a figure changes with dark
-mode; colours of formulations become variables.
+children are moved to their parent. Black and grey become the colour of the text, so that figures change with dark
+mode. Colours of formulations become variables.
 
-Groups with the gid `f|KEY` (style.py) carry data-f="KEY" if they belong to a formulation; entries of legends carry
-data-l="KEY". data-off lists formulations that are initially hidden. `f|KEY|POINTS` also names the markers that were
-passed to site.points(). Elements with the gid `fixed` keep their colours."""
+Groups with the gid `f|KEY` (style.py) have the attribute data-f="KEY" if they belong to a formulation. Entries of
+legends have data-l="KEY". data-off lists formulations that are initially hidden. `f|KEY|POINTS` also names the markers
+that were passed to site.points(). Elements with the gid `fixed` keep their colours."""
 import dataclasses
 import io
 import json
@@ -31,8 +31,7 @@ def markers_in(markup):
 
 
 def markers_by_name(markup):
-    """Returns the markup with the colours of formulations replaced by names that the style sheet of the page
-    defines."""
+    """Returns the markup with the colours of formulations replaced by names that the style sheet of the page defines."""
     return re.sub(r"var\((--f\d+),#[0-9a-f]{6}\)", r"var(\1)", markup)
 
 
@@ -74,8 +73,8 @@ NUMBER = re.compile(r"-?\d*\.?\d+(?:e-?\d+)?")
 
 @dataclasses.dataclass(frozen=True)
 class Image:
-    """A figure of the site. name: name of its file; markup: the SVG for the page, without a title; points: the tooltip
-    texts of its markers, as JSON."""
+    """A figure of the site. `name` is the name of its file. `markup` is the SVG for the page, without a title. `points`
+    are the tooltip texts of its markers, as JSON."""
     name: str
     markup: str
     points: str = ""
@@ -104,8 +103,8 @@ def plain(value, digits):
 
 
 def said_of(told):
-    """Returns the tooltip texts of the markers as JSON for script.js. Headings (h) and columns (v) are stored once;
-    values that are equal in all rows of a curve (k) are omitted from the columns. A curve lists its columns (r)."""
+    """Returns the tooltip texts of the markers as JSON for script.js. Headings (h) and columns (v) are stored once.
+    Values that are equal in all rows of a curve (k) are omitted from the columns. Each curve lists its columns (r)."""
     if not told:
         return ""
     heads, curves, columns = [], [], {}
@@ -175,7 +174,7 @@ def dressed(element, fixed):
 
 
 class Writer:
-    """Writes one figure. prefix: start of its identifiers, unique in the page."""
+    """Writes one figure. `prefix` is the start of its identifiers, which is unique in the page."""
 
     def __init__(self, root, prefix):
         text = ElementTree.tostring(root, encoding="unicode")
@@ -291,12 +290,12 @@ def alone(markup):
 
 
 def handles_of(legend):
-    """Returns the drawn handles; matplotlib 3.7 renamed the attribute."""
+    """Returns the drawn handles, an attribute that matplotlib 3.7 renamed."""
     return legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles
 
 
 def tag_legends(figure):
-    """Assigns each entry of the legends to the formulation whose curve it names."""
+    """Assigns each entry of the legends to the formulation whose curve the entry names."""
     owners = {}
     for axes in figure.axes:
         for artist in axes.get_children():
@@ -312,8 +311,8 @@ def tag_legends(figure):
 
 
 def image_of(figure, name, said, tight=True):
-    """Returns the Image of a figure. said: the arguments of points(); tight: the figure is cropped to its contents,
-    for which it is drawn twice."""
+    """Returns the Image of a figure. `said` contains the arguments of points(). If `tight` is True, the figure is cropped
+    to its contents and is therefore drawn twice."""
     tag_legends(figure)
     out = io.StringIO()
     figure.savefig(out, format="svg", metadata={"Date": None},

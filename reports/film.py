@@ -48,7 +48,7 @@ class NoFilm(Exception):
 
 
 def films(path):
-    """Returns {case: (summary, point)} of the cases with frames; point is the first one that has frames."""
+    """Returns {case: (summary, point)} of the cases with frames. The point is the first one that has frames."""
     out = {}
     with h5py.File(path) as file:
         for name, group in file["cases"].items():

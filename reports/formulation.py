@@ -1,4 +1,4 @@
-"""Writes a page for each formulation: its theory, the physics it supports, where it fails and why, and its speed."""
+"""Writes a page for each formulation: its theory, the physics it supports, where and why it fails, and its speed."""
 import functools
 import math
 import re
@@ -30,7 +30,7 @@ def rendered(text):
     text = DISPLAY.sub(lambda found: keep(found, True), text)
     text = INLINE.sub(lambda found: keep(found, False), text)
     page = markdown.markdown(text, extensions=["tables"])
-    # Punctuation that follows an equation without a space stays on the same line.
+    # punctuation that follows an equation without a space stays on the line of the equation
     page = re.sub(r"(EQUATION\d+E)([.,;:)]+)(?!<)", r'<span class="whole">\1\2</span>', page)
     return re.sub(r"EQUATION(\d+)E", lambda found: equations[int(found.group(1))], page)
 
@@ -42,7 +42,7 @@ def sections(text):
 
 
 def linked(page, pages):
-    """Returns the page with names of cases and formulations as links. pages: {name: file}."""
+    """Returns the page with names of cases and formulations replaced by links. `pages` is {name: file}."""
 
     def link(found):
         name = found.group(1)
@@ -76,7 +76,7 @@ def curve(series, quantity):
 
 def candidates(found):
     """Returns [(error on the finest mesh, case name, quantity, (case, point, series))] for series with at least three
-    meshes. The quantities are the first one with a verdict in each case and those with a wrong limit."""
+    meshes. The quantities are the first quantity with a verdict in each case and those with a wrong limit."""
     out = []
     for case, point, series in found:
         names = answers.judged(point)[:1]
@@ -96,7 +96,7 @@ def extremes(found):
 
 
 def draw_extremes(site, key, items, name):
-    """Draws the error curves in two panels; the other formulations are grey."""
+    """Draws the error curves in two panels. The other formulations are grey."""
     chart = Chart(2, (380, 230))
     for (case, point, series, quantity), title in zip(items, TITLES):
         one = chart.panel(f"{title}: {case.name}, {quantity}", "elements per member",
@@ -121,7 +121,7 @@ WRONG = ("wrong limit, as predicted", "wrong limit", "refused", "diverged")
 
 
 def split(key):
-    """Returns (name, options) of a formulation's key."""
+    """Returns (name, options) from the key of a formulation."""
     name, _, options = key.partition(":")
     return name, options
 
@@ -161,8 +161,7 @@ def rules(rows, known, titles):
     for rule in known:
         own = found.get(rule["rule"])
         if own:
-            # A verdict that a formulation repeats because of the same misprint is counted on the page of that
-            # formulation.
+            # a verdict that a formulation repeats because of the same misprint is counted on the page of that formulation
             counted = [verdicts.TallyRow(r.case, r.parameters, r.formulation, r.verdict,
                                          verdicts.OWN) for r in own]
             out.append({**deviations.line(rule, counted, titles),
@@ -171,7 +170,7 @@ def rules(rows, known, titles):
 
 
 def lacking(found, attribute):
-    """Returns [(unsupported physics, cases)]. attribute: `missing` if the formulation is not run on these cases,
+    """Returns [(unsupported physics, cases)]. `attribute` is `missing` if the formulation is not run on these cases, or
     `other` if it solves another model."""
     lacks = {}
     for case, _, series in found:
@@ -194,8 +193,7 @@ def all_ways(cases):
 def speed(found, key, known):
     """Returns for each level: the cases in which any formulation reaches the level, those in which this formulation
     reaches it, those of the latter in which it does not pass, those in which it is first, its rank, and its median
-    cost relative to the
-    cheapest."""
+    cost relative to the cheapest."""
     out = []
     for level in LEVELS:
         posed, doubtful, first, factors, ranks = 0, 0, [], [], []
@@ -215,8 +213,8 @@ def speed(found, key, known):
 
 
 def table(found):
-    """Returns [(case, parameter points with verdicts, [(verdict, number)], worst verdict, its page, its point)] of the
-    cases with verdicts; the last three are None if all verdicts are passes."""
+    """Returns [(case, parameter points with verdicts, [(verdict, number)], worst verdict, page of this verdict, point of
+    this verdict)] of the cases with verdicts. The last three are None if all verdicts are passes."""
     cases = {}
     for case, point, series in found:
         shown = [] if series.missing else [v for v in series.verdicts if v.verdict not in UNJUDGED]
@@ -241,7 +239,7 @@ def table(found):
 class Known:
     """Data for the pages of all formulations, collected once."""
 
-    rows: list  # verdicts.TallyRow of every verdict
+    rows: list  # verdicts.TallyRow for every verdict
     rules: list  # entries of the list of known deviations
     declared: dict  # formulation -> row of /declarations
     ways: dict  # all_ways
@@ -320,7 +318,7 @@ def tasks(site):
 
 
 def counts(rows):
-    """Returns {verdict: number} of the rows with a verdict, without second names of entries, from bad to good."""
+    """Returns {verdict: number} of the rows with a verdict, without second names of entries, from good to bad."""
     found = {}
     for row in rows:
         if row.standing != verdicts.ALIAS and row.verdict.verdict not in UNJUDGED:

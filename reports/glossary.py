@@ -8,7 +8,7 @@ from reports import data
 
 NAVIGATION = [("glossary.html", "glossary")]
 PAGE = "glossary.html"
-# Groups in the order in which readers need them; other groups follow.
+# groups in the order in which readers need them, followed by all other groups
 GROUPS = ("verdicts", "convergence", "truths", "time and work", "outcomes of a solution",
           "stability", "physics", "elements", "solution", "analyses", "structure",
           "extremes", "program")
@@ -43,7 +43,7 @@ def places(rows):
 
 
 def linker(truths):
-    """Returns the template filter `term`, which turns a term into a link if the glossary contains it."""
+    """Returns the template filter `term`, which converts a term to a link if the glossary contains the term."""
     known = places(terms(truths))
 
     def term(words, name=None):

@@ -1,11 +1,11 @@
-"""python -m reports.graph FORM draws curves as a picture (png, svg, pdf), or writes a table with a column for each
-quantity (csv), for `beamwork plot`. It reads a list of solutions, as `beamwork solve --format json` writes them, from
-standard input, and writes the picture to standard output. Exit status 4: nothing can be drawn; a line gives the
-reason.
+"""python -m reports.graph FORM draws curves for `beamwork plot`. FORM is a picture (png, svg, pdf), or a table with a
+column for each quantity (csv). The program reads a list of solutions in the form of `beamwork solve --format json`
+from standard input and writes the picture to standard output. Exit status 4 means that nothing can be drawn; a line
+gives the reason.
 
-There is one panel for each abscissa and unit. Quantities are distinguished by colour; with several formulations, each
-formulation has a colour and each quantity a panel. Curves over frequency whose values are all positive have a
-logarithmic vertical axis, as in a Bode diagram."""
+There is one panel for each abscissa and unit. Quantities are distinguished by colour. If there are several
+formulations, each formulation has a colour and each quantity has a panel. Curves over frequency whose values are all
+positive have a logarithmic vertical axis, as in a Bode diagram."""
 import csv
 import importlib.util
 import itertools
@@ -16,7 +16,7 @@ import sys
 COULD_NOT = 4
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#8c6d31")
 LINES = ("-", "--", ":", "-.")
-MARKED = 30  # curves with fewer points have markers
+MARKED = 30  # number of points below which a curve has markers
 WIDTH, HEIGHT = 6.4, 2.5  # width and height of a panel [inch]
 MOST = 16  # largest number of panels
 PHASES = ("rad", "deg")  # units of phases over frequency
@@ -45,8 +45,7 @@ class Curve:
 
 
 def merged(curves):
-    """Merges quantities with the same curve (such as the largest and the smallest value of a history) into one
-    curve."""
+    """Merges quantities with the same curve, such as the largest and the smallest value of a history, into one curve."""
     found = {}
     for c in curves:
         same = found.setdefault((c.formulation, c.unit, c.x_name, *c.x, *c.y), c)
@@ -97,7 +96,7 @@ def draw_panel(axes, curves):
 
 
 def share(panels, axes):
-    """Gives panels of the same abscissa, one below the other, the same scale."""
+    """Gives panels with the same abscissa, one below the other, the same scale."""
     for i, (curves, one) in enumerate(zip(panels, axes)):
         for k in range(i):
             if panels[k][0].x_name == curves[0].x_name and (
@@ -107,7 +106,7 @@ def share(panels, axes):
 
 
 def written(curves):
-    """Returns the rows of a table: a column for each abscissa, followed by a column for each curve over it."""
+    """Returns the rows of a table: a column for each abscissa, followed by a column for each curve over this abscissa."""
     several = len({c.formulation for c in curves}) > 1
     columns, last = [], None
     for c in (c for panel in panels_of(curves) for c in panel):

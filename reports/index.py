@@ -27,7 +27,7 @@ ENTRY = re.compile(r"^  [^\s:]+: \{(\w+)[:}]", re.M)
 
 
 def analyses_in(scene):
-    """Returns the kinds of analysis in a scene file written by the program."""
+    """Returns the kinds of analysis in a scene file that the program wrote."""
     block = re.search(r"^analyses:\n((?:  .*\n)*)", scene, re.M)
     return ENTRY.findall(block.group(1)) if block else []
 
@@ -37,7 +37,8 @@ def kind_of(analyses):
 
 
 def scenes(path):
-    """Returns {case: scene file of its defaults or of its first point, or "" if the results contain none}."""
+    """Returns {case: scene file}. The scene file is that of the defaults or of the first point, or "" if the results
+    contain none."""
     found = {}
     with h5py.File(path) as file:
         for name, group in file["cases"].items():
@@ -57,8 +58,8 @@ def grouped_by_kind(cases, path):
     return sorted(groups.items(), key=lambda item: order.index(item[0]))
 
 
-# Quantities without a reference value: the limit on which formulations agree, and the distance of each formulation
-# from it.
+# Quantities without a reference value: the limit on which formulations agree, and the distance of each formulation from
+# it.
 
 AGREED = "agreement"  # name, in the results, of an agreement of at least two families of formulations
 
@@ -136,8 +137,8 @@ def ahead(values):
 
 
 def of_speed(compared, rows):
-    """Returns the formulations that are most often near the best and those that solve the most problems, or None if
-    there is no comparison."""
+    """Returns the formulations that are most often near the best and those that solve the most problems, or None if there
+    is no comparison."""
     if not compared.any:
         return None
     known = [r for r in rows if math.isfinite(r.solved)]
@@ -174,8 +175,7 @@ def of_trust(cases, rows):
 
 
 def of_truths(cases):
-    """Returns the number of reference values in verdicts, their kinds and their uncertainties, or None if there are
-    none."""
+    """Returns the number of reference values in verdicts, their kinds and their uncertainties, or None if there are none."""
     known = {}
     for row in verdicts.rows(cases):
         v = row.verdict
@@ -225,8 +225,8 @@ def formulation_rows(cases):
 
 
 def table_of(case):
-    """Returns [(request, answers.Answer)] at the defaults: for the first quantity with a reference value and for all
-    together."""
+    """Returns [(request, answers.Answer)] at the defaults, for the first quantity with a reference value and for all
+    quantities together."""
     point = case.points[0]
     names = answers.judged(point)
     asked = [(names[0], names[0])] if names else []

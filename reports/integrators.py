@@ -1,5 +1,5 @@
 """Reads the results of `beamwork motion` into plain records: motions computed by integrators with given steps and
-tolerances. Also reads the results of `make lab L=paces`, which contain the same for every case with a motion."""
+tolerances. Reads the results of `make lab L=paces`, which contain such records for every case with a motion."""
 import json
 import math
 import os
@@ -9,7 +9,7 @@ from reports import experiments
 from reports.data import Unreadable
 
 PACES = "paces.json"
-KEPT = 1e-11  # fraction of the largest energy; the energy is conserved if its drift is smaller
+KEPT = 1e-11  # fraction of the largest energy; if the drift is smaller, the energy is conserved
 ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # order in legends and tables
 KEYS = ("case", "parameters", "formulation", "elements")  # columns that identify a problem
 NONE_WANTED = "none is wanted"  # reason stored if no reference is requested
@@ -18,10 +18,9 @@ STIFFENING = "stiffening"  # name of the case parameter that multiplies the axia
 
 @dataclass(frozen=True)
 class Run:
-    """One motion. error: time-integration error only; cost: [s] of counted work; energy, momentum: largest unexplained
-    relative change; fate: outcome after the loads have ended; large: the run belongs to a map of large steps, for
-    which errors are not
-    computed."""
+    """One motion. `error` is the time-integration error, and `cost` is the cost of counted work [s]. `energy` and
+    `momentum` are the largest unexplained relative changes. `fate` is the outcome after the loads have ended. `large`
+    is True if the run belongs to a map of large steps, for which errors are not computed."""
 
     scheme: str
     step: float
@@ -39,7 +38,7 @@ class Run:
 
     @property
     def setting(self):
-        """Returns the tolerance if the steps are controlled by a tolerance, otherwise the step."""
+        """Returns the tolerance if a tolerance controls the steps, otherwise the step."""
         return f"tolerance {self.tolerance:.2g}" if self.tolerance else f"step {self.step:.3g} s"
 
     @property
@@ -54,7 +53,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Ladder:
-    """Observed order of an integrator, from successively halved steps. verdict: pass, low order or undecided."""
+    """Observed order of an integrator, from successively halved steps. `verdict` is pass, low order or undecided."""
 
     scheme: str
     nominal: float
@@ -64,8 +63,8 @@ class Ladder:
 
 @dataclass(frozen=True)
 class Way:
-    """Cost of an integrator for an error level. cost: [s], interpolated to exactly this error; run: a run within the
-    level."""
+    """Cost of an integrator for an error level. `cost` [s] is interpolated to exactly this error, and `run` is a run
+    within the level."""
 
     scheme: str
     cost: float
@@ -74,14 +73,14 @@ class Way:
 
 @dataclass
 class Problem:
-    """A mesh of a formulation in a case. reached: {error: [Way]}, the cheapest first."""
+    """A mesh of a formulation in a case. `reached` is {error: [Way]}, the cheapest first."""
 
     case: str
     parameters: str
     formulation: str
     elements: int
     stiffening: float
-    reference: str  # reason why there is no reference; empty if there is one
+    reference: str  # reason why there is no reference, or an empty string if there is a reference
     uncertainty: float
     runs: list
     ladders: list
@@ -145,8 +144,8 @@ def stiffening_in(parameters):
 
 
 def problem_of(tables, key):
-    """Returns the Problem of a case, set of parameters, formulation and mesh. It contains the runs with errors, then
-    those of which only the outcome is known."""
+    """Returns the Problem of a case, set of parameters, formulation and mesh. The problem contains the runs with errors,
+    then those of which only the outcome is known."""
     def own(name):
         return tables[name].get(key, [])
 
@@ -169,8 +168,8 @@ def problems_of(found):
 
 @dataclass(frozen=True)
 class Check:
-    """Difference between the reference of a problem and `explicit` at two tolerances. reason: why the difference is
-    unknown."""
+    """Difference between the reference of a problem and `explicit` at two tolerances. `reason` states why the difference
+    is unknown."""
 
     name: str
     formulation: str
@@ -181,9 +180,9 @@ class Check:
 
 @dataclass
 class Record:
-    """Contents of the results. verdicts: rows with observed and expected verdicts; compared: problems on which
-    integrators are compared (every case with a motion if `make lab L=paces` was run); left_out: {(case, formulation):
-    reason why it is not run}; about: the program that made the runs."""
+    """Contents of the results. `verdicts` are rows with observed and expected verdicts. `compared` are the problems on
+    which integrators are compared (every case with a motion if `make lab L=paces` was run). `left_out` is {(case,
+    formulation): reason why it is not run}. `about` is the program that made the runs."""
 
     problems: list
     verdicts: list
@@ -226,7 +225,7 @@ def compared_in(path):
 
 
 def read(path):
-    """Returns the Record of a results file and of paces.json next to it, or None if there is none."""
+    """Returns the Record of a results file and of paces.json next to the file, or None if there is none."""
     found = experiments.read(path, "motion")
     if found is None:
         return None
@@ -235,8 +234,8 @@ def read(path):
     return Record(problems, found["verdicts"], *(compared_in(beside) or (problems, {}, [])), found)
 
 
-# Finds the integrator and the step with the lowest cost within a time error, and the evidence for this result.
-# `beamwork motion` itself reports the cost of a scheme for an error.
+# Finds the integrator and the step with the lowest cost within a time-integration error, and the evidence for this
+# result. `beamwork motion` reports the cost of a scheme for an error.
 
 LEVELS = (1e-2, 1e-4, 1e-6)
 FACTORS = [10**(i / 12) for i in range(25)]  # factors of profiles, from 1 to 100
@@ -244,8 +243,8 @@ FACTORS = [10**(i / 12) for i in range(25)]  # factors of profiles, from 1 to 10
 
 @dataclass(frozen=True)
 class Answer:
-    """Answer for one problem. ways: the cheapest first; ties: schemes whose costs differ from the lowest by less than
-    the scatter of costs."""
+    """Answer for one problem. `ways` are sorted with the cheapest first. `ties` are schemes whose costs differ from the
+    lowest by less than the scatter of costs."""
 
     level: float
     ways: tuple
@@ -273,9 +272,9 @@ def by_case(problems):
 
 @dataclass(frozen=True)
 class Summary:
-    """Summary of a case over all formulations. wins: {scheme: formulations for which it has the lowest cost or ties};
-    best: the ways of the scheme with the most wins; keeping: the cheapest ways that conserve energy to round-off, with
-    their costs relative to the lowest cost."""
+    """Summary of a case over all formulations. `wins` is {scheme: formulations for which it has the lowest cost or ties}.
+    `best` are the ways of the scheme with the most wins. `keeping` are the cheapest ways that conserve energy to
+    round-off, with their costs relative to the lowest cost."""
 
     wins: tuple
     reached: int
@@ -346,7 +345,7 @@ def wins(problems, level, noise=1.0):
 
 
 def profile(problems, level):
-    """Returns {scheme: [share of problems within FACTORS of the lowest cost]}; every case has the same weight."""
+    """Returns {scheme: [share of problems within FACTORS of the lowest cost]}. Every case has the same weight."""
     cases = {}
     for problem in problems:
         cases.setdefault(problem.case, []).append(answer(problem, level))
@@ -362,7 +361,7 @@ def profile(problems, level):
 
 
 def structures(problems):
-    """Returns {structure: [Problem]}: each structure with all its stiffenings."""
+    """Returns {structure: [Problem]}, where each structure has all its stiffenings."""
     out = {}
     for problem in problems:
         out.setdefault(problem.structure, []).append(problem)

@@ -1,5 +1,5 @@
-"""Page of integrators: the integrator and the step with the lowest cost within a time error, and the evidence for it
-(from `beamwork motion`, and from paces.json if it exists)."""
+"""Page of integrators: the integrator and the step with the lowest cost within a time-integration error, and the evidence
+for it (from `beamwork motion`, and from paces.json if it exists)."""
 import functools
 import math
 
@@ -25,8 +25,8 @@ def level_words(level):
 
 
 def soonest(problems, level, noise):
-    """Returns text such as `within 1 % alpha in 2 of 3`. Integrators that have the lowest cost less than half as often
-    as the first are omitted. For a single problem, the text includes the step."""
+    """Returns text such as `within 1 % alpha in 2 of 3`. Integrators that have the lowest cost less than half as often as
+    the first are omitted. For a single problem, the text includes the step."""
     count, reached = integrators.wins(problems, level, noise)
     if not reached:
         return f"within {level_words(level)} none"
@@ -100,8 +100,7 @@ def drift(ways):
 
 
 def stability(problems):
-    """Returns one sentence on a map, which lists the schemes whose energy grows or which stop at any step and
-    stiffness."""
+    """Returns one sentence on a map, which lists the schemes whose energy grows or which stop at any step and stiffness."""
     bad, every = {}, {}
     for problem in problems:
         for run in problem.runs:
@@ -213,7 +212,7 @@ def profile(site, problems, level):
 
 
 # Stability maps, with the step on the horizontal axis, the stiffness on the vertical axis, and a panel for each
-# integrator. Each outcome has a colour and a letter, so that the map can be read without colours.
+# integrator. Each outcome has a colour and a letter, so the map can be read without colours.
 
 # fate: letter, colour, colour of the letter, meaning
 LOOK = {
@@ -267,8 +266,8 @@ def fates(problems):
 
 
 def draw_map(problems, legend=True):
-    """Returns the Image of the map of a structure. problems: its stiffenings; legend: the letters are explained below
-    the map."""
+    """Returns the Image of the map of a structure. `problems` are its stiffenings. If `legend` is True, the letters are
+    explained below the map."""
     found = fates(problems)
     schemes = ordered({s for s, _, _ in found})
     steps, stiffenings = sorted({h for _, h, _ in found}), sorted({x for _, _, x in found})
@@ -318,7 +317,7 @@ def rows_of(problems, noise):
 
 
 def cases_of(problems, noise):
-    """Returns [(case, parameters, {level: Summary}, rows)]: all formulations of a case together, and each
+    """Returns [(case, parameters, {level: Summary}, rows)] for all formulations of a case together, and for each
     formulation."""
     return [(case, parameters,
              {level: integrators.summary(own, level, noise) for level in integrators.LEVELS},
@@ -326,8 +325,8 @@ def cases_of(problems, noise):
 
 
 def maps_of(problems):
-    """Returns [(name, Image, sentence)]: a map for each structure that was run with large steps, the largest map
-    first, with an explanation of the letters."""
+    """Returns [(name, Image, sentence)]: a map for each structure that was run with large steps, the largest map first,
+    with an explanation of the letters."""
     found = [own for own in integrators.structures(problems).values() if fates(own) and
              any(p.reference == integrators.NONE_WANTED for p in own)]
     found.sort(key=lambda own: -len(fates(own)))
@@ -341,8 +340,8 @@ def unmeasured(problems):
 
 
 def failures_of(problems):
-    """Returns [(case, parameters, scheme, failed runs, formulations, one of these runs)] of runs without an error
-    value. Large steps, which are expected to fail, are in the maps instead."""
+    """Returns [(case, parameters, scheme, failed runs, formulations, one of these runs)] of runs without an error value.
+    Large steps, which are expected to fail, are in the maps instead."""
     found = {}
     for p in problems:
         for r in p.runs:

@@ -1,8 +1,8 @@
 """Converts equations in a small subset of LaTeX to MathML, which browsers draw without network access or scripts.
 
-The subset: letters, numbers and operators; `_`, `^` and `'`; groups in braces; Greek letters and symbols;
-names of functions; \\frac, \\sqrt, \\mathbf, \\mathrm, \\text; accents; \\left and \\right.
-Unknown commands are rejected, with their names.
+The subset contains letters, numbers and operators; `_`, `^` and `'`; groups in braces; Greek letters and symbols;
+names of functions; \\frac, \\sqrt, \\mathbf, \\mathrm, \\text; accents; \\left and \\right. Unknown commands are
+rejected by name.
 """
 import re
 
@@ -44,7 +44,7 @@ def operator(sign, stretchy=False):
 
 
 def bold(letters):
-    """Returns the letters as bold mathematical letters of Unicode."""
+    """Returns the letters in the form of bold mathematical letters of Unicode."""
     first = {"A": 0x1D400, "a": 0x1D41A}
     return "".join(chr(first["A"] + ord(c) - ord("A")) if c.isupper() else chr(
         first["a"] + ord(c) - ord("a")) for c in letters)

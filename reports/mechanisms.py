@@ -1,7 +1,7 @@
 """The joint and the hexapod, compared with N sections 4.2 and 4.3: curves, relative times, growth of the time with the
 number of elements, parts of an iteration, and the dense baseline.
 
-Times come from `make lab L=bench-mechanisms`, which writes its files into the folder of the results."""
+The times are measured by `make lab L=bench-mechanisms`, which writes its files to the folder of the results."""
 import functools
 import math
 import os
@@ -17,7 +17,7 @@ NAVIGATION = [("mechanisms.html", "mechanisms")]
 PUBLISHED = (("sheet_third", 1, 9.77e5, 1.0), ("sheet_third", 2, 9.61e5, 3.3),
              ("sheet_second", 1, 10.95e5, 0.9), ("sheet_second", 2, 9.68e5, 3.1), ("sheet_second",
                                                                                    4, 9.63e5, 9.6))
-PUBLISHED_SHELL = 9.81e5  # N Fig. 8, shell elements: another model
+PUBLISHED_SHELL = 9.81e5  # N Fig. 8, shell elements, which are another model
 PUBLISHED_SECONDS = {"spherical_joint": 2.45,
                      "hexapod": 122.0}  # N, one third-order element per sheet
 PUBLISHED_FACTOR = 6.32  # N section 4.3: time of two second-order elements relative to one third-order element
@@ -40,7 +40,7 @@ class Cell:
 
 
 def read_bench(path, case):
-    """Returns the timed runs at the default parameters in a file of `beamwork bench`; the list may be empty."""
+    """Returns the timed runs at the default parameters in a file of `beamwork bench`. The list may be empty."""
     if not os.path.exists(path):
         return []
     found = data.read_case(path, case, root=data.root_of_bench)

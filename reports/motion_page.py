@@ -1,5 +1,5 @@
-"""Motion pages: integrators, energies, momenta, steps, and quantities over time, with one page for each case with a
-motion (table `motion` of the results)."""
+"""Motion pages: integrators, energies, momenta, steps, and quantities over time. Each case with a motion has a page
+(table `motion` of the results)."""
 import functools
 import math
 import re
@@ -24,7 +24,7 @@ MOMENTA = {"P": ("px", "py", "pz"), "L": ("lx", "ly", "lz")}
 
 @dataclass
 class Motion:
-    """One motion. columns: {name: values}; the first value belongs to the start."""
+    """One motion. `columns` is {name: values}. The first value belongs to the start."""
 
     formulation: str
     elements: int
@@ -45,7 +45,7 @@ class Motion:
 
     @property
     def scale(self):
-        """Returns the scale of energy-balance errors: the largest energy [J]."""
+        """Returns the scale of energy-balance errors, which is the largest energy [J]."""
         return float(max(np.abs(self.energy).max(), np.abs(self.columns["work"]).max()))
 
     @property
@@ -66,7 +66,7 @@ class Motion:
 
 
 def motions_of(path, case, point="default"):
-    """Returns [Motion] of a case at a point: the finest mesh of each formulation."""
+    """Returns [Motion] of a case at a point, for the finest mesh of each formulation."""
     with h5py.File(path) as file:
         group = file[f"cases/{case}"]
         if TABLE not in group or not len(group[TABLE]):
@@ -101,15 +101,15 @@ def how(point):
 
 @dataclass(frozen=True)
 class Truth:
-    """A reference value at an instant."""
+    """A reference value at one time."""
 
     time: float
     value: float
 
 
 def truths_of(path, case, quantity, end):
-    """Returns [Truth] of a quantity at the default parameters except `time`, which may have any value; end: its
-    default."""
+    """Returns [Truth] of a quantity at the default parameters except `time`, which may have any value. `end` is the
+    default of `time`."""
     with h5py.File(path, driver="core", backing_store=False) as file:
         group = file["truths"].get(case)
         names = ("parameters", "quantity", "model", "formulation")
@@ -127,7 +127,7 @@ def truths_of(path, case, quantity, end):
 
 # Text about a motion: its integrator, steps and drift.
 
-ROUND_OFF = 1e-6  # momenta that change by less are conserved
+ROUND_OFF = 1e-6  # relative change below which a momentum counts as conserved
 
 
 def scheme(how):
@@ -173,7 +173,7 @@ def sentence(motion, how):
              if rejected else "")
     drift = float(np.abs(motion.drift).max())
     name = scheme(how)
-    tolerance = float(how.get("tolerance", 0))  # because YAML reads 1e-05 as a string
+    tolerance = float(how.get("tolerance", 0))  # YAML reads 1e-05 as a string
     by = f" with a tolerance of {tolerance:g} per step" if tolerance else ""
     return (f"{name[0].upper()}{name[1:]}{by} takes {words_of_steps(motion)}{tries} to "
             f"{motion.time[-1]:.4g} s, {motion.columns['iterations'][1:].mean():.1f} iterations "
@@ -188,12 +188,12 @@ def between(values, form):
 
 
 def whenever(meaning):
-    """Returns the meaning of a quantity without its instant."""
+    """Returns the meaning of a quantity without its time."""
     return re.sub(r", \S+ s after the start of the motion", "", meaning)
 
 
 def spread(motions):
-    """Compares the first motion with those of other formulations; returns an empty string if there are none."""
+    """Compares the first motion with those of other formulations. Returns an empty string if there are none."""
     if len(motions) < 2:
         return ""
     drifts = [float(np.abs(m.drift).max()) for m in motions]
@@ -202,7 +202,7 @@ def spread(motions):
             f"{between(drifts, '{:.0e}')}, and a step takes {between(counts, '{:.1f}')} iterations.")
 
 
-# Scales the numbers of an axis to be close to one by means of a unit prefix: thousandths, millionths or thousands.
+# Scales the numbers of an axis to be close to one by a unit prefix: thousandths, millionths or thousands.
 
 PREFIXES = ((1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"))
 POWERS = {1e-6: "10⁻⁶ ", 1e-3: "10⁻³ ", 1e3: "10³ "}
@@ -210,7 +210,7 @@ PLAIN = ("m", "rad", "J", "N", "N m", "s")  # units to which a prefix can be add
 
 
 def fitting(values, unit):
-    """Returns (size of a suitable unit, its name)."""
+    """Returns the size and the name of a suitable unit."""
     largest = float(np.abs(np.asarray(values, float)).max(initial=0))
     size, prefix = 1.0, ""
     for one, name in PREFIXES:
@@ -227,7 +227,7 @@ def fitting(values, unit):
 
 WIDE, HALF = (640, 200), (300, 170)
 MOST_POINTS = 150  # largest number of points of a curve
-MOST_CURVES = 7  # with the curve of the reference value, one fewer than a figure initially shows
+MOST_CURVES = 7  # largest number of curves, including the reference value; one fewer than a figure initially shows
 FLOOR = 1e-17  # smallest drawn drift
 # column: name, colour, line
 ENERGIES = {"kinetic": ("kinetic", 0, "-"), "strain": ("strain", 1, "-"),
@@ -249,7 +249,7 @@ def largest(x, y, most=MOST_POINTS):
 
 
 def line(site, panel, name, look, x, y, unit, size):
-    """Draws a curve that belongs to no formulation. size: size of the unit of the axis."""
+    """Draws a curve that belongs to no formulation. `size` is the size of the unit of the axis."""
     index, dash = look
     marks = thinned(x, 9)
     told = site.points(name, ("time", f"value [{unit}]"),
@@ -334,7 +334,7 @@ def draw_steps(site, motions, name):
 
 def over_time(case, quantity):
     """Returns {formulation: (times, values, elements, whole)} of the finest meshes. The values are the curve of the
-    quantity (whole) or its values at points that differ only in `time`."""
+    quantity if `whole` is True, otherwise its values at points that differ only in `time`."""
     out, end = {}, end_of(case)
     for series in case.points[0].series:
         curves = [m for m in series.meshes if quantity in m.curves and
@@ -363,8 +363,8 @@ def end_of(case):
 
 
 def draw_quantity(site, case, name, image):
-    """Draws a quantity over time, as far as it was computed, with its reference values. Returns None if it is known at
-    only one instant."""
+    """Draws a quantity over the computed time, with its reference values. Returns None if the quantity is known at only
+    one time."""
     found, end = over_time(case, name), end_of(case)
     instants = {t for x, *_ in found.values() for t in x}
     if len(instants) < 2:

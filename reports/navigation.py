@@ -22,7 +22,7 @@ SWEEP = "sweep_"  # prefix of the files of sweep pages
 
 @dataclass(frozen=True)
 class Group:
-    """A group of pages. file: that of its first page; pages: [(file, title)]."""
+    """A group of pages. `file` is that of its first page, and `pages` is [(file, title)]."""
 
     title: str
     file: str

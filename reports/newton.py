@@ -1,5 +1,5 @@
-"""Compares Newton's method in coordinates, strains and stresses (mixed form) with Newton's method in displacements
-only: the largest possible step, and its cost."""
+"""Compares Newton's method in coordinates, strains and stresses (mixed form) with Newton's method in displacements: the
+largest possible step, and its cost."""
 import functools
 import json
 import os
@@ -20,8 +20,7 @@ def read(path):
 
 
 def largest(values, iterations):
-    """Returns (largest value up to which all values converged in one step, iterations at this value), or (None,
-    None)."""
+    """Returns (largest value up to which all values converged in one step, iterations at this value), or (None, None)."""
     best = (None, None)
     for value, count in zip(values, iterations):
         if count is None:
@@ -62,7 +61,7 @@ def contests(data):
 
 
 def figure_of(case, histories):
-    """Draws each correction against the preceding one; quadratic convergence has the slope two."""
+    """Draws each correction against the preceding correction. Quadratic convergence has the slope two."""
     figure, axes = plt.subplots(figsize=(5.2, 4.2))
     for marker, form in zip("o+", FORMS):
         for h in (h for h in histories if h["form"] == form):

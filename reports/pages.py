@@ -3,12 +3,12 @@
     NAVIGATION = [("newton.html", "iterations")]    # files and titles for the bar at the top of every page
     def tasks(site): return [functools.partial(write, site)]    # functions that write its files in parallel
 
-and, if it adds to the pages of cases, def section(site, case), which returns [(heading, markup)].
+A page that adds a section to the pages of cases has def section(site, case), which returns [(heading, markup)].
 
-A page whose files depend on the results also has def navigation(site), which returns more of them.
+A page whose files depend on the results has def navigation(site), which returns the additional files.
 
-A page whose data may be missing from the results also has def present(site). Without its data, it is omitted from the
-site, from the bar (navigation.py) and from links (has_page in templates).
+A page whose data may be missing from the results has def present(site). If the data are missing, the page is omitted
+from the site, from the bar (navigation.py) and from links (has_page in templates).
 """
 import importlib
 import multiprocessing
@@ -44,7 +44,7 @@ PAGES = (
 
 ALONE = ("sweep_page", "glossary")  # pages that can be written for a sweep without other results
 _tasks = [
-]  # site of the current run; the processes of the pool inherit it, so that no record is copied
+]  # site of the present run, which the processes of the pool inherit, so that no record is copied
 
 
 def _run(index):
@@ -59,7 +59,7 @@ def present(site):
 
 
 def build(results, truths, folder, bench=None, others=(), sweeps=(), figures=None):
-    """Writes the whole site, or nothing after an error. figures: arguments of paper.Paper for figures of papers.
+    """Writes the whole site, or nothing after an error. `figures` are the arguments of paper.Paper for figures of papers.
     Returns the number of tasks."""
     folder = pathlib.Path(folder).absolute()
     folder.parent.mkdir(parents=True, exist_ok=True)

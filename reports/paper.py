@@ -1,4 +1,4 @@
-"""Draws the charts and figures of the report for papers: as PDF, PGF (for LaTeX), PNG or SVG, by matplotlib.
+"""Draws the charts and figures of the report for papers with matplotlib, in PDF, PGF (for LaTeX), PNG or SVG.
 
 A style file of matplotlib changes sizes, fonts and colours of text, grids and lines. Its `figure.figsize` replaces the
 size of the charts. The colour and marker of a formulation are those of the report."""
@@ -13,19 +13,19 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, LogFormatterMathtext
 from reports.style import plt
 
 FORMATS = ("pdf", "pgf", "png", "svg")
-FOLDER = "figures"  # in the folder of the report
-PIXELS = 96  # per inch
+FOLDER = "figures"  # subfolder of the report folder
+PIXELS = 96  # pixels per inch
 LEGEND = 3  # largest number of columns of a legend
 TEX = ("xelatex", "pdflatex", "lualatex")
 
 
 class Impossible(Exception):
-    """Figures of this format or style cannot be drawn; the text is one line with the remedy."""
+    """Raised if figures cannot be drawn in this format or style. The text is one line with the remedy."""
 
 
 class Paper:
-    """Writes figures into `folder`/figures. formats: some of FORMATS; cases: the names of all cases; only: the case
-    whose figures are written (default: all); sized: the style file sets the size of figures."""
+    """Writes figures to `folder`/figures. `formats` are some of FORMATS. `cases` are the names of all cases. `only` is
+    the case whose figures are written (default: all). `sized` is True if the style file sets the size of figures."""
 
     def __init__(self, folder, cases, formats=(), style=None, only=None):
         self.folder, self.formats, self.sized = os.path.join(folder, FOLDER), formats, False
@@ -40,7 +40,7 @@ class Paper:
             os.makedirs(self.folder, exist_ok=True)
 
     def wants(self, name):
-        """Returns whether the figure of this name is written."""
+        """Returns True if the figure of this name is written."""
         case = next((c for c in self.cases if name.startswith(c)), None)
         return self.formats and self.only in (None, case)
 
@@ -98,7 +98,7 @@ def use(path):
 
 
 def figure_of(chart, sized):
-    """Returns the figure of a chart. sized: its size is that of the style, otherwise that of the chart."""
+    """Returns the figure of a chart. If `sized` is True, the size is that of the style, otherwise that of the chart."""
     columns = min(chart.columns, len(chart.panels))
     rows = math.ceil(len(chart.panels) / columns)
     size = None if sized else ((chart.size[0] + 70) * columns / PIXELS, (chart.size[1] + 60) * rows / PIXELS)

@@ -1,5 +1,5 @@
-"""Equilibrium paths: load against deflection of the C-shaped cantilever compared with 3-D solids, the conclusions of
-the paper, and limit points."""
+"""Equilibrium paths: load against deflection of the C-shaped cantilever compared with 3-D solids, the conclusions of the
+paper, and limit points."""
 import dataclasses
 import functools
 import math
@@ -45,7 +45,7 @@ class Event:
 
 
 def solid(truths, parameters, quantity):
-    """Returns the rows of a curve: points at the abscissae `at`."""
+    """Returns the rows of a curve, with points at the abscissae `at`."""
     with h5py.File(truths) as file:
         if CASE not in file["truths"]:
             return None
@@ -215,7 +215,7 @@ def model_points(site, parameters):
 
 
 def continued(site, case):
-    """Returns whether the case has a path at its default parameters."""
+    """Returns True if the case has a path at its default parameters."""
     found = site.case(case)
     return found is not None and any("curve" in m.curves for s in found.points[0].series
                                      if s.key == "beamw_consistent" for m in s.meshes[-1:])

@@ -1,5 +1,5 @@
-"""Pictures of every scene, undeformed and deformed, and of its modes (shapes.py): a still picture, and a model that
-can be rotated.
+"""Pictures of every scene, undeformed and deformed, and of its modes (shapes.py). Each has a still picture and a model
+that can be rotated.
 
 Surfaces are projected in parallel and painted from back to front."""
 import functools
@@ -13,9 +13,8 @@ from reports import shapes
 from reports.shapes import CLAMPED, FRAME, bodies, distance, exaggeration, read, size_of, strips
 
 NAVIGATION = [("pictures.html", "pictures")]
-FLAT = 0.02  # ratio of extent to size below which a structure is considered plane
-FAR, NEARLY = 0.45, 0.9  # fractions of the largest distance, slightly below one half and one, because evenly spaced states miss these
-                         # values slightly
+FLAT = 0.02  # ratio of extent to size below which a structure counts as plane
+FAR, NEARLY = 0.45, 0.9  # fractions of the largest distance, slightly below one half and one
 
 MEMBER, BODY, SUPPORT = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80, 0.62]), "#1c2430"
 LIGHT = np.array([0.35, -0.55, 0.76])
@@ -50,7 +49,7 @@ def best_view(s, states):
     moved = np.abs(s.position - s.position[0]).max(axis=(0, 1))
     if any(s.kind[k] == FRAME for k in states) and moved[2] < moved[:2].max() and \
             np.ptp(s.position[..., 2]) < FLAT * size_of(s):
-        return View(-90, 74)  # motion in the xy plane: from above, x to the right
+        return View(-90, 74)  # motion in the xy plane, seen from above with x to the right
     side, above = View(), View(elevation=52)
     return above if seen(above) > 1.25 * seen(side) else side
 
@@ -64,8 +63,7 @@ def shade(polygon, colour):
 
 
 def supports(s):
-    """Returns the nodes that do not move: fixed nodes that are not bodies, nodes attached to a clamped body, and
-    hinges."""
+    """Returns the nodes that do not move: fixed nodes that are not bodies, nodes attached to a clamped body, and hinges."""
     owner = {int(b) for b in s.body}
     return [
         i for i, (b, held) in enumerate(zip(s.body, s.held))
@@ -118,8 +116,7 @@ class Sheet:
 
 
 def still(s, state):
-    """Returns one state, drawn over the pale undeformed state, as SVG. It is shown where the model cannot be
-    rotated."""
+    """Returns one state, drawn over the pale undeformed state, in SVG. It is shown if the model cannot be rotated."""
     scale = 1 if s.kind[state] == FRAME else exaggeration(s, state)
     view = best_view(s, [state])
     rest, here = drawn_polygons(s, state, scale)
@@ -159,8 +156,8 @@ def title_of(s, state, scale):
 
 
 def chosen(s):
-    """Returns the states with a picture: of a path, the first distant state and the last state that is farthest from
-    it; a linear solution; and the first modes."""
+    """Returns the states with a picture. For a path, these are the first distant state and the last state that is
+    farthest from it. A linear solution and the first modes are also included."""
     path = [k for k, kind in enumerate(s.kind) if kind in ("path", FRAME)]
     out = [0]
     if path:
@@ -176,7 +173,7 @@ def chosen(s):
 
 
 def draw(site, case, s):
-    """Writes the still picture and the model that can be rotated as files."""
+    """Writes the files of the still picture and of the model that can be rotated."""
     worth = chosen(s)
     first = worth[min(1, len(worth) - 1)]
     start = max((k for k in worth if s.kind[k] in ("path", FRAME)), default=first)

@@ -16,7 +16,7 @@ OPEN = "open: below the reference value's own digits"
 
 
 def log_axis(axis, whole=False):
-    """Sets a few ticks: whole numbers if `whole` is set, otherwise powers of ten."""
+    """Sets a few ticks: whole numbers if `whole` is True, otherwise powers of ten."""
     low, high = axis.get_view_interval()
     decades = math.log10(high / low) if low > 0 else 6
     if whole and decades < 0.7:
@@ -51,7 +51,7 @@ def finite(series, quantity, errors="errors"):
 
 
 def work_of(point):
-    """Returns (label, function of a mesh) of the counted work: iterations, or evaluated elements if there are no
+    """Returns (label, function of a mesh) of the counted work, which is iterations, or evaluated elements if there are no
     iterations."""
     if any(m.iterations > 0 for s in point.series for m in s.meshes):
         return "Newton iterations", lambda m: m.iterations
@@ -60,7 +60,7 @@ def work_of(point):
 
 
 def against(point, name):
-    """Returns (label, function of a mesh, whole numbers) of an abscissa."""
+    """Returns (label, function of a mesh, True for whole numbers) of an abscissa."""
     return {"elements": ("elements per member", lambda m: m.n, True),
             "time": ("time [ms]: set-up and solution", lambda m: 1e3 * m.seconds, False),
             "unknowns": ("unknowns", lambda m: m.free, True),
@@ -76,8 +76,8 @@ def tolerance_of(point, quantity):
 
 
 def digits_of(point, quantity):
-    """Returns the relative uncertainty of the reference value, below which errors have no meaning, or None if it is
-    below the range of the plot."""
+    """Returns the relative uncertainty of the reference value, below which errors have no meaning, or None if it is below
+    the range of the plot."""
     found = (answers.verdict_of(s, quantity) for s in point.series)
     known = [v.truth_uncertainty / abs(v.truth) for v in found
              if v and v.truth and math.isfinite(v.truth)]
@@ -86,8 +86,8 @@ def digits_of(point, quantity):
 
 
 def leading(point, quantity):
-    """Returns (at most MOST_CURVES series to draw, other series). Uncorrected misprints and options are omitted first
-    (except options on the front of time and error), then the least accurate series."""
+    """Returns (at most MOST_CURVES series to draw, other series). Uncorrected misprints and options are omitted first,
+    except options on the front of time and error. The least accurate series are omitted next."""
     drawn = [s for s in point.series if finite(s, quantity)]
     front = {s.key for s, _ in answers.front(point, quantity)}
 
@@ -103,8 +103,8 @@ def leading(point, quantity):
 
 
 def telling(point, quantities):
-    """Returns the first of these quantities for which most formulations differ from the reference value on their
-    coarsest mesh, or the first quantity if there is none."""
+    """Returns the first of these quantities for which most formulations differ from the reference value on their coarsest
+    mesh, or the first quantity if there is none."""
     def tells(quantity):
         least = max(digits_of(point, quantity) or 0, NEARLY)
         first = [pairs[0][1] for pairs in (finite(s, quantity) for s in point.series) if pairs]
@@ -114,8 +114,7 @@ def telling(point, quantities):
 
 
 def marks_of(site, point, series, quantity, meshes, errors="errors"):
-    """Returns the arguments of plot() for the curve of a formulation through these meshes, with the data of its
-    markers."""
+    """Returns the arguments of plot() for the curve of a formulation through these meshes, with the data of its markers."""
     v = answers.verdict_of(series, quantity)
     unit = point.units.get(quantity, "")
     columns = ("elements", f"value [{unit}]" if unit else "value", "error", "time [s]", "unknowns",
@@ -127,8 +126,8 @@ def marks_of(site, point, series, quantity, meshes, errors="errors"):
 
 
 def draw_series(site, panel, point, series, quantity, where, errors="errors", told=True, **look):
-    """Draws the curve of a formulation. Markers below the uncertainty of the reference value are hollow and are drawn
-    at this uncertainty, on the grey background. `told`: the markers have tooltips with their values."""
+    """Draws the curve of a formulation. Markers below the uncertainty of the reference value are hollow and are drawn at
+    this uncertainty, on the grey background. If `told` is True, the markers have tooltips with their values."""
     digits = digits_of(point, quantity) if errors == "errors" else None
     pairs = [(m, e) for m, e in finite(series, quantity, errors) if where(m) > 0]
     if not pairs:
@@ -192,14 +191,14 @@ def front_line(point, quantity):
 
 # Figures of a case: errors of one quantity, errors of the other quantities, and curves of paths.
 
-ONE = (520, 280)  # axes of a figure with one panel [pixels]
-TWO = (400, 260)  # axes of each of two panels side by side
-SMALL = (250, 150)  # axes of one of many panels
+ONE = (520, 280)  # size of the axes of a figure with one panel [pixels]
+TWO = (400, 260)  # size of the axes of each of two panels side by side [pixels]
+SMALL = (250, 150)  # size of the axes of one of many panels [pixels]
 
 
 def errors_figure(site, point, quantity, shown, abscissae, name, told=True):
     """Draws the error of one quantity against elements, time, unknowns or work, with a panel for each of the given
-    abscissae. Returns None if there is no error. `told`: the markers have tooltips with their values."""
+    abscissae. Returns None if there is no error. If `told` is True, the markers have tooltips with their values."""
     if not any(finite(s, quantity) for s in [*shown, *point.others]):
         return None
     chart = Chart(len(abscissae), ONE if len(abscissae) == 1 else TWO)
@@ -277,7 +276,7 @@ def small_multiples(site, point, quantities, name, errors="errors", ylabel="rela
 
 def curves(site, point, quantity, name):
     """Draws the curve of every formulation on its finest mesh, at most MOST_CURVES. Curves over frequency have
-    logarithmic frequencies, as in a Bode plot, and logarithmic values if all are amplitudes."""
+    logarithmic frequencies, as in a Bode plot. Their values are logarithmic if all values are amplitudes."""
     found = [(s, [m for m in s.meshes if quantity in m.curves and len(m.curves[quantity][0])])
              for s in point.series]
     found = sorted((f for f in found if f[1]),

@@ -1,11 +1,11 @@
 """The problems on which formulations are compared, and the cost at which each formulation solves a problem.
 
-A problem is a quantity with an exact reference value of the same model, at a parameter point of a case.
-Second names of the same entry are not counted. Every case has the same weight, and so has every problem within a case:
-a case with 60 parameter points has the same weight as a case with a single point.
+A problem is a quantity with an exact reference value of the same model, at a parameter point of a case. Second names
+of the same entry are not counted. Every case has the same weight, whatever the number of its parameter points. Every
+problem within a case has the same weight.
 
 A formulation solves a problem to a level with the coarsest mesh for which the errors of that mesh and of all finer
-meshes are within the level, unless its limit is known to be outside the level. """
+meshes are within the level, unless its limit is known to be outside the level."""
 import math
 from collections import Counter
 from dataclasses import dataclass, field
@@ -14,21 +14,21 @@ from reports import answers, verdicts
 from reports.verdicts import OWN_LIMITS, UNJUDGED
 
 COUNTS = {  # cost measures of a mesh
-    "cost": lambda mesh: mesh.cost,  # [s] counted work, with the cost coefficients of the reference machine
+    "cost": lambda mesh: mesh.cost,  # cost of counted work, with the cost coefficients of the reference machine [s]
     "unknowns": lambda mesh: max(1, mesh.free),
 }
 
 
 @dataclass
 class Problem:
-    """A problem. tries: {formulation: (data.Series, data.Verdict)} of the formulations that support the problem."""
+    """A problem. `tries` is {formulation: (data.Series, data.Verdict)} of the formulations that support the problem."""
 
     case: str
     point: str
     quantity: str
     tries: dict
-    meshes: list  # meshes of all runs of the same structure
-    least: dict = field(default_factory=dict)  # measure -> smallest value over all those meshes
+    meshes: list  # meshes of all runs of the structure of the problem
+    least: dict = field(default_factory=dict)  # measure -> smallest value over all these meshes
 
 
 def contestants(cases):
@@ -70,12 +70,12 @@ def problems(cases, keys):
 
 
 def defect(verdict, level):
-    """Returns whether the limit is known to differ from the reference value by more than the level."""
+    """Returns True if the limit is known to differ from the reference value by more than the level."""
     return verdict.verdict in OWN_LIMITS and abs(verdict.error) > level
 
 
 def any_defect(verdict, level):
-    """Returns whether the limit is known to differ from the reference value by any amount."""
+    """Returns True if the limit is known to differ from the reference value by any amount."""
     del level
     return verdict.verdict in OWN_LIMITS
 
@@ -87,8 +87,8 @@ def no_defect(verdict, level):
 
 
 def solved(problem, key, level, forbids=defect):
-    """Returns the data.Mesh with which a formulation solves the problem, or None. forbids: function for a known
-    defect, which counts as not solved."""
+    """Returns the data.Mesh with which a formulation solves the problem, or None. `forbids` is a function that returns
+    True for a known defect, which counts as not solved."""
     if key not in problem.tries:
         return None
     series, verdict = problem.tries[key]
@@ -99,15 +99,15 @@ def solved(problem, key, level, forbids=defect):
 
 
 def weights(found, key=None):
-    """Returns the weights of the problems, whose sum is 1. key: only problems that this formulation supports have a
-    weight."""
+    """Returns the weights of the problems, whose sum is 1. If `key` is given, only problems that this formulation
+    supports have a weight."""
     kept = [p for p in found if key is None or key in p.tries]
     sizes = Counter(p.case for p in kept)
     return [(p, 1 / sizes[p.case] / len(sizes)) for p in kept]
 
 
 def paid(problem, keys, level, count, forbids=defect):
-    """Returns {formulation: cost of the mesh that solves the problem}, infinite if no mesh does."""
+    """Returns {formulation: cost of the mesh that solves the problem}. The cost is infinite if no mesh does."""
     meshes = {key: solved(problem, key, level, forbids) for key in keys}
     return {key: COUNTS[count](m) if m else math.inf for key, m in meshes.items()}
 
@@ -119,8 +119,8 @@ def to_the_best(problem, bills, count):
 
 
 def to_the_smallest(problem, bills, count):
-    """Returns the unit of data profiles (More and Wild 2009), which depends neither on a tolerance nor on other
-    formulations: the smallest cost of any run of the same structure, regardless of its error."""
+    """Returns the unit of data profiles (More and Wild 2009): the smallest cost of any run of the structure, whatever its
+    error. This unit depends neither on a tolerance nor on other formulations."""
     del bills
     return problem.least[count]
 
@@ -136,7 +136,7 @@ class Question:
 
 
 def factors(found, keys, question):
-    """Returns {formulation: [(problem, cost divided by the unit)]}; the cost is infinite if the formulation does not
+    """Returns {formulation: [(problem, cost divided by the unit)]}. The cost is infinite if the formulation does not
     solve the problem."""
     out = {key: [] for key in keys}
     for problem in found:
@@ -150,7 +150,7 @@ def factors(found, keys, question):
 # Reliability and speed: the verdicts on each formulation and its costs.
 
 LEVEL, NEAR = 0.01, 2  # "within twice the best, to 1 %"
-GROUPS = {  # column -> verdicts counted in it
+GROUPS = {  # column -> verdicts that the column counts
     "pass": ("pass",),
     "low order": ("low order",),
     "biased": ("biased", "biased, as predicted"),
@@ -170,8 +170,8 @@ class TrustRow:
     counts: dict  # column of GROUPS -> verdicts
     offered: float = math.nan
     solved: float = math.nan  # share of problems solved to LEVEL
-    near: float = math.nan  # share solved to LEVEL within NEAR times the best
-    factor: float = math.nan  # median cost relative to the best, over the problems that it solves to LEVEL
+    near: float = math.nan  # share of problems solved to LEVEL at no more than NEAR times the best cost
+    factor: float = math.nan  # median cost relative to the best, over the problems that the formulation solves to LEVEL
 
     @property
     def judged(self):
@@ -188,7 +188,7 @@ class TrustRow:
 
 
 def median(pairs):
-    """Returns the weighted median of [(value, weight)], with half of the weight at or below it; NaN if there are no
+    """Returns the weighted median of [(value, weight)], with half of the weight at or below it, or NaN if there are no
     pairs."""
     half, reached = sum(w for _, w in pairs) / 2, 0.0
     for value, weight in sorted(pairs):
@@ -215,7 +215,7 @@ def judged(cases):
 
 
 def speed(row, found, pairs):
-    """Adds the data on problems to a row. pairs: [(problem, cost relative to the best)]."""
+    """Adds the data on problems to a row. `pairs` is [(problem, cost relative to the best)]."""
     weight = {id(p): w for p, w in weights(found)}
     reached = [(f, weight[id(p)]) for p, f in pairs if math.isfinite(f)]
     row.offered = sum(weight[id(p)] for p in found if row.key in p.tries)
@@ -235,15 +235,15 @@ def trust_table(cases, found, keys):
 
 
 def trust_order(row):
-    """Returns the sort key of a row: the number of solved problems; formulations that are not compared (options,
+    """Returns the sort key of a row, which is the number of solved problems. Formulations that are not compared (options,
     uncorrected misprints) come last."""
     solved = row.solved if math.isfinite(row.solved) else -1
     return -round(solved, 6), -round(row.share, 6), row.key
 
 
 def wrong_cases(cases, key):
-    """Returns {case: verdicts} of the cases in which a formulation converges to a wrong limit, those with the most
-    such verdicts first."""
+    """Returns {case: verdicts} of the cases in which a formulation converges to a wrong limit. Cases with the most such
+    verdicts come first."""
     sizes = {}
     for row in verdicts.rows(cases):
         wrong = COLUMN.get(row.verdict.verdict) in ("predicted", "wrong")

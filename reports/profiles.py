@@ -12,13 +12,13 @@ from reports.problems import Question, any_defect, defect, no_defect, to_the_bes
 from reports.style import plt
 
 ROUND = (1, 1.2, 1.4, 1.7, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8)  # factors in each decade at which shares are read
-FARTHEST = {to_the_best: 100, to_the_smallest: 1000}  # where the axis ends
+FARTHEST = {to_the_best: 100, to_the_smallest: 1000}  # end of the axis for each unit
 SLACK = 1e-9  # relative tolerance of a factor, so that equal costs remain equal in floating-point arithmetic
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure for each level. offered: only problems that a formulation supports are counted."""
+    """A figure for each level. If `offered` is True, only problems that a formulation supports are counted."""
 
     name: str
     count: str
@@ -49,11 +49,10 @@ def places(farthest):
 
 
 def shares(pairs, at):
-    """Returns the share of the weight of problems solved within each factor, followed by the share solved at any
-    factor.
+    """Returns the share of the weight of problems solved within each factor, followed by the share solved at any factor.
 
-    pairs: [(factor, weight)] of one formulation; the factor is infinite if the problem is not solved. at: ascending
-    factors. """
+    `pairs` is [(factor, weight)] of one formulation; the factor is infinite if the problem is not solved. `at`
+    contains ascending factors."""
     ordered = sorted(pairs)
     whole, reached, i, out = sum(w for _, w in ordered), 0.0, 0, []
     for place in [*at, math.inf]:
@@ -70,7 +69,7 @@ def weight_of(found, key=None):
 
 
 def profile(found, keys, question, offered=False):
-    """Returns {formulation: shares at `places`, and the share that it solves at any factor}."""
+    """Returns {formulation: shares at `places`, followed by the share that it solves at any factor}."""
     at, everything = places(FARTHEST[question.unit]), weight_of(found)
     out = {}
     for key, pairs in problems.factors(found, keys, question).items():
@@ -80,7 +79,7 @@ def profile(found, keys, question, offered=False):
 
 
 def read_at(curves, at, factor):
-    """Returns [(share within the factor, formulation)], the largest first; factor: one of the factors in `at`."""
+    """Returns [(share within the factor, formulation)], the largest share first. `factor` is one of the factors in `at`."""
     i = at.index(factor)
     return sorted(((values[i], key) for key, values in curves.items()), reverse=True)
 
@@ -98,11 +97,11 @@ class Compared:
 
     @property
     def any(self):
-        """Returns whether a comparison is possible, which requires a problem and two formulations."""
+        """Returns True if a comparison is possible, which requires a problem and two formulations."""
         return bool(self.problems) and len(self.keys) > 1
 
     def profile(self, question, offered=False):
-        """Returns {formulation: shares at `places`, and the share that it solves at any factor}."""
+        """Returns {formulation: shares at `places`, followed by the share that it solves at any factor}."""
         if (question, offered) not in self._profiles:
             found = profile(self.problems, self.keys, question, offered)
             self._profiles[question, offered] = found
@@ -143,7 +142,7 @@ def legend_of(site, keys, name="profile_legend"):
 
 
 class Fixed(Axis):
-    """An axis with prescribed limits and ticks. ticks: [(value, label)]."""
+    """An axis with prescribed limits and ticks. `ticks` is [(value, label)]."""
 
     def __init__(self, log, limits, ticks):
         super().__init__(log)
@@ -166,7 +165,7 @@ def factors(farthest):
 
 
 def stairs(at, shares):
-    """Returns the corners of the step curve: each share applies from its factor on."""
+    """Returns the corners of the step curve. Each share applies from its factor on."""
     xs, ys = [at[0]], [shares[0]]
     for x, y in zip(at[1:], shares[1:]):
         if y != ys[-1]:
@@ -176,7 +175,7 @@ def stairs(at, shares):
 
 
 def figure_of(site, picture, curves, keys, name, size=(250, 175)):
-    """Draws a profile. curves: {formulation: shares at `places`}; size: of the axes, in pixels."""
+    """Draws a profile. `curves` is {formulation: shares at `places`}. `size` is the size of the axes in pixels."""
     at = places(FARTHEST[picture.unit])
     chart = Chart(1, size)
     panel = chart.panel(xlabel=xlabel(picture), ylabel="share of problems")
@@ -191,7 +190,7 @@ def figure_of(site, picture, curves, keys, name, size=(250, 175)):
 
 
 def write_table(site, compared, name="profiles.csv"):
-    """Writes every curve, drawn or not; factor "any" contains the share solved at any factor."""
+    """Writes every curve, drawn or not. The factor "any" contains the share solved at any factor."""
     path = os.path.join(site.folder, name)
     with open(f"{path}.part", "w", encoding="utf-8", newline="") as out:
         table = csv.writer(out)
@@ -210,7 +209,7 @@ def write_table(site, compared, name="profiles.csv"):
 # The page of profiles, winners and reliability.
 
 NAVIGATION = [("profiles.html", "profiles")]
-NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor of the example of how to read the figure
+NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor for the example of how to read the figure
 READINGS = (defect, no_defect, any_defect)
 
 

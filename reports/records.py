@@ -17,15 +17,15 @@ class Clock:
 
 @dataclass
 class Kept:
-    """The same run without elimination of degrees of freedom."""
+    """A run without elimination of degrees of freedom."""
     clock: Clock
     free: int
 
 
 @dataclass
 class Dense:
-    """The same run with the published algorithm (newton=dense). whole: the whole run was timed; otherwise the time is
-    that of one iteration multiplied by the number of iterations."""
+    """A run with the published algorithm (newton=dense). If `whole` is True, the whole run was timed. Otherwise the time
+    is that of one iteration multiplied by the number of iterations."""
     seconds: float
     unknowns: int
     whole: bool
@@ -51,8 +51,8 @@ class Mesh:
     parts: dict = field(default_factory=dict)  # part of Newton's iterations -> seconds
     dense: Dense = None
     predictions: dict = field(default_factory=dict)  # quantity -> value of an analytic model
-    cost: float = math.nan  # [s] of counted work, with the cost coefficients of the reference machine
-    priced: bool = True  # the formulation has its own cost coefficients, not the general ones
+    cost: float = math.nan  # cost of counted work, with the cost coefficients of the reference machine [s]
+    priced: bool = True  # True if the formulation has its own cost coefficients, not the general ones
 
     @property
     def seconds(self):
@@ -61,7 +61,7 @@ class Mesh:
 
 @dataclass
 class Verdict:
-    """One verdict: columns of the table `verdicts`, in SI; errors are relative."""
+    """One verdict: columns of the table `verdicts` in SI. Errors are relative."""
 
     quantity: str
     verdict: str
@@ -108,9 +108,9 @@ class Series:
     missing: str
     meshes: list
     verdicts: list
-    imported: str = ""  # file of the other program from which it was read
+    imported: str = ""  # file of the other program from which the series was read
     model: str = "beam"
-    unranked: str = ""  # reason why it has no rank: derivatives by differences, or another process
+    unranked: str = ""  # reason why the series has no rank: derivatives by differences, or another process
     is_new: bool = False  # not accepted yet: its verdicts do not affect the exit status
     other: str = ""  # relevant physics that the formulation omits, so that it solves another model
     without: str = ""  # physics that the formulation omits, and the effect of the omission
@@ -136,7 +136,7 @@ class Point:
     series: list
     units: dict
     others: list = field(default_factory=list)  # series of other programs (reports/data.py)
-    noise: float = 1.25  # cost ratio below which costs tie
+    noise: float = 1.25  # ratio of costs below which costs tie
     scene: str = ""  # text of the scene file
     meanings: dict = field(default_factory=dict)  # quantity -> description in one line
     omitted: str = ""  # description of the physics that the scene omits

@@ -1,7 +1,7 @@
 """Shapes of a scene in space, from the centre lines in the results file.
 
-A wall of a section is drawn as a strip along its mid-line, a thick wall as a solid. Rigid bodies are the convex hulls
-of the points attached to them; groups of points that are far apart are joined by rods."""
+Thin walls of sections are drawn as strips along their mid-lines, thick walls as solids. Rigid bodies are the convex
+hulls of the points attached to them. Groups of points that are far apart are joined by rods."""
 import base64
 import dataclasses
 import json
@@ -19,9 +19,9 @@ from reports.data import text
 SYMBOL = 0.03  # largest half side, relative to the size, of a rectangle that represents a section known only by its constants
 THIN = 0.2  # ratio of thickness to length up to which a wall is drawn as a surface
 VISIBLE = 0.02  # displacement, relative to the size, below which the picture exaggerates displacements
-GAP = 0.35  # distance between points of a body, relative to its extent, beyond which they are drawn as parts joined by rods
+GAP = 0.35  # relative distance between points of a body beyond which rods join them
 CLAMPED = 63  # bits of all six components
-FRAME = "motion"  # kind of a state that is a frame of a motion; its value is the time [s]
+FRAME = "motion"  # kind of a state that is a frame of a motion, whose value is the time [s]
 
 
 @dataclasses.dataclass
@@ -29,24 +29,24 @@ class Shapes:
     """Content of the group `shapes` of a run."""
     formulation: str
     n: int
-    members: np.ndarray  # [members x 3]: nodes p and q, section
-    first: np.ndarray  # [members + 1]
-    body: np.ndarray  # [nodes]: the node with which it moves, or -1
+    members: np.ndarray  # nodes p and q, and section [members x 3]
+    first: np.ndarray  # index of the first point of each member [members + 1]
+    body: np.ndarray  # node with which each node moves, or -1 [nodes]
     held: np.ndarray  # [nodes]: bits
-    released: np.ndarray  # [members x 2]: bits of both ends
-    sections: list  # [walls x 4 x 2] in m
+    released: np.ndarray  # bits of both ends [members x 2]
+    sections: list  # walls [walls x 4 x 2] in m
     far: dict  # {member: section at its far end}, if the section changes along the member
     equivalent: list  # True if the section is known only by its constants and drawn as a rectangle
     kind: list
     acting: list  # loads of a linear solution, such as "combination ULS"; "" for all loads
     value: np.ndarray
     position: np.ndarray  # [states x points x 3] in m
-    axes: np.ndarray  # [states x points x 3 x 3]: rows are the section's axes
+    axes: np.ndarray  # axes of the section in rows [states x points x 3 x 3]
     nodes: np.ndarray  # [states x nodes x 3] in m
 
 
 def matrices(q):
-    """Returns the triads of quaternions q[..., 4], with the axes x, y, z as rows."""
+    """Returns the triads of the quaternions q[..., 4], with the axes x, y, z in rows."""
     w, x, y, z = np.moveaxis(q, -1, 0)
     rows = [[1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
             [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
@@ -60,7 +60,7 @@ def frames_in(shapes):
 
 
 def read(site, case):
-    """Returns the shapes of a case's defaults, or None if the results contain none."""
+    """Returns the shapes of a case at its defaults, or None if the results contain none."""
     return read_file(site.results, case.name)
 
 
@@ -98,7 +98,7 @@ def size_of(s):
 
 
 def turns(s, a, b):
-    """Returns rotation vectors [points x 3] from state a to b."""
+    """Returns the rotation vectors [points x 3] from state a to state b."""
     return Rotation.from_matrix(np.swapaxes(s.axes[b], -1, -2) @ s.axes[a]).as_rotvec()
 
 
@@ -128,7 +128,7 @@ def axes_of(s, state, scale):
 
 
 def is_thick(wall):
-    """Returns whether the wall is drawn with all its sides instead of its mid-line."""
+    """Returns True if the wall is drawn with all its sides instead of its mid-line."""
     return np.linalg.norm(wall[0] - wall[1]) > THIN * np.linalg.norm(wall[1] - wall[2])
 
 
@@ -159,8 +159,8 @@ def strips(s, state, scale, every):
 
 
 def hull_faces(points):
-    """Returns the faces of the convex hull as indices; for points in a plane, the polygon; for points on a line, the
-    segment."""
+    """Returns the faces of the convex hull as indices. For points in a plane, returns the polygon; for points on a line,
+    returns the segment."""
     rounded, index = np.unique(np.round(points, 12), axis=0, return_index=True)
     middle = rounded.mean(axis=0)
     _, extent, axes = np.linalg.svd(rounded - middle, full_matrices=False)
@@ -181,7 +181,7 @@ def hull(points):
 
 
 def clusters(points):
-    """Returns groups of indices of points that are close together: gaps below GAP times the extent do not separate
+    """Returns groups of indices of points that are close together. Gaps below GAP times the extent do not separate
     points."""
     reach = GAP * np.linalg.norm(np.ptp(points, axis=0))
     group = np.arange(len(points))
@@ -193,8 +193,8 @@ def clusters(points):
 
 
 def groups_of_bodies(s):
-    """Returns [(nodes of a rigid body, groups of nodes that are close together)]. A body also contains its main node
-    if this node is a hinge (partly fixed)."""
+    """Returns [(nodes of a rigid body, groups of nodes that are close together)]. The main node is included if it is a
+    hinge (partly fixed)."""
     out = []
     for b in sorted({int(b) for b in s.body if b >= 0}):
         attached = np.append(np.flatnonzero(s.body == b), [b] * (s.held[b] not in (0, CLAMPED)))
@@ -217,13 +217,13 @@ def bodies(s, state, scale):
 
 # Shapes for the 3-D viewer (assets/viewer.js): one file for each case, loaded when the case is viewed.
 #
-# Positions and axes of all stored states are 16-bit integers: positions are relative to the middle of the scene and in
-# units of half its size; axes are quaternions. Invisible displacements are exaggerated, as in the still pictures; the
-# label of the state contains the factor.
+# Positions and axes of all stored states are 16-bit integers. Positions are relative to the middle of the scene, in
+# units of half its size. Axes are quaternions. Invisible displacements are exaggerated, as in the still pictures, and
+# the label of the state contains the factor.
 
 WHOLE = 32767
 MOST_POINTS = 1300  # largest number of points of all members; if there are more, only every second or third point is stored
-MOST_FRAMED = 16_000  # of all frames of a motion together
+MOST_FRAMED = 16_000  # largest number of points of all frames of a motion together
 LEAST = 3  # smallest number of points of a bent member before the number of frames is reduced
 
 
@@ -239,8 +239,8 @@ def frames_of(s):
 
 
 def drawn_states(s, most=MOST_FRAMED):
-    """Returns the states that are stored: all states, but of a motion only as many evenly spaced frames, including
-    both ends, as `most` points allow."""
+    """Returns the states that are stored. These are all states, but for a motion only as many evenly spaced frames,
+    including both ends, as `most` points allow."""
     frames = frames_of(s)
     count = max(2, most // (LEAST * max(1, len(s.members))))
     if len(frames) > count:
@@ -250,7 +250,7 @@ def drawn_states(s, most=MOST_FRAMED):
 
 
 def kept(s, most=MOST_FRAMED):
-    """Returns (indices of the stored points, index of the first of these for each member)."""
+    """Returns (indices of the stored points, index of the first stored point for each member)."""
     framed = sum(s.kind[k] == FRAME for k in drawn_states(s, most))
     points = max(LEAST * len(s.members), min(MOST_POINTS, most // max(1, framed)))
     every = -(-s.position.shape[1] // points)
@@ -263,8 +263,7 @@ def kept(s, most=MOST_FRAMED):
 
 
 def ends(wall, other, pick, half):
-    """Returns the corners at the near end and, if they differ, at the far end: [y, z, y, z, ...] in units of
-    `half`."""
+    """Returns the corners at the near end and, if they differ, at the far end: [y, z, y, z, ...] in units of `half`."""
     return [[round(float(x) / half, 6) for x in pick(w).ravel()] for w in (wall, other)
             if w is not None]
 
@@ -296,8 +295,8 @@ def drawn_bodies(s):
 
 
 def exaggerations(s):
-    """Returns the scale of every state. All states of a path have the scale of the state with the largest
-    displacement; motions are not exaggerated."""
+    """Returns the scale of every state. All states of a path have the scale of the state with the largest displacement.
+    Motions are not exaggerated."""
     found = [1.0 if kind == FRAME else float(exaggeration(s, k))
              for k, kind in enumerate(s.kind)]
     path = [k for k, kind in enumerate(s.kind) if kind == "path"]
@@ -306,9 +305,9 @@ def exaggerations(s):
 
 
 def shape(s, words, supports, hinges, start, view, most=MOST_FRAMED):
-    """Returns the data for the viewer. words: title of a state and its exaggeration; supports: nodes; hinges: points;
-    start: state shown first; view: (azimuth, elevation) in degrees; most: largest number of points of all frames of a
-    motion together."""
+    """Returns the data for the viewer. `words` is the title of a state and its exaggeration, `supports` are nodes,
+    `hinges` are points, `start` is the state shown first, `view` is (azimuth, elevation) in degrees, and `most` is the
+    largest number of points of all frames of a motion together."""
     at, first = kept(s, most)
     drawn, every = drawn_states(s, most), exaggerations(s)
     scales = [(k, every[k]) for k in drawn]

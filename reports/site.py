@@ -25,7 +25,7 @@ def percent(value):
 
 
 def limit(v):
-    """Returns a limit as text, with its significant digits, one further digit, and its uncertainty."""
+    """Returns a limit in text form, with its significant digits, one further digit, and its uncertainty."""
     if not math.isfinite(v.limit):
         return "–"
     if not math.isfinite(v.limit_uncertainty):
@@ -52,14 +52,14 @@ def file_of(key):
 
 
 def file_name(path):
-    """Returns a name for use in a URL, from the name of a file."""
+    """Returns a name for use in a URL, made from the name of a file."""
     return "".join(c if c.isalnum() or c in "-_" else "_" for c in pathlib.Path(path).stem)
 
 
 class Site:
-    """A report. cases: data.Case records; about, bench: environments of the results and of the times (None: no
-    benchmark); paper: writes figures for papers; kinds: numbers of reference values by kind; sweeps: stored.Sweep records. If `results` is a sweep,
-    there are no cases."""
+    """A report. `cases` are data.Case records. `about` and `bench` are the environments of the results and of the times
+    (None: no benchmark). `paper` writes figures for papers. `kinds` are the numbers of reference values by kind.
+    `sweeps` are stored.Sweep records. If `results` is a sweep, there are no cases."""
 
     def __init__(self, results, truths, folder, bench=None, others=(), sweeps=(), figures=None):
         self.alone = stored.is_alone(results)
@@ -109,14 +109,14 @@ class Site:
                                       look_of=style.class_of)
 
     def write_assets(self):
-        """Writes the style sheet and the scripts next to the pages; the sheet contains the colours of formulations."""
+        """Writes the style sheet and the scripts next to the pages. The sheet contains the colours of formulations."""
         for asset in ASSETS.iterdir():
             own = style.sheet() if asset.name == "style.css" else ""
             with open(os.path.join(self.folder, asset.name), "w", encoding="utf-8") as out:
                 out.write(asset.read_text(encoding="utf-8") + own)
 
     def has_page(self, name):
-        """Returns whether a page of the bar is written."""
+        """Returns True if a page of the bar is written."""
         return any(file == name for file, _ in self.navigation)
 
     def bar(self, name):
@@ -142,18 +142,19 @@ class Site:
         return next((c for c in self.cases if c.name == name), None)
 
     def write(self, template, name, **context):
-        """Renders a template into a page of the site."""
+        """Renders a template to a page of the site."""
         path = os.path.join(self.folder, name)
         text = self.templates.get_template(template).render(self_name=name, **context)
         with open(path, "w", encoding="utf-8") as out:
             out.write(figures.with_markers(text))
 
     def points(self, key, columns, rows, title=""):
-        """Returns the arguments of plot() for a curve whose markers carry data: with the pointer on a marker, or by
-        keyboard, a tooltip shows the title, the formulation and the row of the marker.
+        """Returns the arguments of plot() for a curve whose markers carry data. If the pointer is on a marker, or the
+        marker is selected by keyboard, a tooltip shows the title, the formulation and the row of the marker.
 
-        key: formulation; columns: names of the entries of a row; `error` is shown in percent and `time [s]` in a
-        suitable unit. rows: a row of numbers, strings or None for each drawn marker, in the order of the markers."""
+        `key` is the formulation. `columns` are the names of the entries of a row; `error` is shown in percent and
+        `time [s]` in a suitable unit. `rows` contains a row of numbers, strings or None for each drawn marker, in the
+        order of the markers."""
         digits = [{"error": 3, "time [s]": 4}.get(name, 8) for name in columns]
         self.said.append({"f": key, "t": title, "c": list(columns),
                           "r": [[figures.plain(v, d) for v, d in zip(row, digits)]
@@ -162,8 +163,8 @@ class Site:
         return {**look, "gid": f"{look['gid']}|{len(self.said) - 1}"}
 
     def image(self, figure, name, tight=True):
-        """Returns the Image of a matplotlib figure for the macro `figure` of a page, and closes the figure. tight: the
-        figure is cropped to its contents, for which it is drawn twice."""
+        """Returns the Image of a matplotlib figure for the macro `figure` of a page, and closes the figure. If `tight` is
+        True, the figure is cropped to its contents and is therefore drawn twice."""
         self.paper.figure(figure, name)
         image = figures.image_of(figure, name, self.said, tight)
         plt.close(figure)
@@ -171,7 +172,7 @@ class Site:
         return image
 
     def keep(self, image):
-        """Writes an image also as a separate file. Returns the name of the file."""
+        """Writes an image to a separate file. Returns the name of the file."""
         with open(os.path.join(self.folder, image.name), "w", encoding="utf-8") as out:
             out.write(figures.alone(image.markup))
         return image.name

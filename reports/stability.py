@@ -9,7 +9,7 @@ from reports import experiments
 from reports.chart import Chart
 from reports.figures import FONT, Image
 
-# The map of stability as a separate SVG: rows are formulations, columns are extremes; each field is a strip of the
+# The map of stability in a separate SVG. Rows are formulations, and columns are extremes. Each field is a strip of the
 # tested values, from left to right as in the tables.
 
 WIDE, TALL, HEAD, LEFT = 42, 22, 150, 190  # width and height of a field, space for the names above and on the left
@@ -30,7 +30,7 @@ class Fields:
         self.absent = []
 
     def strip(self, found, values, left, top):
-        """Adds one field: a part for each value, with the colour and the sign of its outcome."""
+        """Adds one field with a part for each value, in the colour and with the sign of its outcome."""
         middle = top + TALL / 2 + 3
         if found is None:
             self.absent.append(map_text(left + WIDE / 2 - 2, middle, "–"))
@@ -78,7 +78,7 @@ def draw_band(fields, extremes, keys, all_cells, top):
 
 
 def draw_map(record, all_cells, look, meaning):
-    """Returns the Image. look: {kind: (colour, sign)}; meaning: {kind: description}."""
+    """Returns the Image. `look` is {kind: (colour, sign)}, and `meaning` is {kind: description}."""
     extremes = record["extremes"]
     keys = [f["formulation"] for f in record["formulations"]]
     kinds = {c.kind for found in all_cells.values() for c in found.values()}
@@ -117,13 +117,13 @@ MEANING = {
     "coarse": "outside it, falls with more elements", "named": "a reported failure",
     "wrong": "a wrong number, known and explained below", "fault": "crashed"
 }
-FLOOR = 1e-16  # of what is drawn
+FLOOR = 1e-16  # smallest drawn error
 NAMED = ("not converged", "singular", "refused", "no value")
 
 
 def read(path):
-    """Reads the results of `beamwork stress`, each extreme with its values of x and its quantities. Returns None if
-    there are none."""
+    """Reads the results of `beamwork stress`, each extreme with its values of x and its quantities. Returns None if there
+    are none."""
     record = experiments.read(path, "stress")
     if record is None:
         return None
@@ -141,7 +141,7 @@ def kind(outcome):
 
 
 class Cell:
-    """Outcome of one formulation at one value of one extreme: that of the worst quantity."""
+    """Outcome of one formulation at one value of one extreme, which is that of the worst quantity."""
 
     def __init__(self, outcomes):
         order = list(LOOK)
@@ -162,8 +162,7 @@ class Cell:
 
 
 def cells(record):
-    """Returns {(extreme, formulation): {x: Cell}} of all runs. Values of x that need unsupported physics are
-    missing."""
+    """Returns {(extreme, formulation): {x: Cell}} of all runs. Values of x that need unsupported physics are missing."""
     groups = {}
     for o in record["outcomes"]:
         if o["outcome"] != "skip":
@@ -175,13 +174,13 @@ def cells(record):
 
 
 def largest(found, name):
-    """Returns the largest error of the runs of an extreme as text."""
+    """Returns the largest error of the runs of an extreme in text form."""
     values = [getattr(c, name) for c in found.values() if math.isfinite(getattr(c, name))]
     return f"{max(values):.2g}" if values and max(values) > 0 else "–"
 
 
 def draw_curve(site, extreme, keys, all_cells):
-    """Draws the error against the varied parameter; a failure is a cross on the upper edge."""
+    """Draws the error against the varied parameter. A failure is drawn as a cross on the upper edge."""
     low, high = min(extreme["values"]), max(extreme["values"])
     unit = "" if extreme["x_unit"] == "1" else f" [{extreme['x_unit']}]"
     chart = Chart(1, (540, 190))
@@ -206,8 +205,8 @@ def draw_curve(site, extreme, keys, all_cells):
 
 
 def findings(record):
-    """Returns [(extreme, formulations, outcome, values, proof)] of outcomes that are neither accurate nor
-    under-resolved; entries with the same values of x or the same formulations are merged."""
+    """Returns [(extreme, formulations, outcome, values, proof)] of outcomes that are neither accurate nor under-resolved.
+    Entries with the same values of x or the same formulations are merged."""
     rows, told = {}, {}
     for o in record["outcomes"]:
         if kind(o) in ("named", "wrong", "fault"):

@@ -1,7 +1,8 @@
-"""A permanent colour and marker for each formulation. A new formulation does not change those of others.
+"""A permanent colour and marker for each formulation. A new formulation does not change the colours and markers of
+others.
 
-The colours are distinguishable without colour vision (Okabe and Ito; the last two by Tol). In dark mode, each colour
-is replaced by a lighter colour of the same hue: figures.py writes a variable, which base.html defines."""
+The colours are distinguishable without colour vision (Okabe and Ito; the last two are by Tol). In dark mode, each
+colour is replaced by a lighter colour of the same hue: figures.py writes a variable, which base.html defines."""
 import zlib
 
 import matplotlib
@@ -24,7 +25,7 @@ TABLE = {
     "sheet_third": ("#882255", "#d8639b", "<"),
     "sheet_third_printed": ("#44aa99", "#7fdccd", ">"),
 }
-# Colours and markers of integrators of motions; the colours are from the table above.
+# Colours and markers of integrators of motions. The colours are those of the table above.
 SCHEMES = {
     "alpha": ("#0072b2", "#4a9fe0", "o"), "conserving": ("#d55e00", "#ff8c42", "s"),
     "radau": ("#009e73", "#2bc495", "D"), "explicit": ("#882255", "#d8639b", "^"),
@@ -34,9 +35,9 @@ SCHEMES = {
 RESERVE = (("#6a51a3", "#a793dc"), ("#a6761d", "#dfb060"), ("#c51b7d", "#f06cb4"),
            ("#1b7837", "#5fc07c"), ("#5b6675", "#aab4c2"))
 RESERVE_MARKERS = "hpd8H"
-MOST = 8  # curves of a figure that are initially shown
-LAST = ("sheet_third_printed", "beamw_vlasov", "beamw_first")  # shown if there is room
-# Line style of an option; the colour is that of the formulation.
+MOST = 8  # number of curves of a figure that are initially shown
+LAST = ("sheet_third_printed", "beamw_vlasov", "beamw_first")  # shown only if there is room
+# Line style of an option. The colour is that of the formulation.
 LINES = {"mass=lumped": "--", "mass=averaged": ":", "torsion=hyperbolic": "-."}
 RESERVE_LINES = ((0, (6, 1)), (0, (1, 2)), (0, (4, 1, 1, 1)), (0, (8, 3)), (0, (2, 1)))
 
@@ -57,8 +58,7 @@ plt.rcParams.update({
 
 
 def extra(keys):
-    """Returns the keys of the formulations that a figure omits first: options, then uncorrected misprints and old
-    forms."""
+    """Returns the keys of the formulations that a figure omits first: options, then uncorrected misprints and old forms."""
     keys = list(keys)
     last = [k for k in keys if ":" in k] + [k for k in LAST if k in keys]
     rest = [k for k in keys if k not in last]
@@ -110,15 +110,14 @@ def line_of(options):
 
 
 class Styles:
-    """Styles of formulations. keys: all formulation keys of a results file, sorted by name."""
+    """Styles of formulations. `keys` are all formulation keys of a results file, sorted by name."""
 
     def __init__(self, keys):
         self.order = sorted(set(keys))
 
     @staticmethod
     def of(key):
-        """Returns the arguments of plot() for the curve of a formulation; the gid contains the formulation
-        (figures.py)."""
+        """Returns the arguments of plot() for the curve of a formulation. The gid contains the formulation (figures.py)."""
         colour, _, marker = look(key)
         options = key.partition(":")[2]
         return {
@@ -128,7 +127,7 @@ class Styles:
 
     @staticmethod
     def shape(key):
-        """Returns the marker as the path of an SVG picture of 12 by 12, with its centre at the origin."""
+        """Returns the marker in the form of the path of an SVG picture of 12 by 12, with its centre at the origin."""
         path = MarkerStyle(look(key)[2])
         corners = path.get_path().transformed(path.get_transform()).to_polygons(closed_only=True)
         size = 5.4 / max(np.abs(c).max() for c in corners)
@@ -137,5 +136,5 @@ class Styles:
 
     @staticmethod
     def fill(key):
-        """Returns the colour of a formulation for a page, as a variable that changes in dark mode."""
+        """Returns the colour of a formulation for a page, in the form of a variable that changes in dark mode."""
         return VARIABLES[look(key)[0]]

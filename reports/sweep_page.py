@@ -18,7 +18,7 @@ from reports.sweep import answers, gather, maps
 # the error over one axis.
 
 MOST_DOTS = 400  # largest number of scattered points that are drawn individually
-SLICES, WORDS = 4, 6  # largest numbers of maps side by side over a third axis with numbers, with words
+SLICES, WORDS = 4, 6  # largest numbers of maps side by side over a third axis with numbers, and over one with words
 NARROW = 170  # width of one of several maps side by side, in pixels
 TOLD = 0.01  # smallest share of the points that a formulation listed first must win
 FLOOR = 1e-12  # smallest drawn error
@@ -33,7 +33,7 @@ def projected(found, table, axes):
 
 
 def by_influence(found):
-    """Returns the axes sorted by the change of the result along them, largest first; axes with words come last."""
+    """Returns the axes sorted by the change of the result along them, largest first. Axes with words come last."""
     within = found.reach[:, :, -1, :-2].sum(axis=(1, 2))
     score = []
     for a, part in enumerate(found.parts):
@@ -44,7 +44,7 @@ def by_influence(found):
 
 
 def slices_of(part):
-    """Returns [(label, parts)]: the groups of parts of a third axis for which maps are drawn."""
+    """Returns [(label, parts)], the groups of parts of a third axis for which maps are drawn."""
     most = WORDS if part.axis.words else SLICES
     groups = np.array_split(np.arange(len(part)), min(most, len(part)))
     return [(answers.condition(part, list(g)) if len(g) < len(part) else part.axis.name, list(g))
@@ -60,8 +60,9 @@ def counted(state, look):
 
 
 class Validity:
-    """Maps of the smallest number of elements. order: formulations sorted by key; axes: horizontal, vertical, side by
-    side. rows: [(formulation or empty, [(Image, alt)])]; used: states that are drawn."""
+    """Maps of the smallest number of elements. `order` contains the formulations sorted by key. `axes` are the horizontal
+    axis, the vertical axis and the axis of maps side by side. `rows` is [(formulation or empty, [(Image, alt)])].
+    `used` are the states that are drawn."""
 
     def __init__(self, sweep, found, order, q=-1):
         self.sweep, self.found, self.q = sweep, found, q
@@ -132,10 +133,13 @@ class Validity:
 
 
 class Winners:
-    """The formulations of lowest cost within the tolerance. images: [(Image, alt)]; shares: [(letter, formulation,
-    points won, mean cost at these points [s])], most points first; ahead: the formulations that are listed first;
-    none: number of points without a winner, and number with a reference value; unranked: formulations without counted
-    costs."""
+    """The formulations of lowest cost within the tolerance.
+
+      images    [(Image, alt)]
+      shares    [(letter, formulation, points won, mean cost at these points [s])], most points first
+      ahead     the formulations that are listed first
+      none      number of points without a winner, and number of points with a reference value
+      unranked  formulations without counted costs"""
 
     def __init__(self, sweep, found, axes):
         self.sweep, self.found = sweep, found
@@ -177,7 +181,7 @@ class Winners:
 
 
 def curves(site, sweep, found, q=-1):
-    """Draws curves over one axis: the largest error in each of its parts, with a panel for each mesh. q: index of the
+    """Draws curves of the largest error in each part of one axis, with a panel for each mesh. q is the index of the
     quantity."""
     part = found.parts[0]
     x = np.where(part.low == part.high, part.low, (part.low + part.high) / 2)
@@ -198,13 +202,13 @@ def curves(site, sweep, found, q=-1):
     return chart.image(site, f"sweep_errors{q if q >= 0 else ''}")
 
 
-# Data of the runs of a sweep for maps over axes that the reader selects. They are in a separate script next to the
+# Data of the runs of a sweep for maps over axes that the reader selects. The data are in a separate script next to the
 # page, which assets/sweep.js loads when the reader makes a selection.
 #
 # The states of cells are letters, each with its number of repetitions. The last axis varies fastest.
 
-# Upper ends of the classes of errors in percent, in addition to the tolerance. Further classes are larger errors and
-# no error.
+# Upper ends of the classes of errors in percent, in addition to the tolerance. Two further classes are larger errors
+# and no error.
 LEVELS = [m * 10.0**e for e in range(-3, 2) for m in (1, 2, 5)] + [100.0]
 SPECIAL = {maps.EMPTY: "_", maps.UNKNOWN: "?"}
 
@@ -267,7 +271,7 @@ def axis_of(part):
 
 
 def cells_of(sweep, found, order):
-    """Returns the data of the cells. order: formulations sorted by key."""
+    """Returns the data of the cells. `order` contains the formulations sorted by key."""
     elements = maps.Look(sweep.meshes)
     asked = range(len(sweep.quantities) + 1)
     keys, levels = range(len(sweep.keys)), levels_of(sweep.tolerance)
@@ -296,7 +300,7 @@ def write_cells(site, name, sweep, found, order):
     os.replace(f"{path}.part", path)
 
 
-NAVIGATION = []  # the files are named after the sweeps
+NAVIGATION = []  # empty, because the files are named after the sweeps
 MOST_WORST, MOST_CURVES = 20, 12  # largest numbers of listed points and of quantities with separate curves
 
 
@@ -329,7 +333,7 @@ def solving(sweep, row):
 
 
 def worst_rows(sweep):
-    """Returns [(Worst, description of the point, command or empty)], those without a solution first."""
+    """Returns [(Worst, description of the point, command or empty)]. Points without a solution come first."""
     rows = sorted(sweep.worst, key=lambda r: -abs(r.error) if r.quantity else -math.inf)
     rows = rows[:MOST_WORST]
     wanted = {row.point for row in rows}
@@ -352,7 +356,7 @@ def curves_of(site, sweep, found):
 
 
 def glance(site, sweep):
-    """Returns the context of the first sentences, on this page and on the first page."""
+    """Returns the context of the first sentences, for this page and for the first page."""
     found = gather.of_sweep(sweep)
     made = answers.of_sweep(sweep, found)
     return {"sweep": sweep, "found": found, "answers": made, "groups": answers.together(made),

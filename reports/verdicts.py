@@ -8,12 +8,12 @@ from reports import data
 @dataclass(frozen=True)
 class Kind:
     name: str  # name in the results
-    sign: str  # used if there is no room for the name
+    sign: str  # sign that is used if there is no room for the name
     look: str  # class in the style sheet
     meaning: str
 
 
-# From good to bad, then kinds without a verdict. The last of several kinds is the worst.
+# Kinds from good to bad, then kinds without a verdict. The last of several kinds is the worst.
 KINDS = (
     Kind("pass", "✓", "pass", "the limit agrees with the reference value within the uncertainties"),
     Kind("low order", "↓", "other", "the limit is the reference value, approached more slowly than expected"),
@@ -47,7 +47,7 @@ UNJUDGED = ("skip", "no truth", "other model")
 
 
 def worst(verdicts):
-    """Returns the record of the worst kind; of several such records, the one whose limit is farthest from the
+    """Returns the record of the worst kind. Of several such records, returns the record whose limit is farthest from the
     reference value."""
 
     def badness(v):
@@ -80,8 +80,8 @@ def of_limit(v):
 
 
 def remarks(v, distance=True):
-    """Returns short sentences for the cell of a verdict in a table. distance: the text includes the distance of a
-    limit from the reference value; it is omitted if the table has a column for it."""
+    """Returns short sentences for the cell of a verdict in a table. If `distance` is True, the text includes the distance
+    of a limit from the reference value. It is False if the table has a column for the distance."""
     words = of_limit(v) if math.isfinite(v.limit) else []
     if not distance and v.verdict in OWN_LIMITS:
         words = words[1:]
@@ -95,8 +95,8 @@ def remarks(v, distance=True):
 # Counts every verdict once and finds verdicts that only repeat another verdict.
 #
 # An alias is a second name of the same entry of a matrix. Aliases are recognised from the results: the values of both
-# names are equal, bit for bit, in every run. A formulation with a misprint differs from the corrected form in one
-# sign; if both have the same verdict, it is counted only once.
+# names are equal, bit for bit, in every run. A formulation with a misprint differs from the corrected form in one sign.
+# If both have the same verdict, the verdict is counted only once.
 
 ALIASES = {"C_xx": "C_ux_Fx", "C_zz": "C_uz_Fz"}
 MISPRINTS = {"sheet_third_printed": "sheet_third"}
@@ -119,8 +119,7 @@ def same(a, b):
 
 
 def is_alias(case, name, other):
-    """Returns whether there is a run with one of the two names, and both names have the same value in every such
-    run."""
+    """Returns True if there is a run with one of the two names, and both names have the same value in every such run."""
     values = [m.values for p in case.points for s in p.series for m in s.meshes]
     pairs = [(v.get(name, math.nan), v.get(other, math.nan)) for v in values]
     return all(same(*pair) for pair in pairs) and any(math.isfinite(a) for a, _ in pairs)
@@ -132,14 +131,13 @@ def aliases(case):
 
 
 def corrected(key):
-    """Returns the corrected formulation, with the same options, if this formulation contains a misprint, otherwise
-    None."""
+    """Returns the corrected formulation, with the same options, if this formulation contains a misprint, otherwise None."""
     name, colon, options = key.partition(":")
     return MISPRINTS[name] + colon + options if name in MISPRINTS else None
 
 
 def standing(v, key, second_names, judged):
-    """Returns how a verdict counts. judged: {(formulation, quantity): verdict} at the point."""
+    """Returns how a verdict counts. `judged` is {(formulation, quantity): verdict} at the point."""
     if v.quantity in second_names:
         return ALIAS
     return MISPRINT if judged.get((corrected(key), v.quantity)) == v.verdict else OWN

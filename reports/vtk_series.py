@@ -1,6 +1,6 @@
-"""python -m reports RESULTS.h5 TRUTHS --vtk FILE.pvd writes the states of the group /VTKHDF of a results file as a
-series of VTK files: FILE.pvd lists the times or load factors, and the folder FILE contains one .vtu file for each
-state. All versions of VTK and ParaView read them; VTK reads time steps of VTKHDF only from version 9.3."""
+"""python -m reports RESULTS.h5 TRUTHS --vtk FILE.pvd writes the states of the group /VTKHDF of a results file in a series
+of VTK files. FILE.pvd lists the times or load factors, and the folder FILE contains one .vtu file for each state. All
+versions of VTK and ParaView read these files. VTK reads time steps of VTKHDF only from version 9.3 on."""
 import base64
 import os
 import pathlib
@@ -80,7 +80,7 @@ def write(results, target):
 
 
 def replace(part, folder, listed, target):
-    """Moves the states and their list from `part` to their final names; states of an earlier series are removed."""
+    """Moves the states and their list from `part` to their final names. Removes states of an earlier series."""
     if folder.exists() and any(f.suffix != ".vtu" for f in folder.iterdir()):
         raise NoSeries(f"{folder}: contains other files than .vtu; choose another name")
     shutil.rmtree(folder, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""A drawing in points (1/72 inch): shapes, and labels that avoid the shapes and each other."""
+"""A drawing in points (1/72 inch), with shapes and with labels that avoid the shapes and each other."""
 import itertools
 
 import numpy as np
@@ -10,25 +10,25 @@ from reports.style import plt
 
 
 def number(value):
-    """Returns a number with four digits as text; large numbers have their digits in groups of three."""
+    """Returns a number with four digits in text form. The digits of large numbers are in groups of three."""
     if 1e4 <= abs(value) < 1e8:
         return f"{float(f'{value:.4g}'):,.0f}".replace(",", "\u202f")
     return f"{value + 0:.4g}"
 
 
 def length(value):
-    """Returns a length as text in m, or in mm if it is small."""
+    """Returns a length in text form, in m or, if it is small, in mm."""
     return f"{number(value)} m" if abs(value) >= 0.5 or value == 0 else f"{number(1e3 * value)} mm"
 
 
 def vector(values, unit):
-    """Returns a vector as text: the magnitude if it is along an axis, otherwise all three components."""
+    """Returns a vector in text form: the magnitude if the vector is along an axis, otherwise all three components."""
     along = [v for v in values if v]
     said = number(abs(along[0])) if len(along) == 1 else f"({', '.join(map(number, values))})"
     return f"{said} {unit}"
 
 
-# Greys change in dark mode; loads, motions and springs have their own colours (style.py).
+# Greys change in dark mode. Loads, motions and springs have fixed colours (style.py).
 INK, SOFT, LOAD, MOTION, SPRING = "#141414", "#606060", "#b03a00", "#005a94", "#6a5a00"
 STEEL, BODY, ROD, MASS = "#c9d3de", "#e3dcc8", "#a89f86", "#8c8468"
 FONT = 9  # [pt]
@@ -46,7 +46,7 @@ def boxes_overlap(a, b):
 
 
 class Canvas:
-    """Collects the shapes of a drawing; `finish` makes the figure."""
+    """Collects the shapes of a drawing, from which `finish` makes the figure."""
 
     def __init__(self):
         self.faces, self.draws, self.points, self.labels, self.boxes = [], [], [], [], []
@@ -61,7 +61,7 @@ class Canvas:
                 self.points.append(a + np.linspace(0, 1, steps + 1)[:, None] * (b - a))
 
     def face(self, corners, depth, colour, edge=INK):
-        """Adds a filled polygon; near polygons cover those that are farther away."""
+        """Adds a filled polygon. Near polygons cover those that are farther away."""
         self.faces.append((depth, corners, colour, edge))
         if len(self.faces) < MOST_FACES:
             self.occupy(np.vstack([corners, corners[:1]]))
@@ -69,7 +69,7 @@ class Canvas:
             self.points.append(corners)
 
     def line(self, points, colour=INK, width=1.2, style="-", mark=None, above=True, clear=True):
-        """Adds a polyline. mark: its id in the file."""
+        """Adds a polyline. `mark` is its id in the file."""
         if clear:
             self.occupy(points)
         order = 5 if above else 1
@@ -123,7 +123,7 @@ class Canvas:
         self.draws.append(draw)
 
     def label(self, at, text, colour=INK, size=FONT, near=4, towards=None):
-        """Adds a label, placed around a point where there is room; towards: preferred direction."""
+        """Adds a label, placed around a point where there is room. `towards` is the preferred direction."""
         self.labels.append((np.asarray(at), text, colour, size, near, towards))
 
     def text(self, at, text, colour=INK, size=FONT, rotation=0):

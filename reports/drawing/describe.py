@@ -44,7 +44,7 @@ def load(one):
 
 
 def extent(within):
-    """Describes a fraction of a member's length."""
+    """Describes a fraction of the length of a member."""
     if within in (None, (0, 1)):
         return ""
     begin, end = (f"{number(100 * part)} %" for part in within)
@@ -52,7 +52,7 @@ def extent(within):
 
 
 def axis(one):
-    """Returns the axis along which the load acts, if it acts along a single axis."""
+    """Returns the axis along which the load acts, if the load acts along a single axis."""
     along = np.flatnonzero(np.abs(one.vector) + np.abs(one.last))
     if one.varies():
         return ""

@@ -8,7 +8,7 @@ from reports.drawing.canvas import Canvas, INK, SOFT, STEEL, length
 
 # Main dimensions of a structure, and its axes.
 
-CLEAR = 13  # between a dimension and the drawing [pt]
+CLEAR = 13  # distance between a dimension line and the drawing [pt]
 SMALL = 0.02  # dimensions below this fraction of the largest are not drawn
 
 
@@ -25,7 +25,7 @@ def edges(low, high, axis):
 
 
 def put_size(canvas, view, low, high, axis):
-    """Draws a dimension line outside the drawing, below it or to its right."""
+    """Draws a dimension line below the drawing or to its right."""
     along = view(np.eye(3)[axis]) / view.scale
     if np.linalg.norm(along) < 0.2:
         return
@@ -62,7 +62,7 @@ def put_sizes(canvas, view, points):
 
 
 def put_axes(canvas, view):
-    """Draws the axes x, y, z in the lower left corner; an axis that points at the reader is a dot."""
+    """Draws the axes x, y, z in the lower left corner. An axis that points at the reader is drawn as a dot."""
     low, _ = canvas.extent()
     at = low + [-16, -12]
     for axis, name in enumerate("xyz"):
@@ -77,8 +77,8 @@ def put_axes(canvas, view):
 
 # Sections next to a drawing, at a separate scale, with their dimensions.
 
-SIZE, THINNEST = 84, 1.6  # largest size on paper, smallest thickness [pt]
-GAP = 46  # between two sections [pt]
+SIZE, THINNEST = 84, 1.6  # largest size and smallest thickness on paper [pt]
+GAP = 46  # gap between two sections [pt]
 MOST = 3
 
 
@@ -172,7 +172,7 @@ def draw_sections(scene):
     return canvas.finish()
 
 
-FAR = 5  # distance, in multiples of the structure's size, from which an axis is no longer drawn
+FAR = 5  # distance, in multiples of the size of the structure, from which an axis is no longer drawn
 MOST_NAMES = 9  # largest number of nodes whose names are drawn
 
 
@@ -212,7 +212,7 @@ def directions(scene):
 
 
 def put_names(canvas, look, scene):
-    """Draws the names of all nodes or, if there are many, of those with quantities."""
+    """Draws the names of all nodes. If there are many, draws only those of nodes with quantities."""
     asked = [n for n in scene.nodes.values() if n.name in scene.asked]
     named = asked if len(scene.nodes) > MOST_NAMES else list(scene.nodes.values())
     if len(named) > MOST_NAMES:
@@ -222,7 +222,7 @@ def put_names(canvas, look, scene):
 
 
 def near_spin(scene, points):
-    """Returns whether the axis of rotation is near enough to be drawn."""
+    """Returns True if the rotation axis is near enough to be drawn."""
     if scene.spin is None:
         return False
     away = np.linalg.norm(scene.spin.centre - points.mean(axis=0))

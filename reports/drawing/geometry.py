@@ -11,14 +11,14 @@ STEPS = 24  # number of segments of a curved member
 
 @dataclass
 class Line:
-    """Axis of a member: points [n x 3], and the triads at these points [n x 3 x 3] with rows x, y, z."""
+    """Axis of a member: points [n x 3], and the triads [n x 3 x 3] at these points, whose rows are x, y, z."""
     points: np.ndarray
     axes: np.ndarray
 
 
 def triad(x, y):
-    """Returns the triad whose rows are the unit vector along x, that along the part of y normal to x, and the third
-    axis."""
+    """Returns the triad whose rows are the unit vector along x, the unit vector along the part of y normal to x, and the
+    third axis."""
     x = x / np.linalg.norm(x)
     y = y - x * (x @ y)
     y = y / np.linalg.norm(y)
@@ -26,8 +26,8 @@ def triad(x, y):
 
 
 def chord(k, s):
-    """Returns the position at the length s on an arc with torsion and curvature k [1/m], in the axes of the triad at
-    its start."""
+    """Returns the position at the length s on an arc with torsion and curvature k [1/m], in the axes of the triad at its
+    start."""
     w = np.linalg.norm(k)
     e = np.array([1.0, 0, 0])
     if w * s < 1e-9:
@@ -53,7 +53,7 @@ def line_of(scene, member):
     if not k.any():
         return Line(np.array([p, q]), np.array([B, B]))
     length = arc_length(k, np.linalg.norm(q - p))
-    R = B.T @ triad(chord(k, length), np.array([0, 1.0, 0]))  # columns: the triad at p
+    R = B.T @ triad(chord(k, length), np.array([0, 1.0, 0]))  # the columns are the triad at p
     along = np.linspace(0, length, STEPS + 1)
     turned = Rotation.from_rotvec(np.outer(along, k)).as_matrix()
     return Line(np.array([p + R @ chord(k, s) for s in along]),
@@ -67,7 +67,7 @@ def rectangle(y, z, height, width):
 
 
 def meet(walls):
-    """Returns whether the walls have a common point, so that an open section of these walls does not warp."""
+    """Returns True if the walls have a common point, so that an open section of these walls does not warp."""
     return bool(set.intersection(*({w["from"], w["to"]} for w in walls)))
 
 
@@ -101,7 +101,7 @@ def circle(radius, count=24):
 
 
 def outline(section):
-    """Returns polygons [n x 2] in (y, z) of a section, in m; [] if only its constants are known."""
+    """Returns the polygons [n x 2] in (y, z) of a section [m], or [] if only its constants are known."""
     if "rectangle" in section:
         r = section["rectangle"]
         return [rectangle(0, 0, float(r["thickness"]), float(r["width"]))]
@@ -113,7 +113,7 @@ def outline(section):
 
 
 def prism(line, here, there):
-    """Returns quadrilaterals [m x 4 x 3] of the sides of a member, from outline `here` at its start to `there`."""
+    """Returns quadrilaterals [m x 4 x 3] of the sides of a member, from the outline `here` at its start to `there`."""
     share = np.linspace(0, 1, len(line.points))[:, None, None]
     rings = (1 - share) * here + share * there  # [points x corners x 2]
     y, z = line.axes[:, None, 1], line.axes[:, None, 2]
@@ -124,17 +124,17 @@ def prism(line, here, there):
     return np.concatenate(sides), [edges[0], edges[-1]]
 
 
-# View of a structure: normal to its plane if it is plane, otherwise from above at an angle.
+# View of a structure: normal to its plane if the structure is plane, otherwise from above at an angle.
 
-WIDTH, HEIGHT = 400, 230  # of the structure on paper, at most [pt]
-FLAT = 1e-6  # extents below this fraction of the whole count as zero
+WIDTH, HEIGHT = 400, 230  # largest size of the structure on paper [pt]
+FLAT = 1e-6  # ratio to the whole below which an extent counts as zero
 AZIMUTHS, ELEVATIONS = (-72, -64, -56, -48, -40, -32), (18, 24, 31)  # [degrees]
 MOST_POINTS = 60  # largest number of points by which a view is rated
 
 
 @dataclass
 class View:
-    """A view. right, up, near: unit vectors of the picture; scale: [pt/m]."""
+    """A view. `right`, `up` and `near` are unit vectors of the picture, and `scale` is in [pt/m]."""
     right: np.ndarray
     up: np.ndarray
     scale: float = 1
@@ -166,7 +166,7 @@ FACES = (View(X, Y), View(X, Z), View(Y, Z))
 
 
 def in_plane(normal, flat, shifts, turns):
-    """Returns whether all points lie and move in the plane normal to an axis and rotate only about this axis."""
+    """Returns True if all points lie and move in the plane normal to an axis and rotate only about this axis."""
     others = np.eye(3)[[i for i in range(3) if i != normal]]
     return bool(flat[normal] and all(abs(v[normal]) <= FLAT * np.linalg.norm(v) for v in shifts)
                 and all(max(abs(others @ v)) <= FLAT * np.linalg.norm(v) for v in turns))
@@ -183,8 +183,8 @@ def openness(view, points):
 
 
 def choose_view(points, shifts, turns, solid):
-    """Returns the view of points [n x 3]. shifts, turns: directions of loads and motions; solid: sections have a
-    shape."""
+    """Returns the view of points [n x 3]. `shifts` and `turns` are directions of loads and motions. `solid` is True if
+    sections have a shape."""
     extent = np.ptp(points, axis=0)
     flat = extent <= FLAT * np.linalg.norm(extent)
     straight = flat.sum() == 2

@@ -8,7 +8,7 @@ from reports.drawing.scene import COMPONENTS
 
 ARROW, SHORT, RADIUS = 38, 20, 15  # [pt]
 ALONG = 9  # number of arrows of a load along a member
-MOST_MOTIONS = 4  # motions with their ranges; others are in the list below the drawing
+MOST_MOTIONS = 4  # largest number of motions that are drawn with their ranges
 UNITS = {"force": "N", "moment": "N m", "distributed": "N/m", "distributed_moment": "N m/m",
          "gravity": "m/s²"}
 
@@ -18,8 +18,8 @@ def unit(v):
 
 
 def arc(view, at, axis, radius=RADIUS, begin=-0.35, turn=1.5):
-    """Returns a right-handed arc around an axis through a point, on paper [n x 2]. begin, turn: start and angle of the
-    arc in units of pi."""
+    """Returns a right-handed arc around an axis through a point, on paper [n x 2]. `begin` and `turn` are the start and
+    the angle of the arc in units of pi."""
     axis = unit(axis)
     side = view.right - axis * (axis @ view.right)
     side = unit(side if np.linalg.norm(side) > 0.2 else view.up - axis * (axis @ view.up))
@@ -62,7 +62,7 @@ def put_force(canvas, view, load, at, ways):
 def put_moment(canvas, view, load, at):
     line = arc(view, at, load.vector)
     canvas.arrow(line, LOAD, mark=load.name)
-    if np.ptp(line, axis=0).min() < 0.3 * RADIUS:  # an arc seen edge-on: draw its axis, which is clearer
+    if np.ptp(line, axis=0).min() < 0.3 * RADIUS:  # an arc seen edge-on, for which the axis is clearer
         shaft = straight(view, at, load.vector, [], ARROW + 8)
         canvas.arrow(shaft, LOAD, 1.0, head=6)
         canvas.arrow(shaft[0] + 0.86 * (shaft - shaft[0]), LOAD, 1.0, head=6)
@@ -99,8 +99,8 @@ def put_within(canvas, view, load, line):
 
 
 def put_along(canvas, view, load, line, told):
-    """Draws arrows that point to the line of a member, and a thin line through their tails. `told`: labels that have
-    already been drawn."""
+    """Draws arrows that point to the line of a member, and a thin line through their tails. `told` contains labels that
+    have already been drawn."""
     parts = np.linspace(0.03, 0.97, ALONG)[:, None]
     begin, end = load.within or (0, 1)
     ways = (1 - parts) * in_fixed(load, line, load.vector) + parts * in_fixed(load, line, load.last)
@@ -152,8 +152,7 @@ def put_loads(canvas, view, scene, lines, into):
 
 
 def motions_of(scene, node):
-    """Returns [(direction, whether it is a rotation, name of the motion)] of the components that are prescribed by a
-    motion."""
+    """Returns [(direction, True for a rotation, name of the motion)] of the components that are prescribed by a motion."""
     out = [(np.eye(3)[COMPONENTS.index(c) % 3], c[0] == "r", motion)
            for c, motion in node.driven.items()]
     out += [(t.axis, True, t.angle) for t in node.turns if t.angle in scene.motions]

@@ -15,7 +15,7 @@ WARPING = 7  # distance of a warping symbol from the end of a member [pt]
 
 
 def shade(colour, quad):
-    """Returns the colour of a face, which is lighter if the face is turned towards the light."""
+    """Returns the colour of a face. Faces that are turned towards the light are lighter."""
     normal = np.cross(quad[1] - quad[0], quad[2] - quad[1])
     size = np.linalg.norm(normal)
     bright = abs(normal @ LIGHT) / size if size > 0 else 1
@@ -88,7 +88,7 @@ def put_hinges(canvas, view, member, line):
 
 
 def ends_that_warp(scene):
-    """Yields (member, its end (0 or 1), fixed, free or shared) for all members whose sections warp."""
+    """Yields (member, end 0 or 1, fixed, free or shared) for all members whose sections warp."""
     if "warping" in scene.omitted or "all" in scene.omitted:
         return
     for member in scene.members.values():
@@ -98,7 +98,7 @@ def ends_that_warp(scene):
 
 
 def put_warping(canvas, view, scene, lines):
-    """Draws bars across the ends of members: filled where warping is restrained, open where it is free."""
+    """Draws bars across the ends of members. The bars are filled where warping is restrained and open where it is free."""
     for member, end, word in ends_that_warp(scene) if len(scene.members) <= FEW else ():
         flat = view(lines[member.name].points)
         at, beside = (flat[0], flat[1]) if end == 0 else (flat[-1], flat[-2])
@@ -115,8 +115,7 @@ def put_warping(canvas, view, scene, lines):
 
 
 def put_bodies(canvas, view, scene):
-    """Draws rigid bodies: convex hulls of nodes that move together, and rods between parts that are far from each
-    other."""
+    """Draws rigid bodies: convex hulls of nodes that move together, and rods between parts that are far from each other."""
     for name, node in scene.nodes.items():
         own = [n.position for n in scene.nodes.values() if n.part_of == name]
         if not own or node.part_of:
@@ -160,8 +159,8 @@ def spiral(turns=2.2, radius=12):
 
 
 def stands_along(view, spring):
-    """Returns the direction on paper of a spring to the ground: that of its stiffest translation, or downwards if
-    there is none."""
+    """Returns the direction on paper of a spring to the ground: that of its stiffest translation, or downwards if there
+    is none."""
     k = spring.stiffness[:3] if spring.stiffness[:3].any() else spring.acts[:3]
     way = view(np.eye(3)[int(np.argmax(k))]) if k.any() else np.zeros(2)
     way = way if np.linalg.norm(way) > 0.2 * view.scale else np.array([0, -1.0])
@@ -205,12 +204,12 @@ def put_ground(canvas, at, away):
 
 PLATE = 15  # half the side of the plate of a clamp [pt]
 HATCHES = 9  # number of hatching lines of a plate
-MOST_LETTERS = 4  # largest number of supports with letters; others are in the list below the drawing
+MOST_LETTERS = 4  # largest number of supports with letters; the list below the drawing contains the others
 
 
 def held_of(scene, node):
-    """Returns the components that do not move: fixed components, components with a motion that is always zero, and
-    fixed rotations."""
+    """Returns the components that do not move: fixed components, components with a motion that is always zero, and fixed
+    rotations."""
     still = [c for c, motion in node.driven.items() if scene.motions.get(motion) == (0, 0)]
     turned = [f"turn {i + 1}" for i, t in enumerate(node.turns) if t.angle == "held"]
     return [c for c in COMPONENTS if c in node.held or c in still] + turned
@@ -233,7 +232,7 @@ def into(scene, lines, name):
 
 
 def put_plate(canvas, view, at, way, mark):
-    """Draws a plate normal to a member in space. Returns 0 if it is seen edge-on."""
+    """Draws a plate normal to a member in space. Returns 0 if the plate is seen edge-on."""
     side = np.cross(way, [0, 0, 1.0] if abs(way[2]) < 0.9 else [1.0, 0, 0])
     side /= np.linalg.norm(side)
     other, h = np.cross(way, side), PLATE / view.scale
@@ -252,7 +251,7 @@ def put_plate(canvas, view, at, way, mark):
 
 
 def put_edge(canvas, view, at, way, mark):
-    """Draws a plate seen edge-on, as a hatched line behind the node."""
+    """Draws a plate seen edge-on in the form of a hatched line behind the node."""
     flat = view(way)
     flat = flat / np.linalg.norm(flat) if np.linalg.norm(flat) > 0.1 * view.scale else \
         np.array([0, 1.0])
@@ -261,7 +260,7 @@ def put_edge(canvas, view, at, way, mark):
 
 
 def put_pin(canvas, at, way, mark, roller):
-    """Draws a triangle on the side `way` of the node. roller: the support can slide."""
+    """Draws a triangle on the side `way` of the node. `roller` is True if the support can slide."""
     across = np.array([-way[1], way[0]])
     foot = at + 11 * way
     canvas.area(np.array([at, foot - 7 * across, foot + 7 * across]), "white", INK, 1.1, mark=mark,
@@ -284,8 +283,8 @@ def put_fork(canvas, view, at, fork, mark):
 
 
 def pin_way(view, seen, ways):
-    """Returns the direction of the symbol of a pin: downwards, or, if only one direction on paper is fixed, along this
-    direction and away from the members."""
+    """Returns the direction of the symbol of a pin, which is downwards by default. If only one direction on paper is
+    fixed, the symbol is along this direction and away from the members."""
     down = np.array([0, -1.0])
     if not view.face_on or len(seen) != 1:
         return down

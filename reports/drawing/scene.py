@@ -1,4 +1,4 @@
-"""Reads a scene file in the form that `beamwork scene CASE` writes into plain records; lengths in m, forces in N."""
+"""Reads a scene file in the form that `beamwork scene CASE` writes into plain records. Lengths are in m, forces in N."""
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,14 +10,14 @@ Loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)  # every scalar is text u
 
 @dataclass
 class Turn:
-    """A rotation about an axis that is free, fixed or prescribed by a motion."""
+    """A rotation about an axis, which is free, fixed or prescribed by a motion."""
     axis: np.ndarray
     angle: str
 
 
 @dataclass
 class Node:
-    """A node. position: [m]; held: components that do not move; driven: {component: motion}."""
+    """A node. `position` is in [m], `held` are the components that do not move, and `driven` is {component: motion}."""
     name: str
     position: np.ndarray
     part_of: str = ""
@@ -27,13 +27,13 @@ class Node:
     vector: tuple = ()  # motions of a rotation vector
     fork: np.ndarray = None  # axis and web of a fork [2 x 3]
     mass: float = 0
-    centre: np.ndarray = None  # centre of the mass, from the node [m]
+    centre: np.ndarray = None  # centre of mass relative to the node [m]
 
 
 @dataclass
 class Member:
-    """A member. y: direction of the y axis of its section; released: components at both ends; warping: fixed, free or
-    shared at both ends."""
+    """A member. `y` is the direction of the y axis of its section. `released` are the components that both ends release.
+    `warping` is fixed, free or shared at both ends."""
     name: str
     ends: tuple  # names of two nodes
     sections: tuple  # names of the sections at both ends
@@ -45,14 +45,14 @@ class Member:
 
 @dataclass
 class Load:
-    """A load. kind: force, moment, distributed, distributed_moment or gravity; on: a node or a member. within: the
-    fractions of the member's length between which the load acts, which are equal for a force or a moment; None at a
-    node. last: the vector at the end of this range."""
+    """A load. `kind` is force, moment, distributed, distributed_moment or gravity. `on` is a node or a member. `within`
+    contains the fractions of the member length between which the load acts, which are equal for a force or a moment;
+    it is None at a node. `last` is the vector at the end of this range."""
     name: str
     kind: str
     vector: np.ndarray
     on: str
-    at: np.ndarray  # point of application of a force, from the node or the centroid [m]
+    at: np.ndarray  # point of application of a force relative to the node or the centroid [m]
     member_axes: bool
     follower: bool
     grows: bool  # True if the load increases with the path parameter
@@ -66,12 +66,12 @@ class Load:
 
 @dataclass
 class Spring:
-    """Connects two nodes; ends[0] is empty if it is connected to the ground."""
+    """Spring between two nodes. ends[0] is empty if the spring is connected to the ground."""
     name: str
     ends: tuple
     stiffness: np.ndarray  # diagonal [6]
     damping: np.ndarray  # diagonal [6]
-    tables: tuple  # True for each of these components that a table defines
+    tables: tuple  # True for each component that a table defines
 
     @property
     def acts(self):
@@ -81,7 +81,8 @@ class Spring:
 
 @dataclass
 class Spin:
-    """Rotating axes. omega: [rad/s] at the end of the path; centre: [m]."""
+    """Rotating axes. `omega` is the angular velocity [rad/s] at the end of the path, and `centre` is a point of the axis
+    [m]."""
     omega: np.ndarray
     centre: np.ndarray
 
@@ -90,7 +91,7 @@ class Spin:
 class Scene:
     """Content of a scene file."""
     name: str
-    sections: dict  # name -> its entry in the file
+    sections: dict  # name -> entry of the section in the file
     nodes: dict
     members: dict
     loads: list
@@ -106,7 +107,7 @@ def numbers(values):
 
 
 def words_of(said):
-    """Returns a word, or the words of a list, as a list."""
+    """Returns a word, or the words of a list, in the form of a list."""
     return said if isinstance(said, (list, tuple)) else [said]
 
 
@@ -142,7 +143,7 @@ KINDS = ("force", "moment", "distributed", "distributed_moment", "gravity")
 
 
 def read_load(name, said):
-    """Reads a load; returns None for a temperature, which has no arrow."""
+    """Reads a load. Returns None for a temperature, which has no arrow."""
     kind = next((k for k in KINDS if k in said), None)
     if kind is None:
         return None
@@ -199,7 +200,7 @@ def nodes_asked(said):
 
 
 def read(text):
-    """Reads the scene from the text of a file, or returns None if the text is empty."""
+    """Reads the scene from the text of a file. Returns None if the text is empty."""
     if not text:
         return None
     said = yaml.load(text, Loader)

@@ -13,9 +13,10 @@ WIDER = 1.01  # factor on the first range that a range with more elements must r
 
 @dataclass
 class Range:
-    """Range in which a formulation with this number of elements is within the tolerance. box: a Box or None; reached:
-    number of points within the tolerance, in the box or not; known: points with a reference value; whole: all points;
-    exceptions: points of the box that are not within the tolerance."""
+    """Range in which a formulation with this number of elements is within the tolerance. `box` is a Box or None.
+    `reached` is the number of points within the tolerance, in the box or not. `known` is the number of points with a
+    reference value, and `whole` that of all points. `exceptions` are the points of the box that are not within the
+    tolerance."""
 
     mesh: int
     box: object
@@ -31,10 +32,15 @@ class Range:
 
 @dataclass
 class Answer:
-    """Answer for a formulation. of: ranges for all quantities together, by mesh; single: {quantity: its ranges};
-    first: the range that is listed first, or None; fewer: a range with fewer elements; wider: a range with more
-    elements; absent: the formulation does not support the physics at any point; decided: the quantity that needs the
-    most elements, or an empty string."""
+    """Answer for a formulation.
+
+      of       ranges for all quantities together, by mesh
+      single   {quantity: its ranges}
+      first    the range that is listed first, or None
+      fewer    a range with fewer elements
+      wider    a range with more elements
+      absent   True if the formulation does not support the physics at any point
+      decided  the quantity that needs the most elements, or an empty string"""
 
     key: str
     of: list
@@ -46,8 +52,8 @@ class Answer:
     decided: str = ""
 
     def decide(self):
-        """Determines whether a single quantity is the reason why the largest insufficient number of elements is not
-        enough for all quantities."""
+        """Determines if a single quantity is the reason why the largest insufficient number of elements is not enough for
+        all quantities."""
         short = [i for i, r in enumerate(self.of) if r.reached < r.known]
         if not short or not self.single:
             return
@@ -57,8 +63,8 @@ class Answer:
             self.decided = reached[0][1]
 
     def choose(self):
-        """Selects the range that is listed first: of the ranges that are nearly as wide as the widest, the one with
-        the fewest elements."""
+        """Selects the range that is listed first: of the ranges that are nearly as wide as the widest, the range with the
+        fewest elements."""
         most = max((r.good for r in self.of), default=0)
         if not most:
             return
@@ -106,7 +112,7 @@ def answer(sweep, found, f):
 
 
 def of_sweep(sweep, found):
-    """Returns [Answer]: the nearly widest ranges first, sorted by the number of elements, with the exceptions."""
+    """Returns [Answer] with the exceptions. The nearly widest ranges come first, sorted by the number of elements."""
     made = [answer(sweep, found, f) for f in range(len(sweep.keys))]
     told = [(a, r) for a in made for r in a.told]
     asked = [(r.box, sweep.keys.index(a.key), len(sweep.quantities), sweep.meshes.index(r.mesh))
@@ -126,10 +132,14 @@ def of_sweep(sweep, found):
 
 @dataclass
 class Group:
-    """Answers with the same range and number of elements, printed in one sentence. least: the answer with the fewest
-    points within the tolerance; worst: [(formulation, exception)], the worst first; exceptions: number of exceptions;
-    fewer, wider: ranges that all answers have in common, or None; more: some answers have other ranges, which are not
-    printed."""
+    """Answers with the same range and number of elements, which are printed in one sentence.
+
+      least       the answer with the fewest points within the tolerance
+      worst       [(formulation, exception)], the worst first
+      exceptions  number of exceptions
+      fewer       range with fewer elements that all answers have in common, or None
+      wider       range with more elements that all answers have in common, or None
+      more        True if some answers have other ranges, which are not printed"""
 
     answers: list
 
@@ -139,7 +149,7 @@ class Group:
 
     @property
     def alike(self):
-        """Returns whether all answers have the same number of points within the tolerance."""
+        """Returns True if all answers have the same number of points within the tolerance."""
         return len({(a.first.good, a.first.box.points) for a in self.answers}) == 1
 
     @property
@@ -205,8 +215,8 @@ def outcomes(sweep, found):
 
 
 def proven(rows):
-    """Returns the quantities that have reference values at some points and only limits at others, and the largest
-    number of their points with reference values. rows: result of references()."""
+    """Returns the quantities that have reference values at some points and only limits at others, and the largest number
+    of their points with reference values. `rows` is the result of references()."""
     mixed = []
     for quantity, kinds, *_ in rows:
         truths = sum(n for kind, n in kinds.items() if kind.startswith("truth"))
@@ -216,8 +226,8 @@ def proven(rows):
 
 
 def references(sweep, found):
-    """Returns [(quantity, {kind: points}, largest uncertainty, uncertain points, points without a reference value, Box
-    of the latter)]."""
+    """Returns [(quantity, {kind: points}, largest uncertainty, uncertain points, points without a reference value, Box of
+    the latter)]."""
     rows = []
     for q, quantity in enumerate(sweep.quantities):
         kinds = {name: int(n) for name, n in zip(sweep.kinds, found.kinds[q])
@@ -233,12 +243,12 @@ SMALL = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "
 
 
 def count(number):
-    """Returns a count as text, with small numbers as words."""
+    """Returns a count in text form, with small numbers as words."""
     return SMALL[number] if number < len(SMALL) else f"{number:,}".replace(",", "\u202f")
 
 
 def plenty(number):
-    """Returns a number as text with separated thousands."""
+    """Returns a number in text form with separated thousands."""
     return f"{number:,}".replace(",", "\u202f")
 
 
@@ -248,7 +258,7 @@ def many(number, noun):
 
 
 def percent(share):
-    """Returns a share in percent as text; 0 and 100 occur only if exact."""
+    """Returns a share in percent in text form. 0 and 100 occur only if they are exact."""
     value = 100 * share
     if 0 < value < 1:
         return "less than 1 %"
@@ -300,7 +310,7 @@ def condition(part, chosen):
 
 
 def conditions(box: Box):
-    """Describes a box; returns an empty string if the box covers all points."""
+    """Describes a box. Returns an empty string if the box covers all points."""
     return " and ".join(condition(p, c) for p, c in zip(box.lattice.parts, box.chosen)
                         if c is not None)
 

@@ -1,8 +1,9 @@
-"""Finds the largest box of a lattice in which nearly all points are within the tolerance; simple boxes take precedence
+"""Finds the largest box of a lattice in which nearly all points are within the tolerance. Simple boxes take precedence
 over large boxes.
 
 For each axis, a box has no condition, one bound, two bounds, or a set of words. Each bound counts as one condition,
-and so does a set of words. A box with more conditions is preferred only if it contains many more points."""
+and a set of words counts as one condition. A box with more conditions is preferred only if it contains many more
+points."""
 import functools
 import itertools
 from dataclasses import dataclass, field
@@ -22,9 +23,9 @@ WORDS = 6  # number of words up to which all choices of words are tried
 
 @dataclass(frozen=True)
 class Box:
-    """A box of a lattice. chosen: for each column of the lattice, None or the indices of the selected parts; good,
-    bad: points in the box within and outside the tolerance; whole: all points; asked: points with a reference value;
-    conditions: number of conditions."""
+    """A box of a lattice. `chosen` is, for each column of the lattice, None or the indices of the selected parts. `good`
+    and `bad` are the numbers of points in the box within and outside the tolerance, `whole` is that of all points, and
+    `asked` is that of points with a reference value. `conditions` is the number of conditions."""
 
     lattice: object = field(repr=False)
     chosen: tuple
@@ -44,7 +45,7 @@ class Box:
         return self.points / self.whole if self.whole else 0.0
 
     def holds(self, at):
-        """Returns a mask of the points in the box. at: [points, axes]."""
+        """Returns a mask of the points in the box; `at` is [points, axes]."""
         inside = np.ones(len(at), bool)
         for chosen, index in zip(self.chosen, self.lattice.index(at).T):
             if chosen is not None:
@@ -54,8 +55,9 @@ class Box:
 
 @dataclass(frozen=True)
 class Choices:
-    """All choices on an axis, simple choices first. member: [choices, parts]; cost: number of conditions of each
-    choice; coarse: rows of the choices that end only at every second part, if there are many parts."""
+    """All choices on an axis, simple choices first. `member` is [choices, parts], and `cost` is the number of conditions
+    of each choice. `coarse` contains the rows of the choices that end only at every second part, if there are many
+    parts."""
 
     member: np.ndarray
     cost: np.ndarray
@@ -115,8 +117,8 @@ def scored(good, bad, whole):
 
 
 class Search:
-    """Search for the best boxes. good, bad: numbers of points in each cell of a lattice [cells]; whole: number of all
-    points, including those that are neither; None: there are no others."""
+    """Search for the best boxes. `good` and `bad` are the numbers of points in each cell of a lattice [cells]. `whole` is
+    the number of all points, including those that are neither, or None if there are no others."""
 
     def __init__(self, lattice, good, bad, whole=None):
         self.lattice = lattice
@@ -124,10 +126,10 @@ class Search:
         self.choices = [choices_of(p) for p in lattice.parts]
         self.asked = int(good.sum() + bad.sum())
         self.whole = self.asked if whole is None else whole
-        self.best = {}  # conditions: (score, {axis: row of its choices})
+        self.best = {}  # number of conditions -> (score, {axis: row of its choices})
 
     def reduced(self, table, axes, fixed):
-        """Returns a table over some axes. fixed: {axis: row} of the choices on other axes; the table is summed over
+        """Returns a table over some axes. `fixed` is {axis: row} of the choices on other axes. The table is summed over
         the remaining axes."""
         for axis in reversed(range(table.ndim)):
             if axis not in axes:
@@ -137,8 +139,8 @@ class Search:
         return table
 
     def keep(self, score, rows, fixed):
-        """Keeps the best of all choices for each number of conditions. score: [rows of each axis of rows]; rows:
-        {axis: its choices, simple ones first}; fixed: {axis: row} of other axes."""
+        """Keeps the best of all choices for each number of conditions. `score` is [rows of each axis of rows], `rows` is
+        {axis: its choices, simple ones first}, and `fixed` is {axis: row} of other axes."""
         costs = [self.choices[a].cost[r] for a, r in rows.items()]
         base = sum(int(self.choices[a].cost[r]) for a, r in fixed.items())
         for kinds in itertools.product(*map(np.unique, costs)):
@@ -182,7 +184,7 @@ class Search:
 
     def climb(self, weight):
         """Restricts one axis after the other, starting without conditions, with this weight of exceptions. This finds
-        boxes with many conditions if boxes with few conditions are not allowed."""
+        boxes with many conditions even if boxes with few conditions are not allowed."""
         fixed, before = {}, None
         for _ in range(ROUNDS):
             if fixed == before:
@@ -194,8 +196,7 @@ class Search:
                 fixed[axis] = int(value.argmax())
 
     def ascend(self):
-        """Changes the choice on one axis after the other, starting from the best box, until the score no longer
-        improves."""
+        """Changes the choice on one axis after the other, starting from the best box, until the score no longer improves."""
         before = None
         while self.best and before != self.best:
             before = dict(self.best)
@@ -204,7 +205,7 @@ class Search:
                     self.one(axis, fixed)
 
     def enough(self):
-        """Returns whether there is a box for which no additional condition could add enough points."""
+        """Returns True if there is a box to which no additional condition could add enough points."""
         most = max((score for score, _ in self.best.values()), default=0)
         return most >= self.good.sum() / GAIN
 
@@ -249,8 +250,8 @@ def candidates(lattice, good, bad, whole):
 
 
 def largest(lattices, counts, whole=None):
-    """Returns the Box, or None if no box with enough points is within the tolerance. counts: [(good, bad)] of the
-    cells of each lattice; the first lattice is preferred. whole: see Search."""
+    """Returns the Box, or None if no box with enough points is within the tolerance. `counts` is [(good, bad)] of the
+    cells of each lattice; the first lattice is preferred. `whole` has the meaning given at Search."""
     every = [box for lattice, (good, bad) in zip(lattices, counts)
              for box in candidates(lattice, good, bad, whole)]
     found = None

@@ -1,5 +1,5 @@
-"""Makes one pass over a sweep: collects the data of the page for any number of points, counted in the cells of a
-lattice. The last quantity of every table represents all quantities together."""
+"""Makes one pass over a sweep: collects the data of the page for any number of points, counted in the cells of a lattice.
+The last quantity of every table represents all quantities together."""
 import itertools
 import math
 from dataclasses import dataclass, field
@@ -9,8 +9,7 @@ import numpy as np
 from reports.sweep import stored
 
 # Points of a sweep in cells. Every axis is divided into a few parts, so that any number of points takes the same
-# memory.
-# The parts of a grid contain its values; the parts of scattered points end at round numbers.
+# memory. The parts of a grid contain its values. The parts of scattered points end at round numbers.
 
 MOST = 20  # largest number of parts of an axis
 CELLS = 1_500_000  # maximum number of values stored for all cells together
@@ -22,8 +21,9 @@ LEVELS = 4096  # largest number of different values of an axis of a grid
 
 @dataclass
 class Parts:
-    """An axis in parts. cuts: the boundaries between parts (one fewer than parts); low, high: smallest and largest
-    value in each part; exact: the values are those of a grid, so that low and high were actually run."""
+    """An axis in parts. `cuts` are the boundaries between parts (one fewer than parts). `low` and `high` are the smallest
+    and largest value in each part. `exact` is True if the values are those of a grid, so that low and high were
+    actually run."""
 
     axis: object  # stored.Axis
     low: np.ndarray
@@ -50,8 +50,8 @@ class Parts:
 
 @dataclass(frozen=True, eq=False)
 class Lattice:
-    """The cells formed by some columns. columns: an axis (i,) or the ratio of two axes (i, j); parts: Parts of each
-    column."""
+    """The cells that the parts of some columns form. `columns` contains an axis (i,) or the ratio of two axes (i, j) for
+    each column. `parts` are the Parts of each column."""
 
     columns: tuple
     parts: tuple
@@ -65,7 +65,7 @@ class Lattice:
         return int(np.prod(self.shape))
 
     def index(self, at):
-        """Returns the part of each point in each column [points, columns]; at: [points, axes]."""
+        """Returns the part of each point in each column [points, columns]; `at` is [points, axes]."""
         return np.stack([p.index(values_of(c, at)) for c, p in zip(self.columns, self.parts)], 1)
 
     def cell_of(self, at):
@@ -162,7 +162,7 @@ def extents_of(sweep, columns):
 
 
 def lattice_of(sweep):
-    """Returns [Lattice], all axes first, then those with a ratio. It makes two passes over the points."""
+    """Returns [Lattice], all axes first, then those with a ratio. The function makes two passes over the points."""
     columns = tuple((k,) for k in range(len(sweep.axes)))
     extents = extents_of(sweep, columns)
     most = most_parts(sweep)
@@ -174,27 +174,30 @@ def lattice_of(sweep):
             *(with_ratio(sweep, parts, pair, extent) for pair, extent in zip(pairs, found))]
 
 
-NAMED = 3  # number of exceptions of a box that are stored, the worst ones
+NAMED = 3  # number of exceptions of a box that are stored, the worst first
 
 
 @dataclass
 class Gathered:
     """Counts of F formulations, M meshes, Q quantities (and all of them together) in the C cells of the first lattice.
 
-    reaches: for each lattice, number of points by the first mesh from which all meshes are within the tolerance
-    [C, F, Q+1, M+2]; M: none, M+1: none, and the finest mesh has no solution. It contains only points at which the
-    formulation is compared; reach is that of the first lattice.
-    known: points with a reference value [C, Q+1].
-    worst: largest error [C, F, Q+1, M], infinite without a solution, -1 if nothing is compared.
-    wins, winner_cost: number of points at which a formulation is the cheapest within the tolerance for all quantities,
-    or ties within the uncertainty of the cost model, and the sum of its costs at these points [s]; [C, F].
-    unwon: points with a reference value but without a winner.
-    kinds: reference values by kind [Q, kinds].
-    `doubt`: largest relative uncertainty [Q]; doubtful: reference values whose uncertainty exceeds the tolerance [Q].
-    status: runs by outcome [F, M, S].
-    failed: smallest and largest value of each axis where an outcome occurs [F, S, 2, A].
-    points: all [C].
-    ranked: whether a formulation has counted costs at any point [F]."""
+      reaches      for each lattice, number of points by the first mesh from which all meshes are within the tolerance
+                   [C, F, Q+1, M+2]; M: no mesh; M+1: no mesh, and the finest mesh has no solution. Only points at
+                   which the formulation is compared are counted
+      reach        `reaches` of the first lattice
+      known        points with a reference value [C, Q+1]
+      worst        largest error [C, F, Q+1, M], infinite without a solution, -1 if nothing is compared
+      wins         number of points at which a formulation has the lowest cost within the tolerance for all quantities,
+                   or ties within the uncertainty of the cost model [C, F]
+      winner_cost  sum of its costs at these points [s] [C, F]
+      unwon        points with a reference value but without a winner
+      kinds        reference values by kind [Q, kinds]
+      `doubt`      largest relative uncertainty [Q]
+      doubtful     number of reference values whose uncertainty exceeds the tolerance [Q]
+      status       runs by outcome [F, M, S]
+      failed       smallest and largest value of each axis where an outcome occurs [F, S, 2, A]
+      points       all points [C]
+      ranked       True if a formulation has counted costs at any point [F]"""
 
     lattices: list
     reaches: list
@@ -244,14 +247,14 @@ def empty(sweep, lattices):
 
 
 def known_in(sweep, piece):
-    """Returns whether a reference value exists [points, Q+1]; the last entry is True if at least one quantity has
-    one."""
+    """Returns True where a reference value exists [points, Q+1]. The last entry is True if at least one quantity has a
+    reference value."""
     own = ~np.isin(piece.kind, sweep.without)
     return np.concatenate([own, own.any(axis=1, keepdims=True)], axis=1)
 
 
 def asked_in(sweep, piece):
-    """Returns whether a formulation is compared with the reference value [points, F, Q+1]. It is not compared if it
+    """Returns True where a formulation is compared with the reference value [points, F, Q+1]. It is not compared if it
     does not support the physics, or if the reference value belongs to another theory (there is then a value but no
     error). All quantities together are not compared if a quantity has a value but no error, unless another quantity is
     never within the tolerance."""
@@ -265,7 +268,7 @@ def asked_in(sweep, piece):
 
 
 def errors_in(piece, asked):
-    """Returns the errors [points, F, Q+1, M]: -1 if there is no comparison, infinite without a solution."""
+    """Returns the errors [points, F, Q+1, M]. They are -1 if there is no comparison, and infinite without a solution."""
     own = np.where(np.isnan(piece.error), np.inf, np.abs(piece.error)).transpose(0, 1, 3, 2)
     own = np.where(asked[:, :, :-1, None], own, -1)
     whole = np.where(asked[:, :, -1:, None], own.max(axis=2, initial=-1, keepdims=True), -1)
@@ -353,7 +356,7 @@ def of_sweep(sweep):
 
 @dataclass
 class Outlier:
-    """A point in a box that is not within the tolerance. error: error of the mesh to which the box belongs."""
+    """A point in a box that is not within the tolerance. `error` is the error of the mesh to which the box belongs."""
 
     point: int
     at: np.ndarray

@@ -1,6 +1,6 @@
-"""Maps of a sweep as separate SVG images, with a field for each cell of two axes. The colour and the sign of a field
-have the same meaning. Equal adjacent fields in a row are joined, so that files are small. assets/sweep.js draws the
-same maps over other axes and must be changed together with this module."""
+"""Maps of a sweep in separate SVG images, with a field for each cell of two axes. The colour and the sign of a field have
+the same meaning. Equal adjacent fields in a row are joined, which keeps files small. assets/sweep.js draws the same
+maps over other axes and must be changed together with this module."""
 import numpy as np
 from markupsafe import escape
 from matplotlib import colormaps
@@ -10,7 +10,7 @@ from reports import style
 from reports.chart import linear_ticks, log_ticks
 from reports.figures import FONT, Image, number
 
-EMPTY, UNKNOWN = -2, -1  # no point; no reference value
+EMPTY, UNKNOWN = -2, -1  # states of fields without a point, and without a reference value
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 WIDE, LEAST_FIELD, MOST_FIELD = 230, 11.5, 40  # width of a map, smallest and largest size of a field, in pixels
 LEFT, TOP, BELOW, RIGHT = 52, 36, 38, 12
@@ -58,8 +58,8 @@ class Look:
 
 
 def states(reach, points, look):
-    """Returns the states of fields. reach: number of points by the first mesh within the tolerance [..., M + 2];
-    points: number of points in each field."""
+    """Returns the states of fields. `reach` is the number of points by the first mesh within the tolerance [..., M + 2],
+    and `points` is the number of points in each field."""
     count = look.none
     total, out = reach.sum(axis=-1), reach[..., count:].sum(axis=-1)
     top = count - 1 - np.argmax(reach[..., count - 1::-1] > 0, axis=-1)
@@ -95,7 +95,7 @@ def place_of(part, values):
 
 
 def marks(part):
-    """Returns [(position in parts, label)] of possible ticks: at fields of one value, or at round numbers."""
+    """Returns [(position in parts, label)] of possible ticks, at fields of one value or at round numbers."""
     if part.axis.words or (part.exact and (part.low == part.high).all()):
         return [(i + 0.5, part.name(i)) for i in range(len(part))]
     low, high = part.low[0], part.high[-1]
@@ -105,8 +105,7 @@ def marks(part):
 
 
 def ticks(part, field, room):
-    """Returns [(position in pixels, label)] along an axis with fields of this size; ticks are at least `room`
-    apart."""
+    """Returns [(position in pixels, label)] along an axis with fields of this size. Ticks are at least `room` apart."""
     kept = []
     for place, words in marks(part):
         if not kept or place * field - kept[-1][0] >= room:
@@ -121,7 +120,7 @@ def title_of(part):
 
 
 class Map:
-    """A map of two axes. x, y: gather.Parts; y may also be a list of names."""
+    """A map of two axes. x and y are gather.Parts; y may also be a list of names."""
 
     def __init__(self, x, y, wide=WIDE):
         self.x, self.y = x, y
@@ -133,7 +132,7 @@ class Map:
         self.size = self.field * len(x), self.high * len(y)
 
     def fields(self, table, fill, sign):
-        """Draws the fields of each state as one path, with their signs. table: states [x, y]."""
+        """Draws the fields of each state in one path, with their signs. `table` contains the states [x, y]."""
         paths, signs = {}, {}
         for j, row in enumerate(table.T):
             y = TOP + self.size[1] - (j + 1) * self.high
@@ -154,7 +153,7 @@ class Map:
         return out
 
     def dots(self, at, found, fill, sign):
-        """Draws scattered points. at: [points, 2]; found: their states."""
+        """Draws scattered points. `at` is [points, 2], and `found` are their states."""
         out = ""
         for state in np.unique(found[found != EMPTY]):
             here = at[found == state]
@@ -201,8 +200,9 @@ class Map:
 
 
 def winners(wins, known, keys):
-    """Returns (states, fill, sign) of the formulation of lowest cost in each field. The state is 2 k if formulation k
-    is the cheapest at every point, 2 k + 1 if at most points. wins: [..., F]; known: points with a reference value."""
+    """Returns (states, fill, sign) of the formulation of lowest cost in each field. The state is 2 k if formulation k is
+    the cheapest at every point, and 2 k + 1 if it is the cheapest at most points. `wins` is [..., F], and `known` is
+    the number of points with a reference value."""
     count = len(keys)
     best, most = wins.argmax(axis=-1), wins.max(axis=-1)
     state = np.where(most == 0, 2 * count, 2 * best + (most < known))

@@ -1,4 +1,4 @@
-"""Reads the results of `beamwork sweep` piece by piece: only one piece is in memory."""
+"""Reads the results of `beamwork sweep` piece by piece. Only one piece is in memory at a time."""
 import pathlib
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ import numpy as np
 from reports.data import Unreadable, text
 
 MARK, VERSION = "beamwork_sweep", 1
-GROUP = "experiments/sweep"  # in older files, the root
+GROUP = "experiments/sweep"  # in older files, the group is the root
 PIECE = 1_000_000  # largest number of values of a table that are read at once
 SCATTERED = ("sobol", "halton", "random")
 NONE = "none"  # prefix of kinds of missing references
@@ -18,8 +18,8 @@ ABSENT = ("not_offered", "no_scene", OTHER)  # outcomes of runs that were not re
 
 @dataclass(frozen=True)
 class Axis:
-    """A parameter that was varied. log: its range is divided by equal factors; words: its strings by index, empty for
-    an axis of numbers."""
+    """A parameter that was varied. `log` is True if its range is divided by equal factors. `words` are its strings by
+    index, which is empty for an axis of numbers."""
 
     name: str
     unit: str
@@ -33,7 +33,7 @@ class Axis:
         return self.kind in SCATTERED
 
     def value(self, number):
-        """Returns the value at a point as text."""
+        """Returns the value at a point in text form."""
         if self.words:
             return self.words[int(number)]
         return f"{number:.4g}" + (f" {self.unit}" if self.unit not in ("", "1") else "")
@@ -47,8 +47,8 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Worst:
-    """One of the worst points of a formulation. quantity: empty if there is no solution (see status); error: relative;
-    scene: name of the stored scene file, or empty."""
+    """One of the worst points of a formulation. `quantity` is empty if there is no solution (see status). `error` is
+    relative. `scene` is the name of the stored scene file, or empty."""
 
     point: int
     formulation: str
@@ -61,10 +61,18 @@ class Worst:
 
 @dataclass
 class Piece:
-    """Consecutive points of a sweep. at: [points, axes]; truth (reference value), `doubt` (its uncertainty), kind:
-    [points, quantities]; value, error (relative): [points, formulations, meshes, quantities], NaN if there is none;
-    status, cost [s]: [points, formulations, meshes]; least: number of elements from which all meshes are within the
-    tolerance, or 0 if there is none [points, formulations, quantities]."""
+    """Consecutive points of a sweep.
+
+      at      [points, axes]
+      truth   reference value [points, quantities]
+      `doubt` uncertainty of the reference value [points, quantities]
+      kind    [points, quantities]
+      value   [points, formulations, meshes, quantities], NaN if there is none
+      error   relative error [points, formulations, meshes, quantities], NaN if there is none
+      status  [points, formulations, meshes]
+      cost    [points, formulations, meshes] [s]
+      least   number of elements from which all meshes are within the tolerance, or 0 if there is none
+              [points, formulations, quantities]"""
 
     first: int
     at: np.ndarray
@@ -79,10 +87,10 @@ class Piece:
 
 @dataclass
 class Sweep:
-    """Header of a file; pieces() reads its tables.
+    """Header of a file, whose tables pieces() reads.
 
-    subject: the scene file or the case; fixed: values of all parameters that do not vary; noise: cost ratio below
-    which costs tie; points: number of points; statuses, kinds: names by number."""
+    `subject` is the scene file or the case. `fixed` are the values of all parameters that do not vary. `noise` is the
+    cost ratio below which costs tie. `points` is the number of points. `statuses` and `kinds` are names by number."""
 
     path: str
     subject: str
@@ -163,7 +171,7 @@ def home(file):
 
 
 def is_there(path):
-    """Returns whether the file contains a sweep; False for files that cannot be read."""
+    """Returns True if the file contains a sweep, and False for files that cannot be read."""
     try:
         with h5py.File(path) as file:
             return home(file) is not None
@@ -172,7 +180,7 @@ def is_there(path):
 
 
 def is_alone(path):
-    """Returns whether the file contains a sweep but no results of verify."""
+    """Returns True if the file contains a sweep but no results of verify."""
     if not is_there(path):
         return False
     with h5py.File(path) as file:
@@ -221,7 +229,7 @@ def worst_of(file):
 
 
 def read(path):
-    """Returns the Sweep of a file; raises Unreadable with the reason."""
+    """Returns the Sweep of a file. Raises Unreadable with the reason."""
     try:
         with h5py.File(path) as whole:
             file = home(whole)
