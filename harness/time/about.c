@@ -1,4 +1,4 @@
-/* Instants of a motion about which other analyses compute small motions: the state and its
+/* States during a motion about which other analyses compute small motions: each state and its
  * matrices. */
 #include "harness/time/time_impl.h"
 
@@ -8,8 +8,8 @@
 
 #include "cases/scene/scene.h"
 
-/* An instant that is closer than this to the end of a step, relative to the step size, is taken
- * as that end. */
+/* A time that is closer than this to the end of a step, relative to the step size, counts as the
+ * end of the step. */
 static const double same_instant = 1e-9;
 
 static int by_time(const void *a, const void *b)
@@ -18,7 +18,8 @@ static int by_time(const void *a, const void *b)
     return (x->time > y->time) - (x->time < y->time);
 }
 
-/* Returns the instant of an analysis; NAN: the analysis is not about this motion. */
+/* Returns the time at which an analysis needs the state; NAN: the analysis does not need a state of
+ * this motion. */
 static double instant_of(const abouts *a, int analysis)
 {
     const scene *s = a->c->scene;
@@ -59,14 +60,14 @@ void abouts_free(abouts *a)
     instant_free(&a->room);
 }
 
-/* Returns the time of the next instant; INFINITY: there is none. */
+/* Returns the next such time; INFINITY: none. */
 static double next_of(const abouts *a)
 {
     return a->next < a->out->abouts ? a->out->about[a->next].time : INFINITY;
 }
 
-/* Stores the state a->at and its small motions. Conserving steps give mean accelerations;
- * consistent ones are computed first, which changes a->at. */
+/* Stores the state a->at and its small motions. Conserving steps give mean accelerations, so
+ * consistent accelerations are computed first, which changes a->at. */
 static status take(abouts *a, fault *f)
 {
     const model *m = a->c->model;

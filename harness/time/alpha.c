@@ -11,8 +11,8 @@ typedef struct alpha {
     motion_stage stage;
     outer_work *work;
     massive massive;
-    size_t strains;                  /* model_stresses if a member or spring is damped, else 0 */
-    double *mean;                    /* [strains] mean strain rates of the step */
+    size_t strains; /* model_stresses if a member or a spring is damped, otherwise 0 */
+    double *mean;   /* [strains] mean strain rates of the step */
     double mass, force, gamma, beta; /* alpha_m, alpha_f */
     double *a0, *v0, *inc, *weight;  /* [free + driven] */
 } alpha;
@@ -24,13 +24,14 @@ static double averaged(const alpha *s, double a, double before, double now)
     return ((1 - s->force) * now + s->force * before - s->mass * a) / (1 - s->mass);
 }
 
-/* Sets the relation between rates and increment, and an initial guess of the increment for
+/* Sets the relation between rates and increment, and an initial guess of the increment that assumes
  * constant acceleration. */
 static void relate(alpha *s, const instant *from, double h, stage_rates *r)
 {
     for (int i = 0; i < s->stage.free; i++) {
         const double v = from->v[i], a = from->algorithm[i], vd = from->a[i];
-        const double known = h * v + h * h * (0.5 - s->beta) * a; /* part of inc without a1 */
+        /* part of inc that does not depend on a1 */
+        const double known = h * v + h * h * (0.5 - s->beta) * a;
         s->inc[i] = known + h * h * s->beta * averaged(s, a, vd, vd);
         s->a0[i] = -r->b * known - (s->force * vd - s->mass * a) / (1 - s->force);
         s->v0[i] = v + h * (1 - s->gamma) * a - r->g * known;
@@ -53,7 +54,7 @@ static status error_of(alpha *s, const instant *from, const instant *to, double 
 }
 
 /* Sets the relation between strain rates and strains of damped members, which is the same as for
- * positions: computes the part of the rates that does not depend on the increment. */
+ * positions. Computes the part of the rates that does not depend on the increment. */
 static void relate_strains(alpha *s, const instant *from, double h, instant *to)
 {
     const double g = s->gamma / (s->beta * h), kept = 1 - s->gamma / s->beta,
@@ -81,8 +82,9 @@ static double circulated(const model *m, const model_state *from, const model_st
     return sum;
 }
 
-/* Sets the strain rates at the end of a step, and adds the dissipated energy. The latter follows
- * from the mean rates: without inertia, rates at the ends of steps oscillate about their mean. */
+/* Sets the strain rates at the end of a step, and adds the dissipated energy. This energy follows
+ * from the mean rates, because rates at the ends of steps oscillate about their mean if there is no
+ * inertia. */
 static void damp(alpha *s, const instant *from, double h, instant *to)
 {
     const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);
@@ -107,7 +109,7 @@ static void damp(alpha *s, const instant *from, double h, instant *to)
     to->dissipated += h * damping_power(&s->stage.c->eq, s->mean);
 }
 
-/* Rejects rotations of more than one radian in a step. */
+/* Rejects a step in which a rotation exceeds one radian. */
 static status check_turns(const alpha *s, double time, fault *f)
 {
     const double most = 1;

@@ -7,7 +7,7 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/masses.h"
 
-/* tensor += inertia of a point mass at r: mass (r.r 1 - r r^T). */
+/* Adds the inertia of a point mass at r to the tensor: mass (r.r 1 - r r^T). */
 static void add_point(double mass, const double r[3], double tensor[9])
 {
     const double square = vec3_dot(r, r);
@@ -26,7 +26,8 @@ static void shift(double mass, const double moment[3], const double r[3], double
             tensor[3 * i + j] += (i == j ? mixed : 0) - r[i] * moment[j] - moment[i] * r[j];
 }
 
-/* Adds the mass at a vertex to the frame that moves it; a released end has its own frame. */
+/* Adds the mass at a vertex to the frame that moves the vertex. A released end has a separate
+ * frame. */
 static void take(const model *m, int vertex, double mass, const double moment[3],
                  const double tensor[9], carried_mass of[])
 {
@@ -109,7 +110,7 @@ static void add_body(const model *m, const mesh_discrete *d, carried_mass of[])
     take(m, d->el.vertex[0], b->mass, moment, tensor, of);
 }
 
-/* Removes frames that have neither mass nor moment of inertia, and sums the total mass. */
+/* Removes frames without mass and without moment of inertia, and computes the total mass. */
 static void keep_heavy(const model *m, carried_mass of[], carried_masses *out)
 {
     for (int i = 0; i < model_vertices(m); i++) {
@@ -159,13 +160,13 @@ void carried_free(carried_masses *c)
     memset(c, 0, sizeof *c);
 }
 
-/* If some translations of a frame are fixed and others free, the fixed component of the velocity of
- * the centre follows from the rotation. It is (w x s) at both ends of the step. Its mean differs
- * from the mean velocity of the step by h (v_c + v_c1)/2 - dr_c = h/4 c x g, g = (R_n + R_1)/2 (W1
+/* Treats frames with both fixed and free translations. The fixed component of the velocity of the
+ * centre follows from the rotation: it is w x s at both ends of the step. Its mean differs from the
+ * mean velocity of the step by h (v_c + v_c1)/2 - dr_c = h/4 c x g, g = (R_n + R_1)/2 (W1
  * - W) x s. The moment g x m (v_c1 - v_c)/4 of the fixed components compensates for the work of
  * this difference, so the kinetic energy gained equals the work done. */
 
-/* to[3 x n]: replaces the components along fixed translations by those of `from`. */
+/* Replaces the components along fixed translations in to[3 x n] by those of `from`. */
 static void hold_rows(const carried_step *p, int n, const double from[], double to[])
 {
     for (int k = 0; k < n; k++) {
@@ -203,7 +204,7 @@ void carried_step_follow(const carried_mass *one, carried_step *p)
     vec3_cross(p->g, p->behind, p->late);
 }
 
-/* out = d(w1 x after)/dc */
+/* Computes out = d(w1 x after)/dc. */
 static void riding(const carried_step *p, double h, const double T[9], const double swept[9],
                    double out[9])
 {
@@ -284,8 +285,8 @@ double account_size(const account *a)
 }
 
 /* Returns 1 if the request explains a loss of energy: fixed steps, or generalized-alpha with more
- * damping than rho_inf = 0.9. For all its parameters alpha_f - alpha_m = (1 - rho)/(1 + rho), where
- * rho is the spectral radius. */
+ * damping than rho_inf = 0.9. For all parameters of generalized-alpha, alpha_f - alpha_m = (1 -
+ * rho)/(1 + rho), where rho is the spectral radius. */
 static int account_loses(const scene_motion *how)
 {
     const double usual = 0.9, most = (1 - usual) / (1 + usual) * (1 + 1e-9);

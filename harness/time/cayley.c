@@ -138,7 +138,7 @@ void cayley_between(const cayley_step *s, double at, cayley_point *p)
     }
 }
 
-/* rows[3 x columns] <- factor A rows */
+/* Computes rows[3 x columns] <- factor A rows. */
 static void turn_rows(const double A[9], double factor, int columns, double rows[])
 {
     for (int k = 0; k < columns; k++) {
@@ -171,7 +171,7 @@ void cayley_forces(const cayley_step *s, int columns, double f[])
 
 enum { N = NODE_COORDINATES };
 
-/* A += factor a b^T */
+/* Adds factor a b^T to A. */
 static void add_product(double factor, const double a[3], const double b[3], double A[9])
 {
     for (int i = 0; i < 3; i++)
@@ -185,7 +185,7 @@ static void add_identity(double factor, double A[9])
         A[4 * i] += factor;
 }
 
-/* A += factor times the derivative of b c (c.v) with respect to c */
+/* Adds the derivative of b c (c.v) with respect to c, multiplied by `factor`, to A. */
 static void add_square(const cayley_step *s, const cayley_slopes *d, double factor,
                        const double v[3], double A[9])
 {
@@ -289,7 +289,7 @@ static void columns_of(const cayley_step *s, const cayley_slopes *d, const cayle
     mat3_mul(apart, d->spin, out->r_common);
 }
 
-/* out += factor a B */
+/* Adds factor a B to `out`. */
 static void add_row(double factor, const double a[3], const double B[9], double out[3])
 {
     for (int i = 0; i < 3; i++)
@@ -327,7 +327,7 @@ void cayley_slopes_columns(const cayley_step *s, const cayley_slopes *d, const c
     }
 }
 
-/* K[n x n] at (row, column) += A */
+/* Adds A to K[n x n] at (row, column). */
 static void add_block(int n, int row, int column, double factor, const double A[9], double K[])
 {
     for (int i = 0; i < 3; i++)
@@ -335,7 +335,7 @@ static void add_block(int n, int row, int column, double factor, const double A[
             K[(row + i) * n + column + j] += factor * A[3 * i + j];
 }
 
-/* Derivatives of the force and moment of one node with respect to the mean c, and of its moment
+/* Derivatives of the force and the moment on a node with respect to the mean c, and of the moment
  * with respect to c_j. */
 typedef struct node_forces {
     double F[3], force[9], moment[9], own[9];

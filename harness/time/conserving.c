@@ -13,8 +13,8 @@
 /* Functions of conserving.c. */
 /* Finds rotations without inertia. REFUSED: no rotation has inertia. */
 static status conserving_massless(conserving *, fault *);
-/* Returns the work of the impulses that change the velocities of prescribed masses from the
- * rates during the step to the rates at its end. */
+/* Returns the work of the impulses on prescribed masses. They change the velocities of the masses
+ * from the rates during the step to the rates at its end. */
 static double conserving_impulses(const conserving *, const instant *from, double h,
                                   const instant *to);
 /* Sets the rates at the end of a step. */
@@ -163,8 +163,9 @@ static void release(motion_scheme *base)
     free(s);
 }
 
-/* REFUSED: a rotation has two free angles. At the end of a step the mass then has an angular
- * velocity normal to both axes, and the rates of the angles do not contain its energy. */
+/* Checks the rotations. REFUSED: a rotation has two free angles. The mass would then have an
+ * angular velocity normal to both axes at the end of a step, and the rates of the angles would not
+ * contain its energy. */
 static status check(const model *m, fault *f)
 {
     for (int i = 0; i < model_scene(m)->nodes; i++) {
@@ -198,9 +199,9 @@ static status refuse_constraint(const model *m, int node, const char *why, fault
                      scene_called(model_scene(m), SCENE_NODES, node).text);
 }
 
-/* REFUSED: the rates at the ends of a step would violate a constraint. The Cayley vectors of
- * rotations in a given ratio are not in that ratio, and masses at a distance from their nodes
- * have velocities of their own. */
+/* Checks the constraints. REFUSED: the rates at the ends of a step would violate a constraint. The
+ * Cayley vectors of rotations with a given ratio do not have this ratio, and masses at a distance
+ * from their nodes have independent velocities. */
 static status check_constraints(const model *m, const carried_masses *masses, fault *f)
 {
     if (model_mesh_of(m)->joined == NULL)
@@ -305,7 +306,7 @@ static int null_space(const double J[9], double N[9])
     memset(N, 0, 9 * sizeof *N);
     memcpy(A, J, sizeof A);
     LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', 3, A, 3,
-                  value); /* eigenvalues are ascending; this fails only for NaN */
+                  value); /* eigenvalues are in ascending order; the call fails only for NaN */
     for (int k = 0; k < 3; k++) {
         if (value[k] > nothing * value[2])
             continue;
@@ -371,7 +372,7 @@ static double conserving_impulses(const conserving *s, const instant *from, doub
     return sum;
 }
 
-/* Computes the rates of a sequence of angles whose angular velocity is closest to w. */
+/* Computes the rates of a sequence of angles for which the angular velocity is closest to w. */
 static void angle_rates(const model *m, int vertex, instant *to, const double w[3])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -398,9 +399,9 @@ static void angle_rates(const model *m, int vertex, instant *to, const double w[
     }
 }
 
-/* Replaces rates of rotations without inertia by the mean rates of the step; otherwise they would
- * change sign in every step. N[9] projects onto those rotations; NULL: the frame has no mass at
- * all. */
+/* Replaces rates of rotations without inertia by the mean rates of the step, because they would
+ * otherwise change sign in every step. N[9]: projection onto these rotations; NULL: the frame has
+ * no mass. */
 static void without_inertia(const carried_mass *one, const double N[9], carried_step *p)
 {
     double mean[3], back[3];
@@ -466,8 +467,8 @@ static void conserving_released_rates(const conserving *s, const instant *from, 
     to->ends_known = 1;
 }
 
-/* Returns 1 if a vertex follows the rotations of another one, or when others follow its rotations.
- * */
+/* Returns 1 if a vertex follows the rotations of another vertex, or if other vertices follow its
+ * rotations. */
 static int turns_with(const model *m, int vertex)
 {
     int with = 0;
@@ -476,8 +477,8 @@ static int turns_with(const model *m, int vertex)
     return with;
 }
 
-/* Computes N[9] for without_inertia, from the masses of all nodes that rotate with the coordinates
- * of this one. */
+/* Computes N[9] for without_inertia from the masses of all nodes that rotate with the coordinates
+ * of this vertex. */
 static void massless_together(const conserving *s, int vertex, double N[9])
 {
     const model *m = s->of.c->model;
@@ -512,7 +513,8 @@ static void massless_together(const conserving *s, int vertex, double N[9])
         N[i] = i % 4 == 0 && !(about > 1e-12 * all);
 }
 
-/* Sets the rates of translations in constraints, from the masses of all nodes that they move. */
+/* Sets the rates of translations in constraints from the masses of all nodes that these
+ * translations move. */
 static void rates_together(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
@@ -529,8 +531,8 @@ static void rates_together(const conserving *s, const instant *from, double h, i
         }
 }
 
-/* Sets the rates after a step. For a frame with a mass the rates are those of the centre of
- * mass, otherwise those of the frame. */
+/* Sets the rates after a step. If a frame has a mass, they follow from the motion of the centre of
+ * mass, otherwise from the motion of the frame. */
 static void conserving_rates(conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;

@@ -1,5 +1,5 @@
-/* Forces A^T sigma_m of elements and springs, and their tangent. Geometric terms (those with a
- * stress as a factor) use s + k W d, which excludes the spurious stresses due to the gaps. */
+/* Forces A^T sigma_m of elements and springs, and their tangent. Geometric terms, which have a
+ * stress as a factor, use s + k W d. This excludes the spurious stresses due to the gaps. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -12,8 +12,8 @@
 
 enum { N = ELEMENT_MAX_COORDINATES, M = DEFORMABLE_STRAINS };
 
-/* Computes the stress terms that do not need the strains at the end of the step: (sigma_n +
- * P'(e))/2 + k W d, and eta S0 d/h for damping. */
+/* Computes the terms of the stresses that do not need the strains at the end of the step: (sigma_n
+ * + P'(e))/2 + k W d, and eta S0 d/h for damping. */
 static void middle_of(const conserving *s, evaluation *v)
 {
     const deformable *of = &v->of;
@@ -28,7 +28,7 @@ static void middle_of(const conserving *s, evaluation *v)
         v->middle[k] += of->damping / s->h * Wd[k];
 }
 
-/* Computes the gaps, and sigma_m including the contribution of the gaps. Returns the
+/* Computes the gaps and sigma_m, which includes the contribution of the gaps. Returns the
  * incompatibility. */
 static double gaps_of(const conserving *s, const double J[], evaluation *v, double sigma[])
 {
@@ -55,7 +55,8 @@ static double gaps_of(const conserving *s, const double J[], evaluation *v, doub
     return largest;
 }
 
-/* out[n x n] += (H plus half of the effect of the spin on moments) times the derivative of x(s). */
+/* Adds (H plus half of the effect of the spin on moments) times the derivative of x(s) to out[n x
+ * n]. */
 static void add_curved_strains(const cayley_slopes *by, int g, evaluation *v, double out[])
 {
     const deformable *of = &v->of;
@@ -123,7 +124,7 @@ static void to_coordinates(const conserving *s, const instant *from, const model
     }
 }
 
-/* Adds the equations of the evaluated elements. Returns their incompatibility. */
+/* Adds the equations of the evaluated elements. Returns the incompatibility of these elements. */
 static double equations_of(conserving *s, const instant *from, const model_state *now,
                            evaluation *v)
 {
@@ -191,8 +192,8 @@ void conserving_forces(conserving *s, const instant *from, model_state *now,
     }
 }
 
-/* Loads at the middle of a step. Directions and arms that rotate are the means of their values
- * at the two ends of the step. */
+/* Loads at the middle of a step. Directions and arms that rotate are the means of their values at
+ * both ends of the step. */
 
 typedef struct loaded {
     conserving *s;
@@ -200,7 +201,7 @@ typedef struct loaded {
     double *out; /* [free + driven] */
 } loaded;
 
-/* Computes the mean (v_n + v)/2 and its derivative with respect to c of the step: -1/2 v~ T_c. */
+/* Computes the mean (v_n + v)/2 and its derivative with respect to c of the step, -1/2 v~ T_c. */
 static void mean_of(const double back[9], const double T[9], const double v[3], double mean[3],
                     double change[9])
 {
@@ -214,7 +215,7 @@ static void mean_of(const double back[9], const double T[9], const double v[3], 
         mean[i] = (before[i] + v[i]) / 2;
 }
 
-/* K[6 x 6] at (row, columns of c) -= A */
+/* Subtracts A from K[6 x 6] at (row, columns of c). */
 static void subtract_block(const double A[9], int row, double K[36])
 {
     for (int i = 0; i < 3; i++)
@@ -222,8 +223,8 @@ static void subtract_block(const double A[9], int row, double K[36])
             K[6 * (row + i) + 3 + j] -= A[3 * i + j];
 }
 
-/* K -= derivative of arm x force at (moment, columns of c); by_arm, by_force [3 x 3]:
- * derivatives of arm and force with respect to c. */
+/* Subtracts the derivative of arm x force from K at (moment, columns of c). by_arm, by_force [3 x
+ * 3]: derivatives of arm and force with respect to c. */
 static void subtract_lever(const double arm[3], const double by_arm[9], const double force[3],
                            const double by_force[9], double K[36])
 {
@@ -237,7 +238,7 @@ static void subtract_lever(const double arm[3], const double by_arm[9], const do
     subtract_block(then, 3, K);
 }
 
-/* Computes force and moment F[6] of a load at the middle of the step, and K[6 x 6] = -dF/d(dr,
+/* Computes the force and moment F[6] of a load at the middle of the step, and K[6 x 6] = -dF/d(dr,
  * c) of the vertex. */
 static void loads_middle_of(const loaded *of, const applied *what, const double c[3], double F[6],
                             double K[36])
@@ -266,7 +267,7 @@ static void loads_middle_of(const loaded *of, const applied *what, const double 
         F[3 + i] += levered[i];
 }
 
-/* Transforms force and tangent to the coordinates that move the vertex. */
+/* Transforms forces and tangent to the coordinates that move the vertex. */
 static void take(void *context, const applied *what)
 {
     const loaded *of = context;
@@ -288,7 +289,7 @@ void conserving_loads(conserving *s, const instant *from, const model_state *now
                      take, &of);
 }
 
-/* Updates the strains at the end of the step, and between its ends, by Newton's corrections. */
+/* Updates the strains at the end of the step and inside the step with Newton's corrections. */
 
 /* Computes the increments dr, dc, da of the nodes of an element. */
 static void own_increments(const conserving *s, const instant *from, const model_state *now,
@@ -342,7 +343,7 @@ double conserving_update(conserving *s, const instant *from, model_state *now)
     return largest;
 }
 
-/* Work of external loads in a step: the forces that act in the step times the increments of the
+/* Work of external loads in a step: the forces during the step times the increments of the
  * coordinates. */
 
 /* Returns the work of a force on dr and c of the coordinates, where c is 2 tan(d angle/2) for
@@ -374,7 +375,7 @@ static int moves_by_drivers(const conserving *s)
     return 0;
 }
 
-/* Returns the sum of eta d . S0 d/h, the energy dissipated by the damping stresses in the step. */
+/* Returns the energy that the damping stresses dissipate in the step, the sum of eta d . S0 d/h. */
 static double dissipated(const conserving *s, const instant *from, model_state *now)
 {
     double sum = 0;
@@ -389,7 +390,7 @@ static double dissipated(const conserving *s, const instant *from, model_state *
 status conserving_work(conserving *s, const instant *from, instant *to, double h, fault *f)
 {
     const size_t bytes = (size_t)s->all * sizeof *s->residual;
-    const int behind = 3; /* an iteration number for which k is used */
+    const int behind = 3; /* iteration number for which k is used */
     double ignored = 0;
     memset(s->residual, 0, bytes);
     conserving_loads(s, from, to->state, h, s->residual);
@@ -413,10 +414,9 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
 }
 
 /* Computes the strain rates r1 and their derivatives s1 at the end of a step from r0 and s0 at its
- * start and the mean rate m:
- *     r1 = (3 m - r0)/2 + h s0/4,  s1 = (m - r0)/h + s0/2.
- * This is of second order, even without inertia. An initial error disappears after two steps;
- * with r1 = 2 m - r0 it would persist. */
+ * start and from the mean rate m: r1 = (3 m - r0)/2 + h s0/4, s1 = (m - r0)/h + s0/2. The result is
+ * of second order, even if there is no inertia. An initial error disappears after two steps. With
+ * r1 = 2 m - r0, it would persist. */
 void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
@@ -433,8 +433,8 @@ void conserving_damped(const conserving *s, const instant *from, double h, insta
             r[k] = (3 * mean - r0) / 2 + h * s0 / 4;
             rate2[k] = (mean - r0) / h + s0 / 2;
         }
-        if (of.S == NULL || of.spring != NULL) /* the stresses of a spring follow from its
-                                                  strains */
+        if (of.S == NULL ||
+            of.spring != NULL) /* the stresses of a spring follow from its strains */
             continue;
         dense_mul_vec(of.strains, of.strains, of.S, r, more);
         for (int k = 0; k < of.strains; k++)

@@ -1,5 +1,5 @@
-/* Strains and stresses of all elements and springs, and the number k that makes their work exact.
- */
+/* Strains and stresses of all elements and springs, and the number k for which the work of the
+ * stresses is exact. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ static const double *inner_of(const model *m, const model_state *s, int i)
     return model_inner(m) > 0 ? s->inner + (size_t)i * (size_t)model_inner(m) : none;
 }
 
-/* Computes the mean stresses of elements of one kind. */
+/* Computes the mean stresses of elements of the same kind. */
 static status middle_stress_of(const equations *eq, int count, const int index[],
                                const double *const e[], const model_state *s, stress_output out[],
                                fault *f)
@@ -135,15 +135,14 @@ static void stress_spring(conserving *s, const instant *from, model_state *now, 
     const deformable of = deformable_at(s, from, now, i);
     double mean[SPRING_STRAINS];
     spring_mean(of.spring->spring, of.first, of.e, mean, of.C);
-    for (int k = 0; k < SPRING_STRAINS; k++) /* (before + present)/2 is the mean */
+    for (int k = 0; k < SPRING_STRAINS; k++) /* the mean is (before + present)/2 */
         of.present[k] = 2 * mean[k] - of.before[k];
     for (int k = 0; k < SPRING_STRAINS * SPRING_STRAINS; k++)
         of.C[k] *= 2;
     take_energy(s, &of, spring_energy(of.spring->spring, of.e), sum);
 }
 
-/* Returns the kinetic energy plus the magnitudes of the strain energies at the start of the step
- * [J]. */
+/* Returns the kinetic energy plus the absolute strain energies [J] at the start of the step. */
 static double size_of_energy(const conserving *s, const instant *from)
 {
     inertia_balance moving;
@@ -180,12 +179,12 @@ status conserving_stresses(conserving *s, const instant *from, model_state *now,
     return STATUS_OK;
 }
 
-/* Centres of mass move by dr_c = h (v_c + v_c1)/2 and rotate by R_n^T c = h (W + W1)/2. Forces
- * act at the mean positions of the centres. If a frame only rotates, the tensor about the frame
- * is also constant in its axes. */
+/* Centres of mass move by dr_c = h (v_c + v_c1)/2 and rotate by R_n^T c = h (W + W1)/2. Forces act
+ * at the mean positions of the centres. If a frame can only rotate, the tensor about the frame is
+ * constant in its axes. */
 
-/* Returns the number of fixed translations of a frame if it also has free ones, else 0. The
- * corresponding translations of its centre of mass follow from its rotation. */
+/* Returns the number of fixed translations of a frame that also has free translations, otherwise 0.
+ * The corresponding translations of the centre of mass follow from the rotation of the frame. */
 static int held_of(const model *m, int frame, int held[3])
 {
     int count = 0;
@@ -328,7 +327,7 @@ void conserving_inertia(conserving *s, const instant *from, const model_state *n
     }
 }
 
-/* Initial guess of a step, and its representation as increments of coordinates. */
+/* Initial guess of a step, in the form of increments of coordinates. */
 
 static int turns_freely(const model *m, int vertex)
 {
@@ -377,7 +376,7 @@ void conserving_increment(const conserving *s, const model_state *from, double i
     }
 }
 
-/* Computes c = h w; for a prescribed rotation, c of the prescribed increment. */
+/* Computes c = h w. For a prescribed rotation, c follows from the prescribed increment. */
 static void predict_turn(conserving *s, const frame_rates *r, const int at[3], double h,
                          double c[3])
 {
@@ -391,16 +390,15 @@ static void predict_turn(conserving *s, const frame_rates *r, const int at[3], d
     put_vector(c, at, s->step);
 }
 
-/* Computes dr = h/2 (v + cay(c) v): the velocity rotates with its node. cay(c) v - v = (c x v +
- * c x (c x v)/2)/(1 + c.c/4). */
+/* Computes dr = h/2 (v + cay(c) v), for which the velocity rotates with its node. cay(c) v - v = (c
+ * x v + c x (c x v)/2)/(1 + c.c/4). */
 void conserving_predict(conserving *s, const instant *from, double h)
 {
     const model *m = s->of.c->model;
     for (int c = 0; c < s->free; c++)
         s->step[c] = h * from->v[c];
     drive_at(&s->of.c->eq, from->state, from->time + h, s->step, NULL, NULL);
-    memcpy(s->dx, s->step,
-           (size_t)s->all * sizeof *s->dx); /* because a driver may move several nodes */
+    memcpy(s->dx, s->step, (size_t)s->all * sizeof *s->dx); /* a driver may move several nodes */
     for (int i = model_first_release(m); i < model_vertices(m); i++) {
         const int *at = model_vertex(m, i)->coordinate + SCENE_RX;
         double R[9], own[3], c[3];

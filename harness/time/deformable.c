@@ -79,7 +79,7 @@ static void place_turn(const model *m, const double at[DEFORMABLE_POINTS], const
     }
 }
 
-/* Sets the states during the step at which strains are evaluated. */
+/* Sets the states during the step in which strains are evaluated. */
 static void place_nodes(const conserving *s, const instant *from, const model_state *now,
                         evaluation *v)
 {
@@ -99,8 +99,8 @@ static void place_nodes(const conserving *s, const instant *from, const model_st
     place_turn(m, at, from, now, v);
 }
 
-/* Returns the nodes at which strains are evaluated. At the end of the step (point
- * DEFORMABLE_POINTS) e and J are needed, at the points before it J and H. */
+/* Returns the nodes for which strains are evaluated. At the end of the step (point
+ * DEFORMABLE_POINTS), e and J are needed. At the points before the end, J and H are needed. */
 static const node_state *nodes_of(const evaluation *v, int point)
 {
     return point < DEFORMABLE_POINTS ? v->point[point].x : v->last;
@@ -135,7 +135,7 @@ static void strains_together(const model *m, int point, int count, evaluation v[
     model_type(m)->strain_many(count, data, x, out);
 }
 
-/* J <- J T_c on the columns of rotations. */
+/* Multiplies the columns of rotations of J by T_c: J <- J T_c. */
 static void behind_turns(const deformable *of, const cayley_step *step)
 {
     for (int j = 0; j < step->nodes; j++) {
@@ -221,7 +221,7 @@ status shares_node(const model *m, const model_state *s, const shares_motion *mo
     return STATUS_OK;
 }
 
-/* Computes the inertia force of node k of an element, including warping. *share: fraction of the
+/* Computes the inertia force on node k of an element, including warping. *share: fraction of the
  * mass at the node. */
 static void force_of(const model *m, const model_state *s, const shares_motion *motion, int element,
                      int k, double F[7], carried_mass *share)
@@ -240,7 +240,6 @@ static void force_of(const model *m, const model_state *s, const shares_motion *
     F[6] = el->warp[k] != NONE ? warping * motion->a[model_warp(m, el->warp[k])] : 0;
 }
 
-/* Forces per length at the nodes are interpolated between them. */
 void shares_along(const model *m, const model_state *s, const shares_motion *motion, int element,
                   double density[ELEMENT_MAX_NODES][6])
 {
@@ -255,9 +254,9 @@ void shares_along(const model *m, const model_state *s, const shares_motion *mot
     }
 }
 
-/* Corrects the moments of mass along a member that is lumped at its nodes. Translations are then
- * exact, and so are resultants except inside an element. F: force of the whole element's mass if
- * it moves as each node. */
+/* Corrects the moments of mass along a member that is lumped at its nodes. The effect of
+ * translations is then exact, and so are resultants except inside an element. F: force for the mass
+ * of the whole element, moving like each node. */
 static void add_couple(const model *m, const model_state *s, int element, double F[2][7],
                        double ends[2][7])
 {

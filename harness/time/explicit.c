@@ -11,10 +11,10 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* explicit.c: computes dydt at t [s] for y, in GSL's order of arguments. Leaves the motion at
- * that time in `at`. */
+/* Computes dydt at time t [s] for y, with the order of arguments of GSL. The state at this time
+ * remains in `at`. */
 static int explicit_rates(double t, const double y[], double dydt[], void *context);
-/* REFUSED: a coordinate of the undeformed model has no inertia. */
+/* Checks the masses. REFUSED: a coordinate of the undeformed model has no inertia. */
 static status explicit_check(const model *, const carried_masses *, fault *);
 
 static double error_of(const explicit_scheme *s)
@@ -116,7 +116,7 @@ status explicit_alloc(const scheme_request *request, motion_scheme **out, fault 
     return allocate(s, f);
 }
 
-/* Computes the masses of the free coordinates of one frame: of[count], M[count x count]. Returns
+/* Computes the masses of the free coordinates of a frame: of[count], M[count x count]. Returns
  * count. */
 static int block(const model *m, const carried_masses *masses, int index, const model_state *s,
                  const double v[], int of[6], double M[36])
@@ -140,7 +140,7 @@ static int block(const model *m, const carried_masses *masses, int index, const 
     return count;
 }
 
-/* As explicit_accelerate, for bodies that constraints join. */
+/* Like explicit_accelerate, for bodies that constraints join. */
 static status accelerate_joined(const model *m, const carried_masses *masses, int body,
                                 const model_state *s, const double residual[], body_mass *g,
                                 double a[], fault *f)
@@ -267,7 +267,8 @@ static status check_vertex(const model *m, int index, const int heavy[], fault *
     return STATUS_OK;
 }
 
-/* Marks the free coordinates that have inertia independently of the others of their frame. */
+/* Marks the free coordinates of a frame that have inertia independently of its other coordinates.
+ * */
 static void mark(const model *m, const carried_masses *masses, const double rest[], int heavy[])
 {
     for (int k = 0; k < masses->masses; k++) {
@@ -276,8 +277,8 @@ static void mark(const model *m, const carried_masses *masses, const double rest
         const int n = block(m, masses, k, kinematics_rest(m), rest, of, M);
         for (int i = 0; i < n; i++) {
             double some[36];
-            /* rank of the first i + 1 coordinates; a coordinate that does not increase the rank
-             * has no inertia */
+            /* This is the rank of the first i + 1 coordinates. A coordinate that does not increase
+             * the rank has no inertia. */
             for (int r = 0; r <= i; r++)
                 memcpy(&some[(i + 1) * r], &M[n * r], (size_t)(i + 1) * sizeof *some);
             heavy[of[i]] = is_heavy(i + 1, some);
@@ -287,7 +288,7 @@ static void mark(const model *m, const carried_masses *masses, const double rest
         heavy[model_warp(m, w)] = masses->warping[model_warp(m, w)] > 0;
 }
 
-/* As explicit_check, for bodies that constraints join, whose masses count together. */
+/* Like explicit_check, for bodies that constraints join. Their masses are combined. */
 static status check_joined(const model *m, const carried_masses *masses, fault *f)
 {
     const double rounding = 1e-13;
@@ -366,8 +367,8 @@ static void turn_rates(const explicit_scheme *s, const double inc[], const doubl
     }
 }
 
-/* Newton's iteration for the inner unknowns of an element at given strains, with the steps that the
- * element defines. */
+/* Solves for the inner unknowns of an element at given strains with Newton's method. The element
+ * defines the steps. */
 static status settle_rates(const explicit_scheme *s, int i, double time, fault *f)
 {
     enum { MOST = 30 };
@@ -484,8 +485,8 @@ void work_free(outer_work *w)
     free(w->element);
 }
 
-/* Returns the sum over the coordinates. Moments of frames whose rates are in rotating axes are
- * given in global axes. */
+/* Returns the sum over the coordinates. Moments on frames with rates in rotating axes are given in
+ * global axes. */
 static double product(const outer_work *w, const model_state *s, const double along[])
 {
     const model *m = w->m;
@@ -507,8 +508,8 @@ static double product(const outer_work *w, const model_state *s, const double al
     return sum;
 }
 
-/* Computes the external forces on prescribed coordinates, including loads: the sum of internal
- * and inertia forces. */
+/* Computes the external forces on prescribed coordinates, including loads. They are the sum of
+ * internal and inertia forces. */
 static void hold(outer_work *w, const model_state *s, const double v[], const double a[])
 {
     const model *m = w->m;

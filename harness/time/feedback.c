@@ -1,4 +1,4 @@
-/* Loads with feedback in motions: their factors, the integrals of their errors, and their
+/* Loads with feedback during motions: their factors, the integrals of their errors, and their
  * tangents. */
 #include "harness/time/time_impl.h"
 
@@ -32,8 +32,8 @@ static void turn_row(const model *m, const model_state *s, int node, int k, doub
     double t[3], inverse[9];
     for (int i = 0; i < 3; i++)
         t[i] = kinematics_component(m, s, node, SCENE_RX + i);
-    turning_inverse(t, inverse); /* maps rates in the node's axes; transposed: rates in fixed
-                                    axes */
+    /* maps rates in the axes of the node; the transposed matrix maps rates in fixed axes */
+    turning_inverse(t, inverse);
     for (int i = 0; i < 3; i++)
         row[i] = inverse[3 * i + k];
 }
@@ -121,8 +121,8 @@ void feedback_integrate(const equations *eq, const model_state *from, const mode
     }
 }
 
-/* Computes the derivative of the measured component with respect to coordinates. Returns the
- * number of these coordinates. */
+/* Computes the derivative of the measured component with respect to coordinates. Returns the number
+ * of these coordinates. */
 static int measure(const model *m, const model_state *s, int node, int component, int index[],
                    double out[])
 {
@@ -137,7 +137,7 @@ static int measure(const model *m, const model_state *s, int node, int component
     return n;
 }
 
-/* Sum of the generalised loads on its nodes for a factor of 1. */
+/* Receives the sum of the generalised loads on the nodes of the load for a factor of 1. */
 typedef struct feedback_push {
     const model *m;
     const model_state *s;

@@ -68,7 +68,7 @@ void increment_apply(const model *m, const model_state *from, const double inc[]
     to->path = time;
 }
 
-/* Adds a rotation to the increment of a frame whose rates are in its rotating axes. */
+/* Adds a rotation to the increment of a frame whose rates are in rotating axes. */
 static void add_turn(const model_state *now, int index, const mesh_vertex *v, const double dx[],
                      double inc[])
 {
@@ -122,7 +122,8 @@ status drive_check(const model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Computes a rotation given by a vector t(time): W = Jr t', W' = Jr t'' + d(Jr t')/dt t'. */
+/* Computes a rotation that is given by a vector t(time): W = Jr t', W' = Jr t'' + d(Jr t')/dt t'.
+ * */
 static void drive_vector(const equations *eq, const model_state *from, int index, double time,
                          double inc[], double v[], double a[])
 {
@@ -186,7 +187,8 @@ void drive_at(const equations *eq, const model_state *from, double time, double 
             drive_vector(eq, from, i, time, inc, v, a);
 }
 
-/* For smaller angles the coefficients are computed by series, which are then exact to rounding. */
+/* For smaller angles, the coefficients are computed by series, which are then accurate to rounding
+ * error. */
 static const double small = 0.05;
 
 /* Computes (1 - cos x)/x^2 and (x - sin x)/x^3, and their derivatives divided by x. */
@@ -207,7 +209,7 @@ static void coefficients(double x, double *b, double *c, double *db, double *dc)
     *dc = (*b - 3 * *c) / s;
 }
 
-/* out = p 1 + q t~ + r t~ t~ */
+/* Computes out = p 1 + q t~ + r t~ t~. */
 static void polynomial(const double t[3], double p, double q, double r, double out[9])
 {
     const double square = vec3_dot(t, t);

@@ -7,7 +7,6 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* Properties of a mass in global axes. */
 typedef struct spatial {
     double c[3], J[9];
 } spatial;
@@ -45,7 +44,7 @@ void inertia_force_at(const carried_mass *one, const frame_rates *r, double F[6]
     }
 }
 
-/* Computes the rates of a frame; the acceleration includes mass-proportional damping: M (a +
+/* Computes the rates of a frame. The acceleration includes mass-proportional damping: M (a +
  * damping v). */
 static void damped_rates(const model *m, const carried_masses *all, int index, const model_state *s,
                          const double v[], const double a[], frame_rates *r)
@@ -94,10 +93,10 @@ static void skew(const double v[3], double A[9])
     memcpy(A, all, sizeof all);
 }
 
-/* Computes the derivatives [6 x 6] of the force and moment of one frame with respect to three
- * things: spatial increments of its position and rotation at fixed rates in its axes
- * (exponential chart), its velocity, and its acceleration. The effect of rotating axes on
- * velocity and acceleration is included in `place`. */
+/* Computes the derivatives [6 x 6] of the force and moment on a frame with respect to spatial
+ * increments of its position and rotation (exponential chart, at fixed rates in its axes), with
+ * respect to its velocity, and with respect to its acceleration. `place` includes the effect of
+ * rotating axes on velocity and acceleration. */
 static void parts_of(const carried_mass *one, const frame_rates *r, const double F[6],
                      inertia_parts *out)
 {
@@ -158,7 +157,7 @@ void inertia_frame(const model *m, const carried_masses *all, int index, const m
     inertia_turns(m, s, one->frame, out->turn, out->rate);
 }
 
-/* A[6 x 6] <- A diag(1, B) */
+/* Computes A[6 x 6] <- A diag(1, B). */
 void inertia_times(const double A[36], const double translation, const double B[9], double out[36])
 {
     for (int i = 0; i < 6; i++)
@@ -180,8 +179,8 @@ void inertia_rows(const double turn[9], double K[36])
     }
 }
 
-/* As inertia_add_tangent, for a released end. If its axes rotate, its rates change with the
- * state; this change is neglected. */
+/* Like inertia_add_tangent, for a released end. If its axes rotate, its rates change with the
+ * state, but this change is neglected. */
 static void released_tangent(const model *m, int vertex, const model_state *s,
                              const inertia_parts *p, const inertia_relation *with, sparse *S)
 {
@@ -327,10 +326,10 @@ status balance_of(const equations *eq, const carried_masses *masses, const insta
     return STATUS_OK;
 }
 
-/* relative rounding error of coordinates that result from equations */
+/* relative rounding error of coordinates that are computed from equations */
 static const double coordinate_rounding = 32 * DBL_EPSILON;
 
-/* Returns the strain energy of an element due to this error of its coordinates. */
+/* Returns the strain energy of an element due to rounding errors of its coordinates. */
 static double rounding_of(const model *m, const mesh_element *el, int index)
 {
     enum { E = ELEMENT_MAX_STRAINS };

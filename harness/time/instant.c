@@ -130,7 +130,7 @@ void peaks_free(peaks *s)
     free(s->one);
 }
 
-/* Reads a quantity at an instant. balance NULL: not known yet. */
+/* Reads a quantity of a state. balance NULL: the balance is not known yet. */
 static status read_at(const peaks *s, const scene_quantity *q, const instant *at,
                       const double balance[], double *out, fault *f)
 {
@@ -153,7 +153,7 @@ static void take(peak *one, double value, double time, double error)
         *one->out = (outcome_passing){1, value, time, error};
 }
 
-/* Computes the value at a time inside the next step by a side step. *known 0: the side step did
+/* Computes the value at a time inside the next step with a side step. *known 0: the side step did
  * not converge. */
 static status beside(peaks *s, const scene_quantity *q, const instant *from, double time,
                      double *value, int *known, fault *f)
@@ -166,7 +166,7 @@ static status beside(peaks *s, const scene_quantity *q, const instant *from, dou
     return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
 }
 
-/* Returns the value, at a time, of the cubic through the last ends of steps (Neville's
+/* Returns the value at a given time of the cubic through the last ends of steps (Neville's
  * algorithm). */
 static double cubic(const peaks *s, const peak *one, double time)
 {
@@ -181,8 +181,8 @@ static double cubic(const peaks *s, const peak *one, double time)
     return p[0];
 }
 
-/* Returns the maximum of the cubic between two ends by golden-section search. If a cubic has two
- * maxima in one step, the steps do not resolve the motion. */
+/* Returns the maximum of the cubic between two ends of steps, found by golden-section search. If a
+ * cubic has two maxima in one step, the steps do not resolve the motion. */
 static double top_of(const peaks *s, const peak *one, double a, double b)
 {
     const double golden = (sqrt(5) - 1) / 2;
@@ -196,7 +196,7 @@ static double top_of(const peaks *s, const peak *one, double a, double b)
     return (a + b) / 2;
 }
 
-/* Searches for an extremum between ends i and i + 1. */
+/* Searches for an extremum between the ends i and i + 1. */
 static status look_between(peaks *s, peak *one, int i, fault *f)
 {
     const double a = fmax(s->last[i].time, one->from), b = fmin(s->last[i + 1].time, one->until);
@@ -216,7 +216,7 @@ static status look_between(peaks *s, peak *one, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Handles a window that begins or ends inside the last step. */
+/* Handles a window that starts or ends inside the last step. */
 static status look_at_edges(peaks *s, peak *one, fault *f)
 {
     const instant *from = &s->last[PEAKS_ENDS - 2], *to = &s->last[PEAKS_ENDS - 1];

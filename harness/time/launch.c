@@ -1,5 +1,5 @@
-/* Initial accelerations are computed as those of a stage with a very small compliance of
- * positions. For coordinates without inertia see time_impl.h. */
+/* Initial accelerations are those of a stage with a very small compliance of positions. See
+ * time_impl.h for coordinates without inertia. */
 #include "harness/time/time_impl.h"
 
 #include <float.h>
@@ -12,10 +12,10 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* compliance of positions, relative to the square of a step. */
+/* compliance of positions, relative to the square of a step */
 static const double softness = 1e-12;
 
-/* Sets rates of the angles of a sequence that add up to the angular velocity. Fixed and
+/* Sets the rates of the angles of a sequence such that their sum is the angular velocity. Fixed and
  * prescribed angles keep their rates. */
 static void start_angles(const model *m, const model_state *s, int index, const double spin[3],
                          double v[])
@@ -38,7 +38,7 @@ static void start_angles(const model *m, const model_state *s, int index, const 
             A[n * i + j] = vec3_dot(b[of[i]], b[of[j]]);
     }
     if (n == 0 || dense_lu_regular(n, A, pivot) != 0)
-        return; /* two angles have the same axis; both keep their rates */
+        return; /* two angles have the same axis, so both keep their rates */
     dense_lu_solve(n, 1, A, pivot, right);
     for (int i = 0; i < n; i++)
         v[frame->coordinate[SCENE_RX + of[i]]] = right[i];
@@ -62,7 +62,7 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
 {
     const mesh_vertex *frame = model_vertex(m, index);
     const int own =
-        index < model_first_release(m); /* a released end has rates only for a ball joint */
+        index < model_first_release(m); /* a released end has rates only if it is a ball joint */
     double R[9], velocity[3], body[3];
     velocity_of(m, s, index, field, velocity);
     rotation_matrix(&s->q[4 * index], R);
@@ -80,7 +80,8 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
         start_angles(m, s, index, field->spin, v);
 }
 
-/* REFUSED: fixed or prescribed coordinates contradict the initial velocity field. */
+/* Checks the initial velocity field. REFUSED: fixed or prescribed coordinates contradict the field.
+ * */
 static status check_field(const model *m, const model_state *s, const scene_start *field,
                           const double v[], fault *f)
 {
@@ -104,7 +105,8 @@ static status check_field(const model *m, const model_state *s, const scene_star
     return STATUS_OK;
 }
 
-/* REFUSED: a driver's value at the start differs from the prescribed coordinate in the state. */
+/* Checks the drivers. REFUSED: the value of a driver at the start differs from the prescribed
+ * coordinate in the state. */
 static status check_drivers(const model *m, const double inc[], fault *f)
 {
     const double nothing = 1e-9;
@@ -154,7 +156,7 @@ static status begin(motion_stage *s, const scene_motion *how, instant *now, inst
     if (massless == 0)
         return accelerate(s, how->step, now, room, inc, zero, f);
     TRY(settle(s, zero, how->step, now, f));
-    if (!s->masses->spread) /* with consistent mass, masses accelerate together */
+    if (!s->masses->spread) /* with consistent mass, the accelerations of all masses are coupled */
         return STATUS_OK;
     TRY(accelerate(s, how->step, now, room, inc, zero, f));
     TRY(massless_drop(m, s->masses, now->state, now->a, f));
@@ -177,8 +179,8 @@ status launch_again(analysis_context *c, const carried_masses *masses, const sce
     return outcome;
 }
 
-/* REFUSED: a coordinate that follows another one has a rate in the field that violates this
- * relation. */
+/* Checks the coordinates that follow another coordinate. REFUSED: the rate of such a coordinate in
+ * the field violates the relation. */
 static status check_followers(const model *m, const model_state *s, const scene_start *field,
                               const double v[], fault *f)
 {
@@ -236,7 +238,7 @@ status launch_turning(analysis_context *c, const carried_masses *masses, const s
         TRY(set_field(m, now->state, &field, now->v, f));
         TRY(check_field(m, now->state, &field, now->v, f));
     }
-    /* the sum of both fields */
+    /* This is the sum of both fields. */
     double own[3], of_frame[3];
     vec3_cross(how->start.spin, how->start.centre, own);
     vec3_cross(frame->omega, frame->centre, of_frame);
@@ -262,7 +264,8 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     return STATUS_OK;
 }
 
-/* REFUSED: the scene contains something for which consistent mass is not possible. */
+/* Checks the mass. REFUSED: the scene contains something for which consistent mass is not possible.
+ * */
 static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *one = &c->scene->analysis[analysis];
@@ -318,7 +321,7 @@ void extent_begin(extent *e, const model *m)
 extent extent_with(const extent *so_far, const model *m, const motion_scheme *s,
                    const instant *from, const instant *to, double h, double error)
 {
-    const double memory = 10, /* [rad] range over which an error estimate is remembered */
+    const double memory = 10, /* [rad] range over which an error estimate is kept */
         distance = metric_distance(m, so_far->begin, to->state, s->light),
                  step = metric_distance(m, from->state, to->state, s->light);
     extent out = *so_far;
@@ -341,8 +344,8 @@ static const double rounding = 32 * DBL_EPSILON;
 
 double extent_allows(const extent *so_far, double part, double tolerance)
 {
-    const double size = 1; /* the size of a structure, which does not change when it moves far
-                              away */
+    /* the size of the structure, which does not change if the structure moves far away */
+    const double size = 1;
     const double most = tolerance * fmax(so_far->scale, fmin(size, so_far->largest)),
                  noise = 8 * DBL_EPSILON * so_far->bent;
     return fmax(part * fmax(most, rounding), noise);
@@ -350,7 +353,8 @@ double extent_allows(const extent *so_far, double part, double tolerance)
 
 int extent_is_less(const extent *so_far, double tolerance, double *scale)
 {
-    const double part = 0.5, known = 1e-10; /* for an equilibrium found by Newton's method */
+    /* for an equilibrium that was found by Newton's method */
+    const double part = 0.5, known = 1e-10;
     *scale = fmax(so_far->largest, rounding);
     return so_far->largest > known * so_far->bent && *scale < part * so_far->scale &&
            so_far->worst > tolerance * *scale;

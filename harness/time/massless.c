@@ -8,7 +8,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* Eigenvalues of the scaled M count as zero below this fraction of the largest mass. */
+/* Eigenvalues of the scaled M below this fraction of the largest mass count as zero. */
 static const double massless_nothing = 1e-14;
 
 /* Operations on the mass matrix of a body. */
@@ -21,7 +21,7 @@ typedef struct wish {
     double stiffest;
 } wish;
 
-/* Projects x[free] onto the null space of M, whose basis vectors are columns of g->M. */
+/* Projects x[free] onto the null space of M, whose basis vectors are the columns of g->M. */
 static void project(const body_mass *g, double none, int forces, double x[])
 {
     const int n = g->count;
@@ -68,8 +68,8 @@ static double stiffest(const body_mass *g, double none, const double diagonal[],
     return most;
 }
 
-/* Performs the task for one body and those that constraints join to it. Returns the rank of its
- * M. */
+/* Performs the task for a body and the bodies that constraints join to it. Returns the rank of
+ * their M. */
 static int visit(const model *m, const carried_masses *all, int body, const model_state *s,
                  body_mass *g, wish *of)
 {
@@ -106,7 +106,8 @@ static int warping(const model *m, const carried_masses *all, const model_state 
     return heavy;
 }
 
-/* *out: number of free coordinates minus the rank of their masses. */
+/* Performs the task for all bodies. *out: number of free coordinates minus the rank of their
+ * masses. */
 static status walk(const model *m, const carried_masses *all, const model_state *s, wish *of,
                    int *out, fault *f)
 {
@@ -156,7 +157,7 @@ static status massless_stiffest(const model *m, const carried_masses *all, const
     return STATUS_OK;
 }
 
-/* Converts rotations of bodies from global axes to their own axes, or back. */
+/* Converts rotations of bodies from global axes to the axes of the bodies, or back. */
 static void turn_axes(const model *m, const model_state *s, int own_to_space, double a[])
 {
     for (int i = 0; i < model_vertices(m); i++) {
@@ -214,7 +215,7 @@ status massless_accelerate(const model *m, const carried_masses *all, const mode
 enum { BLOCK = 9, BLOCKS = 2 };
 
 /* Returns 1 if all three coordinates of a rotation (or translation) are free and belong to one
- * body, or to bodies that move as one. */
+ * body, or to bodies that move together. */
 static int is_whole(const model *m, int i, int block)
 {
     const int *at = model_vertex(m, i)->coordinate + 3 * block, first = model_first_joined(m, i);
@@ -227,7 +228,7 @@ static int is_whole(const model *m, int i, int block)
     return whole;
 }
 
-/* Computes column k of the projections of all bodies together, because bodies do not affect each
+/* Computes column k of the projections of all bodies at once, because bodies do not affect each
  * other. */
 static status column(const model *m, const carried_masses *masses, const model_state *s, int block,
                      int k, double dx[], massive *h, fault *f)
@@ -257,7 +258,7 @@ static void own_axes(const model *m, const model_state *s, massive *h)
     }
 }
 
-/* Returns 1 if a motion dx[free] without inertia moves this component, or any of the three
+/* Returns 1 if a motion dx[free] without inertia moves this component, or one of the three
  * translations or rotations to which it belongs. */
 static int is_moved(const model *m, const model_state *s, const scene_component *what,
                     const double dx[])
@@ -278,8 +279,8 @@ static int is_moved(const model *m, const model_state *s, const scene_component 
     return most > 1e-9;
 }
 
-/* Returns 1 if nothing is left to compute: the analysis has no other quantity, and no other
- * analysis follows it. */
+/* Returns 1 if nothing remains to be computed: the analysis has no other quantity, and no other
+ * analysis continues it. */
 static int is_all(const scene *s, int analysis, const unsigned char undefined[])
 {
     for (int i = 0; i < s->quantities; i++)
@@ -373,12 +374,12 @@ double massive_norm(const massive *h, const model *m, const double weight[], dou
     return sqrt(square);
 }
 
-/* Newton's method for the motions without inertia. Forces and increments are projected onto
- * these motions (massless_forces). In the tangent, a large stiffness on the masses fixes all
+/* Newton's method for the motions without inertia. Forces and increments are projected onto these
+ * motions (massless_forces). A large stiffness that is added to the masses in the tangent fixes all
  * other motions. */
 
-/* Stiffness that fixes coordinates with inertia, relative to the largest stiffness. It costs at
- * most this factor in accuracy and in Newton's order of convergence. */
+/* Stiffness that fixes coordinates with inertia, relative to the largest stiffness. It reduces the
+ * accuracy, and the order of convergence of Newton's method, by at most this factor. */
 static const double firm = 1e6;
 
 static double *diagonal_of(const sparse *S, double out[])
@@ -391,7 +392,7 @@ static double *diagonal_of(const sparse *S, double out[])
     return out;
 }
 
-/* Computes the unbalanced forces at the known accelerations. K NULL: not requested. */
+/* Computes the unbalanced forces for the known accelerations. K NULL: not requested. */
 static status forces(motion_stage *s, instant *now, sparse *K, fault *f)
 {
     const model *m = s->c->model;
@@ -469,7 +470,7 @@ static int mark(const model *m, const mesh_element *el, unsigned char of[])
     return count;
 }
 
-/* Marks in of[free] the coordinates without inertia that relax slowly: those of nodes of
+/* Marks the coordinates without inertia that relax slowly in of[free]. They belong to nodes of
  * elements and springs whose damping time is long compared with a step h. Returns their number. */
 static int creeping(const model *m, const model_state *state, double h, unsigned char of[])
 {
@@ -502,10 +503,10 @@ static status give_way(motion_stage *s, const double zero[], double h, double so
     return balance(s, zero, now, moved, f);
 }
 
-/* First computes the rates from a displacement that is large enough to be accurate. Then
- * computes the equilibrium of coordinates without damping, starting from the state before this
- * displacement. Gaps between D(x) and e that iterations have left are closed first, since they
- * would act as a displacement. */
+/* Computes the rates from a displacement that is large enough to be accurate, then the equilibrium
+ * of coordinates without damping, starting from the state before this displacement. Gaps between
+ * D(x) and e that iterations have left are closed first, because they would act as a displacement.
+ * */
 static status creep(motion_stage *s, const double zero[], double h, instant *now, double moved[],
                     const unsigned char of[], fault *f)
 {

@@ -9,41 +9,43 @@
 
 enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
 
-/* bounds of the ratio of consecutive step sizes, and safety factor on the error estimate */
+/* bounds of the ratio of consecutive step sizes, and safety factor for the error estimate */
 static const double shorter = 0.3, longer = 2, safety = 0.9;
 
-/* The rates of very short steps are rounding errors. Relative to the step size, a remainder before
- * a discontinuity or the end that is shorter than `least_rest` is added to the last step; together
- * with a remainder that is shorter than `short_rest`, the last step is divided into two equal ones.
- */
+/* The rates of very short steps are rounding errors. A remainder before a discontinuity or before
+ * the end that is shorter than `least_rest`, relative to the step size, is added to the last step.
+ * The sum of the last step and a remainder that is shorter than `short_rest` is divided into two
+ * equal steps. */
 static const double least_rest = 1e-6, short_rest = 1e-3;
 
-/* Data of the integration of one motion. */
+/* Data of the integration of a motion. */
 typedef struct motion_course {
     analysis_context *c;
     const scene_motion *how;
     int analysis, follows;
-    double path;             /* path parameter of the static state from which the motion starts;
-                                NAN: none */
-    const outcome_end *from; /* end of the previous motion that this one continues; NULL: none */
+    double path; /* path parameter of the static state from which the motion starts; NAN: none */
+    /* end of the previous motion, which this motion continues; NULL: none */
+    const outcome_end *from;
     carried_masses masses;
     run_damping damping;
     outer_work work;
     motion_scheme *scheme;
     instant now, next;
-    double h, least; /* [s] next step size; smallest step size */
-    double rest;     /* [s] sum of the steps beyond now.time: the rounding error of now.time, which
-                        would grow with each step */
+    double h, least; /* [s] size of the next step, and smallest step size */
+    /* [s] exact time minus now.time; without it, the rounding error of now.time would grow with
+     * each step */
+    double rest;
     stations stations;
     watches watches;
     peaks peaks;
     frames frames;
     abouts abouts;
     outcome_motion *out;
-    double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* energy balance at `now`; at `next` */
-    int looked_ahead;                                      /* 1: `ahead` is valid */
+    /* energy balance of `now`, and of `next` */
+    double balance[SCENE_BALANCES], ahead[SCENE_BALANCES];
+    int looked_ahead; /* 1: `ahead` is valid */
     account account;
-    extent extent, reaches; /* extent so far; extent including the trial step */
+    extent extent, reaches; /* extent so far, and extent including the trial step */
     double rounding;        /* [J] rounding error of the energy */
     int quiet;              /* number of steps since the last discontinuity of the loads */
     int unjudged;           /* number of steps whose balance has not been checked */
@@ -59,7 +61,7 @@ static status balance_at(motion_course *w, const instant *at, double balance[SCE
     return STATUS_OK;
 }
 
-/* Records the present instant, at the end of a step. */
+/* Records the present state, which is at the end of a step. */
 static status record_step(motion_course *w, const step_record *record, double error, fault *f)
 {
     outcome_step one = {.time = w->now.time,
@@ -94,7 +96,7 @@ static status keep_step(motion_course *w, const step_record *record, double erro
     return peaks_here(&w->peaks, &w->now, w->balance, last, f);
 }
 
-/* [s] end of the last motion in the chain of continued motions */
+/* Returns the end [s] of the last motion in the chain of continued motions. */
 static double end_of_all(const motion_course *w)
 {
     const scene *s = w->c->scene;
@@ -106,8 +108,8 @@ static double end_of_all(const motion_course *w)
     return path->value[path->stations - 1];
 }
 
-/* Returns 1 if the error allows the step, and sets the size of the next step from this error. If
- * the errors of steps add up to the error of the motion, the allowed error of a step is
+/* Returns 1 if the error allows the step, and sets the size of the next step according to this
+ * error. If the errors of steps add up to the error of the motion, the allowed error of a step is
  * proportional to its size. */
 static int allowed(motion_course *w, double step, double error)
 {
@@ -124,16 +126,16 @@ static int allowed(motion_course *w, double step, double error)
     return of <= most;
 }
 
-/* Returns 1 if the balance is checked. The first alpha steps after a jump of the loads gain energy,
- * however short they are. */
+/* Returns 1 if the balance is checked. The first steps of generalized-alpha after a jump of the
+ * loads gain energy, even if they are very short. */
 static int looks(const motion_course *w)
 {
     return w->how->tolerance > 0 && (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
 }
 
-/* Detects energy that is gained without cause, for example by unresolved modes; shorter steps
- * reduce such a gain. *grows: 1 if the gain is larger than allowed, in this step or together
- * with previous ones. Fixed steps are not checked. */
+/* Detects energy that is gained without cause, for example because of unresolved modes. Shorter
+ * steps reduce such a gain. *grows: 1 if the gain in this step, or in this and previous steps, is
+ * larger than allowed. Fixed steps are not checked. */
 static status watch(motion_course *w, int *grows, fault *f)
 {
     *grows = 0;
@@ -149,18 +151,18 @@ static status watch(motion_course *w, int *grows, fault *f)
     return STATUS_OK;
 }
 
-/* Sets the size of the next step after an accepted one. */
+/* Sets the size of the next step after an accepted step. */
 static void lengthen(motion_course *w, double step, double whole, int rejected)
 {
     if (w->how->tolerance > 0 && step < whole)
         w->h = fmax(
             w->h,
-            whole); /* a step that was shortened to end at a station does not limit the next one */
+            whole); /* a step that was shortened to end at a station does not limit the next step */
     if (w->how->tolerance <= 0 && rejected == 0)
-        w->h = fmin(w->how->step, 2 * w->h); /* returns to the size before it was halved */
+        w->h = fmin(w->how->step, 2 * w->h); /* returns to the size before the step was halved */
 }
 
-/* Makes one step. If it fails, tries shorter steps until one succeeds. */
+/* Makes one step. After a failure, tries shorter steps until a step succeeds. */
 static status take_step(motion_course *w, double target, fault *f)
 {
     for (int rejected = 0;; rejected++) {
@@ -201,7 +203,7 @@ static status take_step(motion_course *w, double target, fault *f)
     }
 }
 
-/* Restarts after a discontinuity of the loads. */
+/* Restarts the integration after a discontinuity of the loads. */
 static status jump(motion_course *w, fault *f)
 {
     TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
@@ -210,7 +212,7 @@ static status jump(motion_course *w, fault *f)
 }
 
 /* Checks the energy balance at the end of a step. The first steps after the start or after a jump
- * of the loads are checked together with later ones, unless frequent jumps leave 2 ACCOUNT_STEPS
+ * of the loads are checked together with later steps, unless frequent jumps leave 2 ACCOUNT_STEPS
  * steps unchecked. */
 static status judge(motion_course *w, double end, fault *f)
 {
@@ -245,8 +247,8 @@ static status integrate(motion_course *w, fault *f)
                        w->out, f);
 }
 
-/* Continues where the previous motion stopped. Another scheme or step size is allowed only
- * within the same scene. */
+/* Continues from the end of the previous motion. The scheme or the step size may differ only if
+ * both motions belong to the same scene. */
 static status go_on(motion_course *w, fault *f)
 {
     const scene_motion *former = w->from->analysis == w->analysis
@@ -265,7 +267,7 @@ static status go_on(motion_course *w, fault *f)
                : STATUS_OK;
 }
 
-/* Finds the end of a motion from which this one continues, in another run or in the scene. */
+/* Finds the end of the motion that this motion continues, in another run or in the scene. */
 static status find_end(motion_course *w, fault *f)
 {
     w->from = resume_given(w->c, w->analysis);
@@ -275,8 +277,8 @@ static status find_end(motion_course *w, fault *f)
     return resume_before(w->c, w->follows, &w->from, f);
 }
 
-/* Finds the state at time 0 from which the motion starts, and the rotation of the axes in which it
- * is at rest. */
+/* Finds the state at time 0 from which the motion starts, and the rotation of the axes in which
+ * this state is at rest. */
 static status begin(motion_course *w, scene_rotating_frame *frame, fault *f)
 {
     const int follows = w->follows;
@@ -285,7 +287,7 @@ static status begin(motion_course *w, scene_rotating_frame *frame, fault *f)
     TRY(find_end(w, f));
     if (w->from != NULL)
         return go_on(w, f);
-    if (follows == SCENE_NONE) /* free strains deform members without loads */
+    if (follows == SCENE_NONE) /* free strains deform members even if there are no loads */
         return linearise_make_compatible(&w->c->eq, w->now.state, f);
     const analysis_outcome *before = &w->c->outcomes[follows];
     const outcome_path *path = outcome_path_of(before);
@@ -379,7 +381,7 @@ static void release(motion_course *w)
     damping_end(&w->c->eq, &w->damping);
 }
 
-/* Integrates the motion once, with an estimate of its extent. *again: 1 if the motion was
+/* Integrates the motion once for a given estimate of its extent. *again: 1 if the motion was
  * smaller and a better estimate is known. */
 static status run(analysis_context *c, int analysis, double *scale, int *again, analysis_outcome *o,
                   fault *f)
@@ -403,7 +405,7 @@ static status run(analysis_context *c, int analysis, double *scale, int *again, 
         history_add_motion(c->result, analysis, w.path, w.out, f) != STATUS_OK)
         result = STATUS_FAULT;
     release(&w);
-    if (*again) { /* the work is counted, the steps are discarded */
+    if (*again) { /* the work is counted, and the steps are discarded */
         history_go_back(c->result, &begin);
         c->run->counters.steps = before.steps;
         c->run->counters.rejected_steps = before.rejected_steps;

@@ -14,7 +14,7 @@ int place_plain(const model *m, int vertex)
     return v->body == vertex && v->angles == 0 && !v->turned;
 }
 
-/* A relative position under construction, with derivatives [3 x columns]. */
+/* A relative position under construction, with its derivatives [3 x columns]. */
 typedef struct place_chain {
     const model *m;
     const model_state *from, *now;
@@ -26,10 +26,10 @@ typedef struct place_chain {
     double c[3], dc[3 * PLACE_MOST];       /* c after all rotations */
     double x[3][3], dx[3][3 * PLACE_MOST];
     double rho[3], drho[3 * PLACE_MOST], moved[3 * PLACE_MOST]; /* rho_m; derivative of rho_1 */
-    double sigma[3], dsigma[3 * PLACE_MOST];                    /* shift of the mean: (a s)_m */
+    double sigma[3], dsigma[3 * PLACE_MOST];                    /* (a s)_m, the mean of the shift */
 } place_chain;
 
-/* out[3 x columns] = A B multiplied by `times` */
+/* Computes out[3 x columns] = A B multiplied by `times`. */
 static void product(int columns, double times, const double A[9], const double B[], double out[])
 {
     for (int i = 0; i < 3; i++)
@@ -38,7 +38,7 @@ static void product(int columns, double times, const double A[9], const double B
                                             A[3 * i + 2] * B[2 * columns + k]);
 }
 
-/* out = (T_c dc) x v multiplied by `times` */
+/* Computes out = (T_c dc) x v multiplied by `times`. */
 static void sweep(const place_chain *by, int columns, double times, const double v[3], double out[])
 {
     double T[9], V[9], B[9];
@@ -59,7 +59,7 @@ static void beside(place_chain *by, int columns)
     sweep(by, columns, 0.5, after, by->drho);
 }
 
-/* Appends a rotation about b: x[3] and dx[3 x columns], and the new c and dc. */
+/* Appends a rotation about b, and updates x[3], dx[3 x columns], c and dc. */
 static void turn(const double b[3], double angle, int column, double x[3], double dx[], int columns,
                  place_chain *by)
 {
@@ -85,7 +85,7 @@ static void turn(const double b[3], double angle, int column, double x[3], doubl
     }
 }
 
-/* Computes c of the body, from three coordinates or a sequence of angles. */
+/* Computes c of the body from three coordinates or from a sequence of angles. */
 static void begin(const double step[], place_chain *by, frame_place *p)
 {
     const int at = model_vertex(by->m, by->vertex)->body;
@@ -131,9 +131,9 @@ static void turns(const double step[], place_chain *by, frame_place *p)
     }
 }
 
-/* Computes the direction of a slide, whose axis is `before` and `after` at the two ends of the
- * step: (before + after)/2 - c x (after - before)/4, and its derivative. The shift changes by c
- * x its mean plus the direction times the change of the coordinate. */
+/* Computes the direction (before + after)/2 - c x (after - before)/4 of a slide and its derivative.
+ * `before` and `after` are the axis of the slide at the two ends of the step. The shift changes by
+ * c x its mean plus the direction times the change of the coordinate. */
 static void direction(const double before[3], const double after[3], const place_chain *by,
                       int columns, double along[3], double change[])
 {
@@ -152,7 +152,7 @@ static void direction(const double before[3], const double after[3], const place
         change[i] += swept[i] / 2 + more[i];
 }
 
-/* Computes the shift of an end due to its slides: its mean, and its columns. */
+/* Computes the shift of an end due to its slides: the mean of the shift, and its columns. */
 static void slides(const double step[], place_chain *by, frame_place *p)
 {
     const mesh_release *r = by->release;
@@ -179,8 +179,8 @@ static void slides(const double step[], place_chain *by, frame_place *p)
     }
 }
 
-/* Computes columns of `work` from `column` on: forces at a lever on a part that rotates by A,
- * and moments. */
+/* Computes columns of `work`, starting with `column`: forces at a lever on a part that rotates by
+ * A, and moments. */
 static void work_on(const double lever[3], const double A[9], int moments, int column, int columns,
                     frame_place *p)
 {
@@ -194,7 +194,7 @@ static void work_on(const double lever[3], const double A[9], int moments, int c
         }
 }
 
-/* Rows of `curved` from `row` on += A^T B, with B[3 x columns]. */
+/* Adds A^T B, with B[3 x columns], to the rows of `curved` that start with `row`. */
 static void add_curved(const double A[9], const double B[], int row, int columns, frame_place *p)
 {
     for (int i = 0; i < 3; i++)
@@ -205,7 +205,7 @@ static void add_curved(const double A[9], const double B[], int row, int columns
 
 static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* Computes the rows of single rotations: x . M'. */
+/* Computes the rows x . M' of single rotations. */
 static void turning_rows(const place_chain *by, const double moment[3], const double dmoment[],
                          frame_place *p)
 {
@@ -224,8 +224,8 @@ static void turning_rows(const place_chain *by, const double moment[3], const do
     }
 }
 
-/* Computes the rows of the body's angles, whose mean axes rotate with the previous angles: a' .
- * M. */
+/* Computes the rows a' . M of the body's angles, whose mean axes rotate with the previous angles.
+ * */
 static void angle_rows(const place_chain *by, const double moment[3], frame_place *p)
 {
     const int n = p->columns,
@@ -236,7 +236,7 @@ static void angle_rows(const place_chain *by, const double moment[3], frame_plac
                 p->curved[(SCENE_RX + k) * n + c] += moment[i] * by->da[k][i * n + c];
 }
 
-/* Computes all rows from the finished chain. */
+/* Computes all rows from the complete chain. */
 static void finish(const place_chain *by, frame_place *p)
 {
     const int n = p->columns, ball = by->release != NULL && by->release->turns == BALL;
@@ -320,7 +320,7 @@ static int index_of(int column, int at, int own)
     return column < SIX ? at + column : own + column - SIX;
 }
 
-/* out[columns] = A^T of, A[6 x columns] */
+/* Computes out[columns] = A^T of, with A[6 x columns]. */
 static void transposed(const frame_place *p, const double A[], const double of[SIX], double out[])
 {
     memset(out, 0, (size_t)p->columns * sizeof *out);
@@ -360,7 +360,7 @@ void place_matrix(const frame_place *p, int n, int at, int own, double K[])
             K[index_of(i, at, own) * n + index_of(k, at, own)] += p->curved[i * p->columns + k];
 }
 
-/* Lists the global coordinates of the columns. Returns their number. */
+/* Lists the indices of the columns among the global coordinates. Returns their number. */
 static int index_place(const model *m, int vertex, int index[PLACE_MOST])
 {
     const mesh_vertex *v = model_vertex(m, vertex);

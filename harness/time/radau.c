@@ -6,11 +6,9 @@
 
 #include "elements/math/scalar.h"
 
-/* radau.c: computes the error of positions due to a solved step, in the measure of model.h. It
- * satisfies
- *     [g^2 M + K] error = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h))
- * at the previous instant, where g = 1/(l h) and l is the real eigenvalue of A. room: work
- * space. */
+/* Computes the error of positions due to a completed step, with the norm of model.h. The error
+ * satisfies [g^2 M + K] error = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)) at the
+ * start of the step, where g = 1/(l h) and l is the real eigenvalue of A. room: work space. */
 static status radau_error(radau *, const instant *from, double h, instant *room, double *error,
                           fault *);
 
@@ -64,7 +62,7 @@ static void prepare(void *of, int iteration, double correction)
         complement_strains(r->stage[i].complement, r->stage[i].state, iteration, correction);
 }
 
-/* Returns the work in the stages, by the quadrature of the scheme. */
+/* Returns the work in the step, computed from the stages with the quadrature of the scheme. */
 static double work_of_stages(radau *r, const instant *from, double h, const step_record *record)
 {
     double sum = 0;
@@ -117,7 +115,7 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
 {
     radau *r = (radau *)base;
     *error = 0;
-    if (r->of.c->run->damping != NULL) /* the stages add the damping themselves */
+    if (r->of.c->run->damping != NULL) /* the stages add the damping */
         damping_follow(&r->of.c->eq, 0, r->of.c->run->damping->none, NULL);
     return solve(r, from, h, to, error, record, f);
 }

@@ -10,12 +10,12 @@
 
 /* Computes out = R B, where R is the orientation of a vertex in stage i. */
 static void radau_in_space(const radau *, int vertex, int i, const double B[9], double out[9]);
-/* radau_equations.c: adds the consistent masses to S. */
+/* Adds the consistent masses to S. */
 static void radau_spread(radau *, double h);
-/* radau_equations.c: adds the damping of members to the residual and, if fresh is 1, to S. */
+/* Adds the damping of members to the residual and, if fresh is 1, to S. */
 static void radau_damp(radau *, int fresh, const instant *from, double h);
 
-/* Adds blocks (i, k) of one frame for all k. */
+/* Adds the blocks (i, k) of a frame for all k. */
 static void add_frame(radau *r, int index, double h, int i)
 {
     const model *m = r->of.c->model;
@@ -46,7 +46,7 @@ static void add_frame(radau *r, int index, double h, int i)
     }
 }
 
-/* As add_frame, for a released end. */
+/* Like add_frame, for a released end. */
 static void add_released(radau *r, int index, double h, int i)
 {
     static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -125,8 +125,8 @@ static void add_entry(void *to, int row, int column, double value)
     stages_add(at->S, at->i, at->k, row, column, value);
 }
 
-/* Adds the derivatives of loads with feedback. With respect to the error in stage k, the rate in
- * stage i has the derivative B_ik/h, and the integral has h A_ik. */
+/* Adds the derivatives of loads with feedback. The derivatives with respect to the error in stage k
+ * are B_ik/h for the rate in stage i, and h A_ik for the integral. */
 static void add_feedback(radau *r, double h, int i)
 {
     for (int k = 0; k < STAGES && feedback_count(&r->of.c->eq) > 0; k++) {
@@ -255,8 +255,8 @@ void radau_rates(radau *r, const instant *from, double h)
         }
 }
 
-/* Computes G_jk of one frame, the derivative of the rates of stage j with respect to inc of
- * stage k: a scalar for translations, [3 x 3] for rotations. */
+/* Computes G_jk of a frame, the derivative of the rates of stage j with respect to inc of stage k:
+ * a scalar for translations, and a matrix [3 x 3] for rotations. */
 static void gains(const radau *r, int vertex, double h, int j, int k, double *translation,
                   double turn[9])
 {
@@ -302,14 +302,13 @@ static void radau_in_space(const radau *r, int vertex, int i, const double B[9],
     mat3_mul(R, B, out);
 }
 
-/* Members with damping stresses eta S0 e'. The strain rates of the stages,
- *   e_i' = 1/h sum_j B_ij (e_j - e_0),
- * couple all three stages in every damped element. */
+/* Members with damping stresses eta S0 e'. The strain rates of the stages, e_i' = 1/h sum_j B_ij
+ * (e_j - e_0), couple all three stages in every damped element. */
 
-/* Damping forces of one element in one stage. */
+/* Damping forces of an element in a stage. */
 typedef struct damped {
-    double J[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES]; /* derivatives with respect to the
-                                                              coordinates of the model */
+    /* derivatives with respect to the coordinates of the model */
+    double J[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES];
     double gained[ELEMENT_MAX_STRAINS]; /* increases of the strains since the start of the step */
 } damped;
 
@@ -373,8 +372,8 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, double eta,
     }
 }
 
-/* As add_stress and add_blocks, for a dashpot, whose stress is not stored in a slot. Includes
- * the rotation of its axes. */
+/* Like add_stress and add_blocks, for a dashpot, whose stress is not stored in a slot. Includes the
+ * rotation of its axes. */
 static void damp_spring(radau *r, int fresh, const instant *from, double h, int spring)
 {
     enum { SIX = SPRING_STRAINS, X = ELEMENT_MAX_COORDINATES };
@@ -513,8 +512,8 @@ void radau_damp_error(const radau *r, const instant *from, double h, const doubl
     damping_follow(&r->of.c->eq, g, room, from->state);
 }
 
-/* Consistent masses of elements in the equations of three stages: blocks for all nodes of an
- * element. */
+/* Consistent masses of elements in the equations of the three stages, with blocks for all nodes of
+ * an element. */
 
 /* Computes the derivative of the motion of a node in stage i with respect to spatial increments
  * of its coordinates in stage k. */

@@ -1,5 +1,5 @@
-/* Values of quantities in a state, as the files in cases/quantities read them from the known
- * data of the state. */
+/* Values of quantities in a state. The files in cases/quantities read them from the known data of
+ * the state. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -47,8 +47,8 @@ static void frame_of(const quantity_state *s, int node, double place[3], double 
     rotation_matrix(turn, R);
 }
 
-/* Returns the velocity of a node, which may be moved by a body, or its angular velocity in the
- * node's axes. */
+/* Returns the velocity of a node, or its angular velocity in the axes of the node. A body may move
+ * the node. */
 static double rate_of(const quantity_state *s, int node, int component)
 {
     const model *m = model_of(s);
@@ -101,8 +101,8 @@ static double linear_component(const quantity_state *s, int node, int component)
     return sum;
 }
 
-/* Returns the value if the outcome is OK; otherwise records the outcome if it is the first
- * failure. */
+/* Returns the value if the outcome is OK. Otherwise records the outcome if it is the first failure.
+ * */
 static double known(const quantity_state *s, status outcome, const double *value)
 {
     if (outcome != STATUS_OK && *of(s)->outcome == STATUS_OK)
@@ -141,7 +141,7 @@ static const int value_of[SCENE_RESULTANTS] = {[SCENE_N] = SPAN_N,
                                                [SCENE_MX_WARPING] = SPAN_MX_WARPING,
                                                [SCENE_MX_WAGNER] = SPAN_MX_WAGNER};
 
-/* A resultant, multiplied by a sign; if the sign is zero, its magnitude. */
+/* A resultant multiplied by a sign; sign 0: its absolute value. */
 typedef struct chosen_resultants {
     scene_resultant resultant;
     double sign;
@@ -260,7 +260,8 @@ double reading_of(const model *m, const scene_quantity *q, const model_state *s,
     return quantity_type_of(q)->read(q, &state.as);
 }
 
-/* a: accelerations, plus the forces of mass-proportional damping divided by the mass. */
+/* Reads a quantity. a: accelerations plus the forces of mass-proportional damping divided by the
+ * mass. */
 static status read_whole(const reading *from, const scene_quantity *q, const double a[],
                          double *out, fault *f)
 {

@@ -1,10 +1,10 @@
-/* Masses of ends that are released from their nodes. For a body with velocities v, w, a node at
- * offset p from it, released rotations t about axes b, and shifts s along d, with q = sum d s:
- *   w_end = w + sum b t',  w_end' = w' + sum b t'' + sum t' (rotation before it) x b,
- *   v_end = v + w x p + w_end x q + sum d s',
- *   a_end = a + w' x p + w x (w x p) + w_end' x q + w_end x (w_end x q) + 2 w_end x sum d s'
+/* Masses of ends that are released from their nodes. The body has the velocities v and w, and the
+ * node has the offset p from the body. With released rotations t about axes b, shifts s along d,
+ * and q = sum d s: w_end = w + sum b t',  w_end' = w' + sum b t'' + sum t' (rotation before it) x
+ * b, v_end = v + w x p + w_end x q + sum d s', a_end = a + w' x p + w x (w x p) + w_end' x q +
+ * w_end x (w_end x q) + 2 w_end x sum d s'
  *           + sum d s''.
- * With three released rotations the rates are the angular velocity in the axes of the end. */
+ * The rates of three released rotations are the angular velocity in the axes of the end. */
 #include "harness/time/time_impl.h"
 
 #include <stdlib.h>
@@ -130,7 +130,7 @@ void released_add_force(const model *m, const model_state *s, int vertex, const 
             out[of.index[k]] += of.T[i * of.count + k] * F[i];
 }
 
-/* out[6 x count]: multiplies columns `first` to first + 2 of T by B. */
+/* Multiplies the columns `first` to `first` + 2 of T by B: out[6 x count]. */
 static void turn_columns(const released_masses *of, int first, const double B[9], double out[])
 {
     for (int i = 0; i < 6 && first != NONE; i++)
@@ -193,7 +193,7 @@ static size_t of_members(const model *m)
     return (size_t)model_elements(m) * (size_t)model_strains(m);
 }
 
-/* members 1: also computes the stiffnesses of the elements. */
+/* Gathers the data. members 1: also computes the stiffnesses of the elements. */
 static status begin(const equations *eq, int members, run_damping *d, fault *f)
 {
     const model *m = eq->m;
@@ -286,7 +286,7 @@ status damping_matrix(const equations *eq, const model_state *s, double more, sp
     return begun;
 }
 
-/* Computes the increments of an instant that correspond to the rates v, with rotations in fixed
+/* Computes the increments that correspond to the rates v of a state, with rotations about fixed
  * axes. */
 static void in_space(const model *m, const model_state *s, const double v[], double out[])
 {
@@ -332,7 +332,7 @@ size_t dashpots_room(const model *m)
     return (size_t)model_all_coordinates(m) + (size_t)(SPRING_STRAINS * model_springs(m)) + 1;
 }
 
-/* Computes the deformation rates of dashpots [6 x springs], stored in `room`. */
+/* Computes the deformation rates of dashpots [6 x springs] in `room`. */
 static double *rates_of_dashpots(const model *m, const model_state *s, const double v[],
                                  double room[])
 {
@@ -426,8 +426,8 @@ rotation_form forms_of(const model *m, int vertex)
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
 
-/* Returns 1 if at most one rotation axis is free, counting fixed rotations that are kept as rows.
- * */
+/* Returns 1 if at most one rotation axis is free. Fixed rotations that are kept as rows are
+ * counted. */
 static int keeps_axis(const model *m, int vertex)
 {
     int moving = 0;
@@ -436,7 +436,7 @@ static int keeps_axis(const model *m, int vertex)
     return moving <= 1;
 }
 
-/* Returns REFUSED; the message names the two axes of free rotation and the third axis. */
+/* Returns REFUSED. The message names the two axes of free rotation and the third axis. */
 static status refuse_turns(const model *m, int vertex, fault *f)
 {
     static const char axis[] = "xyz";
@@ -472,8 +472,8 @@ status forms_check(const model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Angles a_k about axes b_k, where each axis rotates with the previous angles: w = sum b_k a_k', w'
- * = sum b_k a_k'' + sum_(j<k) a_j' a_k' b_j x b_k. */
+/* Rates of angles a_k about axes b_k, where each axis rotates with the previous angles: w = sum b_k
+ * a_k', w' = sum b_k a_k'' + sum_(j<k) a_j' a_k' b_j x b_k. */
 static void sequence_rates(const model *m, const model_state *s, int vertex, const double v[],
                            const double a[], frame_rates *out)
 {

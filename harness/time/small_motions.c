@@ -1,6 +1,6 @@
 /* Small motions about a state with rates: M x'' + (C + G) x' + K x, where x contains increments of
- * the coordinates (rotations in fixed axes). For a free rotation with W = R^T w, dW = R^T x' and
- * dW' = R^T (x'' - w x x'), so M w~ is subtracted there from the derivatives with respect to the
+ * the coordinates, with rotations about fixed axes. For a free rotation with W = R^T w, dW = R^T x'
+ * and dW' = R^T (x'' - w x x'), so M w~ is subtracted from the derivatives with respect to the
  * rates. Strains e(x) of damped members have the rates J x', which change by J x' + J' x, where J'
  * is the change of J along the motion. */
 #include "harness/time/time_impl.h"
@@ -12,12 +12,13 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* First derivative of sixth order, from three differences of values at -h .. h, -2 h .. 2 h, -3
+/* First derivative of sixth order, from three differences of values at -h .. h, -2 h .. 2 h and -3
  * h .. 3 h. */
 enum { DIFFERENCES = 3 };
 static const double weight_of[DIFFERENCES] = {0.75, -0.15, 1 / 60.0};
-static const double turn_by = 0.02; /* [rad], and in translations relative to the size of the
-                                       scene */
+/* step of finite differences: [rad] for rotations, relative to the size of the scene for
+ * translations */
+static const double turn_by = 0.02;
 
 typedef struct small_motions {
     const equations *eq;
@@ -28,10 +29,10 @@ typedef struct small_motions {
     int all;
     model_state *moved;
     double *inc, *zero; /* [all] */
-    double *force;      /* [all] inertia forces in a moved state, or with other rates */
+    double *force;      /* [all] inertia forces in a moved state, or for other rates */
     double *column;     /* [3 x all] */
-    char *odd;          /* [all] 1: the coordinate belongs to a rotation about axes that move
-                           with other coordinates */
+    /* [all] 1: the coordinate belongs to a rotation about axes that move with other coordinates */
+    char *odd;
 } small_motions;
 
 static status alloc(const equations *eq, const carried_masses *masses, const instant *now,
@@ -74,8 +75,8 @@ static void add(const sparse *a, double times, sparse *to)
         to->value[i] += times * a->value[i];
 }
 
-/* Returns 1 if the rotation of a vertex is given by its angular velocity and has coordinates of its
- * own. */
+/* Returns 1 if the rotation of a vertex is given by its angular velocity and has separate
+ * coordinates. */
 static int turns_freely(const model *m, int vertex)
 {
     const int own = vertex >= model_first_release(m) ||
@@ -83,8 +84,8 @@ static int turns_freely(const model *m, int vertex)
     return own && forms_of(m, vertex) == FORM_BODY;
 }
 
-/* Marks the coordinates of released ends and of sequences of angles. They rotate about axes that
- * move, for which there is no closed form of the derivatives here. */
+/* Marks the coordinates of released ends and of sequences of angles. They rotate about moving axes,
+ * for which this file has no closed form of the derivatives. */
 static void mark_odd(small_motions *s)
 {
     const model *m = s->m;
@@ -102,7 +103,7 @@ static void mark_odd(small_motions *s)
     }
 }
 
-/* A[:, columns of a free rotation] -= B w~ */
+/* Subtracts B w~ from A[:, columns of a free rotation]. */
 static void subtract_turning(const small_motions *s, const sparse *B, sparse *A)
 {
     const model *m = s->m;
@@ -120,7 +121,8 @@ static void subtract_turning(const small_motions *s, const sparse *B, sparse *A)
     }
 }
 
-/* Adds the inertia forces, times `scale`, with the coordinate moved, or its rate changed, by h. */
+/* Adds the inertia forces times `scale`, after moving the coordinate, or changing its rate, by h.
+ * */
 static void add_forces(small_motions *s, int c, int rate, double h, double scale, double out[])
 {
     double *const changed = rate ? s->now->v : s->inc;
@@ -136,8 +138,8 @@ static void add_forces(small_motions *s, int c, int rate, double h, double scale
         out[i] -= scale * s->force[i];
 }
 
-/* Computes the derivative of the inertia forces with respect to a coordinate, or to its rate, in
- * which they are quadratic. */
+/* Computes the derivative of the inertia forces with respect to a coordinate, or to its rate. The
+ * forces are quadratic in the rate. */
 static void differentiate(small_motions *s, int c, int rate, double out[])
 {
     const double h = rate ? 1 : turn_by;
@@ -147,16 +149,16 @@ static void differentiate(small_motions *s, int c, int rate, double out[])
             add_forces(s, c, rate, sign * (k + 1) * h, sign * (rate ? 0.5 : weight_of[k]) / h, out);
 }
 
-/* Replaces column c of A, within its pattern. */
+/* Replaces column c of A within its pattern. */
 static void put_column(int c, const double of[], sparse *A)
 {
     for (int k = A->column[c]; k < A->column[c + 1]; k++)
         A->value[k] = of[A->row[k]];
 }
 
-/* Computes the columns of a free rotation from those in the axes of the frame. Derivatives with
- * respect to positions are in the exponential chart, as in all parts of a tangent: half of the
- * effect of the moment on the coordinates is added. */
+/* Computes the columns of a free rotation from the columns in the axes of the frame. Derivatives
+ * with respect to positions are in the exponential chart, as in all parts of a tangent, so half of
+ * the effect of the moment on the coordinates is added. */
 static void put_turn(small_motions *s, int vertex, int rate, sparse *A)
 {
     const int *at = &model_vertex(s->m, vertex)->coordinate[SCENE_RX];
@@ -209,7 +211,7 @@ static void put_odd(small_motions *s, int rate, sparse *A)
 }
 
 /* Computes M, G and the part of K due to inertia forces, and C of mass-proportional damping. G
- * serves as work space first. */
+ * first serves as work space. */
 static void add_inertia(small_motions *s)
 {
     const instant *now = s->now;
@@ -243,9 +245,9 @@ static void add_inertia(small_motions *s)
     subtract_turning(s, &out->M, &out->G);
 }
 
-/* Change of J of all damped elements and dashpots along the motion, by finite differences. */
+/* Change of J of all damped elements and dashpots during the motion, by finite differences. */
 
-/* Returns a duration in which no node moves far [s]. */
+/* Returns a duration [s] in which no node moves far. */
 static double short_time(const small_motions *s)
 {
     const double length = model_length(s->m);
@@ -286,7 +288,7 @@ static void strains_of(const model *m, const model_state *at, int element, doubl
 /* Memory for J of one element or spring. */
 enum { ROOM = ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES };
 
-/* change[(elements + springs) x ROOM] += scale J for damped elements and springs. */
+/* Adds `scale` times J of damped elements and springs to change[(elements + springs) x ROOM]. */
 static void add_jacobians(const small_motions *s, const model_state *at, double scale,
                           double change[])
 {
@@ -322,7 +324,7 @@ static void change_jacobians(small_motions *s, double change[])
     memset(s->inc, 0, (size_t)s->all * sizeof *s->inc);
 }
 
-/* K[n x n] = J^T S J' */
+/* Computes K[n x n] = J^T S J'. */
 static void stiffness_of_rates(int strains, int n, const double J[], const double S[],
                                const double change[], double K[])
 {
@@ -360,8 +362,8 @@ static void add_rates(small_motions *s, const double change[])
     }
 }
 
-/* Computes C, and the part of K that is due to the effect of a change of J on damping forces.
- * The effect of the present damping forces is part of the tangent. */
+/* Computes C, and the part of K that is due to the effect of a change of J on damping forces. The
+ * tangent contains the effect of the present damping forces. */
 static status add_damping(small_motions *s, fault *f)
 {
     if (s->eq->run->damping != NULL)
@@ -397,7 +399,7 @@ static status make_compatible(const equations *eq, instant *now, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the part of K due to stresses, damping stresses and loads at their present size. */
+/* Computes the part of K due to stresses, damping stresses and loads with their present values. */
 static status add_stiffness(small_motions *s, fault *f)
 {
     const equations *eq = s->eq;

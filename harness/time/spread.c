@@ -83,8 +83,8 @@ void spread_subtract(const model *m, const model_state *s, const double v[], con
     }
 }
 
-/* A[columns x columns] += B Q, where Q [3 x 3] maps the rotations of a node starting at `at` to its
- * translations. */
+/* Adds B Q to A[columns x columns]. Q [3 x 3] maps the rotations of a node, which start at `at`, to
+ * its translations. */
 static void add_through(int columns, int at, const double B[], const double Q[9], double A[])
 {
     for (int i = 0; i < columns; i++)
@@ -93,7 +93,7 @@ static void add_through(int columns, int at, const double B[], const double Q[9]
                 A[columns * i + at + 3 + j] += B[columns * i + at + k] * Q[3 * k + j];
 }
 
-/* As add_through, for rates that rotate with the node: dw = d x w, with rotations d. */
+/* Like add_through, for rates that rotate with the node: dw = d x w, with rotations d. */
 static void add_turning(int columns, int at, const double B[], const double w[3], double A[])
 {
     for (int i = 0; i < columns; i++) {
@@ -116,9 +116,9 @@ static void cross_all(const double x[3], const double A[9], double out[9])
     }
 }
 
-/* For a node at rho from the body that moves it: v = v_b + w x rho, a = a_b + w' x rho + w x (w
- * x rho). Adds the terms with w, and those with rotations d of the body that are not in the
- * Jacobian of the rates. */
+/* Transforms the rates of a node at rho from the body that moves it: v = v_b + w x rho, a = a_b +
+ * w' x rho + w x (w x rho). Adds the terms with w, and the terms with rotations d of the body that
+ * are not in the Jacobian of the rates. */
 static void carry(int n, int at, const moving_element *e, const double rho[3], const double M[],
                   double C[], double K[])
 {
@@ -195,7 +195,7 @@ void spread_element(const model *m, int element, const model_state *s, const dou
                                .taken = F,
                                .C = out->velocity,
                                .K = out->place});
-    for (int i = 0; i < all; i++) /* the part due to the rates is that of the velocity */
+    for (int i = 0; i < all; i++) /* the part due to the rates is the same as for the velocity */
         e.acceleration[i] -= damping * e.rate[i];
     for (int i = 0; i < all * all && damping != 0; i++)
         out->velocity[i] += damping * out->acceleration[i];
@@ -242,7 +242,7 @@ static void wide_motion(const model *m, const spread_parts *p, const spread_moti
     }
 }
 
-/* out[columns x columns] += rows^T A motion, A [7 nodes x 7 nodes]. */
+/* Adds rows^T A motion, with A[7 nodes x 7 nodes], to out[columns x columns]. */
 static void wide_times(const model *m, const spread_parts *p, const double A[],
                        const spread_motion moves[], double out[])
 {
@@ -361,7 +361,6 @@ void spread_add_tangent(const equations *eq, const model_state *s, const double 
     }
 }
 
-/* Moves the coordinate of a node by h. */
 static void move_node(node_state *x, int coordinate, double h)
 {
     double turn[3] = {0, 0, 0}, q[4], R[9], turned[9];
@@ -378,8 +377,9 @@ static void move_node(node_state *x, int coordinate, double h)
         x->a += h;
 }
 
-/* D[n x n]: the change of the forces at fixed rates in fixed axes, by finite differences of
- * sixth order, in the exponential chart, minus the change that the element computes. */
+/* Computes D[n x n], the change of the forces at fixed rates in fixed axes minus the change that
+ * the element computes. The change is computed in the exponential chart by finite differences of
+ * sixth order. */
 static void omitted(const model *m, int element, moving_element *e, double D[])
 {
     static const double weight[] = {0.75, -0.15, 1 / 60.0};

@@ -140,9 +140,11 @@ enum { MOST = ELEMENT_MAX_STRAINS };
 struct complement {
     const equations *eq;
     const model *m;
-    double *before; /* [elements x strains] strains at which the stresses were linearised */
+    double *before; /* [elements x strains] strains for which the stresses were linearised */
     double
-        settled; /* size of the correction after which all elements agreed; 0: none in this step */
+        /* size of the correction after which the stresses of all elements agreed; 0: they have not
+         * agreed in this step */
+        settled;
 };
 
 /* Returns 1 if the stiffness C depends on the strains. */
@@ -202,7 +204,7 @@ void complement_keep(complement *c, const model_state *s)
                (size_t)(model_elements(c->m) * model_strains(c->m)) * sizeof *s->e);
 }
 
-/* Data of the iteration of one element towards its target stresses. */
+/* Data of the iteration of an element towards its target stresses. */
 typedef struct complement_way {
     const equations *eq;
     const model *m;
@@ -211,8 +213,8 @@ typedef struct complement_way {
     double e[MOST], sigma[MOST], C[MOST * MOST]; /* P' and P'' at e */
 } complement_way;
 
-/* Returns a distance that is small enough: below it, Newton's method converges as fast from the
- * strains as from the stresses. */
+/* Returns a distance that is small enough: below this distance, Newton's method converges as fast
+ * from the strains as from the stresses. */
 static double near_of(int n, const double sigma[])
 {
     double largest = 0;
@@ -221,7 +223,7 @@ static double near_of(int n, const double sigma[])
     return 0.1 * largest;
 }
 
-/* Computes gap[n] = goal - sigma. Returns the magnitude of its largest component; NAN if a
+/* Computes gap[n] = goal - sigma. Returns the largest absolute value of a component; NAN: a
  * component is not finite. */
 static double gap_of(int n, const double goal[], const double sigma[], double gap[])
 {
@@ -241,7 +243,7 @@ static int evaluate(complement_way *w)
                                     &(stress_output){.sigma = w->sigma, .C = w->C}) == STATUS_OK;
 }
 
-/* e += C^-1 gap. Strains without stiffness (no warping) do not change. */
+/* Computes e += C^-1 gap. Strains without stiffness, such as warping strains, do not change. */
 static int move(complement_way *w, double gap[])
 {
     const int n = model_strains(w->m);
@@ -281,7 +283,7 @@ static int arrive(complement_way *w, const double goal[])
     return 0;
 }
 
-/* Follows the path from the present stresses towards the goal. */
+/* Follows the path from the present stresses to the target stresses. */
 static int follow(complement_way *w, const double goal[])
 {
     const int n = model_strains(w->m);
@@ -307,9 +309,9 @@ static int follow(complement_way *w, const double goal[])
     return part >= shortest;
 }
 
-/* Returns the target stresses for the strains of an element. They are the stresses of the state
- * or, with damping, the part that depends on strains only: P'(e) + P''(e) de, with the strains e
- * before the increment. NULL: the element has no stresses at e. */
+/* Returns the target stresses for the strains of an element; NULL: the element has no stresses at
+ * e. They are the stresses of the state or, if there is damping, the part that depends only on
+ * strains: P'(e) + P''(e) de, where e are the strains before the increment. */
 static const double *goal_of(const complement *c, const model_state *s, int element, double room[])
 {
     const model *m = c->m;
@@ -371,7 +373,8 @@ static void settled(const complement *c, const model_state *s, int count, const 
                                                 near_of(model_strains(m), goal[k]));
 }
 
-/* Updates the strains of elements [first, end). Returns 1 if the stresses of all of them agree. */
+/* Updates the strains of elements [first, end). Returns 1 if the stresses of all these elements
+ * agree. */
 static int follow_stresses(const complement *c, model_state *s, int first, int end)
 {
     const size_t n = (size_t)model_strains(c->m);

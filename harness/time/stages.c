@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lists the free coordinates to which mass couples a coordinate, in ascending order. Returns
- * their number. */
+/* Lists the free coordinates to which masses couple a coordinate, in ascending order. Returns their
+ * number. */
 static int coupled(const model *m, const int frame_of[], const double warping[], int c, int list[6])
 {
     int count = 0;
@@ -25,8 +25,8 @@ static int coupled(const model *m, const int frame_of[], const double warping[],
     return count;
 }
 
-/* Sets the columns of stage k, one after the other. Returns the number of entries. row NULL:
- * only counts them. */
+/* Sets the columns of stage k, one after the other. Returns the number of entries. row NULL: only
+ * counts the entries. */
 static int fill(const equations *eq, const sparse *single, const int frame_of[],
                 const carried_masses *masses, stages_matrix *out, int *row)
 {
@@ -141,8 +141,8 @@ void stages_add(stages_matrix *s, int i, int k, int row, int column, double valu
     assemble_subtract(&s->whole, i * s->n + row, k * s->n + column, -value);
 }
 
-/* Returns the rank of the positive semidefinite A[n x n], where values up to `none` count as
- * zero. Destroys A. */
+/* Returns the rank of the positive semidefinite A[n x n], which is overwritten. Values up to `none`
+ * count as zero. */
 static int rank(int n, double A[], int used[], double none)
 {
     int rank = 0;
@@ -214,9 +214,9 @@ static int first_of(const model *m, int vertex)
     return model_first_joined(m, model_vertex(m, vertex)->body);
 }
 
-/* Adds an element with consistent mass: entries of the nodes that the body moves and of the ends
- * released from it, but not their coupling with other nodes. A motion without mass in this block
- * has no mass in the whole matrix. Returns the largest mass of a node. */
+/* Adds an element with consistent mass: the entries of the nodes that the body moves and of the
+ * ends released from these nodes, but not their coupling with other nodes. A motion without mass in
+ * this block has no mass in the whole matrix. Returns the largest mass of a node. */
 static double add_element(const model *m, int element, int body, const model_state *s,
                           const body_mass *g)
 {
@@ -279,7 +279,7 @@ double body_mass_of(const model *m, const carried_masses *all, int body, const m
     return largest;
 }
 
-/* Returns the largest number of coordinates of one body, or of bodies that constraints join. */
+/* Returns the largest number of coordinates of a body, or of bodies that constraints join. */
 static int most_coordinates(const model *m, int count[])
 {
     int most = 0;

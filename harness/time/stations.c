@@ -9,8 +9,8 @@
 
 enum { PARTS = 5, BALL = 3 };
 
-/* Data of one coordinate in a step: its increment, and its rates and their derivatives at both
- * ends. The unit of time is the step size. */
+/* Data of a coordinate in a step: its increment, and its rates and their derivatives at both ends.
+ * The unit of time is the step size. */
 typedef struct between_ends {
     double whole, rate[2], second[2];
 } between_ends;
@@ -47,7 +47,8 @@ static void put(const step_between *b, int coordinate, const between_ends *e)
     memcpy(part, b->degree == BETWEEN_CUBIC ? cubic : quintic, sizeof cubic);
 }
 
-/* Sets the polynomial of an additive coordinate that increases by `whole` in the step. */
+/* Sets the polynomial of a coordinate whose increments add up. It increases by `whole` in the step.
+ * */
 static void put_plain(const step_between *b, int c, double whole, double h)
 {
     const instant *from = b->from, *to = b->to;
@@ -58,7 +59,7 @@ static void put_plain(const step_between *b, int c, double whole, double h)
             whole, {h * from->v[c], h * to->v[c]}, {h * h * from->a[c], h * h * to->a[c]}});
 }
 
-/* Computes the rates t' and t'' of the rotation vector t from body rates W and W'. */
+/* Computes the rates t' and t'' of the rotation vector t from the body rates W and W'. */
 static void vector_rates(const double t[3], const double W[3], const double Wd[3], double rate[3],
                          double second[3])
 {
@@ -102,7 +103,7 @@ static void put_turn(const step_between *b, int vertex, double h)
                 &(between_ends){t[1][k], {rate[0][k], rate[1][k]}, {second[0][k], second[1][k]}});
 }
 
-/* Interpolates a ball joint linearly, since it has no rates. */
+/* Interpolates a ball joint linearly, because it has no rates. */
 static void put_ball(const step_between *b, int vertex)
 {
     const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
@@ -160,7 +161,7 @@ void between_take(step_between *b, between_degree degree, const instant *from, c
         put_plain(b, model_warp(m, i), to->state->warp[i] - from->state->warp[i], h);
 }
 
-/* Computes the body rates of rotations from the rates of their vectors. */
+/* Computes the body rates of rotations from the rates of their rotation vectors. */
 static void turn_rates(const step_between *b, int vertex, const double inc[], const double rate[],
                        const double second[], instant *at)
 {
@@ -200,7 +201,7 @@ static void blend_elements(const step_between *b, double s, model_state *at)
     blend(inner, s, from->inner, to->inner, at->inner);
 }
 
-/* Sets positions and rates at a time [s] inside the step or near it. */
+/* Sets positions and rates at a time [s] inside the step or near the step. */
 static void between_places(const step_between *b, double time, instant *at)
 {
     const model *m = b->m;
@@ -229,7 +230,7 @@ static void between_places(const step_between *b, double time, instant *at)
 
 enum { SLOPE = 5 };
 
-/* Returns the slope at x of the polynomial through values at 0.1, 0.3, ..., 0.9. */
+/* Returns the slope at x of the polynomial through the values at 0.1, 0.3, ..., 0.9. */
 static double slope_of(const double value[SLOPE], double x)
 {
     double sum = 0;
@@ -265,8 +266,8 @@ void between_at(const step_between *b, double time, instant *at)
     blend_elements(b, (time - b->from->time) / (b->to->time - b->from->time), at->state);
 }
 
-/* A station that is closer than this to the end of a step, relative to the step size, is taken
- * as that end. */
+/* A station that is closer than this to the end of a step, relative to the step size, counts as the
+ * end of the step. */
 static const double same_instant = 1e-9;
 
 static int is_slope(const stations *s, int quantity)
@@ -275,8 +276,8 @@ static int is_slope(const stations *s, int quantity)
     return q->analysis == s->analysis && reading_is_slope(q);
 }
 
-/* Computes slopes at the stations of a step and at its end. The first step also gives the slopes
- * at time 0. */
+/* Computes slopes at the stations of a step and at its end. After the first step, also computes the
+ * slopes at time 0. */
 static void take_slopes(stations *s, const instant *from, const instant *to)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
@@ -316,7 +317,7 @@ void stations_free(stations *s)
     instant_free(&s->at);
 }
 
-/* Returns the time of the next station; INFINITY: there is none. */
+/* Returns the time of the next station; INFINITY: none. */
 static double next_of(const stations *s)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
@@ -355,7 +356,7 @@ static int reads_forces(const stations *s, double time)
     return 0;
 }
 
-/* Makes a side step from the start of the motion's step. */
+/* Makes a side step from the start of the step of the motion. */
 static status step_to(stations *s, const instant *from, double time, fault *f)
 {
     double balance[SCENE_BALANCES];

@@ -16,87 +16,88 @@
 #include "harness/newton/newton.h"
 #include "harness/time/time.h"
 
-/* The convergence history of Newton's method is part of the instant, so a rejected step has no
- * effect on it. Call instant_recall before a step, and instant_remember with the instant at its
- * end. */
+/* Newton's convergence history is part of the state of a motion, so a rejected step has no effect
+ * on it. Call instant_recall before a step, and instant_remember with the state at its end. */
 void instant_recall(const instant *from, arrival *);
 void instant_remember(const arrival *, instant *to);
 
 status between_alloc(const equations *, step_between *, fault *);
 void between_free(step_between *);
-/* Sets the step; both instants must not change while the polynomial is in use. */
+/* Sets the step. The states at both ends must not change while the polynomial is in use. */
 void between_take(step_between *, between_degree, const instant *from, const instant *to);
 /* Returns a kinematic quantity at a time inside the step. at: work space. A jerk is the slope of
  * a polynomial of fourth degree through five accelerations of the step. */
 double between_reading(const step_between *, const scene_quantity *, double time, instant *at);
 
 /* Returns the power [W] if `along` contains the rates v, or the work [J] if `along` contains
- * increments, with rotations as vectors in the axes of the frames. The forces are those in the
- * state with rates v and accelerations a at `time`. */
+ * increments, with rotation vectors in the axes of the frames. The forces are those in the state
+ * with rates v and accelerations a at `time`. */
 double work_power(outer_work *, const model_state *, const double v[], const double a[],
                   double time, const double along[]);
-/* Returns the work of a step: the mean of the forces at its start and end, times its increment
- * inc[free + driven]. The result is exact for constant forces, and of second order otherwise. */
+/* Returns the work of a step: the mean of the forces at the start and at the end, times the
+ * increment inc[free + driven]. The result is exact for constant forces, and of second order
+ * otherwise. */
 double work_trapezoid(outer_work *, const instant *from, const instant *to, const double inc[]);
 
 /* Returns the allowed energy-balance error [J]: the given fraction of account_size, plus
  * rounding. */
 double account_most(const account *, double part, double rounding);
 
-/* NOT_CONVERGED: the motion gained more energy than account_gained without cause, or lost more than
- * account_lost although the scene does not request numerical damping. rounding [J]: see
- * balance_rounding. */
+/* Checks the energy balance. NOT_CONVERGED: the motion gained more energy than account_gained
+ * without cause, or lost more than account_lost although the scene does not request numerical
+ * damping. rounding: see balance_rounding [J]. */
 status account_judge(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
-/* Stiffness-proportional damping: stresses gain eta S0 e', where e' are the strain rates and S0
- * is the stiffness of the undeformed element. Rigid motions are not damped. Dashpots use the
- * same form, with the deformations of their spring and a given matrix. */
+/* Stiffness-proportional damping: stresses gain eta S0 e', where e' are the strain rates and S0 is
+ * the stiffness of the undeformed element. Rigid motions have no damping. Dashpots have the same
+ * form, with the deformations of the spring and a given matrix. */
 
-/* Sets the present strain rates to known + g (e - strains of `from`), with
- * known[model_stresses]. from NULL: g is 0. */
+/* Sets the present strain rates to known + g (e - strains of `from`) with known[model_stresses].
+ * from NULL: g is 0. */
 void damping_follow(const equations *, double g, const double known[], const model_state *from);
 /* Copies the strains of elements and springs to e[model_stresses]. */
 void damping_strains(const model *, const model_state *, double e[]);
 /* Computes e' = J x' for the rates v[free + driven]: rate[model_stresses]. */
 status damping_rates(const model *, const model_state *, const double v[], double rate[], fault *);
-/* dashpots_subtract subtracts the forces of dashpots at the rates v from out[free + driven] and
- * returns the power that they dissipate [W]. room[dashpots_room]: work space. */
+/* dashpots_subtract subtracts the forces of dashpots for the rates v from out[free + driven], and
+ * returns the dissipated power [W]. room[dashpots_room]: work space. */
 size_t dashpots_room(const model *);
 double dashpots_subtract(const model *, const model_state *, const double v[], double room[],
                          double out[]);
-/* Returns the power absorbed by springs without a potential [W]. room[dashpots_room]: work
- * space. */
+/* Returns the power [W] absorbed by springs without a potential. room[dashpots_room]: work space.
+ * */
 double springs_circulating_power(const model *, const model_state *, const double v[],
                                  double room[]);
 /* Adds the force of dashpots to F[6] on the frame of a node. */
 status dashpots_at_node(const model *, const model_state *, const double v[], int node, double F[6],
                         fault *);
-/* Computes strain rates from the rates of the coordinates; does nothing without damping. */
+/* Computes strain rates from the rates of the coordinates. Does nothing if there is no damping. */
 status damping_now(const equations *, instant *, fault *);
 /* Returns the power dissipated by strain rates [W]. */
 double damping_power(const equations *, const double rate[]);
 
 /* Generalized-alpha on the group of rotations (Chung & Hulbert 1993; Bruls, Cardona & Arnold 2012):
  *   inc = h v + h^2 [(1/2 - beta) a + beta a1],  v1 = v + h [(1 - gamma) a + gamma a1],
- *   (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) v1' + alpha_f v',
- * equilibrium with the true accelerations v1' at the end; rotations in the frame's axes. */
+ *   (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) v1' + alpha_f v'. The true accelerations v1'
+ * satisfy equilibrium at the end of the step. Rotations are in the axes of the frame. */
 
-/* Allocates the scheme. The error estimate of a step is that of its positions, h^2 |beta + (alpha_m
- * - alpha_f)/2 - 1/6| (a1 - a). */
+/* Allocates the scheme. The error estimate of a step is the error of its positions, h^2 |beta +
+ * (alpha_m - alpha_f)/2 - 1/6| (a1 - a). */
 status alpha_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* A side step computes the state of the motion at an instant inside a step. The motion does not
+/* A side step computes the state of the motion at a time inside a step. The motion does not
  * continue from this state. */
 
-/* Makes a side step from the start of the motion's step. Its work is counted, but its iterations
- * are not recorded. */
+/* Makes a side step from the start of the step of the motion. The work of the side step is counted,
+ * but its iterations are not recorded. */
 status aside_step(analysis_context *, motion_scheme *, const instant *from, double time,
                   instant *at, fault *);
 
-/* Energies and momenta of a motion at an instant. */
+/* Energies and momenta during a motion. */
 
-/* out[SCENE_BALANCES]; the initial energy is not yet subtracted from the energy-balance error. */
+/* Computes out[SCENE_BALANCES]. The initial energy is not yet subtracted from the energy-balance
+ * error. */
 status balance_of(const equations *, const carried_masses *, const instant *,
                   double out[SCENE_BALANCES], fault *);
 /* Returns the strain energy [J] due to rounding errors of all coordinates; smaller energies
@@ -104,51 +105,56 @@ status balance_of(const equations *, const carried_masses *, const instant *,
 double balance_rounding(const model *);
 
 /* Mass matrix of a body, of the bodies that constraints join to it, and of everything that moves
- * with them. Its rows are their coordinates and those of member ends that are released from
- * them. */
+ * with these bodies. The rows belong to the coordinates of the bodies and of member ends that are
+ * released from them. */
 
 typedef struct body_mass {
-    int count, *index; /* free coordinates of the body [count] */
-    double *M;    /* [count x count] for spatial increments; rotations are scaled by the length of
-                     the model */
-    double *unit; /* [count] scale of a coordinate: 1; for a rotation 1/length of the
-                     model [rad/m] */
-    int *used;    /* capacity; [count] */
-    double *rest, *value; /* work space [count x count], [count] */
+    int count, *index; /* [count] free coordinates of the body */
+    /* [count x count] mass matrix for spatial increments; rotations are scaled by the length of the
+     * model */
+    double *M;
+    /* [count] scale of a coordinate: 1 for a translation, 1/length of the model [rad/m] for a
+     * rotation */
+    double *unit;
+    int *used;            /* capacity; [count] */
+    double *rest, *value; /* work space: [count x count] and [count] */
     double *zero;         /* [free + driven] rates */
 } body_mass;
 
 /* Allocates work space for any body of the model. */
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
-/* Computes the mass matrix of one body in a state, or of all bodies joined to it if it is the
- * first of them. Returns its largest mass [kg]. */
+/* Computes the mass matrix of a body in a state. For the first of several joined bodies, computes
+ * the mass matrix of all of them. Returns the largest mass of the matrix [kg]. */
 double body_mass_of(const model *, const carried_masses *, int body, const model_state *,
                     body_mass *);
 /* Returns the mass of a warping amplitude [kg m^4]. */
 double body_mass_warps(const model *, const carried_masses *, int warp, const model_state *);
-/* Returns the rank of M, where values up to `none` count as zero. */
+/* Returns the rank of M. Values up to `none` count as zero. */
 int body_mass_rank(body_mass *, double none);
 
 /* Splits the step of one element into a common rotation, which is removed exactly, and a relative
- * motion: node j moves by dr_j and rotates by the Cayley vector c_j, R_1 = cay(c) R_n. With the
+ * motion. Node j moves by dr_j and rotates by the Cayley vector c_j, R_1 = cay(c) R_n. With the
  * mean c, kappa = 1/sqrt(1 + c.c/4), b = kappa^2/(4 (1 + kappa)), S = kappa 1 + b c c^T, T = 1 - b
  * c c^T, G half the common rotation and D_j = r_j - mean r,
  *   r(s) = (1 - s) G D_n + s G^T D_1,   R(s) = exp(s phi) G R_n,   a(s) = a_n + s da,
- *   dr^_j = S (dD_j - c x Dm_j),   c^_j = T (c_j - c)/(kappa (1 + c.c_j/4)),   phi_j = psi_j c^_j:
- * zero for every rigid motion. A spring to the ground has no common rotation: c = 0, D_j = r_j. */
+ *   dr^_j = S (dD_j - c x Dm_j),   c^_j = T (c_j - c)/(kappa (1 + c.c_j/4)),   phi_j = psi_j c^_j.
+ * The relative motion is zero for every rigid motion. For a spring to the ground there is no common
+ * rotation: c = 0, D_j = r_j. */
 
-/* Cayley vector 2 tan(|t|/2) t/|t| of a rotation vector t, and the inverse of this function. */
+/* Compute the Cayley vector 2 tan(|t|/2) t/|t| of a rotation vector t, and the inverse of this
+ * function. */
 void cayley_of_vector(const double t[3], double c[3]);
 void cayley_to_vector(const double c[3], double t[3]);
-/* T = (1 + c~/2)/(1 + c.c/4): the spatial rotation increment at the end is T dc. */
+/* Computes T = (1 + c~/2)/(1 + c.c/4). The spatial rotation increment at the end of the step is T
+ * dc. */
 void cayley_tangent(const double c[3], double T[9]);
-/* A = v~, the matrix of the cross product with v. */
+/* Computes A = v~, the matrix of the cross product with v. */
 void cayley_skew(const double v[3], double A[9]);
 
 typedef struct cayley_step {
     int nodes;
-    double share; /* weight of a node in the means: 1/nodes; 0 for a spring to the ground */
+    double share; /* weight of a node in the means: 1/nodes, or 0 for a spring to the ground */
     double mean[3], kappa, b, S[9], T[9], G[9];
     double Dn[ELEMENT_MAX_NODES][3], D1[ELEMENT_MAX_NODES][3], Dm[ELEMENT_MAX_NODES][3];
     double dD[ELEMENT_MAX_NODES][3];
@@ -159,7 +165,7 @@ typedef struct cayley_step {
 } cayley_step;
 
 /* Starts from dr[nodes x 3], c[nodes x 3] and da[nodes] of the nodes. The memory of `from` must
- * stay valid. */
+ * remain valid. */
 void cayley_begin(int nodes, int ground, const node_state from[], double dr[][3], double c[][3],
                   const double da[], cayley_step *);
 
@@ -171,73 +177,76 @@ typedef struct cayley_point {
 } cayley_point;
 void cayley_between(const cayley_step *, double at, cayley_point *);
 
-/* Transforms forces f on the relative motion, the columns of f[7 nodes x columns], to forces on
- * dr, c and da: F_j = S f_j, M_j = z_j T m_j - mean (z_i T m_i + Dm_i x S f_i). */
+/* Transforms forces f on the relative motion (the columns of f[7 nodes x columns]) to forces on dr,
+ * c and da: F_j = S f_j, M_j = z_j T m_j - mean (z_i T m_i + Dm_i x S f_i). */
 void cayley_forces(const cayley_step *, int columns, double f[]);
 
-/* Updates the strains to match the stresses of the state, when the stress function P' of elements
- * is nonlinear. Newton's increment de gives sigma = P'(e) + P''(e) de, but at the new strains P'
- * differs by P''' de^2 / 2. In a member that is stiff in elongation this difference can be
- * thousands of times its force, and the next tangent would contain it. Therefore the strains are
- * changed to satisfy P'(e) = sigma, and D(x) - e contains the difference: the same equations in
- * complementary (Hellinger-Reissner) form. The solution does not change. */
+/* Updates the strains to match the stresses of the state. This is necessary if the stress function
+ * P' of elements is nonlinear. Newton's increment de gives sigma = P'(e) + P''(e) de, but at the
+ * new strains P' differs by P''' de^2 / 2. In a member that is stiff in elongation, this difference
+ * can be thousands of times its axial force, and the next tangent would contain the difference.
+ * Therefore the strains are changed to satisfy P'(e) = sigma, and D(x) - e contains the difference.
+ * These are the same equations in complementary (Hellinger-Reissner) form. The solution does not
+ * change. */
 
 typedef struct complement complement; /* data for one state */
 
-/* Sets *out to NULL if no update is needed or possible: all stresses are linear in the strains, or
- * they depend on inner unknowns of the element, or the type evaluates all elements in one call
- * (another process), so updates would require many requests. */
+/* Allocates the data of the update. Sets *out to NULL if no update is needed or possible. This is
+ * the case if all stresses are linear in the strains, if they depend on inner unknowns of the
+ * element, or if the type evaluates all elements in one call (in another process), so that updates
+ * would need many requests. */
 status complement_alloc(const equations *, complement **out, fault *);
 void complement_free(complement *);
 
 /* Call before advance_state. Does nothing for NULL. */
 void complement_keep(complement *, const model_state *);
-/* Call after advance_state. Sets e of every element by following its stresses from the stored
- * ones to sigma, which does not change. An element does not change if its stresses already agree
- * to a tenth, or if no strains with these stresses are found. iteration: starts at 1. Once all
- * elements agree, smaller corrections are not checked again in the same step. Does nothing for
- * NULL. */
+/* Sets e of every element so that its stresses become sigma, which does not change. Call this
+ * function after advance_state. An element does not change if its stresses already agree to a
+ * tenth, or if no strains with these stresses are found. iteration: starts at 1. After all elements
+ * agree, smaller corrections are not checked again in the same step. Does nothing for NULL. */
 void complement_strains(complement *, model_state *, int iteration, double correction);
 
 /* Derivatives of increments and rates with respect to the state. */
 
-/* Change of the rates and their derivatives with the state: dv = g dx and da = b dx for
+/* Change of the rates and of their derivatives with the state: dv = g dx and da = b dx for
  * translations, warping and angles. For a rotation in the axes of the frame, dx is replaced by d
- * inc = X R^T times the spatial increment, where X = turning_inverse at inc[free + driven]. */
+ * inc, which is X R^T times the spatial increment, where X = turning_inverse at inc[free + driven].
+ * */
 typedef struct inertia_relation {
     double b, g; /* [1/s^2], [1/s] */
     const double *inc;
 } inertia_relation;
-/* N[3 x 3]: derivative of inc of a vertex with respect to its rotation coordinates, in the state
- * after inc; R: orientation of the vertex in that state. */
+/* Computes N[3 x 3], the derivative of inc of a vertex with respect to its rotation coordinates, in
+ * the state after inc. R: orientation of the vertex in this state. */
 void inertia_chart(const model *, int vertex, const double inc[], const double R[9], double N[9]);
 
-/* E = R N: the same derivative in global axes. */
+/* Computes E = R N, the same derivative in global axes. */
 void inertia_turn(const model *, int vertex, const model_state *, const double inc[], double E[9]);
 
-/* Columns of turn: spatial rotation of a body per unit of each rotation coordinate; columns of
- * rate: angular velocity per unit rate of each. */
+/* Computes two matrices. Columns of turn: spatial rotation of a body per unit of each rotation
+ * coordinate. Columns of rate: angular velocity per unit rate of each rotation coordinate. */
 void inertia_turns(const model *, const model_state *, int vertex, double turn[9], double rate[9]);
 
-/* Rates of the rotation of a frame, and the rates of all coordinates of a model: derivatives for
- * translations, warping amplitudes and angles; the angular velocity in axes that rotate with the
- * frame for a rotation that is free or given by a vector. */
+/* Rates of the rotation of a frame, and rates of all coordinates of a model. For translations,
+ * warping amplitudes and angles, the rates are derivatives. For a rotation that is free or given by
+ * a vector, they are the angular velocity in axes that rotate with the frame. */
 
 typedef enum rotation_form {
-    FORM_BODY,    /* three coordinates: components of the angular velocity in the frame's axes */
-    FORM_AXIS,    /* rotation about at most one fixed axis: an angle */
+    FORM_BODY, /* three coordinates whose rates are the angular velocity in the axes of the frame */
+    FORM_AXIS, /* rotation about at most one fixed axis, by an angle */
     FORM_SEQUENCE /* successive angles */
 } rotation_form;
 
-/* REFUSED: two rotations about fixed axes are free while the third is fixed or follows a driver,
- * whether its row is kept or eliminated. They fix a component of the angular velocity at zero. This
- * constraint is not integrable: exp(-b e_j~) exp(-a e_i~) exp(b e_j~) exp(a e_i~) = 1 - a b e_k~ +
- * ..., so the coordinates do not determine the orientation of the node. */
+/* Checks the rotations of all nodes. REFUSED: two rotations about fixed axes are free while the
+ * third one is fixed or follows a driver, and its row is kept or eliminated. Such rotations fix a
+ * component of the angular velocity at zero. This constraint is not integrable: exp(-b e_j~) exp(-a
+ * e_i~) exp(b e_j~) exp(a e_i~) = 1 - a b e_k~ + ..., so the coordinates do not determine the
+ * orientation of the node. */
 status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
-/* Velocity and acceleration of the frame of a node in global axes [m/s, rad/s, m/s^2, rad/s^2].
- * They follow from the rates v[free + driven] and their derivatives a (NULL: zero). */
+/* Velocity and acceleration of the frame of a node in global axes [m/s, rad/s, m/s^2, rad/s^2],
+ * computed from the rates v[free + driven] and their derivatives a (NULL: zero). */
 typedef struct frame_rates {
     double R[9];
     double v[3], w[3], a[3], wd[3];
@@ -245,65 +254,67 @@ typedef struct frame_rates {
 void forms_rates(const model *, const model_state *, int vertex, const double v[], const double a[],
                  frame_rates *out);
 
-/* Adds F[6] (force and moment) on the frame of a node to the rows of the coordinates that move
- * it. */
+/* Adds the force and moment F[6] on the frame of a node to the rows of the coordinates that move
+ * the frame. */
 void forms_add_force(const model *, const model_state *, int vertex, const double F[6],
                      double out[]);
 
 /* Inertia forces of the masses at frames, in global axes. For a mass with first moment c and tensor
- * J about the frame: force m a + w' x c + w x (w x c), moment c x a + J w' + w x J w. */
+ * J about the frame, the force is m a + w' x c + w x (w x c), and the moment is c x a + J w' + w x
+ * J w. */
 
 /* Computes the force and the moment about the frame that accelerate a mass: F[6]. */
 void inertia_force_at(const carried_mass *, const frame_rates *, double F[6]);
 void inertia_force(const model *, const carried_mass *, const model_state *, const double v[],
                    const double a[], double F[6]);
-/* out[free + driven] -= inertia forces at the rates v and their derivatives a. a NULL: zero, so
- * only the terms in the velocities remain. */
+/* Subtracts the inertia forces for the rates v and their derivatives a from out[free + driven]. a
+ * NULL: zero, so only the terms due to velocities remain. */
 void inertia_subtract(const model *, const carried_masses *, const model_state *, const double v[],
                       const double a[], double out[]);
 
-/* S += derivative of the inertia forces with respect to the coordinates. Rotations are in the
- * exponential chart, as in all parts of a tangent. */
+/* Adds the derivative of the inertia forces with respect to the coordinates to S. Rotations are in
+ * the exponential chart, as in all parts of a tangent. */
 void inertia_add_tangent(const equations *, const carried_masses *, const model_state *,
                          const double v[], const double a[], const inertia_relation *, sparse *S);
 
-/* Derivatives of the inertia force and moment of one frame [6 x 6, row-major]. */
+/* Derivatives [6 x 6, row-major] of the inertia force and moment on a frame. */
 typedef struct inertia_parts {
-    double place[36]; /* with respect to spatial increments, at fixed rates in the axes of the
-                         frame; exponential chart */
-    double velocity[36], acceleration[36]; /* with respect to velocities and accelerations in
-                                              global axes */
-    double turn[9];                        /* columns: spatial rotation per unit of each rotation
-                                              coordinate */
-    double rate[9];                        /* columns: angular velocity per unit of each rate */
+    /* with respect to spatial increments (exponential chart), at fixed rates in the axes of the
+     * frame */
+    double place[36];
+    /* with respect to velocities and to accelerations in global axes */
+    double velocity[36], acceleration[36];
+    double turn[9]; /* columns: spatial rotation per unit of each rotation coordinate */
+    double rate[9]; /* columns: angular velocity per unit rate of each rotation coordinate */
 } inertia_parts;
 void inertia_frame(const model *, const carried_masses *, int index, const model_state *,
                    const double v[], const double a[], inertia_parts *out);
-/* inertia_times: out = A diag(translation 1, B). inertia_rows transforms the rows of rotations
- * to coordinates: K <- diag(1, turn^T) K. */
+/* inertia_times computes out = A diag(1 for translations, B for rotations). inertia_rows transforms
+ * the rows of rotations to coordinates: K <- diag(1, turn^T) K. */
 void inertia_times(const double A[36], double translation, const double B[9], double out[36]);
 void inertia_rows(const double turn[9], double K[36]);
 typedef struct inertia_balance {
     double kinetic;     /* [J] */
     double momentum[3]; /* [kg m/s] */
-    double angular[3];  /* about the origin [kg m^2/s] */
+    double angular[3];  /* [kg m^2/s] angular momentum about the origin */
 } inertia_balance;
 /* Computes momentum and energy. ends[released ends x 6]: velocities of the centres of mass of
- * released ends, and angular velocities in the axes of the ends; NULL: from v. */
+ * released ends, and angular velocities in the axes of the ends; NULL: they follow from v. */
 void inertia_of(const model *, const carried_masses *, const model_state *, const double v[],
                 const double ends[], inertia_balance *out);
 
-/* Power dissipated by mass-proportional damping at the rates v [W]. */
+/* Returns the power [W] that mass-proportional damping dissipates at the rates v. */
 double inertia_damping_power(const model *, const carried_masses *, const model_state *,
                              const double v[]);
 
-/* Coordinates with inertia, for error estimates. An estimate must not use the accelerations of
- * massless coordinates, because these are positions divided by the square of the step. */
+/* Motions with inertia, for error estimates. An estimate must not use the accelerations of massless
+ * coordinates, which are differences of positions divided by the square of the step. */
 
 typedef struct massive {
     int ready;
-    double *light; /* [nodes and bodies x 2 x 9] projections onto shifts and rotations without
-                      inertia, rotations in the axes of the frames; NULL: all have inertia */
+    /* [nodes and bodies x 2 x 9] projections onto translations and onto rotations without inertia,
+     * with rotations in the axes of the frames; NULL: all motions have inertia */
+    double *light;
 } massive;
 
 /* Evaluates the lumped masses in a state, for the functions below. */
@@ -323,63 +334,68 @@ typedef struct conserving {
     int free, all;
     sparse S;
     matrix_factor *factor;
-    double *step; /* [free + driven] dr, Cayley vectors c and da; increments of single angles and
-                     of released coordinates; c of ball joints */
-    double *residual, *column, *row, *dx; /* [free + driven]; the tangent is S + column row^T */
+    /* [free + driven] dr, Cayley vectors c, and da; increments of single angles and of released
+     * coordinates; c of ball joints */
+    double *step;
+    double *residual, *column, *row, *dx; /* [free + driven] the tangent is S + column row^T */
     double *weight;
     massive massive;
-    int strains;     /* largest number of strains of an element or a spring */
-    double *W;       /* [deformables x strains^2] mean of P'' over the two ends of the step */
-    double *C;       /* [deformables x strains^2] P''(e_n) */
-    double *energy;  /* [deformables] P(e_n) */
-    double *d;       /* [deformables x strains] */
-    double *elastic; /* [elements x strains] P'(e_n) for damped members, whose stresses in the state
-                        include damping; NULL: no damping */
-    double *massless; /* [masses x 9] projection onto rotations without inertia, in the axes of the
-                         frames */
-    double *spring;   /* [springs x 3 x SPRING_STRAINS] e and sigma at the end, sigma_n */
-    double *slot;     /* [deformables x slot_size] data from the evaluation for the update */
+    int strains;    /* largest number of strains of an element or a spring */
+    double *W;      /* [deformables x strains^2] mean of P'' at the two ends of the step */
+    double *C;      /* [deformables x strains^2] P''(e_n) */
+    double *energy; /* [deformables] P(e_n) */
+    double *d;      /* [deformables x strains] */
+    /* [elements x strains] P'(e_n) for damped members, whose stresses in the state include damping;
+     * NULL: there is no damping */
+    double *elastic;
+    /* [masses x 9] projection onto rotations without inertia, in the axes of the frames */
+    double *massless;
+    /* [springs x 3 x SPRING_STRAINS] e and sigma at the end of the step, and sigma_n */
+    double *spring;
+    double *slot; /* [deformables x slot_size] data that the evaluation stores for the update */
     int slot_size;
     complement *complement;
     evaluation *evaluation; /* [CHUNK_MOST] work space */
     double h;               /* [s] size of the step */
     double k, denominator,
-        missing; /* missing: residual of the equation for k: sum k_e . gap_e + k_d . gap_d */
-    int settled; /* 1: the remaining gaps are rounding errors and cause no stresses */
-    int wild;    /* 1: k was too large and was not used */
+        /* missing: residual of the equation for k, which is the sum of k_e . gap_e + k_d . gap_d */
+        missing;
+    int settled;            /* 1: the remaining gaps are rounding errors and cause no stresses */
+    int wild;               /* 1: k was too large and was not used */
     double largest, change; /* stresses */
     arrival arrival;
     long counted;
 } conserving;
 
-/* conserving_strain.c: functions for all elements and springs. */
+/* Functions for all elements and springs (conserving_strain.c). */
 /* Computes the energies and the springs at the start of the step, and sets d to zero. */
 status conserving_begin(conserving *, const instant *from, fault *);
-/* Computes the stresses of the present strains, and k. k is 0 until it is reliable. */
+/* Computes the stresses for the present strains, and k. k is 0 until it is reliable. */
 status conserving_stresses(conserving *, const instant *from, model_state *now, int iteration,
                            fault *);
-/* Updates the strains at the end of the step and d by dx. Returns the largest change of an inner
- * unknown. */
+/* Updates the strains at the end of the step and d, for the increments dx. Returns the largest
+ * change of an inner unknown. */
 double conserving_update(conserving *, const instant *from, model_state *now);
 
-/* conserving_forces.c: residual -= forces of elements and springs; adds their tangent to S, and
- * their column and row. */
+/* Subtracts the forces of elements and springs from the residual, and adds their tangent to S,
+ * including the terms `column` and `row` (conserving_forces.c). */
 void conserving_forces(conserving *, const instant *from, model_state *now,
                        double *incompatibility);
 
-/* conserving_strain.c: residual -= inertia forces; S += their tangent. */
+/* Subtracts the inertia forces from the residual and adds their tangent to S (conserving_strain.c).
+ * */
 void conserving_inertia(conserving *, const instant *from, const model_state *now, double h);
 
-/* conserving_forces.c: out[free + driven] += loads at the middle of the step; S += their tangent.
- */
+/* Adds the loads at the middle of the step to out[free + driven] and their tangent to S
+ * (conserving_forces.c). */
 void conserving_loads(conserving *, const instant *from, const model_state *now, double h,
                       double out[]);
 
-/* conserving_strain.c: computes an initial guess of the step, as increments of coordinates. */
+/* Computes an initial guess of the step as increments of coordinates (conserving_strain.c). */
 void conserving_predict(conserving *, const instant *from, double h);
 void conserving_increment(const conserving *, const model_state *from, double inc[]);
 
-/* conserving_forces.c: sets the work and the dissipated energy of `to`. */
+/* Sets the work and the dissipated energy of `to` (conserving_forces.c). */
 status conserving_work(conserving *, const instant *from, instant *to, double h, fault *);
 /* Computes strain rates at the end of the step, and adds eta S0 e' to the stresses of damped
  * members. */
@@ -390,39 +406,42 @@ void conserving_damped(const conserving *, const instant *from, double h, instan
 typedef struct carried_step {
     double Rn[9], R1[9];
     double centre[3], before[3], after[3],
-        mean[3]; /* position of the centre relative to the frame: in the axes of the frame; at
-                    the start and end of the step; mean of the two */
+        /* position of the centre relative to the frame: in the axes of the frame; in global axes at
+         * the start and at the end of the step; mean of the last two */
+        mean[3];
     double J[9]; /* moment of inertia about the centre, in the axes of the frame */
-    double v0[3], v1[3], W0[3], W1[3]; /* velocities of the centre, and angular velocities in the
-                                          axes of the frame, at the start and end of the step */
+    /* velocities of the centre, and angular velocities in the axes of the frame, at the start (0)
+     * and at the end (1) of the step */
+    double v0[3], v1[3], W0[3], W1[3];
     double c[3];
-    int rides;      /* 1: some but not all translations of the frame are fixed ... */
-    double held[9]; /* ... and this matrix projects onto the fixed ones */
-    double g[3], behind[3], turned[3], late[3]; /* terms due to the fixed translations: see
-                                                   carried.c */
+    int rides;      /* 1: some but not all translations of the frame are fixed */
+    double held[9]; /* projection onto the fixed translations */
+    /* terms due to the fixed translations (see carried.c) */
+    double g[3], behind[3], turned[3], late[3];
 } carried_step;
 
-/* Computes the centre of a mass relative to the frame, and its tensor about the centre, both in
- * the axes of the frame. If a frame only rotates, the origin of the frame is used as the centre. */
+/* Computes the centre of a mass relative to the frame, and its tensor about the centre, both in the
+ * axes of the frame. If the frame can only rotate, the origin of the frame replaces the centre. */
 void carried_step_centre(const model *, const carried_mass *, double centre[3], double J[9]);
 void carried_step_of(const conserving *, const instant *from, const model_state *now, double h,
                      const carried_mass *, carried_step *);
 
-/* carried.c: frames for which some translations are fixed and others are free. */
-/* Computes v1 of the fixed translations, and the moment `late` of their forces. */
+/* Frames with both fixed and free translations (carried.c). */
+/* Computes v1 of the fixed translations, and the moment `late` of the forces on these translations.
+ * */
 void carried_step_follow(const carried_mass *, carried_step *);
-/* Computes sway[9]: `swept`, with the rows along fixed translations replaced by those of -h/2
- * dv1/dc. swept: minus d(centre)/dc; T: see cayley_tangent. */
+/* Computes sway[9]: `swept`, with the rows along fixed translations replaced by the rows of -h/2
+ * dv1/dc. swept: minus d(centre)/dc. T: see cayley_tangent. */
 void carried_step_sway(const carried_step *, double h, const double T[9], const double swept[9],
                        double sway[9]);
-/* K[6 x 6] += derivative of `late`. */
+/* Adds the derivative of `late` to K[6 x 6]. */
 void carried_step_late(const carried_mass *, const carried_step *, double h, const double T[9],
                        const double sway[9], double K[36]);
 
-/* Closed-form derivatives of the relative motion of a step (cayley_step) with respect to dr, c, da
- * of the nodes. */
+/* Derivatives of the relative motion of a step (cayley_step) with respect to dr, c and da of the
+ * nodes, in closed form. */
 
-/* d phi_j = own_j dc_j + common_j dc, and likewise d z_j, where c is the mean. spin dc is the
+/* d phi_j = own_j dc_j + common_j dc, where c is the mean. d z_j has the same form. spin dc is the
  * derivative of G. */
 typedef struct cayley_slopes {
     double kappa[3], b[3], spin[9];
@@ -431,39 +450,39 @@ typedef struct cayley_slopes {
 } cayley_slopes;
 void cayley_slopes_of(const cayley_step *, cayley_slopes *);
 
-/* out += weight A Y: transforms A[rows x 7 nodes] from spatial increments of x(s) to dr, c, da. */
+/* Adds A Y times `weight` to `out`. Y transforms A[rows x 7 nodes] from spatial increments of x(s)
+ * to dr, c and da. */
 void cayley_slopes_columns(const cayley_step *, const cayley_slopes *, const cayley_point *,
                            double weight, int rows, const double A[], double out[]);
-/* K[7 nodes x 7 nodes] += derivative of cayley_forces at fixed f[7 nodes]. */
+/* Adds the derivative of cayley_forces at fixed f[7 nodes] to K[7 nodes x 7 nodes]. */
 void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const double f[], double K[]);
 
 /* Checks that a motion can be integrated as requested. REFUSED: the request is not supported. */
 
-/* Checks that the form of Newton's method suits the integrator, that inertia is defined for
+/* Checks that the integrator supports the form of Newton's method, that inertia is defined for
  * transient analysis with the requested mass, and that all drivers are functions of time. */
 status checks_of(const analysis_context *, int analysis, fault *);
-/* Positions of massless coordinates follow from equilibrium of each body, which excludes consistent
- * masses. Without numerical damping the accelerations of massless coordinates grow until they
- * overflow. */
+/* Checks the treatment of massless coordinates. Their positions follow from the equilibrium of each
+ * body, which excludes consistent masses. Without numerical damping, their accelerations grow until
+ * they overflow. */
 status checks_massless(const analysis_context *, const carried_masses *, const scene_motion *,
                        const model_state *begin, fault *);
 
-/* A step that conserves energy and both momenta for any formulation. It needs `strain` at three
- * states and `stress` at the end. With the strains e at both ends,
- *   s = (sigma_n + sigma_1)/2,   W = (P''(e_n) + P''(e_1))/2,
- *   d = sum_g w_g J(x(s_g)) (dr^, phi, da),   sigma_m = s + k W d,
- *   k = sum [P(e_1) - P(e_n) - s.d]/sum d.W d   (one number for the whole structure).
+/* A step that conserves energy and both momenta for any formulation. The step evaluates `strain` in
+ * three states, and `stress` at the end. With the strains e at both ends, s = (sigma_n +
+ * sigma_1)/2,   W = (P''(e_n) + P''(e_1))/2, d = sum_g w_g J(x(s_g)) (dr^, phi, da),   sigma_m = s
+ * + k W d, k = sum [P(e_1) - P(e_n) - s.d]/sum d.W d. The number k applies to the whole structure.
  * Then sum sigma_m.d is the change of energy, and the forces A^T sigma_m do no work in any rigid
- * motion (cayley_step). Translations m (v1 - v)/h = f - F with dr = h (v + v1)/2; rotations by
- * Cayley vectors R_n^T c = h (W + W1)/2, (R_1 J W1 - R_n J W)/h = m - M. After Simo, Tarnow &
- * Doblare (1995), Gonzalez (1996) and Sansour et al. (2004); the common rotation of an element, its
- * two points and the single number k are additions. W is not P'' of the undeformed element: if
- * stresses inside an element depend on its bending, the stiff directions change with the strains,
- * and k W d would have a component along them. */
+ * motion (cayley_step). Translations follow from m (v1 - v)/h = f - F with dr = h (v + v1)/2.
+ * Rotations follow from Cayley vectors: R_n^T c = h (W + W1)/2, (R_1 J W1 - R_n J W)/h = m - M. The
+ * method follows Simo, Tarnow & Doblare (1995), Gonzalez (1996) and Sansour et al. (2004). The
+ * common rotation of an element, its two points and the single number k are additions. W is not P''
+ * of the undeformed element: if stresses inside an element depend on its bending, the stiff
+ * directions change with the strains, and k W d would have a component along these directions. */
 
-/* REFUSED: a node has several successive angles; no rotation has inertia; or there are
- * constraints that its rates do not follow. Rates of massless coordinates are mean rates over a
- * step. */
+/* Allocates the integrator. Rates of massless coordinates are mean rates over a step. REFUSED: a
+ * node has several successive angles, no rotation has inertia, or the rates cannot follow the
+ * constraints. */
 status conserving_alloc(const scheme_request *, motion_scheme **, fault *);
 
 /* An element or a spring during a step. Elements and springs differ only in the function that
@@ -480,29 +499,30 @@ typedef struct deformable {
     const mesh_discrete *spring; /* NULL: an element */
     int index;                   /* index of the element or spring */
     int strains, coordinates;    /* 7 nodes */
-    const double *before;        /* sigma_n, at the start of the step */
-    double *W, *C_before;        /* mean of P'' over the two ends of the step; P''(e_n) */
+    const double *before;        /* sigma_n, the stresses at the start of the step */
+    double *W, *C_before;        /* mean of P'' at the two ends of the step, and P''(e_n) */
     double *e, *sigma, *d;       /* values of the present iteration */
     double *first;               /* [strains] e_n of a spring; NULL: an element */
-    /* Values that the evaluation of one iteration stores for the update. */
-    double *J;             /* [strains x coordinates] de/dx at the end, with respect to dr, c, da */
-    double *C, *memory;    /* [strains x strains] P''(e); memory of the stress function */
+    /* Values of an iteration that the evaluation stores for the update. */
+    /* [strains x coordinates] de/dx at the end of the step, with respect to dr, c and da */
+    double *J;
+    double *C, *memory;    /* [strains x strains] P''(e), and the memory of the stress function */
     double *present;       /* [strains] P'(e) */
-    double *gap_e, *gap_d; /* [strains] D(x_1) - e, and A (dr, c, da) - d */
-    const double *S;       /* S0 of a damped member, or matrix of a dashpot; NULL: no damping */
-    double damping;        /* eta [s] of a damped member; 1 for a dashpot */
-    double length;         /* [m] reference length of the incompatibilities */
+    double *gap_e, *gap_d; /* [strains] D(x_1) - e and A (dr, c, da) - d */
+    const double *S; /* S0 of a damped member, or matrix of a dashpot; NULL: there is no damping */
+    double damping;  /* eta [s] of a damped member; 1 for a dashpot */
+    double length;   /* [m] reference length for incompatibilities */
 } deformable;
 
-/* deformable_count returns the number of deformables (elements, then springs); deformable_at
- * returns the data of one of them. */
+/* deformable_count returns the number of deformables, which are the elements followed by the
+ * springs. deformable_at returns the data of a deformable. */
 int deformable_count(const conserving *);
 deformable deformable_at(const conserving *, const instant *from, model_state *now, int i);
-/* Returns the number of elements from index `first` on that are evaluated together: elements of
- * one kind, or 1. */
+/* Returns the number of elements, starting with index `first`, that are evaluated together. They
+ * are of the same kind. Returns 1 if they are evaluated one by one. */
 int deformable_together(const conserving *, int first);
 
-/* Values of one element that one iteration evaluates. */
+/* Values of an element in one iteration. */
 struct evaluation {
     deformable of;
     cayley_step step;
@@ -512,39 +532,35 @@ struct evaluation {
     double middle[DEFORMABLE_STRAINS];     /* (sigma_n + P'(e))/2 + k W d */
     double D[DEFORMABLE_STRAINS];
     double J[DEFORMABLE_POINTS][DEFORMABLE_STRAINS * ELEMENT_MAX_COORDINATES];
-    double H[DEFORMABLE_POINTS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES]; /* second
-                                                                                       derivatives
-                                                                                       at the
-                                                                                       points
-                                                                                       between
-                                                                                       the ends */
-    /* Equations of a deformable: forces on dr, c, da of the coordinates, its tangent, the column
-     * A^T W d and the row k_e + k_d. */
+    /* second derivatives at the points between the ends */
+    double H[DEFORMABLE_POINTS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+    /* Equations of a deformable: forces on dr, c and da of the coordinates, their tangent, the
+     * column A^T W d and the row k_e + k_d. */
     double force[DEFORMABLE_COORDINATES], column[DEFORMABLE_COORDINATES],
         row[DEFORMABLE_COORDINATES];
     double K[DEFORMABLE_COORDINATES * DEFORMABLE_COORDINATES];
 };
 
-/* evaluation.c: strains and their derivatives of `count` deformables; if more than one, they are
- * elements of one kind. */
+/* Evaluates the strains and their derivatives of `count` deformables. If there are several, they
+ * are elements of the same kind (evaluation.c). */
 void deformable_evaluate(const conserving *, const instant *from, const model_state *now, int count,
                          evaluation[]);
 
-/* Prescribed coordinates as functions of time: increments, rates and their derivatives. */
+/* Prescribed coordinates as functions of time: their increments, rates and derivatives of rates. */
 
-/* REFUSED: an unknown driver has no function of time, which it needs in a motion. */
+/* Checks the drivers. REFUSED: an unknown driver has no function of time, which a motion needs. */
 status drive_check(const model *, fault *);
-/* Computes entries [free, free + driven) of inc (measured from the state), v and a at `time`;
- * NULL: not requested. */
+/* Computes entries [free, free + driven) of inc (relative to the state), v and a at `time`; NULL:
+ * not requested. */
 void drive_at(const equations *, const model_state *from, double time, double inc[], double v[],
               double a[]);
 
 /* Runge-Kutta method of order 8 with an error estimate of order 7 (Prince & Dormand 1981, rk8pd of
- * GSL). It solves inc' = X v, v' = M^-1 (f - h - J^T sigma), where X is turning_inverse for
- * rotations in the axes of the frame, else 1. It computes reference values of a given mesh.
- * Positions are increments from the start of each step. */
+ * GSL). The equations are inc' = X v and v' = M^-1 (f - h - J^T sigma), where X is turning_inverse
+ * for rotations in the axes of the frame, and 1 otherwise. The method computes reference values for
+ * a given mesh. Positions are increments from the start of each step. */
 
-/* REFUSED: a coordinate has no inertia. */
+/* Allocates the integrator. REFUSED: a coordinate has no inertia. */
 status explicit_alloc(const scheme_request *, motion_scheme **, fault *);
 
 /* Internals of the explicit integrator. */
@@ -554,37 +570,39 @@ typedef struct explicit_scheme {
     scheme_request of;
     gsl_odeiv2_step *stepper;
     int free, all;
-    double *y, *error, *dydt; /* [2 x free + 2 + feedback_count] increments, rates, work, dissipated
-                                 energy, integrals of feedback; error estimate of GSL; derivatives
-                                 at the end */
-    double *inc, *residual;   /* [free + driven] */
-    double *memory,
-        *still; /* memory of one element, whose size its type defines; zero increment of strains */
-    double power;        /* [W] power of dashpots */
-    double *weight;      /* [free + driven] weights as in model.h */
-    const instant *from; /* start of the present step */
-    double end;          /* [s] latest time at which loads are read */
-    instant *at;         /* the state of the last evaluation */
-    status outcome;      /* its status */
+    /* [2 x free + 2 + feedback_count] increments, rates, work, dissipated energy and integrals of
+     * feedback; their error estimates from GSL; their derivatives at the end of the step */
+    double *y, *error, *dydt;
+    double *inc, *residual; /* [free + driven] */
+    double *memory, *still; /* memory of one element, whose size its type defines; a zero increment
+                               of strains */
+    double power;           /* [W] power of dashpots */
+    double *weight;         /* [free + driven] weights as in model.h */
+    const instant *from;    /* start of the present step */
+    double end;             /* [s] latest time at which loads are read */
+    instant *at;            /* state of the last evaluation */
+    status outcome;         /* its status */
     fault why;
 } explicit_scheme;
 
-/* Extent and rate of the motion so far. The tolerance of a step is relative to the largest
- * motion so far, but at least to an estimate of the largest motion, which is initially 2 % of
- * the size of the structure. If the motion reaches less than half of the estimate, it is
- * integrated again with a smaller one. */
+/* Extent and rate of the motion so far. The tolerance of a step is relative to the largest motion
+ * so far, but at least to an estimate of the largest motion. The estimate is initially 2 % of the
+ * size of the structure. If the motion does not reach half of the estimate, it is integrated again
+ * with a smaller estimate. */
 
 typedef struct extent {
     model_state *begin; /* initial state */
-    double bent;        /* distance of that state from the undeformed state; its rounding error
-                           is the noise */
-    double scale;       /* estimate of the largest motion, in the measure of model.h: 1 is the size
-                           of the structure */
-    double largest;     /* largest distance from `begin` so far, over coordinates with inertia */
-    double rate;        /* [1/s] largest mean rate of a step, over the same coordinates */
+    /* distance of the initial state from the undeformed state; rounding of this distance is the
+     * noise */
+    double bent;
+    /* estimate of the largest motion, with the norm of model.h; 1 is the size of the structure */
+    double scale;
+    double largest; /* largest distance from `begin` so far, over coordinates with inertia */
+    double rate;    /* [1/s] largest mean rate of a step, over coordinates with inertia */
     double
-        density;  /* error of a step divided by its size to the order of the scheme: extent_error */
-    double worst; /* largest error of an accepted step, relative to its allowed fraction */
+        /* error of a step divided by a power of its size, the order of the scheme (extent_error) */
+        density;
+    double worst; /* largest ratio of the error of an accepted step to its allowed error */
 } extent;
 
 /* Initial estimate of the largest motion. */
@@ -594,20 +612,20 @@ void extent_begin(extent *, const model *);
 /* Returns the extent after a step of h [s]. */
 extent extent_with(const extent *, const model *, const motion_scheme *, const instant *from,
                    const instant *to, double h, double error);
-/* Returns the estimated error of a step of h [s]. If the errors of steps add up, the result
- * follows from the largest estimate within the last ten radians of the motion. The reason is
- * that, where rates change sign, the error of positions vanishes while the error of rates is
- * largest. */
+/* Returns the estimated error of a step of h [s]. If the errors of steps add up, the result follows
+ * from the largest estimate within the last ten radians of the motion. The reason is that the error
+ * of positions vanishes at a change of sign of the rates, where the error of the rates is largest.
+ * */
 double extent_error(const extent *, const motion_scheme *, double h, double error);
-/* Returns the allowed error of a part of the motion, given the tolerance of the whole motion. It
- * is at least the rounding error of the coordinates. */
+/* Returns the allowed error of a part of the motion, given the tolerance of the whole motion. The
+ * result is at least the rounding error of the coordinates. */
 double extent_allows(const extent *, double part, double tolerance);
 /* Returns 1 if three conditions hold: the completed motion was less than half of the estimate, its
- * steps are too long for a tolerance relative to its size, and the motion exceeds the rounding of
- * its initial state. *scale: a better estimate. */
+ * steps are too long for a tolerance relative to its size, and the motion exceeds the rounding
+ * error of its initial state. *scale: a better estimate. */
 int extent_is_less(const extent *, double tolerance, double *scale);
 
-/* States of a motion for pictures, at equal intervals, including times inside steps. */
+/* States of a motion for pictures, at equally spaced times, which may lie inside steps. */
 
 typedef struct frames {
     const equations *eq;
@@ -618,49 +636,50 @@ typedef struct frames {
     instant at;
 } frames;
 
-/* The caller sets m, to, begin and end; count 0: no pictures. */
+/* Allocates the frames. count 0: there are no pictures. The caller sets m, to, begin and end. */
 status frames_alloc(frames *, int count, fault *);
 void frames_free(frames *);
 /* Stores the initial state. */
 status frames_begin(frames *, const instant *now, fault *);
 status frames_step(frames *, between_degree, const instant *from, const instant *to, fault *);
 
-/* Increment between the states at two instants: inc[free + driven]. It is a difference for
- * translations, warping and angles, and a rotation vector in the axes of the frame for rotations
- * of FORM_BODY. */
+/* Increment between the states at two times: inc[free + driven]. It is a difference for
+ * translations, warping and angles, and a rotation vector in the axes of the frame for rotations of
+ * FORM_BODY. */
 
-/* Moves the frames of `to` from those of `from` by inc. Strains, stresses and inner unknowns do
- * not change. */
+/* Moves the frames of `to`, starting from the frames of `from`, by inc. Strains, stresses and inner
+ * unknowns do not change. */
 void increment_apply(const model *, const model_state *from, const double inc[], double time,
                      model_state *to);
-/* Composes inc with the spatial increments dx; `now` is the state before dx. */
+/* Composes inc with the spatial increments dx. `now` is the state before dx. */
 void increment_add(const model *, const model_state *now, const double dx[], double inc[]);
 
 /* The integrator that the analysis requests. */
 
-/* REFUSED: the integrator cannot integrate this model; the message gives the reason. */
+/* Allocates the requested integrator. REFUSED: the integrator cannot integrate this model; the
+ * message gives the reason. */
 status integrator_alloc(const scheme_request *, motion_scheme **, fault *);
 void integrator_free(motion_scheme *);
 
-/* Slope discontinuities and jumps of loads and prescribed motions. No step crosses one. */
+/* Slope discontinuities and jumps of loads and prescribed motions. No step contains one in its
+ * interior. */
 
 /* Returns the time of the first discontinuity after `time` [s]; INFINITY: none. */
 double kinks_next(const model *, double time);
-/* Returns a time just before `time` if there is a discontinuity at `time`, else `time`. A step
- * that ends at a discontinuity evaluates its loads there. */
+/* Returns a time just before `time` if there is a discontinuity at `time`, otherwise `time`. A step
+ * that ends at a discontinuity evaluates its loads at the returned time. */
 double kinks_before(const model *, double time);
 
-/* One instant of a motion by mixed Newton iteration (Nijenhuis et al., section 4), starting from
- * the previous instant: equilibrium with the inertia forces of rates that follow the increment,
- *   v = v0 + g inc,   a = a0 + b inc.
- * Strains and stresses of elements are unknowns, so stiff elements need no additional
- * iterations. */
+/* The state of a motion at a time, computed by a mixed Newton iteration (Nijenhuis et al., section
+ * 4) from the previous state. The state is in equilibrium with the inertia forces of rates that
+ * follow the increment, v = v0 + g inc, a = a0 + b inc. Strains and stresses of elements are
+ * unknowns, so stiff elements need no additional iterations. */
 
-/* Returns 1 if the last factors may be used again. The error that they cause is the product of two
- * successive corrections; in stiff members the corrections of the stresses (newton.h) show it.
- * Measured with members that are 1e6 times stiffer in elongation: above 2e-4 corrections stop
- * contracting and steps of 0.2 s fail; below, the number of iterations is the same as with new
- * factors. */
+/* Returns 1 if the last factors may be used again. They cause an error that is the product of two
+ * successive corrections. In stiff members, the corrections of the stresses (newton.h) show this
+ * error. The limit was measured with members that are 1e6 times stiffer in elongation. Above 2e-4,
+ * corrections stop decreasing and steps of 0.2 s fail. Below 2e-4, the number of iterations is the
+ * same as with new factors. */
 int stage_stands(const arrival *);
 
 typedef struct motion_stage {
@@ -672,14 +691,14 @@ typedef struct motion_stage {
     arrival arrival;
     complement *complement;
     int all, free;
-    int begins; /* at a discontinuity, 1: the loads after it apply; 0: the loads before it */
+    int begins; /* at a discontinuity, 1: the loads after it apply; 0: the loads before it apply */
     long counted;
 } motion_stage;
 
 status stage_alloc(analysis_context *, const carried_masses *, motion_stage *, fault *);
 void stage_free(motion_stage *);
 
-/* Solves S dx = residual; fresh 0: with the existing factors. */
+/* Solves S dx = residual. fresh 0: the existing factors are used. */
 status stage_direction(motion_stage *, int fresh, fault *);
 
 /* All arrays have [free + driven] entries. h [s]: step size of the trapezoidal rule for the
@@ -687,60 +706,63 @@ status stage_direction(motion_stage *, int fresh, fault *);
 typedef struct stage_rates {
     double b, g, h;
     const double *a0, *v0;
-    double *inc, *v, *a; /* input: inc is the initial guess; prescribed coordinates are exact */
+    /* input: initial guess of inc; the entries of prescribed coordinates are exact */
+    double *inc, *v, *a;
 } stage_rates;
-/* `now` starts with the strains and stresses of `from`, or better ones, and becomes the state at
- * `time`. NOT_CONVERGED: the fault gives the reason, and `now` is invalid. */
+/* Computes the state at `time`. `now` contains the strains and stresses of `from`, or better
+ * values, and becomes this state. NOT_CONVERGED: the fault gives the reason, and `now` is invalid.
+ * */
 status stage_solve(motion_stage *, const model_state *from, double time, stage_rates *,
                    model_state *now, step_record *, fault *);
 
 /* Initial conditions of a motion: the requested velocities, with consistent accelerations and
- * massless coordinates. */
+ * consistent massless coordinates. */
 
-/* Computes consistent accelerations and massless coordinates after a discontinuity of the loads;
- * velocities do not change. */
+/* Computes consistent accelerations and massless coordinates after a discontinuity of the loads.
+ * Velocities do not change. */
 status launch_again(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
                     instant *room, fault *);
-/* `now` contains the state and the time; `room` is work space. frame: angular velocity [rad/s]
- * and centre [m] of the axes in which the state is at rest; omega zero: these axes do not
- * rotate. REFUSED: a fixed or prescribed coordinate does not follow this rotation. */
+/* Sets initial rates of a structure at rest in rotating axes. `now` contains the state and the
+ * time; `room` is work space. frame: angular velocity [rad/s] and centre [m] of the axes; omega
+ * zero: the axes do not rotate. REFUSED: a fixed or prescribed coordinate does not follow this
+ * rotation. */
 status launch_turning(analysis_context *, const carried_masses *, const scene_motion *,
                       const scene_rotating_frame *frame, instant *now, instant *room, fault *);
-/* As launch_turning, for axes at rest. */
+/* Like launch_turning, for axes at rest. */
 status launch(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
               instant *room, fault *);
 
 /* Separates motions with inertia from motions without inertia, for a body and the ends released
- * from it. Positions without inertia follow from equilibrium at every instant. */
+ * from it. Positions of motions without inertia always follow from equilibrium. */
 
 /* Computes the number of free coordinates minus the rank of their masses in the state. */
 status massless_count(const model *, const carried_masses *, const model_state *, int *count,
                       fault *);
 /* Removes the motions with inertia from force[free], or from dx[free] (spatial increments of
- * rotations): only the part along motions without inertia remains. */
+ * rotations). Only the part along motions without inertia remains. */
 status massless_forces(const model *, const carried_masses *, const model_state *, double force[],
                        fault *);
 status massless_motion(const model *, const carried_masses *, const model_state *, double dx[],
                        fault *);
-/* Finds the quantities of the analysis that read the acceleration or the jerk of a node that
- * moves without inertia: *undefined[quantities of the scene], which the caller frees.
- * Accelerations of massless coordinates are not known (see settle). REFUSED: the analysis has no
- * other quantities to compute. */
+/* Finds the quantities of the analysis that read the acceleration or the jerk of a node that moves
+ * without inertia: *undefined[quantities of the scene], which the caller frees. Accelerations of
+ * massless coordinates are unknown (see settle). REFUSED: the analysis has no other quantities to
+ * compute. */
 status massless_readings(const model *, const carried_masses *, const model_state *, int analysis,
                          unsigned char **undefined, fault *);
 /* Removes motions without inertia from a[free], given in the coordinates of forms_rates. */
 status massless_drop(const model *, const carried_masses *, const model_state *, double a[],
                      fault *);
-/* Computes the acceleration a[free] due to forces, in the coordinates of forms_rates; 0 for
- * coordinates without inertia. */
+/* Computes the acceleration a[free] due to forces, in the coordinates of forms_rates. The
+ * acceleration of coordinates without inertia is 0. */
 status massless_accelerate(const model *, const carried_masses *, const model_state *,
                            const double force[], double a[], fault *);
 
-/* Extrema of reactions, resultants, stresses, energies and momenta during a motion. At the ends
- * of steps the values are those of the scheme. Between the ends, a cubic through four
- * consecutive ends shows where a value may be larger (order 4), and a side step computes the
- * value there. The value of the cubic counts only if it differs from the value of the side step
- * by less than the gain. An extremum that the steps do not resolve is therefore rejected. */
+/* Extrema of reactions, resultants, stresses, energies and momenta during a motion. The values at
+ * the ends of steps are those of the scheme. Between the ends, a cubic through four consecutive
+ * ends (order 4) shows where a value may be larger, and a side step computes the value at this
+ * time. The side step counts only if its value differs from the cubic by less than the gain. An
+ * extremum that the steps do not resolve is therefore rejected. */
 
 enum { PEAKS_ENDS = 4 }; /* number of consecutive ends of steps */
 
@@ -748,7 +770,8 @@ enum { PEAKS_ENDS = 4 }; /* number of consecutive ends of steps */
 typedef struct peak {
     const scene_quantity *q;
     outcome_passing *out;
-    double sign, from, until; /* 1: largest, -1: smallest; window [s] */
+    /* sign 1: maximum, -1: minimum; the other members are the window [s] */
+    double sign, from, until;
     double value[PEAKS_ENDS]; /* values at the last ends of steps */
 } peak;
 
@@ -758,49 +781,51 @@ typedef struct peaks {
     motion_scheme *scheme;
     const carried_masses *masses;
     outcome_motion *out;
-    int count, ends; /* number of quantities; number of ends since the start or the last
-                        discontinuity of the loads */
-    peak *one;       /* [count] */
+    /* number of quantities, and number of ends since the start or since the last discontinuity of
+     * the loads */
+    int count, ends;
+    peak *one; /* [count] */
     instant last[PEAKS_ENDS], at;
 } peaks;
 
-/* The caller sets c, analysis, scheme, masses and out. Does nothing when no quantity needs extrema.
- */
+/* Allocates the search for extrema. Does nothing if no quantity needs extrema. The caller sets c,
+ * analysis, scheme, masses and out. */
 status peaks_alloc(peaks *, fault *);
 void peaks_free(peaks *);
-/* Adds the end of a step, with its energies. last 1: the step is the last one before a
- * discontinuity of the loads, or the last one of the motion. */
+/* Adds the end of a step, with its energies. last 1: a discontinuity of the loads or the end of the
+ * motion follows the step. */
 status peaks_here(peaks *, const instant *, const double balance[SCENE_BALANCES], int last,
                   fault *);
-/* Starts again after a discontinuity of the loads. */
+/* Restarts the search after a discontinuity of the loads. */
 void peaks_jump(peaks *);
-/* Call at the end of the motion. */
+/* Completes the search at the end of the motion. */
 void peaks_end(peaks *);
 
-/* Motion of a frame during a step, from the coordinates of its body and of a released end. It is
- * exact, so forces do the same work in both sets of coordinates. Subscript m denotes the mean of
- * the values at the two ends of the step, subscripts n and 1 denote the start and the end. Frame
- * moved by a body:  dr = dr_b + c x rho_m, with forces f and m + rho_m x f. Angles and released
- * rotations, each about an axis b, with tau = 2 tan(d angle/2): c_k = c_(k-1) + tau_k x_k,  x = [b
- * + c x b/2 + c (c.b)/4]/(1 - tau c.b/4), where b is taken at the start; x lies along the mean
- * axis, about which no moment acts. Released sliding s along an axis a adds c x (a s)_m + [a_m - c
- * x (a_1 - a_n)/4] ds to dr. */
+/* Motion of a frame during a step, from the coordinates of its body and of a released end. The
+ * motion is exact, so forces do the same work in both sets of coordinates. Subscript m denotes the
+ * mean of the values at the two ends of the step, subscripts n and 1 denote the start and the end.
+ * For a frame moved by a body: dr = dr_b + c x rho_m, with forces f and m + rho_m x f. Angles and
+ * released rotations, each about an axis b, with tau = 2 tan(d angle/2): c_k = c_(k-1) + tau_k x_k,
+ * x = [b + c x b/2 + c (c.b)/4]/(1 - tau c.b/4), where b is taken at the start; x lies along the
+ * mean axis, about which no moment acts. Released sliding s along an axis a adds c x (a s)_m + [a_m
+ * - c x (a_1 - a_n)/4] ds to dr. */
 
 enum { PLACE_MOST = 6 + SCENE_RELEASED };
 
 typedef struct frame_place {
-    int columns; /* number of coordinates: six of the node, then released rotations, then
-                    released slides */
-    double work[6 * PLACE_MOST];  /* [6 x columns] forces F on the frame become work^T F in these
-                                     coordinates */
-    double moved[6 * PLACE_MOST]; /* derivative of (dr, c) of the frame with respect to them */
+    /* number of coordinates: six of the node, followed by released rotations and released slides */
+    int columns;
+    /* [6 x columns] forces F on the frame become work^T F in these coordinates */
+    double work[6 * PLACE_MOST];
+    /* derivative of (dr, c) of the frame with respect to the coordinates */
+    double moved[6 * PLACE_MOST];
     double curved[PLACE_MOST * PLACE_MOST]; /* derivative of work^T F at fixed F */
-    double measure[PLACE_MOST]; /* coordinates from which `work` computes (dr, c); they are the
-                                   conjugates of the forces */
+    /* coordinates from which `work` computes (dr, c); they are conjugate to the forces */
+    double measure[PLACE_MOST];
 } frame_place;
 
-/* Returns 1 if the frame moves by its own dr and c; then nothing else is set. F[6]: force on the
- * frame; NULL: zero. */
+/* Returns 1 if dr and c of the frame are coordinates; no other output is then set. F[6]: force on
+ * the frame; NULL: zero. */
 int place_plain(const model *, int vertex);
 void place_of(const conserving *, const model_state *from, const model_state *now, int vertex,
               const double F[6], frame_place *);
@@ -808,8 +833,9 @@ void place_of(const conserving *, const model_state *from, const model_state *no
 void place_step(const conserving *, const model_state *from, const model_state *now, int vertex,
                 double dr[3], double c[3]);
 
-/* Transforms forces[n] of a frame to its coordinates: the six of its body start at index `at`,
- * its own ones at index `own`. The other functions transform rows, and K[n x n] on both sides. */
+/* Transforms forces[n] of a frame to its coordinates. The six coordinates of its body start at
+ * index `at`, and the released coordinates start at index `own`. The other functions transform
+ * rows, and K[n x n] on both sides. */
 void place_forces(const frame_place *, int at, int own, double forces[]);
 void place_row(const frame_place *, int at, int own, double row[]);
 void place_matrix(const frame_place *, int n, int at, int own, double K[]);
@@ -817,38 +843,40 @@ void place_matrix(const frame_place *, int n, int at, int own, double K[]);
 void place_add(conserving *, const model_state *from, const model_state *now, int vertex,
                const double F[6], const double K[36], double out[]);
 
-/* Radau IIA with three stages (Hairer & Wanner II, IV.8), order 5, for q' = v, v' = a. The
- * positions of the stages are the unknowns, with rotations as vectors in the frame's axes:
+/* Radau IIA with three stages (Hairer & Wanner II, IV.8) and order 5, for q' = v, v' = a. The
+ * unknowns are the positions of the stages, where rotations are vectors in the axes of the frame:
  *     t_i' = 1/h sum_j B_ij t_j,  W_i = Jr(t_i) t_i',  a_i = 1/h sum_j B_ij (v_j - v),  B = A^-1.
  * The mixed Newton iteration (Nijenhuis et al., section 4) solves all three stages together. */
 
-/* Allocates the integrator; an additional factorisation in each step gives an error estimate of
+/* Allocates the integrator. An additional factorisation in each step gives an error estimate of
  * order 3. */
 status radau_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* Matrix of the three stages of a step: 3 x 3 blocks [n x n]; off-diagonal blocks contain only
+/* Matrix of the three stages of a step, with 3 x 3 blocks [n x n]. Off-diagonal blocks contain only
  * masses. */
 
 enum { STAGES = 3 };
 
 typedef struct stages_matrix {
-    sparse whole; /* matrix with 3 n rows; owns its pattern */
+    sparse whole; /* matrix with 3 n rows, which owns its pattern */
     int n;
-    int *diagonal; /* [STAGES x n] index where the column of the diagonal block starts */
+    int *diagonal; /* [STAGES x n] index of the first entry of the column in the diagonal block */
 } stages_matrix;
 
 /* Creates the pattern of all three stages. single: pattern of one block. */
 status stages_alloc(const equations *, const carried_masses *, const sparse *single,
                     stages_matrix *, fault *);
 void stages_free(stages_matrix *);
-/* Sets the diagonal block of a stage to K; call for stage 0 first, or zero the matrix. */
+/* Sets the diagonal block of a stage to K. Call this function for stage 0 first, or clear the
+ * matrix. */
 void stages_put(stages_matrix *, int stage, const sparse *K);
 void stages_zero(stages_matrix *);
-/* Adds entries K[columns x columns] of an element to block (i, k), when all blocks are whole
- * (damping, consistent masses). pattern: of a single block. */
+/* Adds entries K[columns x columns] of an element to block (i, k) if all blocks are full (damping,
+ * consistent masses). pattern: pattern of a single block. */
 void stages_add_element(stages_matrix *, int i, int k, const mesh_pattern *pattern, int element,
                         const double K[]);
-/* Adds value to entry (row, column) of block (i, k); does nothing if one of them is not free. */
+/* Adds a value to entry (row, column) of block (i, k). Does nothing if the row or the column is not
+ * free. */
 void stages_add(stages_matrix *, int i, int k, int row, int column, double value);
 
 /* Internals of the three stages. */
@@ -856,7 +884,7 @@ void stages_add(stages_matrix *, int i, int k, int row, int column, double value
 /* One stage. */
 typedef struct radau_stage {
     model_state *state;
-    double *inc, *rate, *v, *a; /* [free + driven]; rate: derivative of inc */
+    double *inc, *rate, *v, *a; /* [free + driven] rate: derivative of inc */
     linear_memory memory;       /* memory of its linearisation */
     complement *complement;
 } radau_stage;
@@ -868,11 +896,12 @@ typedef struct radau {
     radau_stage stage[STAGES];
     sparse K;
     stages_matrix S;
-    matrix_factor *factor, *single; /* factors of S; of the matrix of the error estimate */
-    double *residual;               /* [STAGES x free] */
-    double *dx;                     /* [free + driven] */
-    double *weight;                 /* [free + driven] */
-    double *errors;                 /* [STAGES x feedback_count] */
+    /* factors of S, and factors of the matrix of the error estimate */
+    matrix_factor *factor, *single;
+    double *residual; /* [STAGES x free] */
+    double *dx;       /* [free + driven] */
+    double *weight;   /* [free + driven] */
+    double *errors;   /* [STAGES x feedback_count] */
     arrival arrival;
     int free, all;
     long counted, counted_single;
@@ -881,15 +910,16 @@ typedef struct radau {
 void radau_integrate(radau *, const instant *from, double h, const step_record *);
 
 /* Functions of radau_equations.c. */
-/* Sets nodes, weights and B of the scheme. */
+/* Sets the nodes, the weights and B of the scheme. */
 void radau_coefficients(radau *);
-/* Time of a stage [s]; for the last stage exactly the requested end of the step. */
+/* Returns the time of a stage [s]. The time of the last stage is exactly the requested end of the
+ * step. */
 double radau_time(const radau *, const instant *from, double h, int stage, const step_record *);
 /* Computes v and a of all stages from their increments. */
 void radau_rates(radau *, const instant *from, double h);
-/* Derivatives of the rates (rate) and accelerations of stage i with respect to spatial increments
- * of a vertex in stage k: scalars for translations, [3 x 3] for its rotation, in the axes of its
- * rates. */
+/* Derivatives of the rates (rate) and of the accelerations of stage i with respect to spatial
+ * increments of a vertex in stage k: scalars for translations, and [3 x 3] matrices for its
+ * rotation, in the axes of its rates. */
 typedef struct radau_relation {
     double rate, acceleration, turn_rate[9], turn_acceleration[9];
 } radau_relation;
@@ -899,47 +929,50 @@ void radau_relate(const radau *, int vertex, double h, int i, int k, radau_relat
 /* Computes the residual of all stages in their present states, and S if fresh is 1. */
 status radau_equations(radau *, int fresh, const instant *from, double h, step_record *, fault *);
 
-/* Returns the energy that damping dissipates in a solved step [J]. room[elements x strains]:
+/* Returns the energy [J] that damping dissipates in a completed step. room[elements x strains]:
  * work space. */
 double radau_dissipated(const radau *, const instant *from, double h, double room[]);
-/* Adds damping to the stresses of the model for radau_error, with strain rates -sum e_i (strains
- * gained)/h and tangent g, until damping_follow changes it. room[elements x strains]. */
+/* Adds damping to the stresses of the model for radau_error, with strain rates -sum e_i (increase
+ * of strains)/h and tangent g. The damping remains until damping_follow changes it. room[elements x
+ * strains]: work space. */
 void radau_damp_error(const radau *, const instant *from, double h, const double e[STAGES],
                       double g, double room[]);
 
-/* Masses of member ends that are released from their nodes. These masses move with the
- * coordinates of the node's body and with the released rotations and shifts
- * (harness/model/model.h). */
+/* Masses of member ends that are released from their nodes. These masses move with the coordinates
+ * of the node's body and with the released rotations and shifts (harness/model/model.h). */
 
-/* Coordinates on which the motion of a released end, or of any other vertex, depends. */
+/* Coordinates on which the motion of a released end, or of another vertex, depends. */
 typedef struct released_masses {
-    int count, own; /* own: index of the first of its own coordinates */
-    int body, ball; /* first of three rotations whose rates are an angular velocity: in the axes of
-                       the body, of the end; -1: none */
-    int index[KINEMATICS_MOST];    /* [count] coordinates */
-    double T[6 * KINEMATICS_MOST]; /* [6 x count] spatial motion of the end per coordinate */
+    int count, own; /* own: index of the first released coordinate */
+    /* index of the first of three rotations whose rates are an angular velocity, in the axes of the
+     * body (`body`) or of the end (`ball`); -1: none */
+    int body, ball;
+    int index[KINEMATICS_MOST]; /* [count] coordinates */
+    /* [6 x count] spatial motion of the end per unit of each coordinate */
+    double T[6 * KINEMATICS_MOST];
 } released_masses;
 void released_columns(const model *, const model_state *, int vertex, released_masses *);
 
-/* As forms_rates and forms_add_force, for released ends. */
+/* Like forms_rates and forms_add_force, for released ends. */
 void released_rates(const model *, const model_state *, int vertex, const double v[],
                     const double a[], frame_rates *);
 void released_add_force(const model *, const model_state *, int vertex, const double F[6],
                         double out[]);
 
-/* Computes the velocities of the frame from own[6] of its mass (velocity of the centre, angular
- * velocity in the axes of the frame) and the first moment of the mass [kg m]. */
+/* Computes the velocities of the frame from own[6] of its mass (velocity of the centre, and angular
+ * velocity in the axes of the frame) and from the first moment of the mass [kg m]. */
 void released_moving(const double own[6], double mass, const double moment[3], frame_rates *);
 
-/* out[6 x count]: T with its columns multiplied by `plain`. Columns of rotations in the axes of
- * the body and of the end are instead multiplied from the right by matrices [3 x 3]. */
+/* Computes out[6 x count]: the columns of T multiplied by `plain`. The columns of rotations in the
+ * axes of the body and of the end are instead multiplied from the right by matrices [3 x 3]. */
 void released_motion(const released_masses *, double plain, const double body[9],
                      const double ball[9], double out[6 * KINEMATICS_MOST]);
-/* out[count x count] += T^T A motion */
+/* Adds T^T A motion to out[count x count]. */
 void released_project(const released_masses *, const double A[36], const double motion[],
                       double out[KINEMATICS_MOST * KINEMATICS_MOST]);
 
-/* Continues a motion from the end of another one, with the same result as one motion. */
+/* Continues a motion from the end of another motion. The result is the same as for a single motion.
+ * */
 
 /* Step-control data with which a motion continues. */
 typedef struct resume_control {
@@ -950,23 +983,25 @@ typedef struct resume_control {
     extent extent;
 } resume_control;
 
-/* Stores the end of a motion: for a later motion of the scene that continues this one or, after
- * the last motion, for another run (solve_options.keep_ends). Otherwise does nothing. */
+/* Stores the end of a motion for a later motion of the scene that continues it. The end of the last
+ * motion is stored for another run (solve_options.keep_ends). Otherwise does nothing. */
 status resume_keep(const analysis_context *, int analysis, const instant *now,
                    const resume_control *, outcome_motion *, fault *);
 /* Returns the stored end of another run from which the motion continues; NULL: none. */
 const outcome_end *resume_given(const analysis_context *, int analysis);
-/* Finds the end of an earlier motion of the scene. NOT_CONVERGED: that motion stopped early. */
+/* Finds the end of an earlier motion of the scene. NOT_CONVERGED: this motion stopped prematurely.
+ * */
 status resume_before(const analysis_context *, int before, const outcome_end **, fault *);
-/* Sets the instant and the step control from that end. REFUSED: the end belongs to another mesh. */
+/* Sets the state and the step control from this end. REFUSED: the end belongs to another mesh. */
 status resume_take(const analysis_context *, const outcome_end *, instant *now, resume_control *,
                    fault *);
 
-/* Consistent state of coordinates without inertia, from positions and rates at one instant. */
+/* Consistent state of coordinates without inertia, computed from positions and rates at one time.
+ * */
 
-/* Brings massless coordinates into equilibrium with the present loads and the gyroscopic moments
- * of the other rates, then computes accelerations (0 for massless coordinates). Coordinates
- * whose damping time exceeds a fraction of the step h [s] keep their positions, and their rates
+/* Brings massless coordinates into equilibrium with the present loads and with the gyroscopic
+ * moments of the other rates, then computes accelerations (0 for massless coordinates). Coordinates
+ * whose damping time exceeds a fraction of the step h [s] keep their positions; their rates
  * establish equilibrium. zero[free + driven]: zeros. NOT_CONVERGED: no equilibrium was found. */
 status settle(motion_stage *, const double zero[], double h, instant *now, fault *);
 
@@ -978,46 +1013,46 @@ typedef struct shares_motion {
     int spread;          /* 1: consistent masses of elements (element_spreads) */
 } shares_motion;
 
-/* F[6] += force and moment (about the node's frame) that accelerate the masses that the node
- * moves. */
+/* Adds the force and the moment (about the frame of the node) that accelerate the masses moved by
+ * the node to F[6]. */
 status shares_node(const model *, const model_state *, const shares_motion *, int node, double F[6],
                    fault *);
-/* density[nodes][6]: for each node, the force per initial length that accelerates the mass of
- * one element if the whole element moves as that node does, with the moment about the node. */
+/* Computes density[nodes][6]: for each node, the force per initial length that accelerates the mass
+ * of an element if the whole element has the motion of the node, and the moment about the node. */
 void shares_along(const model *, const model_state *, const shares_motion *, int element,
                   double density[ELEMENT_MAX_NODES][6]);
-/* ends[e][7] += inertia force on the share of one element's mass at its first (0) and last (1)
- * node, and the warping component. */
+/* Adds the inertia force on the share of an element's mass at its first (0) and last (1) node to
+ * ends[e][7], including the warping component. */
 void shares_ends(const model *, const model_state *, const shares_motion *, int element,
                  double ends[2][7]);
 
-/* Consistent masses of elements (element_type.spreads), used instead of masses lumped at their
- * nodes. The inertia forces at the nodes of an element are transferred to the bodies that move
- * the nodes, and to released ends. If an element cannot be evaluated, all of its values are NaN. */
+/* Consistent masses of elements (element_type.spreads), which replace masses lumped at nodes. The
+ * inertia forces at the nodes of an element are transferred to the bodies that move the nodes, and
+ * to released ends. If an element cannot be evaluated, all of its values are NaN. */
 
 struct mesh_element;
 
-/* F[7 nodes]: inertia forces on the nodes of an element. */
+/* Computes the inertia forces F[7 nodes] on the nodes of an element. */
 void spread_force(const model *, int element, const model_state *, const double v[],
                   const double a[], double F[]);
-/* As inertia_subtract, inertia_add_tangent and inertia_of, for consistent masses of elements. */
+/* Like inertia_subtract, inertia_add_tangent and inertia_of, for consistent masses of elements. */
 void spread_subtract(const model *, const model_state *, const double v[], const double a[],
                      double damping, double out[]);
 void spread_add_tangent(const equations *, const model_state *, const double v[], const double a[],
                         double damping, const inertia_relation *, sparse *S);
-/* S += the terms that K of the elements omits (inertia_output). */
+/* Adds the terms that K of the elements omits (inertia_output) to S. */
 void spread_add_omitted(const equations *, const model_state *, const double v[], const double a[],
                         double damping, sparse *S);
 void spread_add_balance(const model *, const model_state *, const double v[], double *kinetic,
                         double momentum[3], double angular[3]);
 
-/* Derivatives of the inertia forces of one element with respect to the motions of the bodies that
- * move its nodes, and of its released ends: 7 coordinates per node. */
+/* Derivatives of the inertia forces of an element with respect to the motions of the bodies that
+ * move its nodes, with 7 coordinates per node, and of its released ends. */
 typedef struct spread_parts {
     const struct mesh_element *el;
     const model_state *state;
-    int columns; /* coordinates of the element: 7 per node, then those of released ends */
-    int wide;    /* 1: the element has a released end, which may have no coordinate */
+    int columns; /* number of coordinates of the element: 7 per node, then those of released ends */
+    int wide;    /* 1: the element has a released end, which may have no coordinates */
     double place[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], /* as inertia_parts */
         velocity[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
         acceleration[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
@@ -1025,53 +1060,55 @@ typedef struct spread_parts {
 } spread_parts;
 void spread_element(const model *, int element, const model_state *, const double v[],
                     const double a[], double damping, spread_parts *);
-/* Computes the mass matrices alone, in the undeformed state. */
+/* Computes only the mass matrices, in the undeformed state. */
 void spread_masses(const model *, int element, const model_state *, spread_parts *);
-/* Motion of a body as a function of the coordinates: a factor for translations and warping, a
- * matrix for rotations. For a released end: spatial rotations of its body and of a ball joint as
- * matrices, and factors for the other coordinates. */
+/* Motion of a body as a function of the coordinates: a factor for translations and warping, and a
+ * matrix for rotations. For a released end: matrices for the spatial rotations of its body and of a
+ * ball joint, and factors for the other coordinates. */
 typedef struct spread_motion {
     double plain, turn[9], ball[9];
 } spread_motion;
-/* Computes the motions for spatial increments of the coordinates. */
+/* Computes the motions due to spatial increments of the coordinates. */
 void spread_place(const model *, const spread_parts *, spread_motion place[]);
-/* out[columns x columns] += A diag(motions). spread_rows transforms the rows of rotations to
- * their coordinates. */
+/* spread_times adds A diag(motions) to out[columns x columns]. spread_rows transforms the rows of
+ * rotations to their coordinates. */
 void spread_times(const model *, const spread_parts *, const double A[],
                   const spread_motion motion[], double out[]);
 void spread_rows(const spread_parts *, double K[]);
 
-/* Matrices of small motions about an instant of a motion, on all coordinates. `now` is consistent:
- * its accelerations are those of its forces. out: initially zero but for its time; freed with the
- * outcome, even after a failure. */
+/* Computes the matrices of small motions about a state during a motion, on all coordinates. The
+ * accelerations of `now` are consistent with its forces. out: initially zero except for its time;
+ * freed with the outcome, even after a failure. */
 status small_motions_of(const equations *, const carried_masses *, instant *now, outcome_about *out,
                         fault *);
 
-/* Instants that modes and harmonic analyses are about. Inside a step, a side step leads there; the
- * motion does not continue from it. */
+/* Times about which modes and harmonic analyses compute small motions. For a time inside a step, a
+ * side step computes the state. The motion does not continue from this state. */
 
 typedef struct abouts {
     analysis_context *c;
-    int analysis, next; /* next: of those of the outcome */
+    int analysis, next; /* next: index of the next time in the outcome */
     const carried_masses *masses;
     const scene_motion *how;
     motion_scheme *scheme;
     outcome_motion *out;
-    double near; /* [s] an instant this close to the end of a step is that end */
+    /* [s] a time that is closer than this to the end of a step counts as the end of the step */
+    double near;
     instant at, room;
 } abouts;
 
-/* The caller sets c, analysis, masses, how, scheme and out. Does nothing where there are none. */
+/* Allocates the data. Does nothing if there are no such times. The caller sets c, analysis, masses,
+ * how, scheme and out. */
 status abouts_alloc(abouts *, fault *);
 void abouts_free(abouts *);
-/* Takes the instants inside a step, without its end. */
+/* Computes the states at the times inside a step, excluding its end. */
 status abouts_inside(abouts *, const instant *from, const instant *to, fault *);
-/* Takes the present instant, if an analysis is about it. */
+/* Stores the present state if an analysis needs it. */
 status abouts_here(abouts *, const instant *now, fault *);
 
-/* Output of a motion at the requested instants, independent of the ends of its steps. Positions and
- * rates come from the polynomial inside the step. If forces or energies are read, a side step gives
- * the state at the instant; the motion does not continue from it. */
+/* Output of a motion at the requested times, which are independent of the ends of steps. Positions
+ * and rates follow from the polynomial inside the step. If forces or energies are read, a side step
+ * computes the state. The motion does not continue from this state. */
 
 typedef struct stations {
     analysis_context *c;
@@ -1079,86 +1116,88 @@ typedef struct stations {
     const carried_masses *masses;
     motion_scheme *scheme;
     outcome_motion *out;
-    int slopes, sloped; /* 1: a slope is read; 1: a step has been made */
+    int slopes, sloped; /* slopes 1: a slope is read; sloped 1: a step has been made */
     step_between inside;
     instant at;
 } stations;
 
-/* The caller sets c, analysis, masses, scheme and out. */
+/* Allocates the data. The caller sets c, analysis, masses, scheme and out. */
 status stations_alloc(stations *, fault *);
 void stations_free(stations *);
 /* Writes the stations inside a step, excluding its end. */
 status stations_inside(stations *, const instant *from, const instant *to, fault *);
-/* Writes the station at the present time, if any. */
+/* Writes the station at the present time if there is one. */
 status stations_here(stations *, const instant *now, const double balance[SCENE_BALANCES], fault *);
 
-/* Rotation vectors of a frame between two instants, and their rates: with R = R_n exp(t~), body
- * rates W of R'(t) = R W~ and t' are
- *   W = Jr(t) t',  Jr(t) = 1 - (1 - cos |t|)/|t|^2 t~ + (|t| - sin |t|)/|t|^3 t~ t~.
- * 3 x 3 matrices are row-major. */
+/* Rotation vectors of a frame between two times, and their rates. With R = R_n exp(t~), the body
+ * rates W of R'(t) = R W~ follow from t': W = Jr(t) t', Jr(t) = 1 - (1 - cos |t|)/|t|^2 t~ + (|t| -
+ * sin |t|)/|t|^3 t~ t~. 3 x 3 matrices are row-major. */
 
 void turning_jacobian(const double t[3], double Jr[9]);
-/* Its inverse 1 + t~/2 + (1 - |t|/2 cot(|t|/2))/|t|^2 t~ t~; |t| < 2 pi. */
+/* Computes the inverse of Jr, 1 + t~/2 + (1 - |t|/2 cot(|t|/2))/|t|^2 t~ t~, for |t| < 2 pi. */
 void turning_inverse(const double t[3], double inverse[9]);
-/* d(Jr(t) y)/dt at fixed y. */
+/* Computes d(Jr(t) y)/dt at fixed y. */
 void turning_derivative(const double t[3], const double y[3], double D[9]);
-/* t becomes the vector of exp(t~) exp(d~). */
+/* Replaces t by the rotation vector of exp(t~) exp(d~). */
 void turning_add(double t[3], const double d[3]);
 
 /* Velocity and acceleration of frames. */
 
-/* Rates of the frame of a node or of a released end, as given by forms_rates. */
+/* Computes the rates of the frame of a node or of a released end, as given by forms_rates. */
 void inertia_rates(const model *, const model_state *, int vertex, const double v[],
                    const double a[], frame_rates *);
 /* Rates of any vertex. */
 void vertex_rates(const model *, const model_state *, int vertex, const double v[],
                   const double a[], frame_rates *);
 
-/* Loads with feedback: factors from measured components and rates, integrals in the state. */
+/* Loads with feedback. Their factors follow from measured components, their rates, and the
+ * integrals in the state. */
 
-/* Does nothing if no load has feedback. */
+/* Starts the feedback. Does nothing if no load has feedback. */
 status feedback_begin(const equations *, fault *);
-/* Number of loads of the scene if any of them has feedback, else 0. */
+/* Returns the number of loads of the scene if at least one of them has feedback, otherwise 0. */
 int feedback_count(const equations *);
-/* Computes the factors for the evaluation of this state, with the integrals in it. v NULL: at
- * rest. */
+/* Computes the factors for the evaluation of this state, including the effect of its integrals. v
+ * NULL: the structure is at rest. */
 void feedback_take(const equations *, const model_state *, const double v[], double time);
-/* Computes the errors, reference minus measured value: out[feedback_count]. */
+/* Computes the errors (reference value minus measured value): out[feedback_count]. */
 void feedback_errors(const equations *, const model_state *, double time, double out[]);
-/* Size of a step [s], and the times at its ends at which references are read: the last one before
- * a jump. */
+/* Size of a step [s], and times at which reference values are read for its ends. The time for the
+ * end of a step is before a jump. */
 typedef struct feedback_step {
     double h, begin, end;
 } feedback_step;
-/* Computes the integrals at the end of a step by the trapezoidal rule: out[feedback_count]. */
+/* Computes the integrals at the end of a step with the trapezoidal rule: out[feedback_count]. */
 void feedback_integrate(const equations *, const model_state *from, const model_state *now,
                         const feedback_step *, double out[]);
-/* Derivatives of position, rate and integral of a measured component with respect to the component
- * itself. */
+/* Derivatives of the position, the rate and the integral of a measured component with respect to
+ * the component. */
 typedef struct feedback_gains {
     double place, rate, integral;
 } feedback_gains;
 typedef void feedback_entry(void *to, int row, int column, double value);
-/* Minus the derivatives of the loads, on the pattern of motions; after feedback_take. */
+/* Computes minus the derivatives of the loads, on the pattern of motions. Call this function after
+ * feedback_take. */
 void feedback_tangent(const equations *, const model_state *, const feedback_gains *,
                       feedback_entry *take, void *to);
 
 /* Extrema, level crossings and means of a motion between its stations. Crossings are roots of the
- * polynomial inside a step, accurate to round-off. */
+ * polynomial inside a step. They are accurate to rounding error. */
 
 /* One quantity. */
 typedef struct watched {
     const scene_quantity *q;
     outcome_passing *out;
     double from, until; /* [s] */
-    double noise;       /* values within this distance of the level have no sign */
-    int side;           /* side of the level on which the last value was; 0: none yet */
-    int crossings;      /* number of counted crossings inside the window, in the requested
-                           direction */
+    double noise;       /* values within this distance from the level have no sign */
+    int side;           /* side of the level on which the last value was; 0: no value yet */
+    int crossings; /* number of counted crossings inside the window, in the requested direction */
     double first, last; /* [s] first and last crossing */
-    double error;       /* [s] error of the first and the last crossing */
-    double sum, span;   /* time integral of values, or of squares relative to `largest`; [s] */
-    double largest;     /* largest magnitude so far, for a root mean square */
+    double error;       /* [s] error of the first and of the last crossing */
+    /* time integral of the values or of their squares relative to `largest`, and length of the time
+     * interval [s] */
+    double sum, span;
+    double largest; /* largest magnitude so far, for a root mean square */
 } watched;
 
 typedef struct watches {
@@ -1172,11 +1211,11 @@ typedef struct watches {
     instant at;
 } watches;
 
-/* The caller sets c, analysis, scheme and out. */
+/* Allocates the data. The caller sets c, analysis, scheme and out. */
 status watches_alloc(watches *, fault *);
 void watches_free(watches *);
 status watches_step(watches *, const instant *from, const instant *to, fault *);
-/* Call at the end of the motion. */
+/* Completes the data at the end of the motion. */
 void watches_end(watches *);
 
 #endif

@@ -1,5 +1,5 @@
-/* Small motions along axes that rotate with angular velocity w: dx = R y, so dx' = y' + w~ y and
- * dx'' = y'' + 2 w~ y' + (w'~ + w~ w~) y at the instant, where R is 1. */
+/* Small motions in axes that rotate with angular velocity w: dx = R y, so dx' = y' + w~ y and dx''
+ * = y'' + 2 w~ y' + (w'~ + w~ w~) y at the time when R is 1. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -8,8 +8,8 @@
 #include "cases/scene/scene.h"
 #include "elements/math/vec3.h"
 
-/* Three coordinates of a vertex that form a vector, and the matrices of R' and R'' in their
- * axes. */
+/* Three coordinates of a vertex that form a vector, and the matrices of R' and R'' in their axes.
+ * */
 typedef struct turning_vector {
     int at[3];
     double once[9], twice[9];
@@ -18,7 +18,7 @@ typedef struct turning_vector {
 typedef struct turning_axes {
     const model *m;
     const outcome_about *about;
-    int node; /* node whose axes are used; SCENE_NONE: each node's own axes */
+    int node; /* node whose axes are used; SCENE_NONE: the axes of each node */
 } turning_axes;
 
 static void skew(const double v[3], double A[9])
@@ -42,7 +42,7 @@ static void in_own(const mesh_vertex *v, double A[9])
             A[3 * i + k] = vec3_dot(&half[3 * i], &along[3 * k]);
 }
 
-/* Finds such a vector of a vertex. Returns 0 if the vertex has none. */
+/* Finds such a vector of a vertex. Returns 0 if there is none. */
 static int vector_of(const turning_axes *t, int vertex, int turns, turning_vector *out)
 {
     const model *m = t->m;
@@ -69,7 +69,7 @@ static int vector_of(const turning_axes *t, int vertex, int turns, turning_vecto
     return 1;
 }
 
-/* Returns 1 if the rotation mixes a component of the vector with one that is not free to move. */
+/* Returns 1 if the rotation mixes a component of the vector with a component that is not free. */
 static int is_tied(const turning_axes *t, int vertex, int turns, const turning_vector *v)
 {
     double size = 0;
@@ -92,7 +92,7 @@ static int is_tied(const turning_axes *t, int vertex, int turns, const turning_v
     return 0;
 }
 
-/* out += A W multiplied by `times` */
+/* Adds A W multiplied by `times` to `out`. */
 static void add_product(const sparse *A, const int at[3], const double W[9], double times,
                         sparse *out)
 {

@@ -7,13 +7,15 @@
 
 #include "harness/numerics/numerics.h"
 
-enum { PIECES = 4, MOST_HALVINGS = 200 }; /* intervals of a step; each is searched for one root */
+/* intervals of a step, in each of which one root is searched for */
+enum { PIECES = 4, MOST_HALVINGS = 200 };
 
-static const double no_sign = 1e-13, /* relative to the size of the quantity; a value smaller
-                                        than this has no sign */
-    a_jump = 1e-3; /* the sign changes by a jump, and not through zero, if the value found is not
-                      below this fraction of the values around it: a rotation vector reverses at
-                      half a revolution */
+/* smaller values, relative to the size of the quantity, have no sign */
+static const double no_sign = 1e-13,
+                    /* The sign changes by a jump, and not through zero, if the value at the root is
+                     * not below this fraction of the values around it. For example, a rotation
+                     * vector reverses its direction at half a revolution. */
+    a_jump = 1e-3;
 
 static void begin(const watches *s, watched *one, const scene_quantity *q)
 {
@@ -56,7 +58,8 @@ static double value_at(watches *s, const watched *one, double time)
     return between_reading(&s->inside, one->q, time, &s->at);
 }
 
-/* Returns the slope of this value; exact if the quantity is a quartic of the polynomial. */
+/* Returns the slope of this value. The slope is exact if the quantity is a polynomial of fourth
+ * degree in the step. */
 static double slope_at(watches *s, const watched *one, double time)
 {
     const double d = (s->inside.to->time - s->inside.from->time) / 64;
@@ -72,8 +75,8 @@ static double above_level(watches *s, const watched *one, double time)
     return value_at(s, one, time) - one->q->passing.level;
 }
 
-/* Returns the root between a and b, where f has values fa and fb of opposite sign. Uses secant
- * steps, and bisection when these are slow. */
+/* Returns the root between a and b, where the values fa and fb of f have opposite signs. Uses
+ * secant steps, and bisection if these converge slowly. */
 static double root(watches *s, const watched *one, along *f, double a, double fa, double b,
                    double fb)
 {
@@ -95,7 +98,7 @@ static double root(watches *s, const watched *one, along *f, double a, double fa
     return fabs(fa) < fabs(fb) ? a : b;
 }
 
-/* Computes the difference between a side step to the given time and the polynomial. */
+/* Computes the difference between the polynomial and a side step to the given time. */
 static status disagreement(watches *s, const watched *one, const instant *from, double time,
                            double *out, fault *f)
 {
@@ -279,7 +282,7 @@ static int is_followed(const scene *s, int analysis)
     return 0;
 }
 
-/* Number of values stored for this model. */
+/* Computes the numbers of values that are stored for this model. */
 static void measure(const model *m, const instant *now, outcome_end *out)
 {
     out->between = (size_t)turns_between_count(m);
@@ -289,7 +292,7 @@ static void measure(const model *m, const instant *now, outcome_end *out)
     out->released = now->ends_known ? instant_ends(m) : 0;
 }
 
-/* Positions and sizes of the parts of an instant in the stored array of an end. */
+/* Positions and sizes of the parts of a state in the stored array of an end. */
 enum { PARTS = 7 };
 typedef struct part {
     double *of;
