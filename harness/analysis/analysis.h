@@ -5,10 +5,11 @@
 
 #include "harness/newton/newton.h"
 
-/* Runs a scene's analyses on a model and extracts its quantities. The only public function of
- * harness/analysis. */
+/* Runs the analyses of a scene on a model and extracts its quantities. This is the only public
+ * function of harness/analysis. */
 
-/* Fills the result even on failure, with the quantities found so far; result_free frees it. */
+/* Fills the result. After a failure, it contains the quantities that were found before the failure.
+ * result_free frees the result. */
 status solve_scene(const scene *, const model *, const solve_options *, solve_result *, fault *);
 
 #endif

@@ -9,10 +9,11 @@
 #include "harness/newton/newton.h"
 #include "harness/numerics/numerics.h"
 
-/* Eigenpairs of largest magnitude of a real unsymmetric operator, from its projection on a growing
- * orthonormal basis (Arnoldi). An inertia count, which would prove that none is missing, does not
- * exist for such an operator. Therefore, after the requested eigenvalues have converged, further
- * start vectors are added until one of them yields no new eigenvalue of that magnitude. */
+/* Eigenpairs with the largest eigenvalues of a real unsymmetric operator, from the projection of
+ * the operator on a growing orthonormal basis (Arnoldi). For such an operator, there is no inertia
+ * count that could prove that no eigenvalue is missing. Therefore, after the requested eigenvalues
+ * have converged, further start vectors are added until one of them gives no new eigenvalue of this
+ * magnitude. */
 
 typedef struct arnoldi_problem {
     int n, wanted;
@@ -21,11 +22,13 @@ typedef struct arnoldi_problem {
 } arnoldi_problem;
 
 typedef struct arnoldi_result {
-    int count; /* fewer than `wanted` if all others are round-off; one more if the last one is the
-                  first of a conjugate pair */
-    double complex *theta; /* [count] largest magnitude first, conjugates next to each other */
-    double complex *mode;  /* [count x n] of length 1 */
-    double *residual;      /* [count] |T x - theta x|/|theta| */
+    /* number of eigenvalues; fewer than `wanted` if the remaining ones are rounding errors, or one
+     * more if the last one is the first of a conjugate pair */
+    int count;
+    /* [count] eigenvalues, with the largest magnitude first and conjugates next to each other */
+    double complex *theta;
+    double complex *mode; /* [count x n] eigenvectors of length 1 */
+    double *residual;     /* [count] |T x - theta x|/|theta| */
     long applied;
 } arnoldi_result;
 
@@ -42,92 +45,94 @@ status collect_shapes(const analysis_context *, int most, shapes *, fault *);
 
 /* Matrices for small motions about the states of all solutions. */
 
-/* Matrices about the undeformed structure, every computed station of every path, and the loaded
- * states of modal analyses. */
+/* Collects the matrices about the undeformed structure, about every computed station of every path,
+ * and about the loaded states of modal analyses. */
 status collect_systems(const analysis_context *, system_matrices *, fault *);
 
 /* Imperfections. */
 
-/* Returns the number of modes that an analysis must find for its imperfections, including two more
- * that reveal equal modes; buckling modes are counted over the positive loads. 0: no imperfection
- * uses the analysis. */
+/* Returns the number of modes that an analysis must find for the imperfections that use it,
+ * including two more modes that reveal equal modes; 0: no imperfection uses the analysis. Buckling
+ * modes are counted over the positive loads. */
 int imperfection_modes(const scene *, int analysis);
-/* Sets x[free + driven] to the sum of the modes that are imperfections, multiplied by their
- * amplitudes. REFUSED: a mode does not exist or is not unique. */
+/* Sets x[free + driven] to the sum of the imperfections, each of which is a mode times its
+ * amplitude. REFUSED: a mode does not exist or is not unique. */
 status imperfection_of_modes(const analysis_context *, double x[], fault *);
 
 /* Compliance and stiffness of a node in a deformed state. */
 
 status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
-/* Compliances along a path, computed during the path. If Newton's last correction changes the
- * tangent by less than its round-off, the last tangent is used for the station and no other is
- * computed. If members are condensed, the tangent is computed at once, because the states of many
- * elements are not stored. */
+/* Compliances that are computed while a path is followed. If Newton's last correction changes the
+ * tangent by less than its rounding error, the last tangent is used for the station. If members are
+ * condensed, the tangent is computed immediately, because the states of many elements are not
+ * stored. */
 
 typedef struct compliance_walk compliance_walk;
 
-/* Must be called when Newton's method has converged at the station. Compliances that this function
- * does not compute are computed later by the analysis. w NULL: no compliance analysis follows.
+/* Computes compliances when Newton's method has converged at a station. The analysis later computes
+ * the compliances that this function does not compute. w NULL: no compliance analysis follows.
  * FAULT: out of memory. */
 status compliance_walk_take(compliance_walk *w, const newton_run *, int station, fault *);
 void compliance_walk_end(compliance_walk *);
 
-/* Equilibrium paths under proportional loads, through limit points. */
+/* Equilibrium paths under proportional loads, including limit points. */
 
 status continuation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
 /* Quantities of a continued path. */
 
-/* Evaluates curves and critical points; returns 0 for any other quantity. */
+/* Evaluates curves and critical points. Returns 0 for any other quantity. */
 int continuation_extract(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                          quantity_result *);
 
 /* Small motions x exp(s t) about a state whose stiffness is not symmetric: (s^2 M + s C + K) x = 0.
- * M is symmetric and positive semidefinite; C is the damping matrix or absent.
- *
- * The smallest s are the largest 1/s^2 of -K^-1 M or, with C, the largest 1/s of the companion
- * matrix, which includes the rates of coordinates with mass. Massless coordinates give zero
- * eigenvalues, which are not modes. */
+ * M is symmetric and positive semidefinite. C is the damping matrix or NULL. The smallest s are the
+ * largest 1/s^2 of -K^-1 M or, if C is given, the largest 1/s of the companion matrix, which
+ * includes the rates of coordinates with mass. Massless coordinates cause zero eigenvalues, which
+ * are not modes. */
 
 typedef struct unsymmetric_problem {
-    const sparse *K, *M, *C; /* same pattern; C NULL: no damping */
+    const sparse *K, *M, *C; /* matrices with the same pattern; C NULL: there is no damping */
     matrix_factor *K_factor; /* after factor_numeric */
-    int wanted;              /* number of modes of smallest |s| requested */
+    int wanted;              /* number of requested modes, which have the smallest |s| */
     int estimate;            /* 1: estimates the errors, which doubles the work */
-    int decaying;            /* 1: with C, also modes that decay without oscillation */
-    const sparse *B;         /* with C: mass matrix of the motions inside elements; NULL: none */
-    double mass, stiffness;  /* proportional damping that C contains [1/s], [s] */
-    double shift; /* shift a, with C: K contains a C + a^2 M, and C contains 2 a M [1/s]; 0: none */
+    int decaying;    /* 1: if C is given, modes that decay without oscillation are included */
+    const sparse *B; /* mass matrix of the motions inside elements, if C is given; NULL: none */
+    /* coefficients of the proportional damping in C: mass [1/s], stiffness [s] */
+    double mass, stiffness;
+    /* [1/s] shift a, if C is given: K contains a C + a^2 M, and C contains 2 a M; 0: no shift */
+    double shift;
 } unsymmetric_problem;
 
-/* s = growth + i frequency, ascending by magnitude. Without damping the result contains both modes
- * of a flutter (same frequency, opposite growth rates) and the growing mode of a divergence; with
- * damping, every oscillating mode and every growing mode. */
+/* Modes with s = growth + i frequency, in ascending order of magnitude. If there is no damping, the
+ * result contains both modes of a flutter (same frequency, opposite growth rates) and the growing
+ * mode of a divergence. If there is damping, the result contains every oscillating mode and every
+ * growing mode. */
 typedef struct unsymmetric_result {
     int n, count;
-    double *frequency,
-        *growth; /* [count] [rad/s], [1/s]; growth 0: below the round-off of a double eigenvalue */
-    double *split; /* [count] imaginary part of s^2 relative to its size; 1: divergence */
-    double *error; /* [count] estimate of the rounding error, relative to |s| */
-    double *mode;  /* [count x n] real */
-    int lost;      /* number of slow poles of integrals that are unknown, of error INFINITY */
+    double *frequency, *growth; /* [count] frequencies [rad/s] and growth rates [1/s]; growth 0:
+                                   below the rounding error of a double eigenvalue */
+    double *split;              /* [count] imaginary part of s^2 relative to |s^2|; 1: divergence */
+    double *error;              /* [count] estimated rounding error relative to |s| */
+    double *mode;               /* [count x n] real */
+    /* number of slow poles of feedback integrals that are unknown, with an error of INFINITY */
+    int lost;
     long solutions;
 } unsymmetric_result;
 
-/* Smallest relative imaginary part of s^2 that is not round-off of a double eigenvalue. */
+/* Smallest relative imaginary part of s^2 that is not a rounding error of a double eigenvalue. */
 static const double unsymmetric_same = 1e-6;
 
 status unsymmetric_solve(const unsymmetric_problem *, unsymmetric_result *, fault *);
 void unsymmetric_free(unsymmetric_result *);
-/* Improves a pole *s of K, M, C (same pattern) and its mode[n], which is real. *error: relative to
- * |s|; INFINITY: no convergence, or too many coordinates. */
+/* Improves a pole *s of K, M and C (of[3], same pattern) and its mode[n], which is real. *error:
+ * relative to |s|; INFINITY: no convergence, or too many coordinates. */
 status refine_pole(const sparse of[], double complex *s, double mode[], double *error, fault *);
 
 /* Small motions and stability about states with an unsymmetric tangent (follower loads, moments
- * about fixed axes). Stability is lost by divergence, where the tangent is singular, or by flutter,
- * where two frequencies coincide. With damping of members, it is lost where a mode begins to
- * grow. */
+ * about fixed axes). Stability is lost by divergence, if the tangent is singular, or by flutter, if
+ * two frequencies coincide. If members are damped, stability is lost when a mode starts to grow. */
 
 typedef enum flutter_kind { FLUTTER_NONE, FLUTTER_DIVERGES, FLUTTER_OSCILLATES } flutter_kind;
 
@@ -135,29 +140,32 @@ typedef enum flutter_kind { FLUTTER_NONE, FLUTTER_DIVERGES, FLUTTER_OSCILLATES }
 typedef struct flutter_system {
     sparse M, C;
     int damped; /* 1: C contains the damping of members and dashpots; 0: the motions are undamped */
-    int massless; /* 1: the structure has no mass, and M is the isotropic metric, which keeps double
-                     values real; only divergence is meaningful */
+    /* 1: the structure has no mass, and M is the isotropic metric, for which double eigenvalues
+     * remain real; only divergence is meaningful */
+    int massless;
 } flutter_system;
 
 status flutter_system_alloc(const newton_run *, flutter_system *, fault *);
 void flutter_system_free(flutter_system *);
-/* Computes the `wanted` modes of smallest |s| about the state. */
+/* Computes the `wanted` modes with the smallest |s| about the state. */
 status flutter_motions(const newton_run *, flutter_system *, int wanted, int estimate,
                        unsymmetric_result *, fault *);
 /* Moves the frequencies, modes and errors to an outcome. Values without significant digits become
  * NaN, and the status becomes NOT_CONVERGED. */
 void flutter_take(unsymmetric_result *from, outcome_side *to);
-/* Returns "" if nothing is damped; otherwise "with damping", or "undamped" if damped is 0. */
+/* Returns "" if nothing is damped, "undamped" if `damped` is 0, and "with damping" otherwise. */
 const char *flutter_damping(const scene *, int damped);
-/* Returns the kind of instability of the fastest growing mode and sets *mode to its number. */
+/* Returns the kind of instability of the mode with the largest growth rate, and sets *mode to its
+ * index. */
 flutter_kind flutter_of(const flutter_system *, const unsymmetric_result *, int *mode);
-/* Returns the kind in words: "flutter, undamped", "divergence", "flutter, growth with damping". */
+/* Returns the kind in words, such as "flutter, undamped", "divergence" or "flutter, growth with
+ * damping". */
 const char *flutter_name(const flutter_system *, flutter_kind);
 
-/* The smallest path parameter at which stability is lost; the search starts at path 0. The state at
- * that point is on the path. The caller frees mode[free]. */
+/* The smallest path parameter at which stability is lost. The search starts at path 0. The state at
+ * this point is on the path. The caller frees mode[free]. */
 typedef struct flutter_point {
-    double path, error, frequency; /* error: relative to the path parameter; frequency in [rad/s] */
+    double path, error, frequency; /* error: relative to the path parameter; frequency: in rad/s */
     const char *what;              /* flutter_name */
     int massless;
     double *mode;
@@ -166,69 +174,71 @@ typedef struct flutter_point {
 typedef status flutter_walk(newton_run *, double target, double *increment, fault *);
 status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *, fault *);
 
-/* Stability of states with an unsymmetric tangent: with mass from the frequencies of small motions,
- * without mass from the number of eigenvalues of the tangent that have passed zero. */
+/* Stability of states with an unsymmetric tangent. If there is mass, the frequencies of small
+ * motions decide, otherwise the number of eigenvalues of the tangent that have passed zero. */
 
-/* Workspace of one analysis; initially all members are zero. */
+/* Work space of an analysis. All members are initially zero. */
 typedef struct flutter_judge {
     int begun;
-    newton_run n; /* run whose tangent has all coordinates; the tangent of the path may not have all
-                     of them */
+    /* run whose tangent has all coordinates, which the tangent of the path may not have */
+    newton_run n;
     flutter_system of;
 } flutter_judge;
 
-/* Stores the stability of the state in the record of the step that ended there; STEP_OPEN if it is
+/* Stores the stability of the state in the record of the step that ended in the state; STEP_OPEN:
  * unknown. The work is not counted. */
 status flutter_judge_state(flutter_judge *, analysis_context *, const model_state *, step_record *,
                            fault *);
-/* Allocates j->n at the first call; later calls have no effect. */
+/* Allocates j->n in the first call. Later calls have no effect. */
 status flutter_judge_begin(flutter_judge *, analysis_context *, fault *);
 void flutter_judge_free(flutter_judge *);
 
-/* Replaces the count of negative pivots for an unsymmetric tangent K: the eigenvalues of D^-1 K
- * nearest to zero (D: the metric), and how many of them lie left of the imaginary axis. This number
- * changes at a critical point, where an eigenvalue passes zero. It also changes where a pair
- * crosses the imaginary axis away from zero, which is not a critical point. Pairs that meet on the
- * real axis do not change it, nor does rounding that turns a double eigenvalue into a pair. For a
- * symmetric K it equals the number of negative pivots. */
+/* Replaces the number of negative pivots for an unsymmetric tangent K: computes the eigenvalues of
+ * D^-1 K nearest to zero (D: the metric), and the number of them to the left of the imaginary axis.
+ * This number changes at a critical point, where an eigenvalue passes zero. It also changes where a
+ * pair crosses the imaginary axis away from zero, which is not a critical point. It does not change
+ * where a pair meets on the real axis, or if rounding changes a double eigenvalue into a pair. If K
+ * is symmetric, it equals the number of negative pivots. */
 
 enum { LEFT_NEAREST = 6 };
 
 typedef struct left_of_axis {
-    int count; /* number left of the imaginary axis; -1: unknown */
+    int count; /* number of eigenvalues to the left of the imaginary axis; -1: unknown */
     int nearest;
     double complex
-        mu[LEFT_NEAREST]; /* [nearest] eigenvalues nearest to zero, smallest magnitude first */
+        /* [nearest] eigenvalues nearest to zero, in ascending order of magnitude */
+        mu[LEFT_NEAREST];
     long solutions;
 } left_of_axis;
 
-/* K: factored. weight: [n] diagonal of the metric D. */
+/* Counts the eigenvalues. K: factored matrix. weight[n]: diagonal of the metric D. */
 status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *, fault *);
 
 /* Continuation of equilibrium paths under proportional loads: private declarations.
  *
  * The load factor is an additional unknown, and one coordinate or the arc length is prescribed
  * instead:
- *   K dx = r + f' dl,  g . dx = c,  hence dx = K^-1 r + dl K^-1 f',
- *   dl = (c - g . K^-1 r)/(g . K^-1 f').
- * The last factored K before a point gives the tangent of the path there, the first
- * direction of the next step and, if K is symmetric, the number of its negative eigenvalues. This
- * is accurate enough, because the last correction is at most the criterion, and the change of K is
- * proportional to it. */
+ *   K dx = r + f' dl,  g . dx = c,  which gives dx = K^-1 r + dl K^-1 f', dl = (c - g . K^-1 r)/(g
+ * . K^-1 f'). The last factored K before a point gives the tangent of the path at this point, the
+ * first direction of the next step and, if K is symmetric, the number of its negative eigenvalues.
+ * This is accurate enough, because the last correction is at most the criterion, and the change of
+ * K is proportional to it. */
 
 /* A point of the path. */
 typedef struct path_point {
-    double factor, control; /* [1], [m] */
+    double factor, control; /* dfactor/ds, where s is the arc length in the metric of the model */
     double rate;            /* dfactor/ds with s in the model's metric */
     double *tangent;        /* [free + driven] dx/ds */
     int symmetric;
-    int negative;    /* negative pivots of K, or the replacement from left_count; -1: unknown */
+    /* number of negative pivots of K, or the replacement from left_count; -1: unknown */
+    int negative;
     int determinant; /* sign of det K */
-    double least;    /* smallest eigenvalue of K, or its real part if K is not symmetric; NAN: not
-                        needed */
+    /* smallest eigenvalue of K, or its real part if K is not symmetric; NAN: not needed */
+    double least;
     int nearest;
-    double complex mu[LEFT_NEAREST]; /* [nearest] eigenvalues nearest to zero, smallest magnitude
-                                        first, if K is not symmetric */
+    /* [nearest] eigenvalues nearest to zero, in ascending order of magnitude, if K is not symmetric
+     * */
+    double complex mu[LEFT_NEAREST];
 } path_point;
 
 /* Goal of a step: a value of the control coordinate, or an arc length. */
@@ -242,24 +252,24 @@ typedef struct continuation {
     const scene_control *by;
     const scene_path *path;
     outcome_continuation *o;
-    int analysis, room; /* room: capacity for points in the outcome */
+    int analysis, room; /* room: number of points for which the outcome has memory */
     int asks_critical;  /* 1: a quantity requests critical points */
     int keeps_states;   /* 1: the outcome stores the state of every point */
-    newton_run n;       /* n.backup: state at the start of the step */
+    newton_run n;       /* Newton's method; n.backup is the state at the start of the step */
     flutter_judge judge;
     model_state
-        *end; /* state at the end of the step, during the search for a critical point within it */
-    double *weight;   /* [free + driven] the metric */
+        *end; /* state at the end of the step, while a critical point inside the step is sought */
+    double *weight;   /* [free + driven] weights of the metric */
     double *load;     /* [free + driven] f' */
     double *response; /* [free + driven] K^-1 f' */
     double *moved;    /* [free + driven] sum of the increments of the step */
     double *mode;     /* [free + driven] null vector of K */
     path_goal goal;   /* goal of the current step */
     path_point here, next, trial;
-    int first;    /* negative pivots at the start of the path */
+    int first;    /* number of negative pivots at the start of the path */
     int narrow;   /* 1: a change of stability has been located as closely as possible */
-    int doubtful; /* 1: it is not known whether the step has critical points */
-    int looked;   /* 1: n.dx, response and the factors are those of the current state */
+    int doubtful; /* 1: the step may have unknown critical points */
+    int looked;   /* 1: n.dx, response and the factors belong to the current state */
 } continuation;
 
 status continuation_step_alloc(analysis_context *, int analysis, outcome_continuation *,
@@ -267,7 +277,7 @@ status continuation_step_alloc(analysis_context *, int analysis, outcome_continu
 void continuation_step_free(continuation *);
 
 double continuation_step_dot(const continuation *, const double a[],
-                             const double b[]); /* scalar product in the metric */
+                             const double b[]); /* returns the scalar product in the metric */
 /* Applies Newton's method from n.backup, which is the state of `here`, until the goal is reached.
  * The arc length is measured along the tangent of `here`. */
 status continuation_step_correct(continuation *, path_goal, step_record *, fault *);
@@ -278,8 +288,8 @@ status continuation_step_go_on(continuation *, path_goal, step_record *, fault *
  * along[free + driven]; NULL: towards larger loads. */
 status continuation_step_look(continuation *, const double along[], path_point *, step_record *,
                               fault *);
-/* Fills the point after a converged correction from the last factors, which belong to the state
- * before this correction; no further correction is made. */
+/* Fills the point after a converged correction. Uses the last factors, which belong to the state
+ * before this correction, and makes no further correction. */
 status continuation_step_end(continuation *, path_point *, const step_record *, fault *);
 /* Restores the state of `here`. */
 void continuation_step_go_back(continuation *);
@@ -290,60 +300,63 @@ typedef struct rival {
     double factor;
 } rival;
 
-/* continuation_critical.c: stores the critical points between `here` and `next` as events. `goal`:
- * the goal with which the step was found. *jump: 1 if the inertia of the tangent stiffness changes
- * without a critical point, that is, if the step led to another branch. */
+/* Stores the critical points between `here` and `next` as events (continuation_critical.c). goal:
+ * goal with which the step was found. *jump: 1 if the inertia of the tangent stiffness changes
+ * without a critical point, which means that the step led to another branch. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
 /* If critical points are requested, sets *hidden to 1 if an indicator changes and changes back
- * within the step; a change that lasts for at least a fifth of the step is detected. */
+ * within the step. A change that lasts for at least a fifth of the step is detected. */
 status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
 
 /* Quantities of a scene from the outcomes of its analyses. */
 
 void extract_quantity(const analysis_context *, const scene_quantity *, quantity_result *);
 
-/* Quantities of a path: at a station, the maximum or minimum over all stations, or a curve. */
+/* Quantities of a path: the value at a station, the maximum or minimum over all stations, or a
+ * curve. */
 
-/* Sets no value if the path ends before the stations that the quantity needs. */
+/* Evaluates a quantity of a path. There is no value if the path ends before the stations that the
+ * quantity needs. */
 void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                   quantity_result *);
 
-/* Sets the quantity's spectrum from `count` values, in the quantity's unit, at constant time steps
- * [s]. */
+/* Sets the spectrum of the quantity from `count` values in the unit of the quantity, at equal time
+ * steps [s]. */
 void spectrum_take(const scene_quantity *, int count, double step, const double value[],
                    quantity_result *);
 
-/* Returns 1 if any quantity except curves is evaluated at this station of path[stations]. */
+/* Returns 1 if a quantity that is not a curve is evaluated at this station of path[stations]. */
 int extract_path_asks(const analysis_context *, int analysis, int stations, const double path[],
                       int station);
 /* Like extract_path_asks, but returns 1 if all stations are needed. */
 int extract_path_wants(const analysis_context *, int analysis, int stations, const double path[],
                        int station);
 /* Returns 1 if the station needs more than the motion of nodes: resultants, reactions, shapes,
- * matrices, or the start state of a following analysis. Compliances that were already computed
- * during the path do not count. */
+ * matrices, or the initial state of a following analysis. Compliances that were already computed
+ * are not counted. */
 int extract_path_whole(const analysis_context *, int analysis, int station);
 
 /* Quantities of eigenvalues: critical loads and frequencies. */
 
-/* Checks whether stability is lost and regained within a step of a static path: the state is
- * examined after every sixth of the step, so a loss over a fifth of the step is noticed. */
+/* Checks if stability is lost and regained within a step of a static path. The state is examined
+ * after every sixth of the step, so a loss over a fifth of the step is noticed. */
 
-/* Examines the step between the two states. *found: a path value within the step whose stability is
- * not between those of the ends; INFINITY: none was found. The work is not counted. */
+/* Examines the step between the two states. *found: a path value within the step at which stability
+ * differs from that of both ends; INFINITY: none. The work is not counted. */
 status within_step(flutter_judge *, analysis_context *, const model_state *from,
                    const model_state *to, double *found, fault *);
 
 /* Linear statics about the undeformed state. */
 
-/* Small motions and stability about a loaded, deformed state: the last state of the followed static
- * path. */
+/* Small motions and stability about a loaded, deformed state: the last state of the static path
+ * that the analysis follows. */
 
-/* Natural frequencies: M x = (1/omega^2) K x with tangent K and mass M of the deformed state. */
+/* Natural frequencies of M x = (1/omega^2) K x, with tangent K and mass matrix M of the deformed
+ * state. */
 status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
 /* Finds the value of the path parameter, beyond the end of the static path, at which the tangent of
  * the nonlinear path first becomes singular (a bifurcation). Loads and drivers continue beyond the
- * end as they did along the path. */
+ * end in the same way as along the path. */
 status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
 
 /* Natural frequencies about the undeformed state. */
@@ -352,7 +365,7 @@ status modal_analysis(analysis_context *, int analysis, analysis_outcome *, faul
 /* Analyses about the undeformed state. */
 status linear_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 status buckling_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* Number of modes that the quantities of an analysis request. */
+/* Returns the number of modes that the quantities of an analysis need. */
 int modal_wanted(const analysis_context *, int analysis);
 
 /* Steady-state vibration as a function of frequency: D(w) x = f with the dynamic stiffness D
@@ -364,33 +377,36 @@ typedef struct harmonic_modes harmonic_modes;
 typedef struct control_loop {
     int load;
     const scene_feedback *gains;
-    double *push, *measured; /* [free + driven] loads for a factor of 1, and the linear form of the
-                                measured quantity */
-    int integrates; /* 1: its integral adds a pole; 0: none, or it moves or follows nothing */
+    /* [free + driven] loads for a factor of 1, and coefficients of the measured quantity */
+    double *push, *measured;
+    /* 1: the integral of the loop adds a pole; 0: there is no integral, or its load or its measured
+     * quantity is zero for all free coordinates */
+    int integrates;
 } control_loop;
 
 typedef struct vibration {
     analysis_context *c;
     int analysis, free, all;
     const model_state *state;
-    const outcome_about *about; /* an instant of a motion; NULL: a state at rest */
+    const outcome_about *about; /* state during a motion; NULL: a state at rest */
     sparse K, M, C, B;          /* matrices of all coordinates */
     int damped, inside;
-    int plain; /* 1: neglects the mass inside elements and omits the extremes between frequencies */
-    sparse D;  /* [2 (free + border + loops)] real form of the dynamic stiffness */
-    int *source, *first; /* for each entry of the free block, its index in K, column by column;
-                            first: [free + 1] */
+    /* 1: the mass inside elements is neglected, and the extremes between frequencies are omitted */
+    int plain;
+    sparse D; /* [2 (free + border + loops)] dynamic stiffness in real form */
+    /* source: index in K of each entry of the free block, column by column; first: [free + 1] */
+    int *source, *first;
     int *row, *rows;
-    double complex *column; /* [free + border + loops] rows and values of one column of D */
+    double complex *column; /* [free + border + loops] rows and values of a column of D */
     matrix_factor *factor;
     double *x; /* [2 (free + border + loops)] */
     double complex *found,
-        *left; /* [quantities x (all + loops)] solutions, [quantities x free] left solutions */
+        *left; /* [quantities x (all + loops)] solutions; [quantities x free] left solutions */
     double complex *output,
         *dual;             /* [all + loops] linear form of an output, and its dual solution */
     double *room;          /* [model_stresses + all] */
-    harmonic_modes *modes; /* NULL: direct solution without modal damping */
-    int loops;             /* number of closed loops; their factors follow all coordinates */
+    harmonic_modes *modes; /* modes; NULL: direct solution without modal damping */
+    int loops;             /* number of closed loops, whose factors follow all coordinates */
     control_loop *loop;    /* [loops] */
     double *signals;       /* [2 loops x (free + driven)] */
 } vibration;
@@ -402,52 +418,54 @@ void loops_free(vibration *);
 size_t loops_whole(const vibration *);
 /* Returns the loop of a load; NULL: it is not closed. */
 const control_loop *loops_of(const vibration *, int load);
-/* A loop with the factor u, the error r and the measured form S obeys own u + gain S^T x = gain r
- * at s = i w. Returns gain and sets *own; both are multiplied by s if there is an integral gain. */
+/* Computes the coefficients of a loop: own u + gain S^T x = gain r at s = i w, with the factor u,
+ * the error r and the measured form S. Returns `gain` and sets *own. If there is an integral gain,
+ * both are multiplied by s. */
 double complex loops_gain(const control_loop *, double w, double complex *own);
-/* Computes K, M, C, B of the free coordinates and the integrals of the errors, which follow them,
- * on one pattern and with all loops closed. The caller releases to[4] in any case. */
+/* Computes K, M, C and B of the free coordinates and of the integrals of the errors, which follow
+ * them, on one pattern and with all loops closed. The caller frees to[4], even after a failure. */
 status loops_close(const vibration *, const sparse *const from[], sparse to[], fault *);
 void loops_release(sparse closed[]);
 
 /* Returns entry k of the dynamic stiffness D at the circular frequency w. */
 double complex harmonic_dynamic(const vibration *, double w, int k);
-/* Computes K, M, C, B; whole 1: including the driven coordinates. */
+/* Computes K, M, C and B. whole 1: including the driven coordinates. */
 status harmonic_matrices(vibration *, int whole, fault *);
-/* Prepares the free block as a full matrix: v->first, row, source. */
+/* Prepares the free block as a full matrix: sets v->first, row and source. */
 status harmonic_pattern(vibration *, fault *);
 /* Allocates the matrix of a direct solution. */
 status harmonic_matrix(vibration *, fault *);
 /* Factors this matrix at a circular frequency. */
 status harmonic_factor(vibration *, double w, fault *);
 /* Returns the number of additional unknowns for modes with a damping ratio in a direct solution.
- * Each has one unknown, y = i w U^T (x - r), so D x + U y = f, where r are the static displacements
- * due to driven coordinates. */
+ * Each such mode has one unknown, y = i w U^T (x - r), with D x + U y = f, where r are the static
+ * displacements due to driven coordinates. */
 int harmonic_border(const vibration *);
 
 /* Inputs and outputs (harmonic_inputs.c). */
 
 enum { HARMONIC_SHAPES_OF_MOTION = 4, HARMONIC_SHAPES = 2 * HARMONIC_SHAPES_OF_MOTION };
 
-/* Sets the right-hand side of an input. A prescribed motion has the value 1 in x[all]. */
+/* Sets the right-hand side for an input. A prescribed motion has the value 1 in x[all]. */
 status harmonic_input(const vibration *, const scene_response *, double w, double complex x[],
                       fault *);
-/* Sets y[border] of the direct solution to U^T r of the input's driven coordinate. Returns 0 if the
- * input is a force. */
+/* Sets y[border] of the direct solution to U^T r of the driven coordinate of the input. Returns 0
+ * if the input is a force. */
 int harmonic_carried(const vibration *, const scene_response *, double y[]);
-/* The linear form o of a quantity in the displacements: o^T x. */
+/* Computes the linear form o of a quantity in the displacements: the quantity is o^T x. */
 void harmonic_output(vibration *, const scene_response *, double w, double complex o[]);
-/* Returns the part of the input that acts directly on the prescribed motion whose reaction is
- * read. */
+/* Returns the part of the input that acts directly on the prescribed motion whose reaction is read.
+ * */
 double complex harmonic_force_at(const vibration *, const scene_response *, double w);
-/* Sets the forces of a quantity's input, without their frequency dependence, and its output as
- * forces; each has n entries of out. Returns their number, at most HARMONIC_SHAPES. */
+/* Sets the forces of a quantity's input, without their frequency dependence, and the output of the
+ * quantity in the form of forces. Each force has n entries of out. Returns the number of forces, at
+ * most HARMONIC_SHAPES. */
 int harmonic_shapes(vibration *, const scene_response *, double out[]);
 
-/* Largest and smallest amplitudes, real parts and imaginary parts between the frequencies of the
- * analysis (harmonic_extremes.c). Phases are excluded, because they wrap around. */
+/* Extremes of amplitudes, real parts and imaginary parts between the frequencies of the analysis
+ * (harmonic_extremes.c). Phases are excluded, because they are periodic. */
 
-/* Computes one quantity at a frequency. The search maximises sign * value. */
+/* Computes a quantity at a frequency. The search maximises sign * value. */
 typedef status harmonic_value(vibration *, int quantity, double sign, double hertz, outcome_peak *,
                               fault *);
 status harmonic_extremes_refine(vibration *, harmonic_value *, outcome_harmonic *, fault *);
@@ -456,43 +474,45 @@ status harmonic_extremes_refine(vibration *, harmonic_value *, outcome_harmonic 
  * (harmonic_reduced.c). */
 
 struct harmonic_modes {
-    int n, kept, count; /* number of free coordinates; of modes; of columns of V */
-    int complete;       /* 1: V is complete */
-    int damped;         /* modes with a damping ratio */
-    sparse K, M, C, B;  /* free blocks; K is shifted */
+    /* n: number of free coordinates; kept: number of modes; count: number of columns of V */
+    int n, kept, count;
+    int complete;      /* 1: V is complete */
+    int damped;        /* number of modes with a damping ratio */
+    sparse K, M, C, B; /* free blocks; K is shifted */
     matrix_factor *factor;
     double shift, least,
         inner;      /* shift [1/s^2]; least: shifted square of the next frequency; inner: bound b */
-    double *square; /* [kept] squares of circular frequencies, shifted */
+    double *square; /* [kept] shifted squares of circular frequencies */
     double *V;      /* [count x n] K-orthonormal */
-    double *U, *carried;       /* [damped x n]; [damped] factor of V^T K r in U^T r */
-    int *of;                   /* [damped] index of the mode with this damping ratio */
+    double *U, *carried;       /* [damped x n] U, and [damped] ratio of U^T r to V^T K r */
+    int *of;                   /* [damped] index of the mode with the damping ratio */
     double *Kp, *Mp, *Cp, *Bp; /* [count x count] V^T K V, V^T M V, V^T C V, V^T B V */
     double *coupling[3];       /* [kept x kept] products of C with C, C with B, and B with B */
     double complex *D,
-        *entry;    /* [count x count] scaled and factored; entries of D in the order of v->first */
+        *entry; /* [count x count] scaled and factored D; entries of D in the order of v->first */
     double *scale; /* [count] */
     int *pivot;
     double complex *y, *inverse, *half; /* [count]; [kept x kept] */
     double *work;                       /* [2 n] */
-    double w, positive; /* circular frequency, and `positive`: lower bound of the real part at w */
+    double w, positive; /* circular frequency w; positive: lower bound of the real part at w */
 };
 
-/* Extracts the free blocks of K, M, C, B. */
+/* Extracts the free blocks of K, M, C and B. */
 status harmonic_modes_blocks(vibration *, harmonic_modes *, fault *);
-/* Computes the first `wanted` modes; 0: all modes. */
+/* Computes the first `wanted` modes, or all modes if `wanted` is 0. */
 status harmonic_modes_lowest(vibration *, harmonic_modes *, int wanted, fault *);
 status harmonic_modes_find(vibration *, fault *);
 void harmonic_modes_free(harmonic_modes *);
-/* Computes the natural frequencies [Hz], ascending, at least those below the given frequency; the
- * caller frees *hertz. They are the frequencies of damped modes if springs or dashpots are not
- * symmetric, otherwise the undamped frequencies. *count is 0 if loads make the stiffness
- * unsymmetric or if there would be too many frequencies. */
+/* Computes the natural frequencies [Hz] in ascending order, at least those below the given
+ * frequency. The caller frees *hertz. If springs or dashpots are not symmetric, they are the
+ * frequencies of damped modes, otherwise the undamped frequencies. *count is 0 if loads make the
+ * stiffness unsymmetric or if there would be too many frequencies. */
 status harmonic_natural(vibration *, double below, int *count, double **hertz, fault *);
-/* REFUSED: a mode grows because of springs without a potential or of feedback loops. */
+/* Checks the growth of modes. REFUSED: a mode grows because of feedback loops or of springs without
+ * a potential. */
 status harmonic_judge_growth(vibration *, double below, fault *f);
-/* Returns the number of modes with damping ratios and sets U[count x free], with which the damping
- * matrix is C + U U^T. */
+/* Returns the number of modes with damping ratios, and sets U[count x free]. The damping matrix is
+ * C + U U^T. */
 int harmonic_modes_damped(const harmonic_modes *, const double **U);
 /* Sets out[count] to U^T r, where r are the static displacements due to a unit displacement of the
  * driven coordinate. */
@@ -500,11 +520,12 @@ void harmonic_modes_carried(const vibration *, int driven, double out[]);
 /* Adds the static shapes of inputs and outputs, f: [count x free] forces, and computes the
  * projected matrices. */
 status harmonic_modes_project(vibration *, int count, const double f[], fault *);
-/* Factors D at a circular frequency. SINGULAR as in a direct solution. */
+/* Factors D at a circular frequency. SINGULAR: as in a direct solution. */
 status harmonic_modes_factor(vibration *, double w, fault *);
-/* x[free]: forces, replaced by the solution. f: receives the residual of the forces. */
+/* Solves for x[free], which contains the forces on entry and the solution on return. f: receives
+ * the residual of the forces. */
 void harmonic_modes_solve(vibration *, double complex f[], double complex x[]);
-/* Returns a bound on |o^T (x - D^-1 f)| from the residuals of the solutions for f and o; INFINITY:
+/* Returns a bound of |o^T (x - D^-1 f)| from the residuals of the solutions for f and o; INFINITY:
  * no bound is known. */
 double harmonic_modes_bound(vibration *, const double complex left_of_f[],
                             const double complex left_of_o[]);
@@ -512,28 +533,28 @@ double harmonic_modes_bound(vibration *, const double complex left_of_f[],
 status harmonic_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Computes the matrices about the state in all coordinates, and finds the closed loops. */
 status harmonic_begin(vibration *, fault *);
-/* Computes K, M, C and the modes with damping ratios of a harmonic analysis. The caller releases
- * *out in any case. */
+/* Computes K, M, C and the modes with damping ratios of a harmonic analysis. The caller frees *out,
+ * even after a failure. */
 status harmonic_system(analysis_context *, int analysis, vibration *out, fault *);
 void harmonic_release(vibration *);
 /* Repeats the analysis without the mass inside elements. *error: largest difference of the
- * responses, relative to the largest value of each curve; must be 0 on entry. *quantity: the
- * quantity with this difference. */
+ * responses, relative to the largest value of each curve; it must be 0 on entry. *quantity: index
+ * of the quantity with this difference. */
 status harmonic_inside(analysis_context *, int analysis, double *error, int *quantity, fault *);
-/* REFUSED: the prescribed motion is a component of a rotation vector. */
+/* Checks the prescribed motion of an input. REFUSED: it is a component of a rotation vector. */
 status harmonic_check_motion(const vibration *, int driver, fault *);
-/* REFUSED: the velocity or acceleration that the quantity reads is not only the rate of its
- * displacement, because its body rotates at this instant of a motion. */
+/* Checks the velocity or acceleration that the quantity reads. REFUSED: it is not only the rate of
+ * a displacement, because its body rotates at this time of a motion. */
 status harmonic_check_rates(const vibration *, const scene_response *, fault *);
-/* Sets *out to the driven coordinate whose reaction a quantity reads. REFUSED: it acts on more than
- * one node. */
+/* Sets *out to the driven coordinate whose reaction a quantity reads. REFUSED: the coordinate moves
+ * more than one node. */
 status harmonic_reacting(const vibration *, const scene_response *, int *out, fault *);
 
 /* Second-order models with the inputs and outputs of the scene (second_order.c). */
 
 status second_order_list(const scene *, system_matrices *, fault *);
 /* Stores the matrices. v: matrices of all coordinates, the state, and the modes with damping
- * ratios; G: gyroscopic matrix, or NULL. */
+ * ratios. G: gyroscopic matrix, or NULL. */
 status second_order_keep(const vibration *v, const sparse *G, const system_matrices *,
                          state_matrices *, fault *);
 /* Stores the reduced model and its errors (second_order_reduced.c). */
@@ -553,15 +574,15 @@ status damped_modal(analysis_context *, int analysis, analysis_outcome *, fault 
 /* Stationary rotation and small motions about it. */
 
 status rotation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* Sets the stability of the stations from the modes found, once the steps have been evaluated. */
+/* Sets the stability of the stations from their modes, after the steps have been evaluated. */
 void rotation_judge_stations(analysis_context *, int analysis, const analysis_outcome *);
 
 /* Nonlinear equilibrium along a path. */
 
 status static_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* Advances from the current path parameter to `target` in steps that are halved if Newton's method
- * fails and doubled if it converges easily. *increment: the first step on entry, the next one on
- * return. */
+/* Advances from the current path parameter to `target`. Steps are halved if Newton's method fails,
+ * and doubled if it converges easily. *increment: the first step on entry, the next step on return.
+ * */
 status static_walk(newton_run *, double target, double *increment, fault *);
 
 #endif

@@ -10,26 +10,28 @@
 
 enum { FIRST = 16, MORE = 12, MAX_STARTS = 5, MAX_VECTORS = 400 };
 
-/* Bounds on a residual relative to its eigenvalue. rounding_residual is relative to the largest
- * eigenvalue, whose round-off affects all eigenvalues. */
+/* Limits of a residual relative to its eigenvalue. rounding_residual is relative to the largest
+ * eigenvalue, whose rounding error affects all eigenvalues. */
 static const double good_residual = 1e-12, rounding_residual = 1e-14, stalled_residual = 1e-8,
                     bearable_residual = 1e-5;
 /* Eigenvalues with a smaller relative difference count as equal. */
 static const double same = 1e-6;
-/* Relative length of the remainder of an orthogonalised vector up to which it counts as zero. */
+/* An orthogonalised vector counts as zero if its remainder, relative to its former length, is not
+ * above this limit. */
 static const double nothing = 1e-14;
 
 typedef struct solver {
     const arnoldi_problem *p;
     arnoldi_result *out;
     int room, count,
-        chain; /* numbers of vectors; chain 1: the last one belongs to the current start vector */
+        /* numbers of vectors; chain 1: the last vector belongs to the current start vector */
+        chain;
     double *Q, *TQ, *H; /* [room x n] basis Q, [room x n] T Q, [room x room] Q^T T Q */
     double *work, *A, *z, *re, *im;
     int *order;
     unsigned long long seed;
-    int found;         /* number of Ritz values in order[] that are not round-off */
-    double *last;      /* [wanted] magnitudes when they last converged */
+    int found;         /* number of Ritz values in order[] that are not rounding errors */
+    double *last;      /* [wanted] magnitudes at the last convergence */
     double complex *x; /* [n] */
 } solver;
 
@@ -49,7 +51,7 @@ static void fill_start(solver *s, double x[])
     }
 }
 
-/* Subtracts from x its component in the span of the basis; returns the relative length of the
+/* Subtracts the component in the span of the basis from x. Returns the relative length of the
  * remainder. */
 static double orthogonalise(const solver *s, double x[])
 {
@@ -80,8 +82,8 @@ static void take(solver *s, double x[])
     }
 }
 
-/* Adds one vector of the current chain, or a new start vector if the chain ends. Returns 0 if no
- * further vector exists. */
+/* Adds a vector of the current chain, or a new start vector if the chain has ended. Returns 0 if
+ * there is no further vector. */
 static int grow(solver *s)
 {
     const int n = s->p->n;
@@ -107,7 +109,7 @@ static double size_of(const solver *s, int i)
     return hypot(s->re[s->order[i]], s->im[s->order[i]]);
 }
 
-/* Sorts by decreasing magnitude; conjugates stay adjacent, as in LAPACK. */
+/* Sorts eigenvalues in decreasing order of magnitude. Conjugates remain adjacent, as in LAPACK. */
 static void sort(solver *s)
 {
     const int k = s->count;
@@ -141,8 +143,8 @@ static status ritz(solver *s, fault *f)
     return STATUS_OK;
 }
 
-/* Stores the eigenvector of the i-th eigenvalue in x; returns its residual relative to the
- * eigenvalue. */
+/* Stores the eigenvector of eigenvalue i in x, and returns its residual relative to the eigenvalue.
+ * */
 static double vector_of(const solver *s, int i, double complex x[])
 {
     const int k = s->count, n = s->p->n, at = s->order[i], second = s->im[at] < 0;
@@ -165,7 +167,7 @@ static double vector_of(const solver *s, int i, double complex x[])
     return sqrt(residual / length) / cabs(theta);
 }
 
-/* Returns 1 if all the requested pairs have converged. *worst: the largest residual. */
+/* Returns 1 if all requested pairs have converged. *worst: largest residual. */
 static int converged(solver *s, double *worst)
 {
     int good = 1;
@@ -178,7 +180,7 @@ static int converged(solver *s, double *worst)
     return good;
 }
 
-/* Returns 1 if the last start vector has yielded an eigenvalue as large as the requested ones. */
+/* Returns 1 if the last start vector gave an eigenvalue as large as the requested ones. */
 static int changed(solver *s)
 {
     int different = 0;

@@ -13,7 +13,7 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-/* Returns the number of states of one analysis that are kept; most: limit per path. */
+/* Returns the number of states of an analysis that are kept. most: limit for a path. */
 static int count_of(const analysis_outcome *o, int most)
 {
     if (o->kind == SCENE_MOTION)
@@ -54,8 +54,8 @@ static void keep_motion(const analysis_context *c, int analysis, shapes *s)
         keep(c, s, &(shape_state){SHAPE_MOTION, analysis, o->value[i], 1}, o->state[i]);
 }
 
-/* Stores the state displaced by x[free + driven]. The analysis is linearised about the last state
- * of the path that it follows. */
+/* Stores the state displaced by x[free + driven]. If the analysis follows a path, this is a
+ * displacement from the last state of the path. */
 static status keep_displaced(const analysis_context *c, shape_state *what, const double x[],
                              const double sigma[], shapes *s, fault *f)
 {
@@ -78,7 +78,7 @@ static status keep_displaced(const analysis_context *c, shape_state *what, const
     return outcome;
 }
 
-/* Stores the displacements of linear solutions. sigma[stresses]: workspace. */
+/* Stores the displacements of linear solutions. sigma[stresses]: work space. */
 static status keep_displacements(const analysis_context *c, int analysis, double sigma[], shapes *s,
                                  fault *f)
 {
@@ -103,7 +103,7 @@ static status keep_linear(const analysis_context *c, int analysis, shapes *s, fa
     return outcome;
 }
 
-/* Stores the modes of one side. x[free + driven]: workspace. */
+/* Stores the modes of one side. x[free + driven]: work space. */
 static status keep_modes_in(const analysis_context *c, int analysis, const outcome_side *side,
                             double x[], shapes *s, fault *f)
 {
@@ -137,7 +137,7 @@ static status keep_modes(const analysis_context *c, int analysis, const outcome_
 static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
 {
     TRY(shapes_alloc(s, f));
-    s->states = 0; /* incremented again while the shapes are filled */
+    s->states = 0; /* this number increases again while the shapes are filled */
     centreline_points(c->model, s->first);
     const analysis_context *first = c->sides != NULL ? c->sides[0] : c;
     keep(first, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, kinematics_rest(first->model));
@@ -173,9 +173,8 @@ status collect_shapes(const analysis_context *c, int most, shapes *s, fault *f)
     return outcome;
 }
 
-/* Workspace shared by all states. */
 typedef struct workspace {
-    sparse K, M, G, C; /* for linear models, including the driven coordinates */
+    sparse K, M, G, C; /* for linear models; the driven coordinates are included */
     int models, free, all;
     double *residual, *load; /* [free + driven] */
     double *sigma;           /* [stresses] */
@@ -218,7 +217,7 @@ static void workspace_free(workspace *w)
     kinematics_state_free(w->state);
 }
 
-/* Appends an entry; system_matrices_free frees it in every case. */
+/* Appends an entry, which system_matrices_free frees, even after a failure. */
 static status next(system_matrices *s, state_matrices **out, fault *f)
 {
     if (s->states == s->room) {
@@ -234,7 +233,7 @@ static status next(system_matrices *s, state_matrices **out, fault *f)
     return STATUS_OK;
 }
 
-/* Fills B: the forces of each load at factor 1, as it acts in this state. */
+/* Fills B with the forces of each load in this state for a factor of 1. */
 static status inputs(const analysis_context *c, const model_state *state, workspace *w,
                      triplets *out, fault *f)
 {
@@ -273,8 +272,8 @@ static status keep_model(const analysis_context *c, const model_state *state, co
     return w->models ? second_order_keep(&v, out->turns ? &w->G : NULL, s, out, f) : STATUS_OK;
 }
 
-/* Stores K, which has been computed, and B. Also stores M if the formulation has inertia, and G if
- * the axes rotate. */
+/* Stores B, and K, which the caller has computed. Also stores M if the formulation has inertia, and
+ * G if the axes rotate. */
 static status systems_keep(const analysis_context *c, const model_state *state, double path,
                            workspace *w, const system_matrices *s, state_matrices *out, fault *f)
 {
@@ -294,8 +293,8 @@ static status systems_keep(const analysis_context *c, const model_state *state, 
     return keep_model(c, state, w, s, out, f);
 }
 
-/* Stores the matrices of the undeformed structure. displaced: displacements of the linear solution,
- * under the loads at `path`, that causes the stresses; NULL: there are no stresses. */
+/* Stores the matrices of the undeformed structure. displaced: displacements of the linear solution
+ * that cause the stresses, under the loads at `path`; NULL: there are no stresses. */
 static status systems_keep_linear(const analysis_context *c, int analysis, const double displaced[],
                                   double path, workspace *w, system_matrices *s, fault *f)
 {
@@ -369,8 +368,8 @@ static status keep_about(const analysis_context *c, int analysis, workspace *w, 
     return keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f);
 }
 
-/* Stores the matrices about an instant of a motion. C is the damping matrix; G contains the
- * remaining effects of the rates. */
+/* Stores the matrices about a state during a motion. C is the damping matrix, and G contains the
+ * other effects of the rates. */
 static status keep_instant(const analysis_context *c, int analysis, workspace *w,
                            system_matrices *s, fault *f)
 {
@@ -405,7 +404,7 @@ static status keep_instant(const analysis_context *c, int analysis, workspace *w
     return outcome;
 }
 
-/* Stores the matrices of a modal analysis and its modes; stores nothing if the analysis failed. */
+/* Stores the matrices of a modal analysis and its modes. Does nothing if the analysis failed. */
 static status keep_modal(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {

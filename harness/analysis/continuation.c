@@ -1,7 +1,7 @@
-/* Continuation of an equilibrium path by displacement or arc length. A step is repeated in smaller
- * steps if the path rotates too far in it, or if the change of the tangent stiffness indicates more
- * than one critical point. If the smaller steps end at a different point, the step has jumped to
- * another branch. */
+/* Continuation of an equilibrium path with displacement or arc length control. A step is repeated
+ * in smaller steps if the path rotates too far in the step, or if the change of the tangent
+ * stiffness indicates more than one critical point. If the smaller steps end at a different point,
+ * the first step has jumped to another branch. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -10,21 +10,22 @@
 #include "harness/model/model.h"
 
 /* Returns the reason why the step from `here` to `next` is too long or led to another branch; NULL:
- * the step is valid. *swing: rotation of the path relative to its limit. last_resort: the step
+ * the step is valid. *swing: rotation of the path relative to its limit. last_resort: 1 if the step
  * cannot be shorter, so it may contain several critical points. */
 static const char *continuation_sound_doubt(const continuation *, int last_resort, double *swing);
-/* Reports a jump: the step from the control coordinate `from` led to the rival, but the path leads
- * to `here`. If the steps are constant, the path ends there. */
+/* Reports a jump: the step that started at the control coordinate `from` led to the rival, but the
+ * path leads to `here`. If the steps are constant, the path ends at `here`. */
 static status continuation_sound_report_jump(continuation *, const rival *, double from, fault *);
 
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
-/* Target rotation of the next step relative to its limit: it gives the longest steps with a
- * rejection rate below 1 % (measured on c_cantilever: 0.5 costs 10 % more, 0.85 costs the same). */
+/* Target rotation of the next step relative to its limit. This value gives the longest steps with a
+ * rejection rate below 1 % (measured for c_cantilever: 0.5 costs 10 % more, 0.85 costs the same).
+ * */
 static const double aim = 0.7;
 
 /* Result of an attempted step. */
 typedef struct attempt {
-    const char *doubt; /* NULL: sound; otherwise the reason */
+    const char *doubt; /* reason for doubt; NULL: the step is valid */
     double swing;      /* rotation of the path relative to its limit */
     step_record record;
 } attempt;
@@ -56,7 +57,7 @@ static status add_point(continuation *p, fault *f)
     return STATUS_OK;
 }
 
-/* Records whether the critical points of the step from `before` to `here` are known. Without an
+/* Records if the critical points of the step from `before` to `here` are known. If there is no
  * inertia, also records the number of eigenvalues that have passed zero. */
 static void judge(continuation *p, const path_point *before, step_record *record)
 {
@@ -93,7 +94,8 @@ static status accept(continuation *p, step_record *record, fault *f)
     return history_add_step(p->c->result, record, f);
 }
 
-/* Sets the direction of the first step, along the control coordinate, with or against the load. */
+/* Sets the direction of the first step, along the control coordinate, in or against the direction
+ * of the load. */
 static void turn_start(continuation *p)
 {
     if (p->o->points > 1 || continuation_step_dot(p, p->here.tangent, p->moved) >= 0)
@@ -103,7 +105,7 @@ static void turn_start(continuation *p)
         p->here.tangent[k] = -p->here.tangent[k];
 }
 
-/* Corrects the state and evaluates the point. If the attempt is not sound, the state may be on
+/* Corrects the state and evaluates the point. If the attempt is doubtful, the state may be on
  * another branch. A step along the arc ends at the next station. */
 static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t,
                        fault *f)
@@ -158,7 +160,7 @@ static double length_left(const continuation *p, path_goal goal, double gone)
 }
 
 /* Returns 1 if the goal has been reached. The arc length to a point depends on the steps, so a
- * rival that has not been reached may lie farther along the arc. */
+ * rival that has not been reached may be farther along the arc. */
 static int arrived(const continuation *p, path_goal goal, double station, const rival *r,
                    double gone, double nearest)
 {
@@ -168,7 +170,8 @@ static int arrived(const continuation *p, path_goal goal, double station, const 
                                                nearest <= goal.value / 2 || gone >= 3 * goal.value);
 }
 
-/* Returns the goal of the next part of the step from the control coordinate `from` to the goal. */
+/* Returns the goal of the next part of the step that leads from the control coordinate `from` to
+ * the goal. */
 static path_goal part_of(const continuation *p, path_goal goal, double from, double length,
                          int last)
 {
@@ -222,8 +225,8 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
                                               : STATUS_OK;
 }
 
-/* Stores the end of a step that may lie on another branch, because smaller steps may lead to a
- * different end. */
+/* Stores the end of a step that may be on another branch, because smaller steps may lead to another
+ * end. */
 static status rival_alloc(const continuation *p, rival *r, fault *f)
 {
     TRY(kinematics_state_alloc(p->c->model, &r->state, f));
@@ -232,8 +235,8 @@ static status rival_alloc(const continuation *p, rival *r, fault *f)
     return STATUS_OK;
 }
 
-/* Repeats a step in smaller steps if it failed, or if its end, then stored as the rival, may lie on
- * another branch. reach() frees the rival. */
+/* Repeats a step in smaller steps if it failed, or if its end may be on another branch. This end is
+ * then stored as the rival, which reach() frees. */
 static status try_again(continuation *p, path_goal goal, double station, const attempt *t,
                         int doubted, rival *r, double *size, fault *f)
 {
@@ -285,7 +288,7 @@ static status walk_to(continuation *p, double station, double *size, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the equilibrium without the proportional loads, and the tangent there. */
+/* Computes the equilibrium without the proportional loads, and its tangent. */
 static status start(continuation *p, fault *f)
 {
     step_record record = {0};
@@ -318,13 +321,13 @@ status continuation_analysis(analysis_context *c, int analysis, analysis_outcome
     return result;
 }
 
-/* Checks whether a step stayed on its branch, and reports a jump. */
+/* Checks if a step remained on its branch, and reports a jump. */
 
-/* Limit of the angle [rad] between the tangent and the secant in the metric, that is, of the
- * relative error of the tangent over a step. This limit controls the step size. */
+/* Limit of the angle [rad] between the tangent and the secant in the metric, which is the relative
+ * error of the tangent over a step. This limit controls the step size. */
 static const double largest_swing = 0.3;
-/* Largest rotation of any node in one step [rad], a guard for paths on which few nodes rotate.
- * Steps with a tenth of both limits lead to the same states and events in all runs of `verify`. */
+/* Largest rotation [rad] of a node in one step, for paths on which few nodes rotate. Steps with a
+ * tenth of both limits lead to the same states and events in all runs of `verify`. */
 static const double largest_turn = 0.5;
 
 static double angle_to_secant(const continuation *p, const double tangent[], double length)
@@ -344,8 +347,9 @@ static const char *continuation_sound_doubt(const continuation *p, int last_reso
         return "its direction changes too much";
     if (!(turned <= largest_turn))
         return "a node rotates too far";
-    /* At a limit point the rate changes its sign, and so does the determinant, by one pivot. At a
-     * bifurcation only the determinant changes its sign; several bifurcations may coincide. */
+    /* At a limit point, the rate changes its sign, and the determinant changes its sign by one
+     * pivot. At a bifurcation, only the determinant changes its sign. Several bifurcations may
+     * coincide. */
     const int reversed = (a->rate < 0) != (b->rate < 0), pivots = abs(b->negative - a->negative);
     if (!last_resort && reversed && (pivots > 1 || a->determinant == b->determinant))
         return "the pivots of its tangent stiffness change by more than one critical point "

@@ -1,9 +1,7 @@
-/* Critical points within a step: points with a singular tangent stiffness. Its null vector phi
- * gives their kind.
- *
- * Along a path K x' = f' l', so at a critical point 0 = phi . K x' = (phi . f') l': either the load
- * has an extremum (limit point) or the work of f' on phi is zero (bifurcation). K need not be
- * symmetric; phi is its left null vector. */
+/* Critical points within a step: points with a singular tangent stiffness. The null vector phi of
+ * the stiffness gives the kind of the point. Along a path K x' = f' l', so at a critical point 0 =
+ * phi . K x' = (phi . f') l'. Either the load has an extremum (limit point), or the work of f' on
+ * phi is zero (bifurcation). K need not be symmetric, and phi is its left null vector. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -16,21 +14,22 @@ enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 6, CORRECTIONS = 2 };
 static const double least_load_work =
     1e-5; /* smallest work of the load on a null vector at a limit point */
 static const double closeness = 1e-10; /* distance of a trial point, relative to the step */
-static const double near = 1e-3;       /* vanishing eigenvalue, relative to its earlier values */
+/* eigenvalue that counts as zero, relative to its earlier values */
+static const double near = 1e-3;
 static const double one_point =
-    1e-6; /* distance, relative to the step, below which two points count as one */
+    1e-6; /* distance, relative to the step, below which two points count as one point */
 static const double touches =
     0.02; /* smallest value of an indicator that counts as zero, relative to its neighbours */
 static const double aside =
     1e-3; /* largest relative real part of a pair that crosses the imaginary axis near zero */
 
-/* One end of the interval in which the critical point lies. */
+/* An end of the interval that contains the critical point. */
 typedef struct bound {
-    double at, value; /* fraction of the step; value of the test function, NAN: unknown */
+    double at, value; /* fraction of the step, and value of the test function (NAN: unknown) */
 } bound;
 
-/* Returns the smallest eigenvalue of K; p->mode becomes its left eigenvector. K must be factored in
- * the current state. */
+/* Returns the smallest eigenvalue of K, and sets p->mode to its left eigenvector. K must be
+ * factored in the current state. */
 static double least_eigenvalue(continuation *p)
 {
     double *x = p->mode, eigenvalue = NAN;
@@ -55,8 +54,8 @@ static double least_eigenvalue(continuation *p)
     return eigenvalue;
 }
 
-/* Returns the smallest eigenvalue of K at the point where K is factored or, if K is not symmetric,
- * the real part of the eigenvalue nearest to zero. */
+/* Returns the smallest eigenvalue of K at the point where K is factored. If K is not symmetric,
+ * returns the real part of the eigenvalue nearest to zero. */
 static double least_of(continuation *p, const path_point *at)
 {
     return at->symmetric ? least_eigenvalue(p) : at->least;
@@ -68,7 +67,7 @@ static int is_aside(const path_point *at)
     return !at->symmetric && at->nearest > 0 && fabs(creal(at->mu[0])) < aside * cabs(at->mu[0]);
 }
 
-/* Returns |phi . f'|/(|phi| |f'|), where the lengths are those in the metric and in its dual. */
+/* Returns |phi . f'|/(|phi| |f'|), with the lengths in the metric and in the dual metric. */
 static double load_work(continuation *p)
 {
     const double *load = p->load;
@@ -86,15 +85,14 @@ static path_goal part_of(const continuation *p, path_goal goal, double part)
     return (path_goal){goal.by_arc, from + part * (goal.value - from)};
 }
 
-/* Target of the search: the first point after `from` where the count changes. */
+/* Target of the search: the first point after `from` at which the count changes. */
 typedef struct sought {
     int by_rate;
     double from;  /* fraction of the step */
     int negative; /* number of negative pivots at `from` */
 } sought;
 
-/* Returns 1 if the indicator of the critical point still has its initial value at the trial
- * point. */
+/* Returns 1 if the indicator of the critical point has its initial value at the trial point. */
 static int is_before(const continuation *p, const sought *s)
 {
     if (s->by_rate)
@@ -104,7 +102,7 @@ static int is_before(const continuation *p, const sought *s)
     return p->trial.negative == s->negative;
 }
 
-/* Evaluates the point at fraction b->at of the step. *before: 1 if this point lies before the
+/* Evaluates the point at the fraction b->at of the step. *before: 1 if this point lies before the
  * critical point. */
 static status try_at(continuation *p, path_goal goal, const sought *s, bound *b, int *before,
                      fault *f)
@@ -117,7 +115,7 @@ static status try_at(continuation *p, path_goal goal, const sought *s, bound *b,
     TRY(continuation_step_look(p, p->moved, &p->trial, &record, f));
     *before = is_before(p, s);
     b->value = s->by_rate ? p->trial.rate : least_of(p, &p->trial);
-    /* The smallest eigenvalue may belong to another mode, whose sign is irrelevant here. */
+    /* The smallest eigenvalue may belong to another mode, whose sign is irrelevant. */
     const int falls =
         p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > s->negative;
     if (!s->by_rate && (b->value > 0) != (*before == falls))
@@ -134,8 +132,8 @@ static double next_part(const bound *low, const bound *high)
     return isfinite(secant) && secant > low->at && secant < high->at ? secant : low->at + width / 2;
 }
 
-/* Narrows the interval; the final state is the critical point, up to round-off. *gone: 1 if the
- * test function has no zero; *behind: fraction of the step just after the point. */
+/* Narrows the interval. The final state is the critical point, apart from rounding. *gone: 1 if the
+ * test function has no zero. *behind: fraction of the step immediately after the point. */
 static status locate(continuation *p, path_goal goal, const sought *s, int *gone, double *behind,
                      fault *f)
 {
@@ -171,13 +169,13 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
     *gone = best > near * scale;
     p->narrow = is_aside(&p->trial) || high.at - low.at <= closeness;
     if (!by_rate && !*gone && is_aside(&p->trial) && value > one_point * scale)
-        p->doubtful = 1; /* either a pair near zero or a double eigenvalue at zero */
+        p->doubtful = 1; /* a pair near zero, or a double eigenvalue at zero */
     *behind = fmax(high.at < 1 ? high.at : at, at);
     return STATUS_OK;
 }
 
-/* Counts the negative pivots after the point, once all the eigenvalues that vanish at it have
- * passed zero; *at: fraction of the step where the pivots are counted. */
+/* Counts the negative pivots after the point, where all eigenvalues that vanish at the point have
+ * passed zero. *at: fraction of the step at which the pivots are counted. */
 static status count_behind(continuation *p, path_goal goal, const sought *s, double *at,
                            int *negative, fault *f)
 {
@@ -192,17 +190,17 @@ static status count_behind(continuation *p, path_goal goal, const sought *s, dou
     return STATUS_OK;
 }
 
-/* Returns 1 if the count changes although no eigenvalue passes zero: a pair crosses the imaginary
- * axis away from zero, and no branch starts. */
+/* Returns 1 if the count changes although no eigenvalue passes zero. A pair then crosses the
+ * imaginary axis away from zero, and no branch starts. */
 static int is_pair(const continuation *p, const sought *s)
 {
     return !s->by_rate && !p->next.symmetric && p->narrow && s->negative >= 0 &&
            p->next.negative >= 0;
 }
 
-/* Returns 1 if a node is fixed about some axes and free about others. The tangent then does not
- * contain the moment of the support, so a pair that passes near zero may really pass through
- * zero. */
+/* Returns 1 if a node is fixed about some axes and free about others. The tangent does not contain
+ * the moment of the support of such a node, so a pair that passes near zero may in reality pass
+ * through zero. */
 static int holds_some_turns(const model *m)
 {
     const scene *s = model_scene(m);
@@ -271,8 +269,8 @@ static status report_all(continuation *p, path_goal goal, int by_rate, int *jump
     return STATUS_OK;
 }
 
-/* Makes the state at this fraction of the step the trial point, either the first one or the next.
- * Two corrections are enough for a state that is only examined. */
+/* Makes the state at this fraction of the step the trial point, which is the first or the next one.
+ * Two corrections are sufficient for a state that is only examined. */
 static status look_at(continuation *p, path_goal goal, double part, int first, fault *f)
 {
     const path_goal to = part_of(p, goal, part);
@@ -289,8 +287,8 @@ static status look_at(continuation *p, path_goal goal, double part, int first, f
     return continuation_step_look(p, p->moved, &p->trial, &unused, f);
 }
 
-/* Returns 1 if a parabola through three equidistant values of one sign reaches or almost reaches
- * zero between them. */
+/* Returns 1 if a parabola through three equidistant values of the same sign reaches or almost
+ * reaches zero between them. */
 static int dips(const double value[3])
 {
     const double sign = value[1] > 0 ? 1 : -1, bend = value[0] - 2 * value[1] + value[2],
@@ -312,7 +310,7 @@ static int goes_back(const path_point *a, const path_point *b, const path_point 
            b->negative > (a->negative > c->negative ? a : c)->negative;
 }
 
-/* Examines the state after every sixth of the step, so a loss of stability over a fifth of the step
+/* Examines the state after every sixth of the step. A loss of stability over a fifth of the step
  * contains one of these states. */
 static status look_within(continuation *p, path_goal goal, int *hidden, fault *f)
 {
@@ -336,7 +334,7 @@ status continuation_critical_within(continuation *p, path_goal goal, int *hidden
         return STATUS_OK;
     const arrival before = p->n.arrival;
     kinematics_state_copy(p->c->model, p->n.state, p->end);
-    p->n.arrival.criterion = INFINITY; /* so that Newton's method makes one correction at a time */
+    p->n.arrival.criterion = INFINITY; /* Newton's method then makes one correction at a time */
     const status outcome = look_within(p, goal, hidden, f);
     p->n.arrival = before;
     kinematics_state_copy(p->c->model, p->end, p->n.state);

@@ -1,5 +1,5 @@
-/* One point of a continued path: Newton's method with a constraint, and the tangent of the path
- * there. */
+/* A point of a continued path: Newton's method with a constraint, and the tangent of the path at
+ * the point. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-/* Returns 1 if a curve of coordinates is requested, so the states of all points are kept. */
+/* Returns 1 if a curve of coordinates is requested, for which the states of all points are kept. */
 static int continuation_extract_keeps_states(const scene *, int analysis);
 
 status continuation_step_alloc(analysis_context *c, int analysis, outcome_continuation *o,
@@ -143,7 +143,7 @@ status continuation_step_go_on(continuation *p, path_goal goal, step_record *rec
     return newton_iterate(p->c, &use, &p->n.arrival, record, f);
 }
 
-/* Counts the eigenvalues left of the imaginary axis for an unsymmetric tangent, to which
+/* Counts the eigenvalues to the left of the imaginary axis for an unsymmetric tangent, to which
  * Sylvester's law of inertia does not apply. */
 static status index_of(continuation *p, path_point *out, fault *f)
 {
@@ -214,8 +214,7 @@ static int continuation_extract_keeps_states(const scene *s, int analysis)
     return 0;
 }
 
-/* Stores the load factor or a coordinate as a function of the control coordinate, at every
- * point. */
+/* Stores the load factor or a coordinate at every point as a function of the control coordinate. */
 static void take_curve(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, quantity_result *r)
 {

@@ -10,7 +10,7 @@
 #include "elements/math/scalar.h"
 #include "harness/model/model.h"
 
-/* Up to this number of states, all poles of closed loops are found. */
+/* Up to this number of states, all poles of closed loops are computed. */
 enum { ALL_STATES = 400 };
 
 static status no_memory(fault *f)
@@ -48,8 +48,8 @@ static double highest(const unsymmetric_problem *p)
     return sqrt(square);
 }
 
-/* Estimate of the slowest frequency of the structure, whose measured motions integrals hold at 0,
- * from K^-1 M; x, y [n]. */
+/* Estimates the slowest frequency of the structure from K^-1 M, with the motions measured by
+ * integrals held at 0. x, y [n]: work space. */
 static double slowest(const unsymmetric_problem *p, double x[], double y[])
 {
     enum { PASSES = 5 };
@@ -75,10 +75,10 @@ static double size_of(const unsymmetric_result *r, int i)
     return hypot(r->growth[i], r->frequency[i]);
 }
 
-/* The shift divided by the magnitude of the slowest mode. */
+/* Ratio of the shift to the magnitude of the slowest mode. */
 static const double small = 1e-3;
 
-/* Returns 1 if the slow pole of an integral hides other modes in round-off. */
+/* Returns 1 if the slow pole of an integral hides other modes in rounding errors. */
 static int hides(const unsymmetric_problem *p, const unsymmetric_result *r)
 {
     const double digits = 1e-10, some = 1e-7, bearable = 1e-6;
@@ -99,8 +99,8 @@ static void shift_by(sparse closed[], const double own[], double shift)
     }
 }
 
-/* Solves with a shift that is a small fraction of the slowest mode after the poles of integrals. A
- * first shift serves to find that mode. */
+/* Solves with a shift that is a small fraction of the slowest mode that is not a pole of an
+ * integral. A first shift is used to find this mode. */
 static status solve_shifted(vibration *v, unsymmetric_problem *p, int integrals, sparse closed[],
                             const double own[], double first, unsymmetric_result *r, fault *f)
 {
@@ -117,7 +117,8 @@ static status solve_shifted(vibration *v, unsymmetric_problem *p, int integrals,
     return STATUS_OK;
 }
 
-/* Returns 1 if results i and k are the same pole, found twice, and not a double pole. */
+/* Returns 1 if the results i and k are the same pole, which was found twice, and not a double pole.
+ * */
 static int is_same(const unsymmetric_result *r, int i, int k)
 {
     const double same = 1e-6, *a = r->mode + (size_t)i * (size_t)r->n,
@@ -153,7 +154,7 @@ static status refine_slow(const sparse closed[], double shift, unsymmetric_resul
 }
 
 /* Finds the modes of the matrices with closed loops. If a slow pole hides other modes, the matrices
- * are shifted meanwhile. */
+ * are shifted for this purpose. */
 static status solve_closed(vibration *v, unsymmetric_problem *p, sparse closed[],
                            unsymmetric_result *r, fault *f)
 {
@@ -226,8 +227,8 @@ static status find_damped_of(vibration *v, const sparse *const of[], sparse clos
     return STATUS_OK;
 }
 
-/* Finds the frequencies of damped modes if K is unsymmetric or the damping is gyroscopic. Undamped
- * frequencies, if there are any, may then be far from all peaks. */
+/* Finds the frequencies of damped modes if K is unsymmetric or the damping is gyroscopic. In these
+ * cases, undamped frequencies may be far from all peaks. */
 static status find_damped(vibration *v, harmonic_modes *m, double below, unsymmetric_result *r,
                           fault *f)
 {
@@ -279,7 +280,7 @@ static status damped_frequencies(vibration *v, double below, int *count, double 
     return outcome;
 }
 
-/* Returns 1 if the growth is larger than round-off. */
+/* Returns 1 if the growth is larger than rounding. */
 static int grows(const vibration *v, const unsymmetric_result *r, int i)
 {
     return r->growth[i] > (v->about != NULL ? 1e-7 : 1e-9) * r->frequency[i];
@@ -314,7 +315,7 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
                  "stability of the loop of feedback is known up to %.4g Hz only", below);
     if (outcome != STATUS_OK || growth == 0)
         return outcome;
-    if (v->about != NULL) { /* growth about an instant is not a loss of stability */
+    if (v->about != NULL) { /* growth about a state during a motion is not a loss of stability */
         if (v->c->result->reason[0] == '\0')
             snprintf(v->c->result->reason, sizeof v->c->result->reason,
                      "a mode of the coefficients at %g s grows at %.4g 1/s: responses are transfer "

@@ -10,10 +10,10 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
-/* Takes the critical load factor of the requested sign and order. */
+/* Takes the critical load factor with the requested sign and number. */
 static void extract_spectrum_buckling(const analysis_context *, const scene_quantity *,
                                       const analysis_outcome *, quantity_result *);
-/* Takes the frequency [Hz] of the requested kind and order of mode. */
+/* Takes the frequency [Hz] of the requested kind and number of the mode. */
 static void extract_spectrum_modal(const analysis_context *, const scene_quantity *,
                                    const analysis_outcome *, quantity_result *);
 
@@ -21,7 +21,7 @@ static const char *const no_frequency =
     "the mesh has no mode of this kind that is distinguishable from round-off; coordinates with "
     "little or no mass have no mode";
 
-/* Returns 1 if the node has its own angle about this component. */
+/* Returns 1 if an angle of the node corresponds to this component. */
 static int is_turned(const scene *s, int node, int component, fault *f)
 {
     double axis[3];
@@ -35,7 +35,7 @@ static int is_turned(const scene *s, int node, int component, fault *f)
     return 0;
 }
 
-/* Returns 1 if the quantity is defined although nodes rotate independently. */
+/* Returns 1 if the quantity is defined even if nodes rotate independently. */
 static int is_defined(const scene *s, const scene_quantity *q, fault *f)
 {
     const quantity_type *type = quantity_type_of(q);
@@ -46,7 +46,7 @@ static int is_defined(const scene *s, const scene_quantity *q, fault *f)
     return 1;
 }
 
-/* Takes a value at full load, about the undeformed state, for one load case or combination. */
+/* Takes a value at full load, about the undeformed state, for a load case or combination. */
 static void under_one(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                       int acting, quantity_result *r)
 {
@@ -78,7 +78,8 @@ static double measured(const scene_quantity *q, double value)
                                                    : value;
 }
 
-/* Sets the value from the governing load case or combination, and names it. */
+/* Sets the value to that of the governing load case or combination, which is named in the result.
+ * */
 static void from_envelope(const analysis_context *c, const scene_quantity *q,
                           const analysis_outcome *o, quantity_result *r)
 {
@@ -132,7 +133,8 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     const analysis_outcome *o = &c->outcomes[q->analysis];
     fault f = {""};
     memset(r, 0, sizeof *r);
-    if (q->what.kind == SCENE_ENVELOPE_OF) /* computed later, from other values: solve.c */
+    if (q->what.kind ==
+        SCENE_ENVELOPE_OF) /* solve.c computes this quantity later, from other values */
         return;
     if (!is_defined(c->scene, q, &f)) {
         quantity_no_value(r, STATUS_REFUSED, f.text);
@@ -178,13 +180,14 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         quantity_no_value(r, STATUS_SINGULAR, "the value is not finite");
 }
 
-/* Takes value i of a side, or the reason why this value does not exist. */
+/* Takes value i of a side, or the reason why the value does not exist. */
 static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i,
                             quantity_result *r)
 {
     const quantity_eigenvalue found = {side->value[i], side->growth != NULL ? -side->growth[i] : 0};
     const double size = hypot(found.decay, found.value);
-    const double undamped = 1e-4; /* if the error is larger, zero damping cannot be established */
+    /* a larger error does not allow the conclusion that damping is zero */
+    const double undamped = 1e-4;
     double part;
     if (isnan(found.value)) {
         quantity_no_value(r, side->status, side->reason);
@@ -195,7 +198,7 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
     if (side->growth != NULL && part == 0 && found.decay == 0 && r->rounding > undamped)
         quantity_no_value(r, STATUS_NOT_CONVERGED,
                           "the damping is lost in round-off; use fewer elements");
-    if (side->growth != NULL) /* the error is that of the complex eigenvalue */
+    if (side->growth != NULL) /* the error refers to the complex eigenvalue */
         r->rounding = part != 0 ? r->rounding * size / fabs(part) : 0;
 }
 
@@ -256,8 +259,8 @@ static void extract_spectrum_buckling(const analysis_context *c, const scene_qua
     quantity_no_value(r, side->status, why);
 }
 
-/* Sets *found to the number of the requested mode (kind and order); -1: there is none. x[free +
- * driven]: workspace. */
+/* Sets *found to the index of the mode of the requested kind and number; -1: none. x[free +
+ * driven]: work space. */
 static status find_mode(const analysis_context *c, const scene_mode *wanted,
                         const outcome_side *side, double x[], int *found, fault *f)
 {

@@ -7,7 +7,8 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
-/* Returns the value; NAN, with a reason in r, if its relative error leaves no significant digit. */
+/* Returns the value; NAN: its relative error leaves no significant digit, and r contains the
+ * reason. */
 static double known(const analysis_context *c, double value, double error, const char *what,
                     quantity_result *r)
 {
@@ -23,7 +24,7 @@ static double known(const analysis_context *c, double value, double error, const
 }
 
 /* Returns the eigenvalue of a mode; NAN: no mode is of this kind, or the eigenvalue is lost in
- * round-off. */
+ * rounding. */
 static double eigenvalue_of(const analysis_context *c, const scene_quantity *q,
                             const rotation_modes *modes, quantity_result *r)
 {
@@ -54,7 +55,7 @@ static double growth_of(const analysis_context *c, const rotation_modes *modes, 
     return known(c, growth, modes->error[largest] * size / growth, "the rate of growth", r);
 }
 
-/* Returns the modes at a station; NULL: no quantity requested them. */
+/* Returns the modes at a station; NULL: no quantity requested modes. */
 static const rotation_modes *modes_at(const analysis_outcome *o, int i)
 {
     rotation_modes *const modes = outcome_rotation_of(o)->modes;
@@ -90,7 +91,7 @@ static double read_at(const analysis_context *c, const scene_quantity *q, const 
     return outcome == STATUS_OK ? value : NAN;
 }
 
-/* Returns the value of a quantity of the path at one station; NAN: r may contain the reason. */
+/* Returns the value of a quantity at a station of the path; NAN: r may contain the reason. */
 static double extracted(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, int i, quantity_result *r)
 {
@@ -113,7 +114,7 @@ static double at_station(const analysis_context *c, const scene_quantity *q,
     return quantity_scaled(q, extracted(c, q, o, i, r));
 }
 
-/* Returns an error bound for a response at a station; 0 for other quantities. */
+/* Returns an error bound of a response at a station, or 0 for other quantities. */
 static double bound_at(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, int i)
 {
@@ -124,7 +125,7 @@ static double bound_at(const analysis_context *c, const scene_quantity *q,
                : 0;
 }
 
-/* Returns the error relative to the value; 0 if either is zero. */
+/* Returns the error relative to the value; 0 if the error or the value is zero. */
 static double relative(double error, double value)
 {
     return value != 0 ? error / fabs(value) : 0;
@@ -169,7 +170,8 @@ static void take_spectrum(const analysis_context *c, const scene_quantity *q,
     free(value);
 }
 
-/* Returns the reason why a path ended before a station, taken from the followed analysis. */
+/* Returns the reason why a path ended before a station, from the analysis that computed the path.
+ * */
 static const char *reason_of_path(const analysis_context *c, const scene_quantity *q)
 {
     const int follows = c->scene->analysis[q->analysis].follows;
@@ -193,8 +195,8 @@ static void path_ends(const analysis_context *c, const scene_quantity *q, const 
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason_of_path(c, q));
 }
 
-/* Returns 1 if the quantity is evaluated at the station. For a maximum or minimum, all stations are
- * evaluated. */
+/* Returns 1 if the quantity is evaluated at the station. A maximum or minimum is evaluated at all
+ * stations. */
 static int is_taken_at(const scene_quantity *q, int stations, const double path[], int station)
 {
     if (q->reduction == SCENE_AT)
@@ -202,7 +204,7 @@ static int is_taken_at(const scene_quantity *q, int stations, const double path[
     return station == stations - 1;
 }
 
-/* Returns 1 if the station is needed by a quantity that is not a curve. */
+/* Returns 1 if a quantity that is not a curve needs the station. */
 static int takes_station(const scene_quantity *q, int stations, const double path[], int station)
 {
     return q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ||
@@ -264,7 +266,7 @@ int extract_path_whole(const analysis_context *c, int analysis, int station)
     return 0;
 }
 
-/* Evaluates a quantity of a motion between its stations. A crossing that was found stays valid if
+/* Evaluates a quantity of a motion between its stations. A crossing that was found remains valid if
  * the motion fails later. */
 static void extract_passing(const analysis_context *c, const scene_quantity *q,
                             const analysis_outcome *o, quantity_result *r)
@@ -308,7 +310,7 @@ static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quan
     r->x = quantity_abscissa(q, peak->hertz);
 }
 
-/* Records whether a feedback loop is closed. */
+/* Records if a feedback loop is closed. */
 static void take_loops(const analysis_context *c, const scene_quantity *q, quantity_result *r)
 {
     for (int i = 0; q->what.kind == SCENE_RESPONSE && i < c->scene->loads; i++)

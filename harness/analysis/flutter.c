@@ -49,7 +49,7 @@ status flutter_motions(const newton_run *n, flutter_system *s, int wanted, int e
 
 void flutter_take(unsymmetric_result *from, outcome_side *to)
 {
-    const double largest_error = 1e-2; /* with a larger error no digit is significant */
+    const double largest_error = 1e-2; /* if the error is larger, no digit is significant */
     to->count = from->count;
     to->value = from->frequency;
     to->mode = from->mode;
@@ -75,7 +75,7 @@ const char *flutter_damping(const scene *s, int damped)
 
 flutter_kind flutter_of(const flutter_system *s, const unsymmetric_result *r, int *mode)
 {
-    const double rounding = 1e-6; /* of a double eigenvalue that diverges */
+    const double rounding = 1e-6; /* for a double eigenvalue that diverges */
     flutter_kind kind = FLUTTER_NONE;
     double largest = 0;
     for (int i = 0; i < r->count; i++) {
@@ -99,10 +99,10 @@ const char *flutter_name(const flutter_system *s, flutter_kind kind)
     return s->damped ? "flutter, growth with damping" : "flutter, undamped";
 }
 
-enum { MOTIONS = 8 };                  /* number of modes of smallest |s| that are examined */
-static const double most_error = 1e-2; /* above this error a mode is unknown */
+enum { MOTIONS = 8 };                  /* number of examined modes, which have the smallest |s| */
+static const double most_error = 1e-2; /* if the error is larger, the mode is unknown */
 static const double real_part =
-    1e-6; /* an imaginary part smaller than this fraction is round-off */
+    1e-6; /* smaller imaginary parts, relative to the magnitude, are rounding errors */
 
 status flutter_judge_begin(flutter_judge *j, analysis_context *c, fault *f)
 {
@@ -112,8 +112,8 @@ status flutter_judge_begin(flutter_judge *j, analysis_context *c, fault *f)
     return newton_alloc(c, 0, &j->n, f);
 }
 
-/* Returns the stability according to the modes. An odd number of negative eigenvalues of K means
- * divergence, wherever the eigenvalues lie. */
+/* Returns the stability according to the modes. An odd number of negative eigenvalues of K always
+ * means divergence. */
 static step_stability by_motions(const flutter_judge *j, const unsymmetric_result *r)
 {
     int mode = 0;
@@ -161,7 +161,7 @@ static status flutter_judge_here(flutter_judge *j, step_record *record, fault *f
     record->negative_pivots = -1;
     if (factored == STATUS_FAULT)
         return fault_set(f, factored, "%s", why.text);
-    if (factored != STATUS_OK) /* singular: the stability remains open */
+    if (factored != STATUS_OK) /* the matrix is singular, and the stability remains open */
         return STATUS_OK;
     record->negative_pivots = at.negative_pivots;
     if (at.negative_pivots >= 0)
@@ -196,7 +196,7 @@ void flutter_judge_free(flutter_judge *j)
 
 enum { PARTS = 6 };
 static const double near_enough =
-    1e-5; /* size of the last correction for a state that is only examined */
+    1e-5; /* limit of the last correction for a state that is only examined */
 
 /* Sets *unstable to the degree of instability of the current state: the number of negative
  * eigenvalues, or 1 if a mode grows; -1: unknown. */
@@ -266,8 +266,9 @@ enum {
     FEWEST = 6,
     MOST = 48,
     SPARE = 3
-}; /* number of eigenvalues examined, and number of those beyond the last one on the left */
-/* A magnitude below this fraction of the largest one may have the wrong sign. */
+}; /* number of examined eigenvalues, and number of examined eigenvalues beyond the last one on the
+      left */
+/* Eigenvalues below this fraction of the largest one may have the wrong sign. */
 static const double rounding = 1e-6;
 
 typedef struct metric_inverse {
@@ -276,7 +277,7 @@ typedef struct metric_inverse {
     const double *weight;
 } metric_inverse;
 
-/* y = D^1/2 K^-1 D^1/2 x */
+/* Computes y = D^1/2 K^-1 D^1/2 x. */
 static void apply(void *context, const double x[], double y[])
 {
     const metric_inverse *of = context;
@@ -287,8 +288,8 @@ static void apply(void *context, const double x[], double y[])
         y[k] *= sqrt(of->weight[k]);
 }
 
-/* Returns the number of eigenvalues left of the imaginary axis. *sure 0: there may be others beyond
- * those examined. */
+/* Returns the number of eigenvalues to the left of the imaginary axis. *sure 0: there may be others
+ * that were not examined. */
 static int count_of(const arnoldi_result *r, int wanted, int determinant, int *sure)
 {
     int left = 0;

@@ -1,6 +1,6 @@
-/* Follows the path from 0 in steps with small changes of all frequencies. Where two frequencies
- * approach each other, the interval is examined. Bisection then narrows the interval, followed by
- * interpolation on the unstable side, where the square of the imaginary part of s^2 (flutter), s^2
+/* Follows the path from 0 in steps in which all frequencies change little. If two frequencies
+ * approach each other, the interval is examined. Bisection then narrows the interval. Interpolation
+ * follows on the unstable side, where the square of the imaginary part of s^2 (flutter), s^2
  * (divergence) or s (with damping) is smooth. */
 #include "harness/analysis/analysis_impl.h"
 
@@ -11,28 +11,30 @@
 #include "harness/model/model.h"
 
 enum { MOTIONS = 8, WATCHED = 4, MAX_STATIONS = 400, MAX_LOOKS = 8, MAX_CLOSER = 60, POINTS = 3 };
-static const double first_step = 1e-3; /* relative to the path of the followed state */
+static const double first_step = 1e-3; /* relative to the path parameter of the followed state */
 static const double wanted_change = 0.15,
                     largest_change = 0.5; /* relative change of the square of a frequency */
-static const double quickest = 10;        /* ratio of a step to the previous one */
+static const double quickest = 10;        /* ratio of a step to the previous step */
 static const double farthest =
-    1e3; /* relative to the path of the followed state, unless its loads are small */
+    1e3; /* relative to the path parameter of the followed state, unless its loads are small */
 static const double farther =
-    100; /* relative to the path that doubles a square at the initial rate */
-static const double rough = 1e-2; /* bracket at the start of interpolation, relative to the path */
+    100; /* relative to the path on which a square doubles at its initial rate */
+/* width of the interval at which interpolation starts, relative to the path parameter */
+static const double rough = 1e-2;
 static const double near_lost =
-    1e-2; /* distance to a point without equilibrium, relative to the path */
+    1e-2; /* distance to a point without equilibrium, relative to the path parameter */
 static const double closer = 0.1;                         /* fraction of the remaining interval */
 static const double closest = 1e-5, wanted_error = 1e-10; /* relative to the path */
 static const double near_divergence = 1e-4; /* distance at which Newton's method still converges */
-static const double alike = 1e-10; /* square of the relative difference of two equal squares */
+/* square of the relative difference of two squares that count as equal */
+static const double alike = 1e-10;
 
 typedef struct station {
     double path;
     flutter_kind kind;
     int count;
-    double square[MOTIONS]; /* squares of frequencies, ascending; negative: divergence */
-    double measure;         /* measure of the growing mode, zero where stability is lost */
+    double square[MOTIONS]; /* squares of frequencies in ascending order; negative: divergence */
+    double measure;         /* measure of the growing mode, which is zero where stability is lost */
     double frequency;
 } station;
 
@@ -55,7 +57,8 @@ static int ascending(const void *a, const void *b)
 
 static void describe(search *s, const unsymmetric_result *r, station *out)
 {
-    const int all = s->of.massless || s->of.damped; /* with these, the magnitude of s is used */
+    /* all squares are then replaced by magnitudes of s */
+    const int all = s->of.massless || s->of.damped;
     out->kind = flutter_of(&s->of, r, &s->mode);
     out->count = r->count < MOTIONS ? r->count : MOTIONS;
     for (int i = 0; i < out->count; i++)
@@ -73,7 +76,7 @@ static void describe(search *s, const unsymmetric_result *r, station *out)
 }
 
 /* Computes the station at `path`, starting from the stored state. STATUS_SINGULAR: the tangent is
- * singular. If the flag is set, growth within round-off does not count. */
+ * singular. If the flag is set, growth within rounding is ignored. */
 static status look_closely(search *s, double path, int surely, station *out, fault *f)
 {
     newton_run *n = s->n;
@@ -110,8 +113,8 @@ static void keep(search *s, const station *at)
     kinematics_state_copy(s->n->c->model, s->n->state, s->kept);
 }
 
-/* Returns the largest change of a square between two stations, relative to the lowest square; for a
- * square that falls to zero, relative to the lowest square at path 0. */
+/* Returns the largest change of a square between two stations, relative to the lowest square. If a
+ * square falls to zero, the change is relative to the lowest square at path 0. */
 static double change(const station *a, const station *b, double lowest)
 {
     double largest = 0;
@@ -121,8 +124,8 @@ static double change(const station *a, const station *b, double lowest)
     return largest;
 }
 
-/* Returns the square of the relative difference of two adjacent squares; continued beyond a flutter
- * point, it becomes negative. */
+/* Returns the square of the relative difference of two adjacent squares. Its continuation beyond a
+ * flutter point is negative. */
 static double difference(const station *a, int i)
 {
     const double part = (a->square[i + 1] - a->square[i]) / (a->square[i + 1] + a->square[i]);
@@ -130,7 +133,7 @@ static double difference(const station *a, int i)
 }
 
 /* Returns the minimum of the parabola through three stations if it lies between them and its value
- * is negative or small; NAN: there is no such minimum. */
+ * is negative or small; otherwise NAN. */
 static double vertex(const station *a, const station *b, const station *c, int i)
 {
     const double fa = difference(a, i), fb = difference(b, i), fc = difference(c, i);
@@ -143,8 +146,8 @@ static double vertex(const station *a, const station *b, const station *c, int i
     return at > a->path && at < c->path && least < 0.1 * fmin(fa, fmin(fb, fc)) ? at : NAN;
 }
 
-/* Searches for flutter between the stable stations a, b and c. If flutter is found, its station is
- * s->next. */
+/* Searches for flutter between the stable stations a, b and c. If flutter is found, s->next is its
+ * station. */
 static status look_between(search *s, station a, station b, station c, int i, fault *f)
 {
     for (int looks = 0; looks < MAX_LOOKS; looks++) {
@@ -173,14 +176,14 @@ static status look_between(search *s, station a, station b, station c, int i, fa
     return STATUS_OK;
 }
 
-/* Reports that there is no critical load up to `last`, and why the search ends there. */
+/* Reports that there is no critical load up to `last`, and the reason why the search ends there. */
 static status is_lost(const search *s, const char *why, fault *f)
 {
     return fault_set(f, STATUS_NOT_CONVERGED, "no critical load from path 0 to %g; beyond %s",
                      s->last.path, why);
 }
 
-/* Checks that the growth at `next` is larger than round-off. */
+/* Checks that the growth at `next` is larger than rounding. */
 static status confirm(search *s, fault *f)
 {
     station again;
@@ -190,8 +193,8 @@ static status confirm(search *s, fault *f)
                : is_lost(s, "growing modes are lost in the round-off of the tangent", f);
 }
 
-/* Advances from the stored state, which is that of `last`, to the first unstable station
- * s->next. */
+/* Advances from the stored state, which belongs to `last`, to the first unstable station s->next.
+ * */
 static status walk(search *s, fault *f)
 {
     double step = first_step * s->size, end = farthest * s->size;
@@ -256,7 +259,7 @@ static double extrapolate(int points, const double p[], const double g[])
     return line + g[0] * g[1] * bend;
 }
 
-/* Narrows the interval between the last stable station and the next, unstable one. */
+/* Narrows the interval between the last stable station and the next unstable station. */
 static status close_in(search *s, flutter_point *out, fault *f)
 {
     double p[POINTS] = {0}, g[POINTS] = {0}, low = s->last.path, estimate = NAN, apart = INFINITY;

@@ -1,5 +1,5 @@
-/* Small steady-state vibration about a state: one solution with the dynamic stiffness at each
- * frequency (harmonic_matrices.c). */
+/* Steady-state vibration about a state, with one solution for each frequency (dynamic stiffness:
+ * harmonic_matrices.c). */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -38,7 +38,7 @@ static int same_input(const scene_response *a, const scene_response *b)
            (a->unbalanced == SCENE_NONE || a->spinning == b->spinning);
 }
 
-/* Solves directly. x: forces, replaced by the solution. */
+/* Solves directly. x: forces on entry, solution on return. */
 static void solve_direct(vibration *v, const scene_response *r, double w, double complex x[])
 {
     const int n = v->free, more = harmonic_border(v), N = n + more + v->loops;
@@ -63,7 +63,8 @@ static void solve_direct(vibration *v, const scene_response *r, double w, double
         x[v->all + l] = v->x[n + more + l] + I * v->x[N + n + more + l];
 }
 
-/* Solves by modes. x: forces, replaced by the solution; left[free]: residual of the forces. */
+/* Solves by modal superposition. x: forces on entry, solution on return. left[free]: residual of
+ * the forces. */
 static void solve_by_modes(vibration *v, const scene_response *r, double w, double complex x[],
                            double complex left[])
 {
@@ -93,8 +94,8 @@ static status solve_own_input(vibration *v, int quantity, double w, fault *f)
     return STATUS_OK;
 }
 
-/* Sets the solution for the input of a quantity; reuses that of an earlier quantity with the same
- * input. */
+/* Sets the solution for the input of a quantity. If an earlier quantity has the same input, its
+ * solution is used. */
 static status solve_input(vibration *v, int quantity, double w, fault *f)
 {
     const scene *s = v->c->scene;
@@ -135,8 +136,8 @@ static double part_of(const scene_response *r, double complex z)
     return cimag(z);
 }
 
-/* Returns the error bound of the requested part of z, whose own error is at most `bound`. For a
- * phase it is an angle [rad]. */
+/* Returns the error bound of the requested part of z, whose complex error is at most `bound`. The
+ * bound of a phase is an angle [rad]. */
 static double bound_of(const scene_response *r, double complex z, double bound)
 {
     if (r->part != SCENE_PHASE || bound == 0)
@@ -164,7 +165,7 @@ static void read_quantity(vibration *v, int quantity, double w, double *value, d
     }
 }
 
-/* Computes one quantity at a frequency. The search maximises sign * value. */
+/* Computes a quantity at a frequency. The search maximises sign * value. */
 static status respond_at(vibration *v, int quantity, double sign, double hertz, outcome_peak *out,
                          fault *f)
 {
@@ -331,7 +332,7 @@ status harmonic_inside(analysis_context *c, int analysis, double *error, int *qu
     analysis_outcome o = {.kind = SCENE_HARMONIC};
     const counters before = c->run->counters;
     const status outcome = solve(&v, &o.left.harmonic, f);
-    c->run->counters = before; /* this solution does not count as work */
+    c->run->counters = before; /* this solution is not counted as work */
     for (int i = 0; outcome == STATUS_OK && i < c->scene->quantities; i++) {
         if (!scene_asks(&c->scene->quantity[i], analysis, SCENE_RESPONSE))
             continue;

@@ -6,8 +6,8 @@
 
 enum { MOST_REMOVED = 8 };
 /* Search for the largest sign * value. removed: undamped natural frequencies whose modes do not
- * appear in the response, because the input does not excite them or the output does not contain
- * them. The response is continuous there, but the equations are singular. */
+ * contribute to the response, because the input does not excite them or the output does not contain
+ * them. At these frequencies the response is continuous, but the equations are singular. */
 typedef struct extreme_search {
     vibration *v;
     harmonic_value *respond;
@@ -16,7 +16,7 @@ typedef struct extreme_search {
 } extreme_search;
 
 static const double aside =
-    1e-6; /* distance from a natural frequency, relative to that frequency */
+    1e-6; /* distance from a natural frequency, relative to this frequency */
 
 static status value_at(extreme_search *s, double hertz, outcome_peak *out, fault *f)
 {
@@ -35,8 +35,8 @@ static status value_at(extreme_search *s, double hertz, outcome_peak *out, fault
     return s->respond(s->v, s->quantity, s->sign, hertz, out, f);
 }
 
-/* Golden-section search between two frequencies for the largest sign * value, which assumes a
- * single maximum. */
+/* Searches for the largest sign * value between two frequencies by golden-section search, which
+ * assumes a single maximum. */
 static status refine_between(extreme_search *s, double low, double high, outcome_peak *best,
                              fault *f)
 {
@@ -64,7 +64,7 @@ static status refine_between(extreme_search *s, double low, double high, outcome
     return STATUS_OK;
 }
 
-/* Sets *pole to 1 if the response grows as the inverse of its distance from the frequency. */
+/* Sets *pole to 1 if the response is inversely proportional to the distance from the frequency. */
 static status is_pole(extreme_search *s, double hertz, int *pole, fault *f)
 {
     static const double distance[] = {1e-4, 1e-5, 1e-6}, round_off = 1e-6;
@@ -80,8 +80,8 @@ static status is_pole(extreme_search *s, double hertz, int *pole, fault *f)
     return STATUS_OK;
 }
 
-/* Searches between two frequencies and excludes the singular frequencies whose modes do not appear
- * in the response. */
+/* Searches between two frequencies. Excludes the singular frequencies whose modes do not contribute
+ * to the response. */
 static status find_between(extreme_search *s, double low, double high, outcome_peak *best, fault *f)
 {
     for (int pole = 0;;) {
@@ -94,16 +94,17 @@ static status find_between(extreme_search *s, double low, double high, outcome_p
     }
 }
 
-/* Frequencies at which a search for extremes starts: those of the analysis; some on both sides of
- * each natural frequency, closer to it than the width of any peak; and some between natural
- * frequencies, where responses have their minima. */
+/* Frequencies at which a search for extremes starts: those of the analysis, some on both sides of
+ * each natural frequency that are closer to it than the width of any peak, and some between natural
+ * frequencies, where responses have minima. */
 typedef struct samples {
     int count;
     double *hertz, *value;
-    int *station; /* station of the analysis; SCENE_NONE: between stations */
+    int *station; /* station of the analysis; SCENE_NONE: a frequency between stations */
 } samples;
 
-enum { SIDES = 5, BETWEEN = 9 }; /* at f (1 +- 10^-1 ... 10^-5) around a natural frequency f */
+/* at f (1 +- 10^-1 ... 10^-5) on both sides of a natural frequency f */
+enum { SIDES = 5, BETWEEN = 9 };
 
 static void samples_free(samples *s)
 {
@@ -112,7 +113,7 @@ static void samples_free(samples *s)
     free(s->station);
 }
 
-/* Inserts a frequency in ascending order, unless it is already listed. */
+/* Inserts a frequency in ascending order, unless it is already in the list. */
 static void insert(samples *s, double hertz, int station)
 {
     int at = s->count;
@@ -159,7 +160,7 @@ static status sample(vibration *v, const outcome_path *path, samples *s, fault *
     return outcome;
 }
 
-/* Finds the extreme of a quantity by refining between the neighbours of every local extreme. */
+/* Finds the extreme of a quantity: refines between the neighbours of every local extreme. */
 static status refine(vibration *v, harmonic_value *respond, int quantity, samples *at,
                      outcome_harmonic *o, fault *f)
 {

@@ -1,4 +1,5 @@
-/* Inputs of a harmonic analysis as forces, and its outputs as linear forms of the displacements. */
+/* Inputs of a harmonic analysis in the form of forces, and its outputs in the form of linear
+ * functions of the displacements. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -103,7 +104,7 @@ status harmonic_reacting(const vibration *v, const scene_response *r, int *out, 
     scene_node_axes(&s->node[r->node], R);
     *out = -1;
     for (int k = 0; k < count; k++) {
-        double moved = 0; /* the motion is along the node's support axes */
+        double moved = 0; /* the motion is along the support axes of the node */
         for (int i = 0; i < 3; i++)
             moved += R[3 * i + r->component % 3] * T[(first + i) * count + k];
         if (fabs(moved) > rounding)
@@ -145,8 +146,8 @@ static void add_row(const vibration *v, int c, double w, double complex o[])
         }
 }
 
-/* Adds the contribution of modal damping to the reaction of a driven coordinate: the forces -i w
- * r^T U U^T (x - r of the input). */
+/* Adds the contribution of modal damping to the reaction of a driven coordinate. It follows from
+ * the forces -i w r^T U U^T (x - r of the input). */
 static void add_carried(vibration *v, const scene_response *r, int c, double w, double complex o[])
 {
     const double *U;
@@ -218,7 +219,7 @@ static void take_shape(const vibration *v, double out[])
         out[k] = creal(v->output[k]);
 }
 
-/* Sets the forces of an input, from which those at any frequency can be combined. */
+/* Sets the forces of an input. The forces at any frequency are combinations of these forces. */
 static int shapes_of_input(vibration *v, const scene_response *r, double out[])
 {
     const size_t n = (size_t)v->free;

@@ -1,7 +1,7 @@
-/* Small steady-state vibration about a state: one solution at each frequency with the dynamic
- * stiffness D(w) = K + i w C - w^2 M - (w^2 - i a w)^2/(1 + i b w) B. C contains the proportional
- * damping a M + b K; B is the inertia of the elements' internal motions in an unstressed structure
- * (field/field.h). In real form: [Re D, -Im D; Im D, Re D] [Re x; Im x] = [Re f; Im f]. Damped
+/* Steady-state vibration about a state, with one solution for each frequency. The dynamic stiffness
+ * is D(w) = K + i w C - w^2 M - (w^2 - i a w)^2/(1 + i b w) B. C contains the proportional damping
+ * a M + b K. B is the inertia of the motions inside elements in an unstressed structure
+ * (field/field.h). The real form is [Re D, -Im D; Im D, Re D] [Re x; Im x] = [Re f; Im f]. Damped
  * modes are the eigenvectors of D at s = i w. */
 #include "harness/analysis/analysis_impl.h"
 
@@ -27,8 +27,8 @@ double complex harmonic_dynamic(const vibration *v, double w, int k)
     return v->damped ? D + I * w * v->C.value[k] : D;
 }
 
-/* Computes K of the undeformed structure, with the stresses of a linear solution if `displaced` is
- * not NULL. */
+/* Computes K of the undeformed structure. displaced: displacements of a linear solution, whose
+ * stresses are included; NULL: none. */
 static status linear_system_of(vibration *v, const double displaced[], fault *f)
 {
     const equations *eq = &v->c->eq;
@@ -65,8 +65,8 @@ static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
     return linearise_state(&c->eq, &c->run->memory, v->state, &lin, f);
 }
 
-/* Computes K, and C with all effects of rates, about an instant, in all coordinates. G:
- * workspace. */
+/* Computes K, and C with all effects of rates, about a state during a motion, for all coordinates.
+ * G: work space. */
 static status small_motions(const vibration *v, sparse *K, sparse *C, sparse *G, fault *f)
 {
     const outcome_about *about = v->about;
@@ -160,7 +160,8 @@ static void append(vibration *v, int column, int row, int source)
     v->source[at] = source;
 }
 
-/* Lists the free block as a full matrix. Sets first[free + 1] from the counts, or the entries. */
+/* Lists the free block as a full matrix. Sets first[free + 1] from the numbers of entries, or lists
+ * the entries. */
 static void unfold(vibration *v)
 {
     for (int j = 0; j < v->free; j++)
@@ -232,7 +233,7 @@ static int column_of(const vibration *v, int j, double w, int row[], double comp
     return loops_column(v, j, w, count, row, z);
 }
 
-/* Fills D at the frequency w. The call with w = 0 also sets its pattern. */
+/* Fills D at the frequency w. The call with w = 0 also sets the pattern of D. */
 static void fill(vibration *v, double w)
 {
     const int n = v->free + harmonic_border(v) + v->loops;

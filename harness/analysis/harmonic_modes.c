@@ -34,7 +34,7 @@ void harmonic_modes_free(harmonic_modes *m)
 }
 
 /* Factors K, or K + shift M if K is singular. REFUSED: K is unsymmetric, or the state is unstable.
- */
+ * */
 static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
 {
     fault why = {""};
@@ -88,7 +88,7 @@ static void whole(const sparse *a, double D[])
             D[(size_t)a->row[k] * n + j] = D[j * n + (size_t)a->row[k]] = a->value[k];
 }
 
-/* Computes all modes, including those without mass; the first one has the lowest frequency. */
+/* Computes all modes in ascending order of frequency, including those without mass. */
 static status all_modes(vibration *v, harmonic_modes *m, fault *f)
 {
     const size_t n = (size_t)m->n;
@@ -139,7 +139,8 @@ static status first_modes(vibration *v, harmonic_modes *m, int wanted, fault *f)
         memcpy(m->V, e.positive.mode, (size_t)m->kept * n * sizeof *m->V);
         for (int i = 0; i < m->kept; i++)
             m->square[i] = 1 / e.positive.mu[i];
-        /* without a next mode, further modes may be lost in the round-off of the first one */
+        /* if no next mode was found, further modes may be lost in the rounding errors of the first
+         * mode */
         m->least = found > wanted ? 1 / e.positive.mu[wanted]
                    : found > 0    ? fmax(m->square[m->kept - 1], 1e8 * m->square[0])
                                   : INFINITY;
@@ -215,7 +216,8 @@ status harmonic_modes_lowest(vibration *v, harmonic_modes *m, int wanted, fault 
     return all ? all_modes(v, m, f) : first_modes(v, m, wanted, f);
 }
 
-/* REFUSED: the matrices are not symmetric, as projections on modes require. */
+/* Checks the damping. REFUSED: the matrices are not symmetric, as the projection on modes requires.
+ * */
 static status check_damping(const vibration *v, fault *f)
 {
     const scene *s = v->c->scene;

@@ -2,17 +2,17 @@
  *
  * V contains the modes and the static shapes of inputs and outputs, K-orthonormalised. The solution
  * is x = V y with V^T D V y = V^T f (Galerkin). The coupling of modes by damping is included, so
- * the only approximation is the omission of modes. With all modes, V is square, and x equals the
- * direct solution.
+ * the only approximation is the omission of modes. If all modes are used, V is square, and x equals
+ * the direct solution.
  *
- * The omitted part is bounded as follows. The residuals r = f - D x and s = o - D z, where z is the
- * solution for the output o, have no component along the modes, and o^T (D^-1 f - x) = s^T D^-1 r.
- * Scaled by the square root of K, the part of D beyond the modes has a real part of at least 1 -
- * w^2/least - |t| b - d. Here `least` is the square of the next frequency, t the factor of B in D,
- * and b the largest eigenvalue of K^-1 B; d is the norm of T D_m^-1 T^T, where T couples that part
- * to the D_m of the modes by damping and B. Damping dissipates energy and cannot lower the real
- * part. The error is at most sqrt(r^H K^-1 r s^H K^-1 s) divided by that real part. For a free
- * structure K + shift M replaces K. */
+ * The error due to omitted modes is bounded as follows. The residuals r = f - D x and s = o - D z,
+ * where z is the solution for the output o, have no component along the modes, and o^T (D^-1 f - x)
+ * = s^T D^-1 r. Scaled by the square root of K, the part of D beyond the modes has a real part of
+ * at least 1 - w^2/least - |t| b - d. Here `least` is the square of the next frequency, t is the
+ * factor of B in D, and b is the largest eigenvalue of K^-1 B. d is the norm of T D_m^-1 T^T, where
+ * T is the coupling of this part to the D_m of the modes by damping and by B. Damping dissipates
+ * energy and cannot lower the real part. The error is at most sqrt(r^H K^-1 r s^H K^-1 s) divided
+ * by this real part. For a free structure, K + shift M replaces K. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <lapacke.h>
@@ -28,7 +28,7 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for the modes of a harmonic analysis");
 }
 
-/* Bounds B: finds the largest g for which B <= g (M + K/least); beyond the modes, M <= K/least. */
+/* Bounds B: finds the largest g for which B <= g (M + K/least). Beyond the modes, M <= K/least. */
 static status bound_inner(vibration *v, harmonic_modes *m, sparse *N, matrix_factor **factor,
                           eigen_result *e, fault *f)
 {
@@ -85,7 +85,7 @@ static void take_static(vibration *v, harmonic_modes *m, const double f[])
     m->count += size > 0;
 }
 
-/* Computes the symmetric P = V^T A V. of_modes, unless NULL, receives A V of the modes. */
+/* Computes the symmetric P = V^T A V. of_modes: receives A V of the modes; NULL: not requested. */
 static void project(const harmonic_modes *m, const sparse *A, double P[], double *of_modes)
 {
     const size_t n = (size_t)m->n, count = (size_t)m->count;
@@ -202,7 +202,7 @@ status harmonic_modes_project(vibration *v, int count, const double f[], fault *
     m->half = calloc(2 * kept * kept + 1, sizeof *m->half);
     enough &= m->D != NULL && m->entry != NULL && m->scale != NULL && m->pivot != NULL &&
               m->y != NULL && m->inverse != NULL && m->half != NULL;
-    if (m->complete) { /* the solution is exact, so no bound is needed */
+    if (m->complete) { /* the solution is exact, so the bound is zero */
         free(X[0]);
         free(X[1]);
         X[0] = X[1] = NULL;
@@ -222,7 +222,8 @@ static double complex projected(const vibration *v, const harmonic_modes *m, dou
            moves * moves / (1 + I * w * damping->stiffness) * m->Bp[k];
 }
 
-/* Returns the Frobenius norm of the coupling between the modes and the rest; INFINITY: unknown. */
+/* Returns the Frobenius norm of the coupling between the modes and the remaining motions; INFINITY:
+ * unknown. */
 static double coupled(vibration *v, harmonic_modes *m, double w)
 {
     const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;
@@ -238,8 +239,8 @@ static double coupled(vibration *v, harmonic_modes *m, double w)
     if (LAPACKE_zgetrf(LAPACK_ROW_MAJOR, kept, kept, m->inverse, kept, m->pivot) != 0 ||
         LAPACKE_zgetri(LAPACK_ROW_MAJOR, kept, m->inverse, kept, m->pivot) != 0)
         return INFINITY;
-    /* T^H T in the first half, then its product with the inverse, and the conjugate of that product
-     */
+    /* T^H T in the first half, then its product with the inverse, and the conjugate of this product
+     * */
     double complex *G = m->half, *product = m->half + k2;
     for (int i = 0; i < kept; i++)
         for (int j = 0; j < kept; j++) {
@@ -255,7 +256,7 @@ static double coupled(vibration *v, harmonic_modes *m, double w)
         for (int k = 0; k < kept; k++)
             for (int j = 0; j < kept; j++)
                 product[i * kept + j] += G[i * kept + k] * m->inverse[k * kept + j];
-    /* conj(G) D^-H = conj((D^-1)^T's G): D is symmetric, so conj(G) D^-H = conj(G D^-1) */
+    /* D is symmetric, so conj(G) D^-H = conj(G D^-1) */
     for (int i = 0; i < kept; i++)
         for (int j = 0; j < kept; j++)
             sum += product[i * kept + j] * conj(product[j * kept + i]);
@@ -302,7 +303,7 @@ status harmonic_modes_factor(vibration *v, double w, fault *f)
     return condition > 1e-14 ? STATUS_OK : fault_set(f, STATUS_SINGULAR, "a mode has no damping");
 }
 
-/* Computes y -= D x. */
+/* Subtracts D x from y. */
 static void subtract_product(const vibration *v, const double complex x[], double complex y[])
 {
     const harmonic_modes *m = v->modes;

@@ -14,7 +14,7 @@ int imperfection_modes(const scene *s, int analysis)
     for (int i = 0; i < s->imperfections; i++) {
         const scene_imperfection *p = &s->imperfection[i];
         if (p->analysis == analysis && p->order + 3 > wanted)
-            wanted = p->order + 3; /* and two more modes, to detect equal ones */
+            wanted = p->order + 3; /* two more modes are needed to detect equal modes */
     }
     return wanted;
 }
@@ -38,8 +38,8 @@ static same_modes same_as(const outcome_side *side, int mode)
     return out;
 }
 
-/* Finds the combination part[0], part[1] of two modes, u[vertices x 7] each, that is best aligned
- * with a direction. Returns 0 if there is none. */
+/* Finds the combination part[0], part[1] of two modes, u[vertices x 7] each, that is closest to a
+ * direction. Returns 0 if there is none. */
 static int most_along(int vertices, const double *const u[2], const double direction[3],
                       double part[2])
 {
@@ -70,7 +70,8 @@ static void name_mode(const scene *s, const scene_imperfection *p, char text[FAU
              scene_called(s, SCENE_ANALYSES, p->analysis).text);
 }
 
-/* Sets out[free] to the mode; of two equal modes, to the combination along the direction. */
+/* Sets out[free] to the mode. Of two equal modes, uses the combination along the requested
+ * direction. */
 static status mode_of(const analysis_context *c, int index, double out[], fault *f)
 {
     const scene_imperfection *p = &c->scene->imperfection[index];
@@ -117,8 +118,8 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
                              who.text, same.mode[0], same.mode[1]);
 }
 
-/* Returns the sign, 1 or -1, that directs the shift along the requested direction or, without one,
- * makes its largest component positive. */
+/* Returns the sign, 1 or -1, for which the shift is along the requested direction. If no direction
+ * is given, the largest component of the shift becomes positive. */
 static double sign_of(const scene_imperfection *p, const double shift[3])
 {
     const double least = 1e-6, size = vec3_norm(shift), along = vec3_dot(shift, p->direction);
@@ -131,7 +132,7 @@ static double sign_of(const scene_imperfection *p, const double shift[3])
     return copysign(1, shift[k]);
 }
 
-/* Adds the mode, multiplied by its amplitude, to x. */
+/* Adds the mode times its amplitude to x. */
 static status add_mode(const analysis_context *c, int index, double mode[], double x[], fault *f)
 {
     const scene_imperfection *p = &c->scene->imperfection[index];

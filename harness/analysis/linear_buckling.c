@@ -9,12 +9,12 @@
 #include "harness/model/model.h"
 
 /* Linear statics about the undeformed state: one factorisation, and one right-hand side for each
- * load case or combination that a quantity reads. Each right-hand side contains the initial strains
+ * load case or combination that a quantity needs. Each right-hand side contains the initial strains
  * of members once, so the solution of a combination is not the sum of the solutions of its load
  * cases. */
 
-/* Returns 1 if a quantity of the analysis reads this load case or combination. If no quantity reads
- * any, all count as read. */
+/* Returns 1 if a quantity of the analysis needs this load case or combination. If no quantity needs
+ * any, all are computed. */
 static int is_read(const scene *s, int analysis, int acting)
 {
     int any = 0;
@@ -69,16 +69,16 @@ status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     return result;
 }
 
-/* Linear buckling about the undeformed state: (K + G_0 + lambda G) x = 0 with G from the stresses
- * due to the change of loads from path 0 to 1, and G_0 from those at path 0, which are constant and
- * include initial strains. */
+/* Linear buckling about the undeformed state: (K + G_0 + lambda G) x = 0. G follows from the
+ * stresses due to the change of loads from path 0 to 1. G_0 follows from the stresses at path 0,
+ * which are constant and include initial strains. */
 
 /* Quadratic forms of the loads that are scaled by the load factor (growing) and of the constant
  * loads (staying). */
 typedef struct prestresses {
     quadratic_forms growing, staying;
     int stays;         /* 0: no constant stress */
-    sparse G, of_stay; /* geometric stiffness of the growing and of the staying stresses */
+    sparse G, of_stay; /* geometric stiffness of the growing and of the constant stresses */
     double *product;   /* [free] */
 } prestresses;
 
@@ -148,7 +148,7 @@ static void subtract(const sparse *from, sparse *a)
         a->value[i] -= from->value[i];
 }
 
-/* Adds G of the constant stresses, under which the structure must be stable, to K; only the
+/* Adds G of the constant stresses to K. The structure must be stable under these stresses. Only the
  * remaining stresses grow. */
 static status split_stays(analysis_context *c, linear_system *s, prestresses *p, fault *f)
 {
@@ -238,8 +238,8 @@ static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
     return result;
 }
 
-/* Returns 1 if the nodes of mode i rotate without displacement. Only then can the load depend on
- * the element length, by local buckling of elements. */
+/* Returns 1 if the nodes of mode i rotate but are not displaced. Only then can the critical load
+ * depend on the element length, because elements buckle locally. */
 static int only_turns(const analysis_context *c, const eigen_side *side, int i)
 {
     const double no_shift = 1e-6;
@@ -257,7 +257,7 @@ static int only_turns(const analysis_context *c, const eigen_side *side, int i)
 static status solve_halved(const analysis_context *c, int analysis, eigen_result *found, fault *f)
 {
     model *halved = NULL;
-    run_state run = {0}; /* its work does not count */
+    run_state run = {0}; /* this work is not counted */
     context_work work = {0};
     buckling b = {0};
     status result = model_halved(c->model, &halved, f);
@@ -282,7 +282,7 @@ static status solve_halved(const analysis_context *c, int analysis, eigen_result
 
 /* Removes mesh-dependent loads. A load that grows with the square of the number of elements is not
  * a property of the structure: elements without shear flexibility buckle individually (12 EI/l^2
- * acts as GA). That load and all higher loads are removed. */
+ * acts as GA). This load and all higher loads are removed. */
 static void drop_of_mesh(eigen_side *side, const eigen_side *finer, int i)
 {
     const double diverging = 2;

@@ -1,8 +1,8 @@
-/* Search for a critical point, where sigma(p) falls to zero along the path; sigma is the smallest
- * eigenvalue of the tangent K(p), scaled by the diagonal of the first K. Interpolation uses stable
- * states that approach this point; the error of an estimate is proportional to the product of their
- * distances from it. (K itself is not extrapolated: the rotation of a stiff structure along the
- * path would make it indefinite much earlier.) */
+/* Search for a critical point, at which sigma(p) falls to zero along the path. sigma is the
+ * smallest eigenvalue of the tangent K(p), scaled by the diagonal of the first K. Interpolation
+ * uses stable states that approach this point. The error of an estimate is proportional to the
+ * product of their distances from it. K is not extrapolated, because the rotation of a stiff
+ * structure along the path would make it indefinite much earlier. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -15,21 +15,25 @@
 #include "harness/model/model.h"
 
 enum { MAX_STATES = 60, POINTS = 3 };
-static const double first_step = 0.1; /* first step, relative to the path so far */
-static const double growth = 0.5;  /* largest step from one state to the next, relative to the path
-                                      since the start of the search */
-static const double halfway = 0.5; /* fraction of the distance to the predicted point */
+static const double first_step = 0.1; /* first step, relative to the previous length of the path */
+/* largest step from one state to the next, relative to the path since the start of the search */
+static const double growth = 0.5;
+static const double halfway = 0.5;    /* fraction of the distance to the predicted point */
 static const double approached = 0.9; /* fraction of the distance to the estimate */
-static const double farthest = 1e3; /* path at which the search ends, relative to the path so far */
-static const double alike = 1e-3;   /* difference of successive estimates, relative to the path */
+/* path parameter at which the search ends, relative to the previous length of the path */
+static const double farthest = 1e3;
+/* difference of successive estimates, relative to the path parameter */
+static const double alike = 1e-3;
 static const double steepest =
-    8; /* rate of change of a state along the path, relative to that in the last step */
-static const double at_rest = 1e-9; /* relative distance between states that is round-off */
+    8; /* rate of change of a state along the path, relative to the rate in the last step */
+/* distance between states that is rounding, relative to the size */
+static const double at_rest = 1e-9;
 static const double wanted_error = 1e-9;
-static const double closest = 1e-5; /* distance from the estimate, relative to the path; closer to
-                                       it, round-off determines the stability */
+/* distance from the estimate, relative to the path parameter; at smaller distances, rounding
+ * determines the stability */
+static const double closest = 1e-5;
 
-/* Sets *state to the followed state, the end of a computed static path. */
+/* Sets *state to the followed state, which is the end of a computed static path. */
 static status followed_state(const analysis_context *c, int analysis, const model_state **state,
                              fault *f)
 {
@@ -42,7 +46,7 @@ static status followed_state(const analysis_context *c, int analysis, const mode
     return STATUS_OK;
 }
 
-/* Prepares Newton's method at the followed state; its K in n->K is factored and may be
+/* Prepares Newton's method at the followed state. K of this state, n->K, is factored and may be
  * unsymmetric. */
 static status start(analysis_context *c, int analysis, const char *what, newton_run *n, fault *f)
 {
@@ -67,7 +71,7 @@ static int asks_for_growth(const analysis_context *c, int analysis)
     return 0;
 }
 
-/* Finds the frequencies if the tangent is not symmetric and positive definite, so modes may grow.
+/* Finds the frequencies if the tangent is not symmetric and positive definite. Modes may then grow.
  * Damping is included for the growth rates but not for the frequencies. */
 static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_run *n,
                                       outcome_spectrum *out, fault *f)
@@ -144,22 +148,26 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
     return result;
 }
 
-/* Search for the critical point. The stable states on the path are stored, the last ones first. */
+/* Search for the critical point. The stable states on the path are stored, with the last state
+ * first. */
 typedef struct loaded_search {
     newton_run n;
-    predictor guess; /* predicts the next state from the stable ones since the last unstable one */
+    /* predicts the next state from the stable states since the last unstable state */
+    predictor guess;
     model_state *stable;
     sparse scale; /* diagonal of the first K */
     double begin, shift, p[POINTS],
         sigma[POINTS]; /* shift: the first sigma; K + shift scale is far from singular */
     int points;
     double estimate, change,
-        unstable;     /* unstable: smallest path known to be beyond the critical point */
-    int wanted;       /* number of loads requested */
-    double size;      /* length of the path so far */
-    double predicted; /* distance from the start to the first critical point, predicted from the
-                         rate of K there; INFINITY: none */
-    double farthest;  /* path at which the search ends */
+        /* unstable: smallest path parameter that is known to be beyond the critical point */
+        unstable;
+    int wanted;  /* number of loads requested */
+    double size; /* length of the path so far */
+    /* predicted distance from the start to the first critical point, from the rate of K at the
+     * start; INFINITY: none */
+    double predicted;
+    double farthest; /* path parameter at which the search ends */
     double rate; /* distance between the last two stable states, divided by the difference of their
                     path parameters */
     int lost;    /* 1: the path does not lead from the last stable state to the trial state */
@@ -227,8 +235,8 @@ static void search_free(loaded_search *s)
     eigen_free(&s->found);
 }
 
-/* Makes Newton's current state, whose K is factored, the last stable one, and computes its
- * sigma. */
+/* Makes Newton's current state, whose K is factored, the last stable state, and computes its sigma.
+ * */
 static status take_state(loaded_search *s, fault *f)
 {
     const eigen_problem p = {
@@ -251,7 +259,7 @@ static status take_state(loaded_search *s, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the equilibrium at `path` and factors the tangent there. */
+/* Computes the equilibrium at `path`, and factors its tangent. */
 static status tangent_at_path(loaded_search *s, double path, fault *f)
 {
     step_record unused = {0};
@@ -268,9 +276,9 @@ static double rate_to(const loaded_search *s, double path)
     return metric_distance(s->n.c->model, s->stable, s->n.state, NULL) / (path - s->p[0]);
 }
 
-/* Computes the state at `path`. *stable: 1 if the state is stable; it has then become the last
- * stable one. Beyond a limit point no state is near: Newton's method fails, or finds a distant
- * state, which may be stable. */
+/* Computes the state at `path`. *stable: 1 if the state is stable; it is then the last stable
+ * state. Beyond a limit point, there is no neighbouring state: Newton's method fails, or finds a
+ * distant state, which may be stable. */
 static status go_to(loaded_search *s, double path, int *stable, fault *f)
 {
     const status outcome = tangent_at_path(s, path, f);
@@ -296,8 +304,8 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
     return predictor_add(&s->n.c->eq, s->stable, 0, &s->guess, f);
 }
 
-/* Returns the zero of sigma from the inverse interpolation p(sigma); INFINITY if sigma does not
- * fall. */
+/* Returns the zero of sigma from the inverse interpolation p(sigma); INFINITY: sigma does not fall.
+ * */
 static double extrapolate(const loaded_search *s)
 {
     const double *p = s->p, *g = s->sigma;
@@ -312,7 +320,7 @@ static double extrapolate(const loaded_search *s)
 }
 
 /* Predicts the distance to the first critical point from the eigenvalues of (K, -dK), where K is
- * the tangent at the start and dK its change in a step. A has the pattern of K. */
+ * the tangent at the start and dK is its change in a step. A has the pattern of K. */
 static status predict(loaded_search *s, double step, sparse *A, fault *f)
 {
     newton_run *n = &s->n;
@@ -343,8 +351,8 @@ static status predict(loaded_search *s, double step, sparse *A, fault *f)
     return outcome == STATUS_FAULT ? outcome : STATUS_OK;
 }
 
-/* Predicts in two steps and so needs no scale: the second step is small relative to the prediction
- * of the first. */
+/* Predicts the distance in two steps, so no scale is needed: the second step is small relative to
+ * the prediction of the first step. */
 static status predict_twice(loaded_search *s, fault *f)
 {
     const double small = 1e-3;
@@ -360,8 +368,8 @@ static status predict_twice(loaded_search *s, fault *f)
     return outcome;
 }
 
-/* Returns 1 if sigma is as small as expected from the remaining distance, to which it is
- * proportional or, at a limit point, proportional to its square root. Otherwise the state beyond
+/* Returns 1 if sigma is as small as expected from the remaining distance. sigma is proportional to
+ * this distance or, at a limit point, to its square root. If sigma is larger, the state beyond
  * belongs to another equilibrium path. */
 static int falls_to_zero(const loaded_search *s)
 {
@@ -417,8 +425,8 @@ static status find_critical(loaded_search *s, fault *f)
                      s->begin, s->p[0]);
 }
 
-/* Counts the negative eigenvalues at `path`. The computation starts from the stored state, which is
- * then replaced by this state. */
+/* Counts the negative eigenvalues at `path`. The computation starts from the stored state, which
+ * this state then replaces. */
 static status count_at(loaded_search *s, double path, int *negative, fault *f)
 {
     s->p[0] = kinematics_state_path(s->stable);
@@ -428,7 +436,7 @@ static status count_at(loaded_search *s, double path, int *negative, fault *f)
     return STATUS_OK;
 }
 
-/* Finds the requested loads after the first one from the inertia along the path, up to a thousand
+/* Finds the requested loads after the first load from the inertia along the path, up to a thousand
  * times the first load: value[*count]. */
 static status find_more(loaded_search *s, double value[], int *count, fault *f)
 {
@@ -501,9 +509,9 @@ static status hand_over(loaded_search *s, outcome_side *out, fault *f)
     return more == STATUS_FAULT ? fault_set(f, more, "%s", why.text) : STATUS_OK;
 }
 
-/* Returns the largest N l^2/(pi^2 E I) over the elements, where N is the compressive force in
- * Newton's state and I the smaller second moment of area. If it exceeds 1, an element buckles
- * individually, and the divergence may be this local buckling. */
+/* Returns the largest N l^2/(pi^2 E I) of all elements, where N is the compressive force in
+ * Newton's state and I is the smaller second moment of area. If the result exceeds 1, an element
+ * buckles individually, and the divergence may be this local buckling. */
 static double thrust_of_elements(const newton_run *n)
 {
     const model *m = n->c->model;
@@ -522,8 +530,8 @@ static double thrust_of_elements(const newton_run *n)
     return most;
 }
 
-/* Returns NOT_CONVERGED if a divergence of a massless structure is an artefact of the mesh. Without
- * mass, flutter is not searched for. */
+/* Checks a divergence of a structure without mass. NOT_CONVERGED: it is an artefact of the mesh.
+ * Flutter is not sought if there is no mass. */
 static status judge_massless(const newton_run *n, const flutter_point *first, fault *f)
 {
     const double most = first->massless ? thrust_of_elements(n) : 0;
@@ -536,7 +544,7 @@ static status judge_massless(const newton_run *n, const flutter_point *first, fa
                                 first->path, most);
 }
 
-/* Finds the first critical load and its kind for loads without a potential. */
+/* Finds the first critical load and its kind if loads have no potential. */
 static status find_without_potential(analysis_context *c, loaded_search *s, outcome_spectrum *found,
                                      fault *f)
 {

@@ -1,8 +1,8 @@
 /* Feedback loops in small vibrations. The force is P u with the factor u = (Kp + Kd s + Ki/s) (r -
- * S^T x), where S^T x is measured and r is the reference, as in motions (time/feedback.c); the
- * limit of u is assumed not to be reached. In a harmonic analysis each loop adds an unknown u. For
- * damped modes the matrices become K + Kp P S^T and C + Kd P S^T, and each integral gain adds a
- * coordinate, the integral of -S^T x. */
+ * S^T x), where S^T x is measured and r is the reference, as during motions (time/feedback.c). The
+ * limit of u is ignored. In a harmonic analysis, each loop adds an unknown u. For damped modes, the
+ * matrices become K + Kp P S^T and C + Kd P S^T. Each integral gain adds a coordinate, the integral
+ * of -S^T x. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -74,7 +74,7 @@ double complex loops_gain(const control_loop *l, double w, double complex *own)
 {
     const scene_feedback *b = l->gains;
     const double complex s = I * w, gain = b->proportional + b->derivative * s;
-    *own = b->integral != 0 ? s : 1; /* multiplied by s, so it is finite at s = 0 */
+    *own = b->integral != 0 ? s : 1; /* multiplied by s, so that the value is finite at s = 0 */
     return b->integral != 0 ? gain * s + b->integral : gain;
 }
 
@@ -84,7 +84,7 @@ enum { CLOSED = 4 }; /* K, M, C, B */
 typedef struct full_column {
     int n, rows;
     int *row;      /* [n] */
-    char *is;      /* [n] 1: the row is listed */
+    char *is;      /* [n] 1: the row is in the list */
     double *value; /* [n x CLOSED] */
 } full_column;
 
@@ -96,8 +96,8 @@ static void add(full_column *c, int which, int row, double value)
     c->value[row * CLOSED + which] += value;
 }
 
-/* Adds the loops' entries to column j. Columns below n are coordinates, columns from n on are
- * integrals. */
+/* Adds the entries of the loops to column j. Columns below n belong to coordinates, and columns
+ * from n on belong to integrals. */
 static void add_loops(const vibration *v, int n, int j, full_column *c)
 {
     for (int l = 0, at = n; l < v->loops; l++) {
@@ -111,7 +111,7 @@ static void add_loops(const vibration *v, int n, int j, full_column *c)
             }
         if (!loop->integrates)
             continue;
-        if (measured != 0) /* z' + S^T x = 0; the forces are Ki P z */
+        if (measured != 0) /* equation z' + S^T x = 0, with the forces Ki P z */
             add(c, 0, at, measured);
         for (int i = 0; i < n && j == at; i++)
             if (loop->push[i] != 0)
@@ -127,7 +127,7 @@ static int ascending(const void *a, const void *b)
     return *(const int *)a - *(const int *)b;
 }
 
-/* Appends the column to the matrices, which must have room for it. */
+/* Appends the column to the matrices, whose capacity must be sufficient. */
 static void append(full_column *c, int j, sparse to[])
 {
     qsort(c->row, (size_t)c->rows, sizeof *c->row, ascending);
@@ -143,8 +143,8 @@ static void append(full_column *c, int j, sparse to[])
     c->rows = 0;
 }
 
-/* Lists the entries of the symmetric K above its diagonal by rows: of[first[i]] and the following
- * are their positions in K. */
+/* Lists the entries of the symmetric K above its diagonal row by row. of[first[i]] and the
+ * following entries are their positions in K. */
 static void turn(const sparse *K, int first[], int column[], int of[])
 {
     for (int j = 0; j < K->n; j++)

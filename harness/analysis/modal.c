@@ -1,5 +1,6 @@
-/* Natural frequencies about the undeformed state, with the stresses of a followed linear analysis:
- * M x = (1/omega^2) K x. In this form a mass matrix may be singular in the rotations. */
+/* Natural frequencies about the undeformed state, with the stresses of a linear analysis that this
+ * analysis follows: M x = (1/omega^2) K x. In this form, the mass matrix may be singular for
+ * rotations. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -11,7 +12,9 @@
 
 int modal_wanted(const analysis_context *c, int analysis)
 {
-    const int others = 6; /* margin for axial modes and other families between the requested ones */
+    /* number of additional modes, because axial modes and modes of other families may lie between
+     * the requested modes */
+    const int others = 6;
     int wanted = imperfection_modes(c->scene, analysis);
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
@@ -23,12 +26,14 @@ int modal_wanted(const analysis_context *c, int analysis)
     return wanted + others;
 }
 
-/* The quadratic form of K: the stiffness of the structure, that of the prestress, and the shift. */
+/* The quadratic form of K, which contains the stiffness of the structure, the stiffness due to the
+ * prestress, and the shift. */
 typedef struct modal_forms {
     quadratic_forms of;
     int prestressed;
-    sparse M, G;  /* G: geometric stiffness of the prestress; without values: none */
-    double shift; /* [1/s^2] shift contained in K of the system and in its forms */
+    /* G: geometric stiffness of the prestress; it has no values if there is no prestress */
+    sparse M, G;
+    double shift; /* [1/s^2] shift that K of the system and its forms contain */
     double *work; /* [free] */
 } modal_forms;
 
@@ -70,10 +75,10 @@ static void stiffness_product(void *context, const double mode[], double y[])
         add_product(f, &f->M, f->shift, mode, y);
 }
 
-/* Returns the eigenvalue of a mode x with x^T (K + shift M) x = 1: the positive root of
- *   x^T K x = lambda x^T M x + lambda^2 x^T B x
- * including the elements' internal motions (field/field.h), except under stress, which would act on
- * these too. A value below the round-off of the shift is a rigid-body mode. */
+/* Returns the eigenvalue lambda of a mode x with x^T (K + shift M) x = 1. lambda is the positive
+ * root of x^T K x = lambda x^T M x + lambda^2 x^T B x, where B describes the motions inside
+ * elements (field/field.h). B is omitted if there are stresses, because they would also act on
+ * these motions. A value below the rounding error of the shift is a rigid-body mode. */
 static double eigenvalue(modal_forms *about, double mu, const double mode[])
 {
     const double square = 1 / mu - about->shift;
@@ -95,7 +100,7 @@ static void swap(double *a, double *b, int count)
     }
 }
 
-/* Moves the modes to the outcome with their circular frequencies, lowest first. */
+/* Moves the modes to the outcome with their circular frequencies in ascending order. */
 static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
 {
     const int n = about->of.free;
@@ -111,7 +116,7 @@ static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
     outcome_take(side, &o->left.spectrum.positive);
 }
 
-/* Reports a mode with neither stiffness nor mass, whose frequency is arbitrary. */
+/* Reports a mode without stiffness and without mass, whose frequency is arbitrary. */
 static status explain_massless(analysis_context *c, fault *f)
 {
     c->work->singular = 0;
@@ -122,7 +127,7 @@ static status explain_massless(analysis_context *c, fault *f)
     return singular_mechanism(c, STATUS_SINGULAR, f);
 }
 
-/* Adds shift M to K of a free structure, which is singular. */
+/* Adds shift M to K of a free structure, which would be singular. */
 static status shifted_system(analysis_context *c, linear_system *s, const sparse *M, double *shift,
                              fault *f)
 {
@@ -154,7 +159,7 @@ static status add_stresses(analysis_context *c, double path, linear_system *s, m
     return context_factor(c, s->factor, &s->K, f);
 }
 
-/* Adds G of the stresses of the followed linear analysis to K. */
+/* Adds G of the stresses of the linear analysis that this analysis follows to K. */
 static status add_prestress(analysis_context *c, int follows, linear_system *s, modal_forms *about,
                             fault *f)
 {
@@ -170,8 +175,8 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
     return add_stresses(c, 1, s, about, f);
 }
 
-/* Adds G of the stresses due to initial strains without loads to K. K may be that of a free
- * structure, which includes its shift. */
+/* Adds G of the stresses due to initial strains to K; there are no loads. K may belong to a free
+ * structure and then includes its shift. */
 static status add_strains(const analysis_context *c, linear_system *s, modal_forms *about, fault *f)
 {
     analysis_context unloaded = context_unloaded(c);
@@ -179,7 +184,7 @@ static status add_strains(const analysis_context *c, linear_system *s, modal_for
     return add_stresses(&unloaded, 0, s, about, f);
 }
 
-/* Assembles M and the factored K; K of a free structure is shifted. */
+/* Assembles M and the factored K. K of a free structure is shifted. */
 static status assemble(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                        fault *f)
 {

@@ -1,4 +1,4 @@
-/* Poles from the dynamic stiffness D(s) = K + s C + s^2 M itself, by inverse iteration: slow poles
+/* Poles from the dynamic stiffness D(s) = K + s C + s^2 M by inverse iteration, because slow poles
  * next to a shift have few digits. */
 #include "harness/analysis/analysis_impl.h"
 
@@ -11,11 +11,12 @@
 typedef struct refinement {
     const sparse *K, *M, *C; /* same pattern */
     int n;
-    double complex *D, *x, *u, *w; /* [n x n] and its factors, [n] each */
+    double complex *D, *x, *u, *w; /* [n x n] D and its factors; [n] vectors */
     lapack_int *order;             /* [n] */
 } refinement;
 
-/* y = dD/ds x, or with absolute values D + s dD/ds. */
+/* Computes y = dD/ds x. absolute 1: computes the sums of the
+ * absolute values of the terms of D(s) x. */
 static void multiply(const refinement *t, double complex s, int absolute, const double complex x[],
                      double complex y[])
 {
@@ -45,7 +46,7 @@ static int factor_just_at(refinement *t, double complex s)
     return LAPACKE_zgetrf(LAPACK_COL_MAJOR, t->n, t->n, t->D, t->n, t->order) == 0;
 }
 
-/* At s, or next to it if it is exactly a pole. */
+/* Factors D at s, or at a value next to s if s is exactly a pole. */
 static int factor_at(refinement *t, double complex s)
 {
     return factor_just_at(t, s) || factor_just_at(t, s * (1 + 8 * DBL_EPSILON));
@@ -73,7 +74,8 @@ static double complex product(int n, const double complex a[], const double comp
     return sum;
 }
 
-/* Rounding of all entries changes s by w^T |dD| x/(w^T dD/ds x). */
+/* Returns the rounding error of s. Rounding of all entries changes s by w^T |dD| x/(w^T dD/ds x).
+ */
 static double rounding_at(refinement *t, double complex s)
 {
     memcpy(t->w, t->x, (size_t)t->n * sizeof *t->w);
@@ -90,8 +92,8 @@ static double rounding_at(refinement *t, double complex s)
     return DBL_EPSILON * sum / slope;
 }
 
-/* Returns the error relative to the pole *s; INFINITY: no convergence. Convergence is quadratic,
- * and ends early, because further steps mix the vectors of double poles. */
+/* Iterates, and returns the error relative to the pole *s; INFINITY: no convergence. Convergence is
+ * quadratic. The iteration ends early, because further steps mix the vectors of double poles. */
 static double iterate(refinement *t, double complex *s)
 {
     enum { PASSES = 30 };

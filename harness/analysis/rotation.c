@@ -1,6 +1,6 @@
 /* Stationary rotation: equilibrium in a rotating frame at increasing angular velocity, and small
- * motions about it with the gyroscopic, centrifugal and geometric terms (J Eq. 76: K0 + N0 + G0).
- */
+ * motions about this equilibrium with the gyroscopic, centrifugal and geometric terms (J Eq. 76: K0
+ * + N0 + G0). */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -10,7 +10,9 @@
 
 #include "harness/model/model.h"
 
-enum { OTHERS = 2 }; /* margin for modes of other families between the requested ones */
+/* number of additional modes, because modes of other families may lie between the requested modes
+ * */
+enum { OTHERS = 2 };
 
 /* The tangent in two parts, from the last linearisation with respect to the strains. */
 typedef struct tangent_parts {
@@ -18,7 +20,7 @@ typedef struct tangent_parts {
     const linear_memory *memory;
     const model_state *state;
     const sparse *geometric;
-    double *x, *y; /* [free + driven] with the prescribed coordinates set to zero */
+    double *x, *y; /* [free + driven] vectors in which prescribed coordinates are zero */
     int free_count, all;
 } tangent_parts;
 
@@ -98,7 +100,7 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
     return context_symmetric(a->factor, "frequencies in a rotating frame", f);
 }
 
-/* Sets the frequencies and families of the modes found. */
+/* Sets the frequencies and families of the computed modes. */
 static status identify(analysis_context *c, const gyroscopic_result *r, double mode[],
                        rotation_modes *out, fault *f)
 {
@@ -139,8 +141,8 @@ static status take_modes(analysis_context *c, const gyroscopic_result *r, rotati
     return outcome;
 }
 
-/* Returns 1 if quantities of this analysis request modes at any station or, with elsewhere 1, at a
- * station other than the last. */
+/* Returns 1 if quantities of this analysis need modes at any station. elsewhere 1: at a station
+ * other than the last. */
 static int asks_for_modes(const analysis_context *c, int analysis, int elsewhere)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
@@ -152,9 +154,9 @@ static int asks_for_modes(const analysis_context *c, int analysis, int elsewhere
     return 0;
 }
 
-/* Returns 1 if the modes of a station are needed. If the modes of any station before the last are
- * needed, those of all stations are, because growth is reported at the first station where it
- * occurs. */
+/* Returns 1 if the modes of a station are needed. If the modes of a station before the last are
+ * needed, the modes of all stations are needed, because growth is reported at the first station
+ * where it occurs. */
 static int are_wanted_at(const analysis_context *c, int analysis, const outcome_path *path,
                          int station)
 {
@@ -203,8 +205,8 @@ static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
     return take_modes(c, result, out, f);
 }
 
-/* Computes `wanted` modes, if they exist; *enough: 1 if there is a mode for every quantity or if
- * there are no more modes. */
+/* Computes `wanted` modes, or all modes if there are fewer. *enough: 1 if there is a mode for every
+ * quantity or if there are no more modes. */
 static status try_modes(analysis_context *c, int analysis, const gyroscopic_problem *problem,
                         rotation_modes *out, int *enough, fault *f)
 {
@@ -216,7 +218,7 @@ static status try_modes(analysis_context *c, int analysis, const gyroscopic_prob
 }
 
 /* Computes the modes in a state. Increases their number until it is sufficient, because modes of
- * other families may lie between the requested ones. */
+ * other families may lie between the requested modes. */
 static status modes_at(analysis_context *c, int analysis, const model_state *state, matrices *a,
                        rotation_modes *out, fault *f)
 {
@@ -239,7 +241,7 @@ static status modes_at(analysis_context *c, int analysis, const model_state *sta
     return STATUS_OK;
 }
 
-/* Returns 1 if mode i grows by more than round-off. */
+/* Returns 1 if mode i grows by more than rounding. */
 static int grows(const rotation_modes *modes, int i)
 {
     return modes->growth[i] > modes->error[i] * hypot(modes->growth[i], modes->frequency[i]);
@@ -256,7 +258,7 @@ static void note_instability(analysis_context *c, const rotation_modes *modes, d
                      modes->frequency[i] > 0 ? "flutter" : "divergence", modes->growth[i]);
 }
 
-/* Reports the first station where the modes found do not account for all negative eigenvalues. */
+/* Reports the first station where the computed modes do not explain all negative eigenvalues. */
 static void note_unproven(analysis_context *c, const rotation_modes *modes, double path)
 {
     if (modes->unproven > 0 && c->result->reason[0] == '\0')
@@ -266,7 +268,7 @@ static void note_unproven(analysis_context *c, const rotation_modes *modes, doub
                  path, modes->unproven);
 }
 
-/* Computes the modes at every station, or only at the last. */
+/* Computes the modes at every station, or only at the last station. */
 static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_rotation *out,
                        fault *f)
 {
@@ -286,8 +288,8 @@ static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_r
 }
 
 /* Returns the stability according to the modes. If there are no negative eigenvalues, no mode
- * grows. Otherwise the modes decide, provided that each mode is known and that the modes account
- * for all negative eigenvalues. */
+ * grows. Otherwise the modes decide, provided that all modes are known and explain all negative
+ * eigenvalues. */
 static step_stability stability_of(const rotation_modes *modes)
 {
     int known = modes->unproven == 0;

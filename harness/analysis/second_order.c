@@ -1,5 +1,5 @@
-/* Linear models about states. The inputs and outputs are those that the scene's quantities name,
- * and its loads. */
+/* Linear models about states. Their inputs and outputs are those that the quantities of the scene
+ * name, and the loads of the scene. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -115,7 +115,7 @@ static void add_matrix(const vibration *v, const sparse *a, int skew, const int 
         }
 }
 
-/* Adds row c of a to out. */
+/* Adds row c of `a` to `out`. */
 static void add_row(const vibration *v, const sparse *a, int skew, int c, const int at[],
                     double out[])
 {
@@ -161,7 +161,8 @@ static void add_motion(const vibration *v, int node, int component, double times
             out[at[index[k]]] += times * T[component * count + k];
 }
 
-/* Fills the measured components of closed loops and their rates, after the outputs of the scene. */
+/* Fills the measured components of closed loops and their rates. They follow the outputs of the
+ * scene. */
 static void fill_measured(const vibration *v, const system_matrices *s, const int at[],
                           second_order *m)
 {

@@ -83,8 +83,8 @@ static int has_negative(const solve_result *r, int from)
     return 0;
 }
 
-/* Detects a path that starts from a structure whose stiffness is indefinite at rest. It is called
- * if the path was unstable or failed. The work is not counted. */
+/* Detects a path that starts from a structure whose stiffness is indefinite at rest. This is
+ * examined if the path was unstable or failed. The work is not counted. */
 static status judge_rest(analysis_context *c, const analysis_outcome *o, int first_step, fault *f)
 {
     if (!outcome_has_path(o) || o->kind == SCENE_COMPLIANCE || o->kind == SCENE_MOTION ||
@@ -102,7 +102,7 @@ static status judge_rest(analysis_context *c, const analysis_outcome *o, int fir
 }
 
 /* Returns the failure of the linear analysis whose stresses the analysis includes. After a failed
- * path, followers use the states that it reached, and check them. */
+ * path, the analyses that follow it use the states that it reached, and check them. */
 static status check_base(const analysis_context *c, int analysis, fault *f)
 {
     const int base = c->scene->analysis[analysis].follows;
@@ -112,8 +112,8 @@ static status check_base(const analysis_context *c, int analysis, fault *f)
     return fault_set(f, o->status, "the analysis of the base state failed: %.150s", o->reason);
 }
 
-/* Runs analyses; the first failure determines the overall status. perfect: 0: runs the analyses of
- * the imperfect structure; 1: those of the perfect structure; otherwise: all analyses. */
+/* Runs analyses. The first failure determines the overall status. perfect 0: analyses of the
+ * imperfect structure; 1: analyses of the perfect structure; otherwise: all analyses. */
 static void run_analyses(analysis_context *c, int perfect)
 {
     for (int i = 0; i < c->scene->analyses; i++) {
@@ -149,7 +149,8 @@ static void run_analyses(analysis_context *c, int perfect)
     }
 }
 
-/* Gives the solution the status of a failed later stage, unless it has failed before. */
+/* Gives the solution the status of a later stage that failed, unless the solution has failed
+ * before. */
 static void spoil(solve_result *r, status outcome, const fault *f)
 {
     if (outcome == STATUS_OK || r->status != STATUS_OK)
@@ -169,7 +170,7 @@ static void keep_states(analysis_context *c)
         spoil(r, collect_systems(c, &r->systems, &f), &f);
 }
 
-/* Reports the value of the governing quantity and its name. */
+/* Reports the value and the name of the governing quantity. */
 static void put_envelope(const scene *s, solve_result *r, int quantity)
 {
     const scene_quantity *q = &s->quantity[quantity];
@@ -338,7 +339,7 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
         put_envelope(s, result, i);
     }
     add_counters(&other.run.counters, &run.counters);
-    result->counters = run.counters; /* shapes are for pictures, so their work does not count */
+    result->counters = run.counters; /* shapes are for pictures, so their work is not counted */
     keep_states(&c);
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);

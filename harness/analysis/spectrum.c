@@ -1,4 +1,4 @@
-/* Spectra of time histories; scene_transform documents the formulas. */
+/* Spectra of time histories. scene_transform documents the formulas. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -7,7 +7,7 @@
 
 #include "elements/math/scalar.h"
 
-/* Workspace of a discrete Fourier transform of `whole` values. */
+/* Work space of a discrete Fourier transform of `whole` values. */
 typedef struct fourier {
     size_t whole;
     double complex *unit; /* [whole] exp(-2 pi i n/whole) */
@@ -22,7 +22,7 @@ static size_t least_factor(size_t n)
     return n;
 }
 
-/* Computes the transform out[n] of x[0], x[stride], ... by combining the transforms of its
+/* Computes the transform out[n] of x[0], x[stride], ..., by combining the transforms of its
  * interleaved parts. */
 static void transform(const fourier *t, size_t n, size_t stride, const double complex x[],
                       double complex out[])
@@ -49,7 +49,7 @@ static double weight_of(const scene_quantity *q, int i, int count)
     return q->passing.taper == SCENE_TAPER_HANN ? s * s : 1;
 }
 
-/* Stores the curve computed from the weighted and transformed values. */
+/* Stores the curve, which is computed from the weighted and transformed values. */
 static void put(const scene_quantity *q, int count, double step, const double complex x[],
                 quantity_result *r)
 {

@@ -1,8 +1,8 @@
-/* Nonlinear equilibrium along a load path with adaptive steps. The step size follows from the
- * success of Newton's method, not from the error of the tangent. Steps chosen by that error are
- * shorter than Newton's method needs and cost more: 14 to 20 % more iterations, measured on all
- * cases with one station, with errors from 0.2 to 2 (rotations in rad, displacements in
- * lengths). */
+/* Nonlinear equilibrium along a load path with adaptive steps. The step size depends on the success
+ * of Newton's method, and not on the error of the tangent. Steps that depend on this error are
+ * shorter than Newton's method needs and cost more: 14 to 20 % more iterations, measured for all
+ * cases with one station and for errors from 0.2 to 2 (rotations in rad, displacements in lengths).
+ * */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -12,15 +12,15 @@
 #include "elements/math/dense.h"
 #include "harness/model/model.h"
 
-/* Prepares the compliances of all analyses about states of `path`. *out NULL: no such analysis
+/* Prepares the compliances of all analyses about states of `path`. *out is NULL if no such analysis
  * follows the path. */
 static status compliance_walk_begin(newton_run *, int path, compliance_walk **out, fault *);
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
-/* Determines the stability at the end of a step if the pivots do not decide it. *found: path within
- * the step whose stability differs from that of both ends, or INFINITY; last_resort: the step
- * cannot be shorter. */
+/* Determines the stability at the end of a step if the pivots do not decide it. *found: path
+ * parameter within the step at which stability differs from that of both ends, or INFINITY.
+ * last_resort: 1 if the step cannot be shorter. */
 static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, step_record *record,
                          double *found, fault *f)
 {
@@ -34,7 +34,7 @@ static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, s
                : flutter_judge_state(judge, n->c, n->state, record, f);
 }
 
-/* Undoes the step, so it can be repeated in shorter steps. */
+/* Reverses the step, so that it can be repeated in shorter steps. */
 static void take_back(newton_run *n, const step_record *record)
 {
     history_drop_step(n->c->result, record);
@@ -111,8 +111,8 @@ static status sample(newton_run *n, double path, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if the start of the path is loaded by constant loads, by motions with a nonzero start,
- * or by stress-free strains. */
+/* Returns 1 if the start of the path is loaded by constant loads, by motions that do not start at
+ * zero, or by stress-free strains. */
 static int begins_loaded(const analysis_context *c)
 {
     const scene *s = c->scene;
@@ -143,7 +143,7 @@ static status equilibrate(newton_run *n, flutter_judge *judge, fault *f)
     return STATUS_OK;
 }
 
-/* Advances to every station and stores its state. Steps are not shortened without need. */
+/* Advances to every station and stores its state. Steps are shortened only if this is necessary. */
 static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance_walk *on_the_way,
                    outcome_path *o, fault *f)
 {
@@ -223,7 +223,7 @@ static void forget_columns(unsigned known, double C[36])
             C[i] = NAN;
 }
 
-/* Computes the force on the node, and the moment that drives its rotation. */
+/* Computes the force on the node, and the moment that causes its rotation. */
 static status reaction_of(analysis_context *c, const scene_compliance *what, const model_state *s,
                           node_tangent *t, double reaction[6], fault *f)
 {
@@ -235,8 +235,8 @@ static status reaction_of(analysis_context *c, const scene_compliance *what, con
     return tangent_driven_moment(c, s, what->node, t, reaction + 3, f);
 }
 
-/* Computes the compliance C and the stiffness K at the node. Columns of C that are not needed are
- * NaN, and K is then NaN too. */
+/* Computes the compliance C and the stiffness K of the node. Columns of C that are not needed are
+ * NaN, and K is then also NaN. */
 static status matrices_of(analysis_context *c, const scene_compliance *what, double reaction[6],
                           node_tangent *t, unsigned wanted, station_matrices *out, fault *f)
 {
@@ -267,7 +267,7 @@ static status compliance_at(analysis_context *c, const scene_compliance *what, c
 }
 
 /* Evaluates the analysis at a state that Newton's method has just reached, with its last tangent if
- * that is valid. */
+ * this is accurate. */
 static status compliance_take(analysis_context *c, int analysis, const newton_run *n,
                               node_tangent *t, station_matrices *out, fault *f)
 {
@@ -301,7 +301,7 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
                : STATUS_OK;
 }
 
-/* Sets *state to the state without loads, which is undeformed except for stress-free strains. */
+/* Sets *state to the unloaded state, which is undeformed except for stress-free strains. */
 static status unloaded(analysis_context *c, newton_run *n, const model_state **state, fault *f)
 {
     step_record unused = {0};
@@ -419,7 +419,7 @@ static status compliance_walk_begin(newton_run *n, int path, compliance_walk **o
 status compliance_walk_take(compliance_walk *w, const newton_run *n, int station, fault *f)
 {
     analysis_context *c = n->c;
-    /* the states of many elements are not stored for later */
+    /* the states of many elements are not stored for later use */
     if (w == NULL || (n->condensed == NULL && !arrival_tangent_stands(&n->arrival)))
         return STATUS_OK;
     for (int i = 0; i < w->count; i++) {

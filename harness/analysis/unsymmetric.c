@@ -7,14 +7,14 @@
 
 #include "elements/math/dense.h"
 
-/* Relative magnitude below which an eigenvalue may be the round-off of massless coordinates. */
+/* Relative magnitude below which an eigenvalue may be a rounding error of massless coordinates. */
 static const double nothing = 1e-6;
 
-/* Coordinates are scaled by the square roots of the diagonal of K; rates are scaled by `second`. */
+/* Coordinates are scaled by the square roots of the diagonal of K. Rates are scaled by `second`. */
 typedef struct unsymmetric_solver {
     const unsymmetric_problem *p;
     unsymmetric_result *out;
-    int n, massive; /* number of coordinates, and number of those with mass */
+    int n, massive; /* number of coordinates, and number of coordinates with mass */
     int *of;        /* [massive] */
     double *scale;  /* [n] */
     double *x, *y;  /* [n] workspace */
@@ -63,7 +63,7 @@ static void apply_undamped_transposed(void *context, const double in[], double o
         out[i] = s->y[i] / s->scale[i];
 }
 
-/* Applies [-K^-1 C, -K^-1 M; 1, 0] to [x; v]. */
+/* Applies the matrix [-K^-1 C, -K^-1 M; 1, 0] to [x; v]. */
 static void apply_damped(void *context, const double in[], double out[])
 {
     const unsymmetric_solver *s = context;
@@ -107,8 +107,8 @@ static double diagonal(const sparse *a, int j)
     return 0;
 }
 
-/* Returns the scale of a coordinate without its own stiffness, such as a feedback integral, from
- * the forces that it causes. */
+/* Returns the scale of a coordinate without a stiffness, such as a feedback integral, from the
+ * forces that the coordinate causes. */
 static double scale_of(const unsymmetric_solver *s, int j)
 {
     const sparse *K = s->p->K;
@@ -152,14 +152,14 @@ static void find_second(unsymmetric_solver *s, double from[], double to[])
         if (!(size > 0))
             break;
     }
-    /* a feedback integral may reduce it to round-off */
+    /* a feedback integral may reduce the value to rounding */
     for (int k = 0; k < s->massive && !s->p->K->symmetric; k++)
         size = fmax(size, diagonal(s->p->M, s->of[k]) / (s->scale[s->of[k]] * s->scale[s->of[k]]));
     s->second = size > 0 ? sqrt(size) : 1;
 }
 
-/* Scales integrals z, with C z' = -K x, between the forces that they cause and their change in
- * `second`; rate: work space. */
+/* Scales integrals z, with C z' = -K x, between the forces that they cause and their change in the
+ * time `second`. rate: work space. */
 static void scale_integrals(unsymmetric_solver *s, double rate[])
 {
     const sparse *K = s->p->K, *C = s->p->C;
@@ -189,7 +189,7 @@ static status pairs(unsymmetric_solver *s, int transposed, arnoldi_result *out, 
     return arnoldi_solve(&a, out, f);
 }
 
-/* Computes y = A x or, with absolute 1, y = |A| x. */
+/* Computes y = A x. absolute 1: computes y = |A| x. */
 static void multiply(const sparse *A, int absolute, const double complex x[], double complex y[])
 {
     for (int j = 0; j < A->n; j++)
@@ -209,7 +209,7 @@ static double complex root(const unsymmetric_solver *s, double complex theta)
     return s->p->C != NULL ? 1 / theta : csqrt(-1 / theta);
 }
 
-/* Workspace of the estimates, [n] each. */
+/* Work space of the estimates, with [n] entries each. */
 typedef struct growth_estimate {
     double complex *x, *w, *y, *left; /* left: [left.count x n] */
 } growth_estimate;
@@ -228,7 +228,7 @@ static double complex product(int n, const double complex a[], const double comp
     return sum;
 }
 
-/* Returns w^T (2 s M + C) x; with absolute 1, the sum of the absolute values of its terms. */
+/* Returns w^T (2 s M + C) x. absolute 1: returns the sum of the absolute values of its terms. */
 static double slope(const unsymmetric_solver *s, int absolute, double complex at,
                     const double complex w[], const growth_estimate *e)
 {
@@ -240,9 +240,9 @@ static double slope(const unsymmetric_solver *s, int absolute, double complex at
     return cabs(sum + product(s->n, w, e->y));
 }
 
-/* Returns the estimated error of s due to round-off. A change dK of K changes s by w^T dK x/(w^T (2
- * s M + C) x). If eigenvalues coincide,
- * the error is of the order of the square root of the round-off. */
+/* Returns the estimated error of s due to rounding. A change dK of K changes s by w^T dK x/(w^T (2
+ * s M + C) x). If eigenvalues coincide, the error is of the order of the square root of the
+ * rounding error. */
 static double error_of(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const int n = s->n;
@@ -268,7 +268,7 @@ static double error_of(const unsymmetric_solver *s, int i, const growth_estimate
     return fmin(least, cap) + part * s->right.residual[i] * fmin(1, least / DBL_EPSILON);
 }
 
-/* Computes the left vectors w of K, which are K^-T times those of the operator. */
+/* Computes the left vectors w of K, which are K^-T times the left vectors of the operator. */
 static status left_vectors(unsymmetric_solver *s, growth_estimate *e, fault *f)
 {
     const size_t n = (size_t)s->n;
@@ -293,8 +293,8 @@ static status left_vectors(unsymmetric_solver *s, growth_estimate *e, fault *f)
     return STATUS_OK;
 }
 
-/* Sets mode[] to the real part of the eigenvector, at the phase where this part is largest; for the
- * second of two flutter modes, to the imaginary part. */
+/* Sets mode[] to the real part of the eigenvector, with the phase for which this part is largest.
+ * For the second of two flutter modes, sets mode[] to the imaginary part. */
 static void take_mode(const unsymmetric_solver *s, int i, int second, double mode[])
 {
     const size_t size = s->p->C != NULL ? (size_t)(s->n + s->massive) : (size_t)s->n;
@@ -309,7 +309,7 @@ static void take_mode(const unsymmetric_solver *s, int i, int second, double mod
     }
 }
 
-/* Returns w^T A x; y is workspace. */
+/* Returns w^T A x. y: work space. */
 static double complex form(const unsymmetric_solver *s, const sparse *A, const double complex w[],
                            const double complex x[], double complex y[])
 {
@@ -317,8 +317,8 @@ static double complex form(const unsymmetric_solver *s, const sparse *A, const d
     return product(s->n, w, y);
 }
 
-/* Returns the left vector of eigenvalue i; if there are several, the one that is least orthogonal
- * to e->x; NULL: none. */
+/* Returns the left vector of eigenvalue i; NULL: none. If there are several, returns the one whose
+ * product with e->x is largest. */
 static const double complex *left_of(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const double complex theta = s->right.theta[i], *found = NULL;
@@ -335,8 +335,8 @@ static const double complex *left_of(const unsymmetric_solver *s, int i, const g
     return found;
 }
 
-/* Sets e->w, the second vector of the forms: the left vector or, for a symmetric K, the mode itself
- * or, if its form is too small, its conjugate. */
+/* Sets e->w, the second vector of the forms: the left vector or, for a symmetric K, the mode. If
+ * the form of the mode is too small, its conjugate is used. */
 static void take_other(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const double complex *left = s->p->K->symmetric ? NULL : left_of(s, i, e);
@@ -388,7 +388,7 @@ static void take(unsymmetric_solver *s, int i, double error, const growth_estima
               doubled = s->p->decaying && fabs(cimag(at)) <= fmin(10 * error, nothing) * cabs(at),
               second = (!damped || doubled) && cimag(theta) < 0;
     if (doubled)
-        at = creal(at); /* two equal real eigenvalues, which round-off makes a pair */
+        at = creal(at); /* two equal real eigenvalues that rounding has changed into a pair */
     const double complex square = at * at;
     const double same = damped ? 10 * error : fmax(unsymmetric_same, 20 * error);
     const int grows = fabs(creal(at)) > (damped ? same * cabs(at) : same / 2 * cabs(at));
@@ -405,7 +405,7 @@ static void take(unsymmetric_solver *s, int i, double error, const growth_estima
     r->count++;
 }
 
-/* Sorts eigenvalues by ascending |s|, because a shift changes their order. */
+/* Sorts eigenvalues in ascending order of |s|, because a shift changes their order. */
 static void sort(unsymmetric_solver *s)
 {
     arnoldi_result *r = &s->right;

@@ -50,7 +50,7 @@ static int founded_vertices(const model *m)
     return count;
 }
 
-/* Adds the stiffness of a length of foundation to K. R: axes of the foundation. */
+/* Adds the stiffness of a length of a foundation to K. R: axes of the foundation. */
 static void add_founded(const double foundation[6], double length, const double R[9], double K[36])
 {
     for (int block = 0; block < 2; block++)
@@ -61,8 +61,8 @@ static void add_founded(const double foundation[6], double length, const double 
                         length * foundation[3 * block + k] * R[3 * i + k] * R[3 * j + k];
 }
 
-/* Creates the springs of a member's foundation. Their weights are those of lumped masses:
- * mesh.c. */
+/* Creates the springs of the foundation of a member. Their weights are those of lumped masses
+ * (mesh.c). */
 static status found_member(model *m, int member, scene_spring *spring, int *used, fault *f)
 {
     const scene_member *sm = &m->scene->member[member];
@@ -134,7 +134,7 @@ status discrete_build(model *m, fault *f)
     return found_members(m, f);
 }
 
-/* Strains, stresses and their derivatives of a spring in a state. */
+/* Strains and stresses of a spring in a state, and their derivatives. */
 typedef struct spring_state {
     double e[SPRING_STRAINS], sigma[SPRING_STRAINS], S[SPRING_STRAINS * SPRING_STRAINS],
         J[SPRING_STRAINS * X], H[X * X];
@@ -179,7 +179,7 @@ static void spring_at(const model *m, const model_state *s, const mesh_discrete 
     spring_strain(d->el.nodes, x, turn, &(strain_output){.s = out->sigma, .H = out->H});
 }
 
-/* Computes the force and the tangent at the nodes; material 1: the tangent includes J^T S J of
+/* Computes the force and the tangent at the nodes. material 1: the tangent includes J^T S J of
  * springs. */
 static void evaluate(const model *m, const model_state *s, const mesh_discrete *d,
                      const element_rotating_frame *frame, const spring_rates *r, int material,
@@ -210,7 +210,7 @@ static void evaluate(const model *m, const model_state *s, const mesh_discrete *
         force[k] = -force[k];
 }
 
-/* Computes the force and the tangent in model coordinates. */
+/* Computes the force and the tangent in coordinates of the model. */
 static void eliminated(const model *m, const model_state *s, const mesh_discrete *d,
                        const element_rotating_frame *frame, const spring_rates *r, int material,
                        double force[], double K[])
@@ -302,7 +302,7 @@ double discrete_stored(const model *m, const model_state *s)
     return sum;
 }
 
-/* Adds to F the forces at the nodes that move with `node`. */
+/* Adds the forces at the nodes that move with `node` to F. */
 static void add_at_node(const model *m, const model_state *s, const mesh_discrete *d,
                         double force[], int node, double F[6])
 {
@@ -371,7 +371,7 @@ double dashpots_power(const model *m, const double rate[])
     return sum;
 }
 
-/* Computes the forces at the spring's nodes. */
+/* Computes the forces on the nodes of the spring. */
 static void force_of(const model *m, const model_state *s, int spring, const double rate[],
                      double force[])
 {

@@ -7,12 +7,14 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-enum { LEAST_PIECES = 12 }; /* pieces per member, so a single element appears curved */
+/* number of pieces per member, so that a single element appears curved */
+enum { LEAST_PIECES = 12 };
 static const double drawn_part = 0.1,
-                    drawn_rotation = 0.5; /* fraction of the model's size; [rad] */
+                    /* displacement as a fraction of the model's size, and rotation [rad] */
+    drawn_rotation = 0.5;
 
-/* Returns the number of gaps between the vertices of a member; the second function the number of
- * pieces of each gap. */
+/* gaps_of returns the number of gaps between the vertices of a member. The second function returns
+ * the number of pieces of each gap. */
 static int gaps_of(const model *m, int member)
 {
     return (m->mesh.first_element[member + 1] - m->mesh.first_element[member]) *
@@ -38,10 +40,10 @@ int centreline_points(const model *m, int first[])
     return count;
 }
 
-/* One element, with the frames of its nodes and the external forces on them. */
+/* An element, with the frames of its nodes and the external forces on the nodes. */
 typedef struct span {
     int nodes;
-    double gap; /* undeformed distance between two nodes [m] */
+    double gap; /* [m] undeformed distance between two nodes */
     node_state x[ELEMENT_MAX_NODES];
     double q[ELEMENT_MAX_NODES][4];
     double force[ELEMENT_MAX_COORDINATES];
@@ -63,7 +65,8 @@ static void span_of(const model *m, const model_state *s, int element, span *out
     dense_add_transpose_mul(m->mesh.coordinates, m->mesh.strains, 1, J, sigma, out->force);
 }
 
-/* Computes the position and the direction of the cubic from node k to the next at t = 0 .. 1. */
+/* Computes the position and the direction of the cubic between node k and the next node, at t = 0
+ * .. 1. */
 static void cubic(const span *e, int k, double t, double r[3], double direction[3])
 {
     const double *p = e->x[k].r, *q = e->x[k + 1].r, u = 1 - t;
@@ -75,7 +78,7 @@ static void cubic(const span *e, int k, double t, double r[3], double direction[
 }
 
 /* Computes the orientation: interpolates along the shortest rotation between the two triads, then
- * applies the shortest rotation of the x axis to the line. */
+ * applies the shortest rotation of the x axis to the direction of the line. */
 static void orientation(const span *e, int k, double t, const double direction[3], double q[4])
 {
     double rotation_vector[3], step[4], x[3] = {1, 0, 0}, axis[3];
@@ -94,7 +97,7 @@ static void orientation(const span *e, int k, double t, const double direction[3
 }
 
 /* Computes the resultants that act on the part before the point, from the forces on the nodes after
- * it. */
+ * the point. */
 static void resultants(const span *e, int k, double t, centreline_point *p)
 {
     double force[3] = {0}, moment[3] = {0}, R[9];
@@ -146,7 +149,7 @@ void centreline_nodes(const model *m, const model_state *s, double out[])
         kinematics_position(m, s, i, out + 3 * i);
 }
 
-/* Computes the increment of a node, which may consist of released ends only. */
+/* Computes the increment of a node, which may consist only of released ends. */
 static void increment_of_node(const model *m, const model_state *s, int node, const double x[],
                               double out[])
 {
@@ -160,7 +163,7 @@ static void increment_of_node(const model *m, const model_state *s, int node, co
     }
 }
 
-/* Computes the increments of all vertex frames: translation and spatial rotation. */
+/* Computes the increments of the frames of all vertices: translations and spatial rotations. */
 static void increments_of(const model *m, const model_state *s, const double x[], double out[])
 {
     for (int i = 0; i < m->mesh.elements; i++) {
@@ -181,8 +184,8 @@ void centreline_increments(const model *m, const double x[], double out[])
         increment_of_node(m, m->rest, i, x, out);
 }
 
-/* Returns the scale that makes a mode visible, by its translations or, if these are larger, by its
- * rotations. */
+/* Returns the scale for which a mode is visible. Neither the largest translation nor the largest
+ * rotation exceeds its limit. */
 static double visible_scale(const model *m, const double increment[])
 {
     double scale = INFINITY;
@@ -192,7 +195,7 @@ static double visible_scale(const model *m, const double increment[])
     return isfinite(scale) ? scale : 1;
 }
 
-/* Moves the state s by scale x the increments[vertices x 6]. */
+/* Moves the state s by `scale` times the increments[vertices x 6]. */
 static void displace(const model *m, double scale, const double increment[], model_state *s)
 {
     for (int v = 0; v < m->mesh.vertices; v++) {
@@ -225,7 +228,7 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
     return STATUS_OK;
 }
 
-/* Distance between two states of a model; the arc length uses it. */
+/* Distance between two states of a model, which the arc length uses. */
 
 /* Returns the number of bodies that have a coordinate. */
 static int moving_bodies(const model *m)

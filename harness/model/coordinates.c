@@ -40,7 +40,7 @@ static int leaves_plane(const model *m, int vertex, int component)
     return turn < v->angles && fabs(v->axis[turn][normal]) < 0.5 * vec3_norm(v->axis[turn]);
 }
 
-/* Returns how a component of a body moves: SCENE_FREE, SCENE_HELD or a driver. */
+/* Returns the kind of motion of a component of a body: SCENE_FREE, SCENE_HELD or a driver. */
 static int motion_of(const model *m, int vertex, int component)
 {
     if (leaves_plane(m, vertex, component))
@@ -59,7 +59,7 @@ static int motion_of(const model *m, int vertex, int component)
 }
 
 /* Returns the unknown driver whose value follows from the condition that the known driver `known`
- * imposes on a component; NONE: there is none. */
+ * imposes on a component; NONE: none. */
 static int conditioned_by(const model *m, int vertex, int component, int known)
 {
     for (int d = 0; d < m->scene->drivers; d++) {
@@ -71,8 +71,7 @@ static int conditioned_by(const model *m, int vertex, int component, int known)
     return NONE;
 }
 
-/* Marks the vertices that are connected, because an unconnected vertex must not cause a zero
- * row. */
+/* Marks the vertices that are connected. An unconnected vertex must not cause a zero row. */
 static void mark_used(const model *m, char *used)
 {
     for (int i = 0; i < m->mesh.elements; i++)
@@ -83,7 +82,7 @@ static void mark_used(const model *m, char *used)
             used[m->mesh.vertex[m->mesh.discrete[i].el.vertex[k]].body] = 1;
 }
 
-/* Numbers the coordinates of a released end, first the displacements, then the rotations. */
+/* Numbers the coordinates of a released end: first the displacements, then the rotations. */
 static void number_release(model *m, int index)
 {
     mesh_vertex *v = &m->mesh.vertex[index];
@@ -94,8 +93,8 @@ static void number_release(model *m, int index)
     }
 }
 
-/* Numbers of coordinates that are fixed, that are fixed because they leave the plane, and that
- * constraints determine; and number of unconnected vertices. */
+/* Numbers of coordinates that are fixed, of coordinates that are fixed because they leave the
+ * plane, and of coordinates that constraints determine; number of unconnected vertices. */
 typedef struct coordinates_tally {
     int held, across, unused, tied;
 } coordinates_tally;
@@ -147,8 +146,8 @@ static void number_vertex(model *m, int index, int pass, int used, coordinates_t
     }
 }
 
-/* Gives dependent coordinates the index of the coordinate that they follow. An angle with a ratio
- * is the first angle of its node. */
+/* Gives dependent coordinates the index of the coordinate that determines them. An angle with a
+ * ratio is the first angle of its node. */
 static void share_coordinates(model *m)
 {
     for (int i = 0; i < m->scene->nodes; i++)
@@ -203,7 +202,7 @@ int coordinates_held_turn(const model *m, int node)
 }
 
 /* Adds the coordinates of a released end after all others, rotations first. The position of a ball
- * joint depends on the rotation of its node only where the node is eccentric to the body. */
+ * joint depends on the rotation of its node only if the node is eccentric to its body. */
 static void index_release(const model *m, int node, mesh_element *el)
 {
     const mesh_vertex *v = &m->mesh.vertex[el->vertex[node]];
@@ -216,7 +215,7 @@ static void index_release(const model *m, int node, mesh_element *el)
         el->index[NODE_COORDINATES * node + c] = NONE;
 }
 
-/* Lists the global coordinates of an element's coordinates, after elimination of released ends,
+/* Lists the global coordinates of an element's coordinates, after the elimination of released ends,
  * rigid offsets and sequences. */
 static void index_element(model *m, mesh_element *el)
 {
@@ -247,7 +246,7 @@ static int fixed_warps(const model *m, int *absent)
     return fixed;
 }
 
-/* Lists the scalars that are not coordinates, one line for each kind. */
+/* Lists the scalars that are not coordinates, with one line for each kind. */
 static status note_left_out(model *m, const coordinates_tally *of, fault *f)
 {
     int absent = 0, attached = 0;

@@ -8,7 +8,7 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* A position on a member where two pieces meet. */
+/* A position on a member at which two pieces meet. */
 typedef struct division_cut {
     int member;
     double place;
@@ -36,7 +36,7 @@ static int list_cuts(const scene *s, division_cut out[])
     return count;
 }
 
-/* Sets the positions of one member from its cuts; returns the number of these cuts. */
+/* Sets the positions of a member from its cuts, and returns the number of these cuts. */
 static int place_pieces(int member, const division_cut cuts[], int count, double place[],
                         int *pieces)
 {
@@ -194,7 +194,7 @@ int profile_at(const model *m, int member, int number)
     return m->profile[member] + (scene_member_tapers(sm) ? number : 0);
 }
 
-/* Checks a section between the ends of a tapered member for properties that the sections at its
+/* Checks a section between the ends of a tapered member for properties that the sections at the
  * ends do not have. */
 static status check_between(const model *m, int member, const section *c, fault *f)
 {
@@ -233,8 +233,8 @@ static status fill(model *m, int member, const taper *t, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the index of a member's taper in the list, or the length of the list if this taper is
- * new. */
+/* Returns the index of the taper of a member in the list, or the length of the list if this taper
+ * is new. */
 static int find(int tapers, const taper *list, const taper *t)
 {
     for (int i = 0; i < tapers; i++)

@@ -1,6 +1,6 @@
 /* Transforms element coordinates (dr, dphi, da per vertex) to those of the moving bodies, in place.
- * Offset: elements/math/rotation.h. Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x b_j dt_i
- * dt_j (Baker-Campbell-Hausdorff). */
+ * Offset: see elements/math/rotation.h. Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x b_j
+ * dt_i dt_j (Baker-Campbell-Hausdorff). */
 #include "harness/model/model_impl.h"
 
 #include <string.h>

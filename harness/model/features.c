@@ -40,8 +40,8 @@ static unsigned needs_of_analyses(const scene *s)
     return needs;
 }
 
-/* Returns FEATURE bits of the quantities. Fibre stresses exert a torque if the fibres are inclined
- * (twisted). */
+/* Returns the FEATURE bits of the quantities. Stresses of fibres exert a torque if the fibres are
+ * inclined because of twist. */
 unsigned features_of_quantities(const scene *s)
 {
     unsigned needs = 0;
@@ -52,8 +52,8 @@ unsigned features_of_quantities(const scene *s)
     return needs;
 }
 
-/* Returns 1 if formulations provide their own inertia. A motion with lumped mass uses that of the
- * section, which is the same for all formulations. */
+/* Returns 1 if the inertia depends on the formulation. A motion with lumped mass uses the mass of
+ * the section, which is the same for all formulations. */
 static int elements_have_mass(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -74,8 +74,8 @@ static int is_used(const scene *s, int index)
     return 0;
 }
 
-/* Returns the physics under stress and rotation that a section given by constants has, if the
- * analyses have stresses. */
+/* Returns the second-order physics of a section given by constants, if the analyses have stresses.
+ */
 static unsigned needs_of_stresses(const section *c, unsigned needs)
 {
     const double arm = sqrt(c->Ip / c->A), zero = 1e-10;
@@ -84,7 +84,7 @@ static unsigned needs_of_stresses(const section *c, unsigned needs)
         return 0;
     if (hypot(c->wagner_y, c->wagner_z) > zero * c->Ip * arm)
         out |= FEATURE_WAGNER_MOMENTS;
-    /* cubic in the twist rate: no effect about the undeformed state */
+    /* The effect is cubic in the twist rate, so there is none about the undeformed state. */
     if ((needs & FEATURE_LARGE) && fabs(c->wagner_torque) > zero * c->Ip * arm * arm)
         out |= FEATURE_WAGNER_TORQUE;
     return out;
@@ -100,8 +100,8 @@ static unsigned needs_of_constants(const section *c, unsigned needs)
     return out | (needs & FEATURE_MASS && c->density > 0 ? FEATURE_ROTARY_INERTIA : 0);
 }
 
-/* Returns the physics that section matrices have. They include shear, but not warping, trapeze and
- * Wagner effects. */
+/* Returns the physics that section matrices contain. They include shear, but not warping, trapeze
+ * and Wagner effects. */
 static unsigned needs_of_matrices(const scene *s, const section *c, unsigned needs, unsigned omits)
 {
     const unsigned rotary = needs & FEATURE_MASS ? FEATURE_ROTARY_INERTIA & ~omits : 0;
@@ -223,7 +223,7 @@ unsigned features_theory(const scene *s, const element_type *type)
         return SHEAR_OWN;
     if (needs & FEATURE_HARINGX)
         return SHEAR_HARINGX;
-    /* if the type has both and none is requested, Engesser's theory is used */
+    /* Engesser's theory is used if the type has both theories and none is requested. */
     return needs & FEATURE_ENGESSER || type->shear_theories & SHEAR_ENGESSER ? SHEAR_ENGESSER
                                                                              : type->shear_theories;
 }
@@ -262,7 +262,8 @@ status features_of_section(const model *m, int index, unsigned *features, fault 
     return STATUS_OK;
 }
 
-/* Returns 1 if the type has its own inertia, which supports only sections given by constants. */
+/* Returns 1 if the type computes inertia and therefore supports only sections given by constants.
+ * */
 static int knows_constants_only(const scene *s, const element_type *type)
 {
     int matrices = 0;

@@ -1,4 +1,5 @@
-/* Lines of members with the initial shape of imperfections, which imperfect_shape.c creates. */
+/* Lines of members with the initial shape of imperfections. imperfect_shape.c creates this shape.
+ * */
 #include "harness/model/model_impl.h"
 
 #include <string.h>
@@ -11,7 +12,7 @@ const scene *imperfect_lines(const model *m)
     return m->imperfect != NULL ? &m->imperfect->lines : m->scene;
 }
 
-/* Interpolates value[points x 3] of a member linearly at a place. */
+/* Interpolates value[points x 3] of a member linearly at a position. */
 static void between_points(const model_imperfect *p, int member, double (*value)[3], double place,
                            double out[3])
 {

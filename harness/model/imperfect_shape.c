@@ -52,7 +52,7 @@ static void move_nodes(const double increment[], model_imperfect *p)
     }
 }
 
-/* Moves nodes by the shifts that the scene gives. */
+/* Moves nodes by the shifts given in the scene. */
 static void add_shifts(const scene *s, scene_node node[])
 {
     for (int i = 0; i < s->imperfections; i++) {
@@ -63,7 +63,7 @@ static void add_shifts(const scene *s, scene_node node[])
     }
 }
 
-/* Fills the points of one member at the vertices of its mesh. */
+/* Fills the points of a member at the vertices of its mesh. */
 static void fill_member(const model *m, int member, const double increment[], int vertex[],
                         model_imperfect *p)
 {
@@ -166,8 +166,8 @@ typedef struct piece {
     double line[3];          /* vector between them */
 } piece;
 
-/* Computes the displacement between the two vertices, a cubic with their rotations as slopes;
- * returns the square of its length. */
+/* Computes the displacement between the two vertices, which is a cubic with their rotations as
+ * slopes. Returns the square of its length. */
 static double shift_at(const piece *p, double x, double shift[3])
 {
     const double a = 1 - x * x * (3 - 2 * x), b = x * (1 - x) * (1 - x), c = x * x * (x - 1);
@@ -206,7 +206,7 @@ static double largest_in(const piece *p)
 
 void model_largest_shift(const model *m, const double x[], double shift[3])
 {
-    const double same = 1e-6; /* relative tolerance for equal maxima */
+    const double same = 1e-6; /* relative tolerance for maxima that count as equal */
     double most = 0;
     memset(shift, 0, 3 * sizeof *shift);
     for (int i = 0; i < m->mesh.elements; i++) {

@@ -21,7 +21,7 @@ void kinematics_offset(const model *m, const model_state *s, int index, double r
     rotation_apply(&s->q[4 * v->body], v->offset, rho);
 }
 
-/* Computes the orientation at the current angles of a sequence, and its spatial axes b (NULL: not
+/* Computes the orientation for the current angles of a sequence, and its spatial axes b (NULL: not
  * needed). */
 static void sequence_orientation(const model *m, const model_state *s, int index, double b[][3],
                                  double q[4])
@@ -78,7 +78,7 @@ static void follow_leader(const model *m, model_state *s, int vertex)
                 s->u[3 * v->leader + i] + across[i] * sin(angle) - 2 * half * half * v->arm[i];
 }
 
-/* Rigid offset: u = u_body + (R - 1) offset. */
+/* For a rigid offset, u = u_body + (R - 1) offset. */
 void kinematics_follow(const model *m, model_state *s)
 {
     for (int i = 0; i < m->scene->nodes; i++)
@@ -141,7 +141,7 @@ void kinematics_turn_matrix(const mesh_vertex *v, int n, int at, double K[])
     }
 }
 
-/* Computes the increments (translation, spatial rotation) of a body's frame. */
+/* Computes the increments of the frame of a body: translation and spatial rotation. */
 static void body_increment(const model *m, const model_state *s, int body, const double dx[],
                            double out[6])
 {
@@ -207,7 +207,7 @@ double kinematics_component(const model *m, const model_state *s, int node, int 
     if (v->body == node && v->angles == 0 && v->vector_driver[0] == NONE &&
         m->scene->node[node].angle[component - SCENE_RX] != SCENE_FREE)
         return s->angle[3 * node + component -
-                        SCENE_RX]; /* an angle about a fixed axis, which is valid beyond pi */
+                        SCENE_RX]; /* an angle about a fixed axis, which may exceed pi */
     return turns_of_node(s, node)[component - SCENE_RX];
 }
 
@@ -238,7 +238,8 @@ double kinematics_driver_value(const model *m, const model_state *s, int driver)
     return s->driver[driver];
 }
 
-/* Returns the cosine of the angle between an element's chord and the x axis of one of its nodes. */
+/* Returns the cosine of the angle between the chord of an element and the x axis of one of its
+ * nodes. */
 static double chord_cosine(const model *m, const model_state *s, const mesh_element *el, int node)
 {
     double p[3], q[3], d[3], axis[3];
@@ -251,8 +252,8 @@ static double chord_cosine(const model *m, const model_state *s, const mesh_elem
     return vec3_dot(d, axis) / vec3_norm(d);
 }
 
-/* Returns the cosine of half the angle between the ends of an element. It is negative for more than
- * half a revolution, which the signs of the quaternions show. */
+/* Returns the cosine of half the angle between the ends of an element. The cosine is negative for
+ * more than half a revolution, which the signs of the quaternions show. */
 static double half_cosine(const model *m, const model_state *s, const mesh_element *el, int chords)
 {
     double turn = 0, least = 1;
@@ -285,7 +286,7 @@ double kinematics_largest_turn(const model *m, const model_state *s, int chords,
     return 2 * acos(fmax(-1, least));
 }
 
-/* Returns the twist of one node relative to the other, about the undeformed axis. */
+/* Returns the twist of a node relative to the other node, about the undeformed axis. */
 static double twist_of(const model *m, const model_state *s, const mesh_element *el)
 {
     double back[4], q[4];
@@ -332,8 +333,8 @@ int kinematics_coordinate(const model *m, int node, int component)
     return m->mesh.vertex[node].body == node ? m->mesh.vertex[node].coordinate[component] : NONE;
 }
 
-/* Appends the coordinates of a released end, rotations then displacements, to those of its body.
- * Returns their number. */
+/* Appends the coordinates of a released end to those of its body, rotations first. Returns their
+ * number. */
 static int append_own(const model *m, int vertex, int size, int count, int index[])
 {
     const mesh_release *r = release_of(m, vertex);
@@ -391,7 +392,7 @@ int kinematics_node_jacobian(const model *m, const model_state *s, int node, int
     return count;
 }
 
-/* States of a model. Each state has one block of numbers. */
+/* States of a model. Each state has a single block of numbers. */
 
 const model_state *kinematics_rest(const model *m)
 {

@@ -1,10 +1,11 @@
-/* Matrix patterns, and the positions of element entries in them. */
+/* Matrix patterns, and the positions of the entries of elements in them. */
 #include "harness/model/model_impl.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns 1 if any spring is not symmetric or, with `damped`, any dashpot. */
+/* Returns 1 if a spring is not symmetric. damped 1: also returns 1 if a dashpot is not symmetric.
+ * */
 static int has_unsymmetric(const model *m, int damped)
 {
     for (int i = 0; i < m->scene->springs; i++)
@@ -14,8 +15,8 @@ static int has_unsymmetric(const model *m, int damped)
     return 0;
 }
 
-/* Returns 0 if there are dead moments about fixed axes (loads or reactions) or follower loads.
- * Tangents are then stored as full matrices, because their symmetry depends on the state. */
+/* Returns 0 if there are dead moments about fixed axes (loads or reactions) or follower loads. Both
+ * triangles of tangents are then stored, because their symmetry depends on the state. */
 int assemble_symmetric(const model *m)
 {
     int whole = has_unsymmetric(m, 1);
@@ -26,7 +27,7 @@ int assemble_symmetric(const model *m)
     return !whole;
 }
 
-/* Returns 1 if the pair is stored, and the row and column of its entry. */
+/* Returns 1 if the pair is stored, and computes the row and the column of its entry. */
 static int stored(const mesh_pattern *p, int row, int column)
 {
     return row >= 0 && column >= 0 && row < p->matrix.n && column < p->matrix.n &&
@@ -95,8 +96,8 @@ static size_t collect_nodes(const model *m, const mesh_pattern *p, const int nod
     return count;
 }
 
-/* Collects the pairs of nodes connected by a tension, and the pairs of a coordinate on which a load
- * acts and a coordinate that it measures. */
+/* Collects the pairs of nodes that a tension load connects, and the pairs of a coordinate on which
+ * a load acts and a coordinate that the load measures. */
 static size_t collect_loads(const model *m, const mesh_pattern *p, size_t count, int row[],
                             int column[])
 {
@@ -116,7 +117,7 @@ static size_t collect_loads(const model *m, const mesh_pattern *p, size_t count,
 }
 
 /* Returns the number of pairs of coordinates that elements couple, including repetitions. Stores
- * their rows and columns in row[] and column[] unless these are NULL. */
+ * their rows and columns in row[] and column[], which may be NULL. */
 static size_t collect(const model *m, const mesh_pattern *p, int row[], int column[])
 {
     size_t count = 0;
@@ -127,7 +128,7 @@ static size_t collect(const model *m, const mesh_pattern *p, int row[], int colu
     return collect_loads(m, p, count, row, column);
 }
 
-/* Sets begin[n + 1], the starts of n lists that contain pairs by their index. */
+/* Sets begin[n + 1], the starts of n lists into which pairs are sorted by their index. */
 static void begin_lists(size_t pairs, const int index[], int n, int begin[])
 {
     memset(begin, 0, ((size_t)n + 1) * sizeof *begin);
@@ -137,15 +138,15 @@ static void begin_lists(size_t pairs, const int index[], int n, int begin[])
         begin[i + 1] += begin[i];
 }
 
-/* Input of compress: pairs in any order, and a list of them sorted by rows. */
+/* Input of compress: pairs in any order, and a list of the pairs sorted by rows. */
 typedef struct pairs {
     size_t count;
     int *row, *column, *by_row; /* [count] */
     int *begin, *end;           /* [n + 1] starts of the lists of rows, and of columns */
 } pairs;
 
-/* Sorts columns by rows first, so the rows of each column are in ascending order. Removes
- * duplicates. */
+/* Sorts columns after the pairs have been sorted by rows, so the rows of each column are in
+ * ascending order. Removes duplicates. */
 static void sort_pairs(const pairs *all, sparse *out)
 {
     const int n = out->n;
@@ -209,8 +210,8 @@ static int entries_of(const mesh_element *el, const mesh_pattern *p, mesh_entry 
     return count;
 }
 
-/* Returns the layout with these entries if it is among the most recent ones, otherwise NONE.
- * Elements along a member have the same layout except at its ends. */
+/* Returns the layout with these entries if it is one of the most recent layouts, otherwise NONE.
+ * Elements along a member have the same layout, except at its ends. */
 static int find_layout(const mesh_pattern *p, int entries, const mesh_entry entry[])
 {
     const int looked_at = 16;
@@ -301,7 +302,7 @@ static status make(const model *m, assemble_patterns *all, int which, const spar
     const status outcome = fill_pattern(m, p, f);
     p->made = outcome == STATUS_OK;
     if (!p->made)
-        pattern_free(p); /* so that the next analysis tries again */
+        pattern_free(p); /* the next analysis then tries again */
     return outcome;
 }
 

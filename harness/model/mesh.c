@@ -14,7 +14,7 @@
 #include "elements/math/scalar.h"
 #include "elements/shared/masses.h"
 
-/* Adds the axis, of any length, of the next angle of a sequence. */
+/* Adds the axis of the next angle of a sequence. The length of the axis is arbitrary. */
 static void add_axis(const double axis[3], mesh_vertex *v)
 {
     const double length = vec3_norm(axis);
@@ -23,9 +23,9 @@ static void add_axis(const double axis[3], mesh_vertex *v)
     v->angles++;
 }
 
-/* Fixes a node against rotation about an idle axis: if it has one free angle, by fixing that angle;
- * otherwise by restricting its rotation to two axes perpendicular to the idle axis, which the last
- * of the two angles rotates. */
+/* Fixes the rotation of a node about an idle axis. If the node has one free angle, this angle is
+ * fixed. Otherwise the rotation is restricted to two axes perpendicular to the idle axis, which
+ * rotates with the last of the two angles. */
 static void hold_idle(const scene *s, int node, mesh_vertex *v)
 {
     double axis[3], across[2][3];
@@ -56,8 +56,8 @@ static int is_free(const scene_node *n)
            n->translation[2] == SCENE_FREE;
 }
 
-/* If a rotation about a fixed axis is a multiple of another coordinate, turns it into an angle
- * about an axis of that length. */
+/* Converts a rotation about a fixed axis that is a multiple of another coordinate to an angle about
+ * an axis whose length is this multiple. */
 static void stretch_axes(const model *m, int node, mesh_vertex *v)
 {
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
@@ -78,7 +78,7 @@ static void stretch_axes(const model *m, int node, mesh_vertex *v)
     }
 }
 
-/* Returns 1 if a constraint contains one of the node's translations. */
+/* Returns 1 if a constraint contains a translation of the node. */
 static int is_tied(const model *m, int node)
 {
     int tied = 0;
@@ -136,7 +136,7 @@ static int same_vector(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Adds the internal motions of elements if frequencies are requested. */
+/* Adds the motions inside elements if frequencies are requested. */
 static status set_inner(const model *m, const element_request *request, mesh_kind *k, fault *f)
 {
     int modal = 0;
@@ -171,7 +171,7 @@ static status unstressed_of(const model *m, int member, int profile, double leng
     return scene_member_elongation(m->scene, member, length, &out->free[0], f);
 }
 
-/* Finds the kind of element with this section, length and curvature, or creates a new kind.
+/* Finds the kind of an element with this section, length and curvature, or creates a new kind.
  * rounding [m]: tolerance of the length. */
 static status kind_of(model *m, const unstressed *own, int profile, double length, double rounding,
                       const double curvature[3], int *out, fault *f)
@@ -207,7 +207,7 @@ static status kind_of(model *m, const unstressed *own, int profile, double lengt
     return m->mesh.type->prepare(&request, k->data, f);
 }
 
-/* Computes the arc of an element and, if each element has its own section, the axes of its
+/* Computes the arc of an element and, if every element has a separate section, the axes of its
  * section. */
 static status arc_of_element(const model *m, int member, int profile, const member_arc *along,
                              member_arc *out, fault *f)
@@ -218,8 +218,8 @@ static status arc_of_element(const model *m, int member, int profile, const memb
     return member_arc_of(imperfect_lines(m), member, m->section[profile].axes_angle, out, f);
 }
 
-/* Stores triad[nodes] and returns its storage, which is shared with the previous element if the
- * triads are equal. */
+/* Stores triad[nodes] and returns the address of the stored triads. If they are equal to those of
+ * the previous element, they are shared. */
 static mesh_triad *keep_triads(model *m, mesh_triad triad[])
 {
     const size_t size = (size_t)m->mesh.nodes * sizeof *triad;
@@ -231,9 +231,9 @@ static mesh_triad *keep_triads(model *m, mesh_triad triad[])
     return next;
 }
 
-/* For a bow on a straight member: returns the arc of an element between two points of the bow, with
- * the rotation of the bow between these points; chord, triad: length and triad of the vector
- * between them. */
+/* Returns the arc of an element between two points of the bow of a straight member, including the
+ * rotation of the bow between these points. chord, triad: length and triad of the vector between
+ * the points. */
 static member_arc arc_of_bow(const member_arc *a, const double ends[2], const double start[3],
                              double chord, const double triad[9])
 {
@@ -255,8 +255,8 @@ static member_arc arc_of_bow(const member_arc *a, const double ends[2], const do
     return out;
 }
 
-/* Sets the vertices of one element along an arc with their positions and triads; warping is set
- * later. */
+/* Sets the positions and triads of the vertices of an element along an arc. Warping is set later.
+ * */
 static status add_element(model *m, const member_arc *along, int member, int number,
                           int inner_vertex, fault *f)
 {
@@ -275,7 +275,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
               curves = (m->mesh.type->offers & FEATURE_CURVATURE) != 0,
               curved = curves && bends && !bowed && m->imperfect == NULL, last = m->mesh.nodes - 1;
     mesh_triad triad[ELEMENT_MAX_NODES];
-    double first[3] = {0}; /* position of the element's first vertex */
+    double first[3] = {0}; /* position of the first vertex of the element */
     el->member = member;
     el->nodes = m->mesh.nodes;
     for (int k = 0; k <= last; k++) {
@@ -305,8 +305,8 @@ static status add_element(model *m, const member_arc *along, int member, int num
             memcpy(first, position, sizeof first);
         if (k < last || curved)
             continue;
-        /* the element is straight, or its curvature is not uniform: it has a single triad along the
-         * chord */
+        /* The element is straight, or its curvature is not uniform. It has a single triad along the
+         * chord. */
         const double y_start[3] = {triad[0][1], triad[0][4], triad[0][7]};
         double y[3];
         for (int i = 0; i < 3; i++) {
@@ -356,7 +356,8 @@ static status add_element(model *m, const member_arc *along, int member, int num
     return kind_of(m, &own, profile, a->length * (ends[1] - ends[0]) / each, 0, a->k, &el->kind, f);
 }
 
-/* Returns the warping amplitude of a member's end: one shared by name, its own, or none. */
+/* Returns the warping amplitude of the end of a member: one that is shared by name, a separate one,
+ * or none. */
 static int end_warp(model *m, int name, int *named)
 {
     if (name == SCENE_WARP_FIXED)
@@ -374,7 +375,8 @@ static void add_warps(model *m, int *named)
     for (int member = 0; member < m->scene->members; member++) {
         const scene_member *sm = &m->scene->member[member];
         const int profile =
-            profile_at(m, member, 0); /* warping as for the other elements: division.c */
+            /* warping is the same as for the other elements (division.c) */
+            profile_at(m, member, 0);
         unsigned features;
         features_of_section(m, profile, &features, NULL);
         const int warps = (features & FEATURE_WARPING) != 0 && m->scene->plane == SCENE_SPACE,
@@ -386,8 +388,8 @@ static void add_warps(model *m, int *named)
                           at_end = i + 1 == m->mesh.first_element[member + 1] && k == last;
                 if (!warps)
                     el->warp[k] = NONE;
-                else if (nothing_warps) /* kept although no warping occurs: a separate amplitude has
-                                           no effect */
+                else if (nothing_warps) /* the amplitude is kept even if no warping occurs, because
+                                           a separate amplitude has no effect */
                     el->warp[k] = m->mesh.warps++;
                 else if (at_start || at_end)
                     el->warp[k] = end_warp(m, at_start ? sm->warp_p : sm->warp_q, named);
@@ -397,9 +399,9 @@ static void add_warps(model *m, int *named)
     }
 }
 
-/* Returns the weight of an end node of n equal lengths. The weighted sums integrate cubics exactly.
- * With these weights, lumped masses have the same order of convergence as distributed masses in
- * slender bending (Gregory's rule from n = 6 on, closed Newton-Cotes rules below). */
+/* Returns the weight of a node near the end of n equal lengths. The weighted sums integrate cubics
+ * exactly. With these weights, lumped masses have the same order of convergence as distributed
+ * masses in slender bending (Gregory's rule for n >= 6, closed Newton-Cotes rules for n < 6). */
 static double weight_of(int n, int node)
 {
     static const double closed[][3] = {{0.5, 0, 0},
@@ -412,8 +414,8 @@ static double weight_of(int n, int node)
     return from_end < 3 ? closed[(n < most ? n : most) - 1][from_end] : 1;
 }
 
-/* Sets `couple` at an end of the element after node i. Together with the masses at the nodes
- * beyond, it has the inertia force of all mass beyond the node for an acceleration that varies
+/* Sets `couple` at an end of the element after node i. Together with the masses at the nodes beyond
+ * node i, it has the inertia force of all mass beyond the node for an acceleration that varies
  * linearly, and the moment of this mass for a uniform acceleration. */
 static void set_end(mesh_element *el, int end, int n, int i, double beyond, double first)
 {
@@ -422,7 +424,7 @@ static void set_end(mesh_element *el, int end, int n, int i, double beyond, doub
     el->couple[end] = length * length / 2 - first;
 }
 
-/* Sets the shares of `count` consecutive elements of one kind. */
+/* Sets the shares of `count` consecutive elements of the same kind. */
 static void set_shares(mesh_element *el, int count)
 {
     double beyond = 0, first = 0; /* weights of the nodes beyond, and their moment about node i */
@@ -434,8 +436,8 @@ static void set_shares(mesh_element *el, int count)
     }
 }
 
-/* Returns 1 if two consecutive elements of a member are equal in length, section and mass. The
- * lengths in a bow differ because of its slope, by less than the error of the weights. */
+/* Returns 1 if two consecutive elements of a member have equal length, section and mass. The
+ * lengths in a bow differ because of its slope, but by less than the error of the weights. */
 static int runs_on(const model *m, int first, int next)
 {
     const mesh_element *a = &m->mesh.element[first], *b = &m->mesh.element[next];
@@ -480,8 +482,9 @@ static status allocate(model *m, fault *f)
     double total = 0;
     for (int i = 0; i < s->members; i++)
         total += (double)division_pieces(&m->division, i) * m->division.each[i];
-    const double per_element = 8e3; /* bytes per element, including its share of matrices and
-                                       factors; measured on straight members */
+    /* bytes per element, including its share of matrices and factors, as measured for straight
+     * members */
+    const double per_element = 8e3;
     char what[80];
     snprintf(what, sizeof what, "%.0f elements", total);
     TRY(memory_check(total * per_element, what, "give fewer", f));

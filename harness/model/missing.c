@@ -9,10 +9,10 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 
-/* largest share of shear in a deflection that may be neglected. A length l whose ends do not rotate
- * deflects by F l^3/(12 EI) in bending and F l/(kGA) in shear: their ratio is Phi = 12 EI/(kGA l^2)
- * (a cantilever: a quarter of that; bending in n half-waves: about n^2 times it). Above this limit,
- * neglecting shear changes the model instead of approximating it. */
+/* Largest share of shear in a deflection that may be neglected. A length l whose ends do not rotate
+ * deflects by F l^3/(12 EI) in bending and by F l/(kGA) in shear. Their ratio is Phi = 12 EI/(kGA
+ * l^2). It is a quarter of Phi for a cantilever, and about n^2 Phi for bending in n half-waves.
+ * Above this limit, neglecting shear changes the model instead of approximating it. */
 static const double largest_phi = 0.01;
 
 /* Box around members that are connected. */
@@ -39,9 +39,9 @@ static int shares_section(const scene_member *a, const scene_member *b)
            a->section_q == b->section_q;
 }
 
-/* Diagonal [m] of the box around a member and the connected members of the same section: one beam
- * may be described by several short members. reached[nodes] must be zero on entry; the nodes that
- * are reached are set to 1. */
+/* Returns the diagonal [m] of the box around a member and the connected members with the same
+ * section, because several short members may describe one beam. reached[nodes] must be zero on
+ * entry. The nodes that are reached are set to 1. */
 static double extent_of(const scene *s, int member, char *reached)
 {
     const scene_member *first = &s->member[member];
@@ -61,7 +61,7 @@ static double extent_of(const scene *s, int member, char *reached)
     return vec3_norm(size);
 }
 
-/* Returns the largest Phi of bending along y. */
+/* Returns the largest Phi for bending along y. */
 static double phi_along_y(const scene *s)
 {
     double largest = 0;
@@ -73,7 +73,7 @@ static double phi_along_y(const scene *s)
             section c;
             if (scene_constants(s, end[k], &c, NULL) == STATUS_OK)
                 largest = fmax(largest, 12 * c.young * c.Iz * c.F[0] / (c.shear_modulus * l * l));
-        } /* model_alloc reports why a section is invalid */
+        } /* model_alloc reports the reason why a section is invalid */
         free(reached);
     }
     return largest;
@@ -92,7 +92,7 @@ int lacks_of(const scene *s, const element_type *type, char *words, int size)
     return phi > largest_phi ? 2 : 1;
 }
 
-/* Returns 1 if off-diagonal shear flexibilities exceed the round-off of the diagonal. */
+/* Returns 1 if off-diagonal shear flexibilities exceed the rounding errors of the diagonal. */
 static int is_coupled(const section *c)
 {
     static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
@@ -126,7 +126,7 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
     return 0;
 }
 
-/* Names inertia that a motion requires and that is missing. */
+/* Names the inertia that a motion requires and that is missing. */
 static int mass_lacks(const scene *s, const element_type *type, char *words, int size)
 {
     for (int i = 0; i < s->analyses && !type->spreads; i++)
@@ -135,7 +135,7 @@ static int mass_lacks(const scene *s, const element_type *type, char *words, int
     return 0;
 }
 
-/* Names strains that the scene changes but that a type returning forces does not have. */
+/* Names the strains that the scene changes but that a type with nodal forces does not have. */
 static int strains_lack(const scene *s, const element_type *type, char *words, int size)
 {
     scene_words who;
@@ -145,8 +145,8 @@ static int strains_lack(const scene *s, const element_type *type, char *words, i
     return 1;
 }
 
-/* Names the missing physics. Curved members can be modelled by straight elements; the scene then
- * requires only the strain of its members. */
+/* Names the missing physics. Straight elements can model curved members, and the scene then
+ * requires only the strains of its members. */
 static void words_of(unsigned missing, char *words, int size)
 {
     const int used = feature_words(missing & ~(unsigned)FEATURE_CURVATURE, words, size);
@@ -171,8 +171,8 @@ int missing_words(const scene *s, const element_type *type, char *words, int siz
     return 0;
 }
 
-/* Returns the features that are not essential: without them loads and supports keep their
- * meaning. */
+/* Returns the features that are not essential. Loads and supports have the same meaning if these
+ * features are omitted. */
 static unsigned can_be_omitted(const scene *s)
 {
     const unsigned physics = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |
@@ -355,7 +355,7 @@ enum { HELD, SHARED, FREE, STATES };
 enum { ENDS_MOST_NAMES = 8 };
 
 typedef struct ends_tally {
-    int of[STATES], all; /* ends of members that warp */
+    int of[STATES], all; /* numbers of ends of members that warp, in each state and in all */
 } ends_tally;
 
 typedef struct held_ends {
@@ -386,7 +386,7 @@ static int state_of(const held_ends *e, int member, int end)
     return warp == SCENE_WARP_FIXED ? HELD : warp >= 0 ? SHARED : FREE;
 }
 
-/* Names of the ends in one state after the other. */
+/* Names of the ends, one state after the other. */
 typedef struct ends_words {
     char *text;
     size_t room, used;
@@ -408,7 +408,7 @@ static void add(ends_words *w, const char *text)
     w->names++;
 }
 
-/* Adds the node if all its ends have this state; otherwise adds each end that has it. */
+/* Adds the node if all its ends have this state. Otherwise adds each end with this state. */
 static void add_node(const held_ends *e, int node, int state, ends_words *out)
 {
     const scene *s = e->scene;

@@ -8,7 +8,7 @@
 #include "cases/scene/scene.h"
 #include "harness/formulations/formulations.h"
 
-/* Returns 1 if the scene has a motion: loads along members then use the displacement field of the
+/* Returns 1 if the scene has a motion. Loads along members then use the displacement field of the
  * mass. */
 static int takes_loads(const model *m)
 {
@@ -48,7 +48,7 @@ static int stations_of(const scene_analysis *a)
 }
 
 /* Checks a lower bound of the memory for elements, matrix patterns and states stored along the
- * path; REFUSED if the machine has less. */
+ * path. REFUSED: the machine has less memory. */
 static status check_memory(const model *m, fault *f)
 {
     const double entries = (double)m->mesh.coordinates * m->mesh.coordinates / 2,
@@ -257,7 +257,7 @@ status model_alloc(const model_request *request, model **out, fault *f)
     return model_alloc_imperfect(request, NULL, out, f);
 }
 
-/* Creates a model of the same scene with a different number of elements. */
+/* Creates a model of the same scene with another number of elements. */
 static status again(const model *m, int elements, model **out, fault *f)
 {
     const model_request request = {m->scene, m->given, m->options, elements, m->keep_all, m->omits};

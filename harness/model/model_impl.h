@@ -6,129 +6,130 @@
 #include "elements/element.h"
 #include "harness/model/model.h"
 
-/* elements: number per piece of each member that does not specify its own. */
+/* Makes the division. elements: number per piece of each member that does not specify a number. */
 status division_make(const scene *, int elements, division *, fault *);
 void division_free(division *);
 
 int division_pieces(const division *, int member);
 int division_elements(const division *, int member);
-/* Sets ends[2] to the start and end of the piece that contains an element, counted along its
- * member. Returns the element's number in the piece. */
+/* Sets ends[2] to the start and end of the piece that contains an element, which is counted along
+ * its member. Returns the index of the element in the piece. */
 int division_piece(const division *, int member, int number, double ends[2]);
 
 status discrete_build(model *, fault *);
-/* rigid_body.c: computes the inertia of a body in its node's coordinates [7: translation, spatial
- * rotation, warping, which does not move]. x has the position and, in R, the rotation since the
- * undeformed state. frame NULL: the frame is at rest. */
+/* Computes the inertia of a body in the coordinates of its node [7: translation, spatial rotation,
+ * warping, which does not move] (rigid_body.c). x contains the position and, in R, the rotation
+ * since the undeformed state. frame NULL: the frame is at rest. */
 void body_inertia(const scene_body *b, const node_state *x, const element_rotating_frame *frame,
                   inertia_output *out);
 
-/* Features that the scene requires, and a description of the unsupported features or of the
- * exceeded limit. */
+/* Features that the scene requires, and descriptions of unsupported features and of exceeded
+ * limits. */
 /* Returns 1 if elements of the type have distributed mass in this motion. */
 int features_spreads(const scene *, int analysis, const element_type *, const double options[]);
 
 /* Returns the features without which a requested quantity is meaningless. */
 unsigned features_of_quantities(const scene *);
 
-/* Removes omitted physics from a section, where elements do not do so themselves. */
+/* Removes omitted physics from a section if elements do not remove it. */
 void missing_omit(section *, unsigned omits);
 /* Returns the description of the limit of the type that a section with this number of closed cells
  * exceeds; NULL: none. */
 const char *missing_in_section(const element_type *, const section *, int cells, int warps);
 
-/* Sections of the elements: first those of the scene, then one section for each element of tapered
- * members, evaluated at its middle. Tapered members with the same end sections and the same number
- * of equal elements share them.
- *
- * The pieces are prismatic, so the error is of second order in their length for every
- * formulation. */
+/* Sections of the elements. The sections of the scene come first, followed by one section for each
+ * element of tapered members, which is evaluated at the middle of the element. Tapered members with
+ * the same end sections and the same number of equal elements share these sections. The elements
+ * are prismatic, so the error is of second order in their length for every formulation. */
 
 /* Computes the sections of the scene. */
 status profile_scene(model *m, fault *f);
-/* Computes the sections of all elements of tapered members. No later call changes m->section.
+/* Computes the sections of all elements of tapered members. Later calls do not change m->section.
  * *sections: number of sections. */
 status profile_members(model *m, int *sections, fault *f);
 
 /* Returns the number of released ends of all members. */
 int release_count(const scene *);
-/* Creates the vertices of released ends together with the elements. */
+/* Creates the vertices of released ends. They are created together with the elements. */
 status release_build(model *, fault *);
 
-/* Adds to d[6] the motion of the end relative to its node for the increment dx of its own
- * coordinates. */
+/* Adds the motion of the end relative to its node due to the increment dx of its released
+ * coordinates to d[6]. */
 void release_add_local(const model *, const model_state *, int vertex, const double dx[],
                        double d[6]);
-/* Transforms T[6 x count] of the node to that of the end; the end's own columns start at `own`. */
+/* Transforms T[6 x count] of the node to the T of the end. The columns of released coordinates
+ * start at `own`. */
 void release_jacobian(const model *, const model_state *, int vertex, int count, int own,
                       double T[]);
-/* Sets the position and orientation of released ends, after those of all nodes. */
+/* Sets the positions and orientations of released ends. Those of all nodes must be set. */
 void release_follow(const model *, model_state *);
 
-/* Transforms force[6] from the end's frame to that of its node. own[]: forces of the end's own
- * coordinates. */
+/* Transforms force[6] from the frame of the end to the frame of its node. own[]: forces on the
+ * released coordinates. */
 void release_force(const model *, const model_state *, int vertex, double force[6], double own[]);
-/* Transforms K in the same way. The six coordinates of the end start at `at`, its own coordinates
- * at `own`. force[6]: as in release_force, which must be called first; NULL: no second
- * derivatives. */
+/* Transforms K in the same way. The six coordinates of the end start at `at`, and the released
+ * coordinates start at `own`. force[6]: as in release_force, which must be called first; NULL:
+ * second derivatives are omitted. */
 void release_matrix(const model *, const model_state *, int vertex, int n, int at, int own,
                     double force[6], double K[]);
 
-/* Allocates the tracked rotation vectors, in this order: nodes of the scene, springs (relative
- * between their ends), and relative vectors between nodes that quantities use. */
+/* Allocates the tracked rotation vectors in the following order: nodes of the scene, springs
+ * (relative between their ends), and relative vectors between nodes that quantities use. */
 status turns_build(model *, fault *);
 
-/* Updates the rotation vectors of a state after a change of orientations; state.turn contains their
- * previous values. */
+/* Updates the rotation vectors of a state after a change of orientations. On entry, state.turn
+ * contains their previous values. */
 void turns_follow(const model *, model_state *);
-/* Returns the rotation vector between two nodes; NULL: no quantity reads it. */
+/* Returns the rotation vector between two nodes; NULL: no quantity needs it. */
 const double *turns_between(const model *, const model_state *, int from, int node);
 
 /* Inertia of a rigid body that moves with a node. */
 
 /* The undeformed axis of a member. */
 
-/* An arc of constant torsion and curvature between two points (straight if these are zero). */
+/* An arc of constant torsion and curvature between two points. The arc is straight if torsion and
+ * curvature are zero. */
 typedef struct member_arc {
     double length;         /* along the arc [m] */
     double start[3], R[9]; /* position and triad at p */
     double k[3];           /* [1/m] */
-    double bow[2]; /* deviation from the arc, in its axes: bow sin(half_waves pi s/length) [m] */
+    /* [m] bow: deviation from the arc, in the axes of the arc: bow sin(half_waves pi s/length) */
+    double bow[2];
     int half_waves;
 } member_arc;
 
-/* axes_angle [rad]: angle of the section's axes. REFUSED: no arc of this curvature connects the
- * member's ends. */
+/* Computes the axis of a member. axes_angle [rad]: angle of the axes of the section. REFUSED: no
+ * arc of this curvature connects the ends of the member. */
 status member_arc_of(const scene *s, int member, double axes_angle, member_arc *out, fault *f);
 /* Computes the position, and the triad without the bow, at the arc length s [m]. */
 void member_arc_at(const member_arc *a, double s, double position[3], double R[9]);
 
-/* Private members of a model, for harness/model alone. */
+/* Members of a model that only harness/model uses. */
 
-/* A tracked rotation vector: of a node's frame relative to another node's frame; NONE: relative to
- * the fixed frame. */
+/* A tracked rotation vector of a node's frame. It is relative to the frame of another node (NONE:
+ * to the fixed frame). */
 typedef struct mesh_turn {
     int from, node;
 } mesh_turn;
 
 struct model {
-    model_mesh mesh; /* the public part, which must be first */
+    model_mesh mesh; /* public part, which must be the first member */
     const scene *scene;
     const model_imperfect *imperfect; /* NULL: perfect */
-    const element_type *given;        /* as defined in its file */
-    element_type completed;           /* copy in which adapters have added missing functions */
+    const element_type *given;        /* type as defined in its file */
+    element_type completed; /* copy of the type to which adapters have added missing functions */
     double options[ELEMENT_MAX_OPTIONS];
     int keep_all;
-    unsigned features, omits; /* supported features, and physics of the scene that is omitted */
-    section *section;         /* those of the scene, then of tapered members: model.h */
-    int *profile;             /* [members] section of the first element */
-    mesh_triad *triad;        /* [triads], capacity for all nodes of all elements */
+    unsigned features, omits; /* supported features, and omitted physics of the scene */
+    section *section;         /* sections of the scene, followed by those of tapered members */
+    int *profile;             /* [members] index of the section of the first element */
+    mesh_triad *triad;        /* [triads] with capacity for all nodes of all elements */
     int triads;
-    int *kind_of_section;  /* [sections] first kind of the section, or NONE */
-    scene_spring *founded; /* springs of foundations, at the vertices of their members */
+    int *kind_of_section;  /* [sections] first kind with the section, or NONE */
+    scene_spring *founded; /* springs of foundations at the vertices of their members */
     mesh_turn *turn;       /* [turns] in the order of model_turns */
     double size;           /* length of the longest member [m] */
-    int asked;             /* requested elements per piece of a member */
+    int asked;             /* requested number of elements per piece of a member */
     division division;     /* division of the members into elements */
     model_state *rest;     /* undeformed */
     int lines;
@@ -136,29 +137,31 @@ struct model {
 };
 _Static_assert(offsetof(struct model, mesh) == 0, "model_mesh_of finds it by the model's address");
 
-/* Displacement and rotation of members between their ends, linear between the points. */
+/* Displacement and rotation of members between their ends, which are linear between the points. */
 struct model_imperfect {
-    scene own;   /* scene with its own copies of nodes, members and loads */
-    scene lines; /* copy with shifted nodes only, for the lines of members */
-    int modes;   /* 0: shifts of nodes only */
-    int *first;  /* [members + 1] index of the first point of each */
-    double *place, (*shift)[3], (*turn)[3]; /* [points] place 0 .. 1; [m], [rad] */
+    scene own;   /* scene with copies of nodes, members and loads */
+    scene lines; /* copy of the scene in which only nodes are shifted, for the lines of members */
+    int modes;   /* 0: there are only shifts of nodes */
+    int *first;  /* [members + 1] index of the first point of each member */
+    /* [points] position 0 .. 1, shift [m], and rotation [rad] */
+    double *place, (*shift)[3], (*turn)[3];
 };
 
-/* imperfect: shape for the requested scene, which must outlive the model; NULL: perfect. */
+/* Creates a model. imperfect: shape for the requested scene, which must outlive the model; NULL:
+ * perfect. */
 status model_alloc_imperfect(const model_request *, const model_imperfect *, model **, fault *);
 /* Returns the scene that defines the lines of members from which modes deviate. */
 const scene *imperfect_lines(const model *);
-/* Moves a point of a member's line and its triad; no effect in a perfect model. */
+/* Moves a point of the line of a member, and its triad. Has no effect in a perfect model. */
 void imperfect_move(const model *, int member, double place, double position[3], double R[9]);
 /* Computes the change of the rotation between two positions on a member. */
 void imperfect_turn(const model *, int member, const double place[2], double turn[3]);
-/* centreline.c: computes the increments of all vertices, [vertices x 6], including nodes without
- * members. */
+/* Computes the increments of all vertices, [vertices x 6], including nodes without members
+ * (centreline.c). */
 void centreline_increments(const model *, const double x[], double out[]);
 
-/* release.c: sets the length and R of an arc with curvature k between two points. y: axis at its
- * start. REFUSED: there is no such arc. */
+/* Sets the length and R of an arc with curvature k between two points (release.c). y: y axis at the
+ * start of the arc. REFUSED: there is no such arc. */
 status member_arc_between(const scene *s, int member, const double chord[3], const double y[3],
                           member_arc *, fault *);
 
@@ -170,7 +173,7 @@ status coordinates_number(model *m, fault *f);
 status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* coordinates.c: text that is truncated to its capacity. */
+/* Text that is truncated to its capacity (coordinates.c). */
 typedef struct model_words {
     char *text;
     size_t room, used;

@@ -120,7 +120,7 @@ void member_arc_at(const member_arc *a, double s, double position[3], double R[9
 
 enum { BALL = 3 }; /* three rotations without order */
 
-/* Returns 1 if this end of a member has its own vertex. */
+/* Returns 1 if this end of a member has a separate vertex. */
 static int is_own(const scene_member *m, int end)
 {
     return m->release[end].count > 0 || scene_is_beside(m, end);
@@ -183,8 +183,9 @@ status release_build(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the orientation after the rotations of a released end; for a ball joint, that of the
- * body. b[turns x 3]: spatial axes of the rotations; for a ball joint, the fixed axes. */
+/* Computes the orientation after the rotations of a released end. For a ball joint, this is the
+ * orientation of the body. b[turns x 3]: spatial axes of the rotations, or the fixed axes for a
+ * ball joint. */
 static void follow_turns(const mesh_release *r, const double angle[3], const double body[4],
                          double b[3][3], double q[4])
 {
@@ -359,7 +360,8 @@ void release_widen(const mesh_element *el, double K[])
     memset(&K[n * wide], 0, (size_t)(wide * (wide - n)) * sizeof *K);
 }
 
-/* Sets row and column `to` of K to the combination of the three at `from` along v. */
+/* Replaces row and column `to` of K by the combination of the three rows and columns at `from`
+ * along v. */
 static void take_along(int n, int from, const double v[3], int to, double K[])
 {
     for (int i = 0; i < n; i++)
@@ -376,8 +378,8 @@ static void add_pair(int n, int a, int b, double value, double K[])
     K[b * n + a] += value;
 }
 
-/* Adds the second derivatives F . (theta x along), because the rotation of the end comes before its
- * displacement. */
+/* Adds the second derivatives F . (theta x along), because the rotations of the end precede its
+ * displacements. */
 static void take_slides(const mesh_release *r, double along[3][3], const double apart[3], int n,
                         int at, int own, double force[6], double K[])
 {
@@ -394,8 +396,8 @@ static void take_slides(const mesh_release *r, double along[3][3], const double 
         offset_force(apart, force);
 }
 
-/* Adds the second derivatives M . (theta x b_j)/2 for rotations of the body, which come before
- * those of the end, and M . (b_i x b_j)/2 for those of the end. */
+/* Adds the second derivatives M . (theta x b_j)/2 for rotations of the body, which precede those of
+ * the end, and M . (b_i x b_j)/2 for rotations of the end. */
 static void add_turned_moment(const mesh_release *r, double b[3][3], const double moment[3], int n,
                               int at, int own, double K[])
 {

@@ -1,9 +1,10 @@
-/* A rigid body in a frame that rotates with Omega: with its centre at x from a point on the axis,
- * its inertia I = R I_0 R^T about the centre and h = I Omega, potential = -1/2 (m |Omega x x|^2 +
- * Omega . h). Terms about the centre, for its translations and rotations in the exponential chart:
- * centrifugal force -m Omega x (Omega x x) and moment h x Omega, softening m Omega~^2 and Omega~ I
- * Omega~ - sym(h Omega^T) + (h . Omega) 1, gyroscopic matrix 2 m Omega~ and I Omega~ + Omega~ I -
- * h~ (also for a body that rotates in the frame). The rigid offset transforms these to the node. */
+/* A rigid body in a frame that rotates with Omega. x is the vector from a point on the axis to the
+ * centre of the body, I = R I_0 R^T is the inertia about the centre, and h = I Omega. The potential
+ * is -1/2 (m |Omega x x|^2 + Omega . h). Terms about the centre, for translations and for rotations
+ * in the exponential chart: centrifugal force -m Omega x (Omega x x) and moment h x Omega;
+ * softening m Omega~^2 and Omega~ I Omega~ - sym(h Omega^T) + (h . Omega) 1; gyroscopic matrix 2 m
+ * Omega~ and I Omega~ + Omega~ I - h~, even if the body rotates in the frame. The rigid offset
+ * transforms these terms to the node. */
 #include "harness/model/model_impl.h"
 
 #include <string.h>
@@ -25,7 +26,7 @@ static void inertia_now(const double given[6], const double R[9], double I[9])
             I[3 * i + j] = vec3_dot(&half[3 * i], &R[3 * j]);
 }
 
-/* Fills A[7 x 7] with the diagonal blocks of the translations and rotations. */
+/* Fills A[7 x 7] with the diagonal blocks for translations and rotations. */
 static void put_blocks(const double translation[9], const double rotation[9], double A[N * N])
 {
     memset(A, 0, N * N * sizeof *A);

@@ -55,9 +55,9 @@ status turns_build(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if the vector keeps its direction. Near a full revolution the difference from it is
- * small, and the direction of the difference is round-off if it is parallel to the previous
- * vector. */
+/* Returns 1 if the vector keeps its direction. Near a full revolution, the difference from the
+ * previous vector is small. If the difference is parallel to the previous vector, its direction is
+ * a rounding error. */
 static int keeps_direction(const double more[3], const double before[3], double length)
 {
     const double near = 1e-3, round_off = 1e-8;
@@ -66,9 +66,8 @@ static int keeps_direction(const double more[3], const double before[3], double 
     return vec3_norm(more) < near && vec3_norm(aside) < round_off * length;
 }
 
-/* Returns the rotation vector [rad] of q closest to `before`, among all vectors of q and of -q. At
- * a full revolution, where the vector has no direction of its own, the direction of `before` is
- * used. */
+/* Returns the rotation vector [rad] closest to `before` among all vectors of q and of -q. At a full
+ * revolution, the vector has no direction, so the direction of `before` is used. */
 static void turns_continue(const double q[4], const double before[3], double out[3])
 {
     const double sine = vec3_norm(q + 1), length = vec3_norm(before);
@@ -105,8 +104,8 @@ static void between_frames(const model_state *s, const mesh_turn *t, double q[4]
     rotation_compose(back, &s->q[4 * t->node], q);
 }
 
-/* Sets the rotation vector of a node whose rotation is a single prescribed or fixed angle to that
- * angle, which may change by any amount in one step. Returns 0 for other nodes. */
+/* Sets the rotation vector of a node whose rotation is a single prescribed or fixed angle to this
+ * angle, which may change by any amount in a step. Returns 0 for other nodes. */
 static int by_angle(const model *m, const model_state *s, int node, double out[3])
 {
     const mesh_vertex *v = &m->mesh.vertex[node];
@@ -170,7 +169,7 @@ void turns_put_between(const model *m, const model_state *s, double out[])
     }
 }
 
-/* Starts the relative vector as if both nodes had rotated about one axis. */
+/* Starts the relative vector as if both nodes had rotated about the same axis. */
 static void begin_between(const model *m, model_state *s, int i)
 {
     const mesh_turn *t = &m->turn[i];
@@ -213,11 +212,11 @@ void turns_lose(const model *m, const model_state *from, model_state *s)
 }
 
 /* Increments in the axes of p: delta = R_p^T (dr_q - dr_p), alpha = R_p^T dphi_p, beta = R_p^T
- * dphi_q, w = R_p^T (r_q - r_p). Translations: exp(-alpha~) (w + delta). Rotation vector theta of
- * exp(-alpha~) exp(beta~) Theta, to second order exp(gamma~) Theta with gamma = beta - alpha -
- * alpha x beta/2, log(exp(gamma~) Theta) has the first derivative B = 1 - theta~/2 + c theta~^2,
- * c(x) = (1 - theta/2 cot(theta/2))/x, x = theta^2, and the second derivative (dB[B gamma])
- * gamma. */
+ * dphi_q, w = R_p^T (r_q - r_p). Translations: exp(-alpha~) (w + delta). The rotation vector theta
+ * belongs to exp(-alpha~) exp(beta~) Theta. To second order, this is exp(gamma~) Theta with gamma =
+ * beta - alpha - alpha x beta/2. log(exp(gamma~) Theta) has the first derivative B = 1 - theta~/2 +
+ * c theta~^2, where c(x) = (1 - theta/2 cot(theta/2))/x and x = theta^2, and the second derivative
+ * (dB[B gamma]) gamma. */
 
 enum { N = NODE_COORDINATES, SIX = SPRING_STRAINS };
 
@@ -280,7 +279,7 @@ static void cross_matrix(const double v[3], double A[9])
     memcpy(A, all, sizeof all);
 }
 
-/* Computes c and dc/dx; where the closed form would lose digits by cancellation, from the sums of
+/* Computes c and dc/dx. If the closed form would lose digits by cancellation, uses the sums of
  * |B_2k| x^(k-1)/(2k)!, where B_2k are the Bernoulli numbers. */
 static void coefficient(double x, double *c, double *slope)
 {
@@ -344,7 +343,7 @@ static void rotation_part(const double R[9], const double near[3], const double 
             second[3 * i + j] = (BW[3 * i + j] + BW[3 * j + i]) / 2;
 }
 
-/* Adds sign P X P^T to A[n x n] at (row, column); X[3 x 3] is given in the axes P. */
+/* Adds sign P X P^T to A[n x n] at (row, column). X[3 x 3] is given in the axes P. */
 static void add_block(int n, int row, int column, double sign, const double P[9], const double X[9],
                       double A[])
 {

@@ -9,11 +9,11 @@
 
 enum { N = 6, ALL = 0x3f };
 
-/* Rotation axes have an error of a few eps. Smaller parts of unit columns are treated as
- * round-off. */
+/* Rotation axes have an error of a few eps. Smaller parts of unit columns count as rounding errors.
+ * */
 static const double round_off = 1e-12;
 
-/* Removes from the column its component along the `count` orthonormal vectors; the second pass
+/* Removes the component along the `count` orthonormal vectors from the column. A second pass
  * ensures orthogonality. */
 static void deflate(int n, int count, double (*basis)[N], double column[])
 {
@@ -25,8 +25,8 @@ static void deflate(int n, int count, double (*basis)[N], double column[])
         }
 }
 
-/* Finds orthonormal vectors that span `count` columns of unit length by pivoted Gram-Schmidt
- * orthogonalisation. Returns the rank. */
+/* Finds orthonormal vectors that span `count` columns of unit length, by Gram-Schmidt
+ * orthogonalisation with pivoting. Returns the rank. */
 static int orthonormal(int n, int count, double (*column)[N], double (*basis)[N])
 {
     int rank = 0;
@@ -51,7 +51,7 @@ static int orthonormal(int n, int count, double (*column)[N], double (*basis)[N]
 }
 
 /* Scales the columns of T to unit length, with displacements in units of `length`. Omits columns
- * that cancel to round-off. Returns the number of the remaining columns. */
+ * that are rounding errors. Returns the number of the remaining columns. */
 static int unit_columns(int columns, const double *T, double length, double (*column)[N])
 {
     int count = 0;
@@ -83,7 +83,7 @@ static unsigned components_of(int rank, double (*basis)[N])
 }
 
 /* Returns the components that move if every column is a single component or zero, as for a node
- * that is its own body; ALL + 1: there is a different column. */
+ * that is not moved by another body; ALL + 1: there is another kind of column. */
 static unsigned components_alone(int columns, const double *T)
 {
     unsigned components = 0;
@@ -168,8 +168,8 @@ void movable_prescribed(int columns, const double *T, const double m[3], double 
         deflate(3, rank, basis, out);
 }
 
-/* Finds parts of the structure that the supports do not hold. Only the supports decide whether
- * connected parts can move rigidly; stiffness is irrelevant. */
+/* Finds parts of the structure that the supports do not hold. Only the supports decide if connected
+ * parts can move rigidly. Stiffness is irrelevant. */
 
 enum { SUPPORTS_N = 6 };
 
@@ -252,7 +252,7 @@ void supports_prevented(const model *m, int node, const double origin[3],
         out[i] = (G[i] - out[i]) * (i / SUPPORTS_N < 3 ? 1 : m->size);
 }
 
-/* Adds the squares of the motions that the supports of a node prevent to sum. */
+/* Adds the squares of the motions that the supports of a node prevent to `sum`. */
 static void add_supports(const model *m, int node, const double origin[3],
                          double sum[SUPPORTS_N * SUPPORTS_N])
 {
