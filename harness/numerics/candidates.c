@@ -52,8 +52,8 @@ static status make_room(candidates *p, int room, fault *f)
     return STATUS_OK;
 }
 
-/* Returns x^T a x from the caller's function, or from the matrix. In the latter case, a x is stored
- * in `product`. */
+/* Returns x^T a x from the caller's function, or from the matrix. In the second case, `product`
+ * receives a x. */
 static double form_of(const candidates *p, eigen_form *form, const sparse *a, const double x[],
                       double product[])
 {
@@ -68,8 +68,8 @@ static double K_form(candidates *p, const double x[])
     return form_of(p, p->problem->K_energy, p->problem->K, x, p->form);
 }
 
-/* Returns eps times the square root of the sum of the squares of all terms of x^T (K - s A/mu) x,
- * because their rounding errors are independent. */
+/* Returns eps times the square root of the sum of the squares of all terms of x^T (K - s A/mu) x.
+ * The squares are added because the rounding errors are independent. */
 static double rounding(const candidates *p, double mu, const double x[])
 {
     const sparse *K = p->problem->K, *A = p->problem->A;
@@ -107,7 +107,8 @@ double candidates_least(int n, double scale)
 
 int candidates_is_rounding(const candidates *p, double energy, const double x[])
 {
-    const double sure = 128; /* an element contributes through its own eliminations */
+    /* an element contributes through all eliminations of its coordinates */
+    const double sure = 128;
     const eigen_problem *e = p->problem;
     return e->A_rounding != NULL && fabs(energy) <= sure * e->A_rounding(e->context, x);
 }
@@ -208,7 +209,7 @@ static void add_next(candidates *p, double least)
     sort_last(p);
 }
 
-/* Adds vectors; x may contain the vectors of the candidates themselves. */
+/* Adds vectors. x may contain the vectors of the candidates. */
 static void add_all(candidates *p, int count, const double x[], double least)
 {
     const size_t n = (size_t)p->n;
@@ -247,11 +248,11 @@ double *candidates_products(const candidates *p)
     return products;
 }
 
-/* Error bound: if x^T K x = 1 and y = K^-1 s A x - mu x, an eigenvalue lies within sqrt(y^T K y) of
- * mu. The component of y along a larger mode k, c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a
- * part c_k/(mu_k - mu) of that mode in x, which changes the quotient mu by c_k^2/(mu_k - mu), or by
- * mu_k - mu if the two are too close to be distinguished. The rest of y contributes its full
- * length. */
+/* Error bound: if x^T K x = 1 and y = K^-1 s A x - mu x, the distance from mu to an eigenvalue is
+ * at most sqrt(y^T K y). The component of y along a mode k with a larger eigenvalue, c_k = x_k^T K
+ * y = x_k^T s A y/mu_k, is due to a part c_k/(mu_k - mu) of this mode in x. This part changes the
+ * quotient mu by c_k^2/(mu_k - mu), or by mu_k - mu if the two eigenvalues are too close to be
+ * distinguished. The remaining part of y contributes its full length. */
 void candidates_judge(candidates *p, int i, double *residual, double *error)
 {
     const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
@@ -274,14 +275,14 @@ void candidates_judge(candidates *p, int i, double *residual, double *error)
     *error += fmax(rest, 0);
 }
 
-/* By Sylvester's law the number of mu > s > 0 equals the number of negative pivots of K - A/s. The
- * count is correct if the distance of s from every eigenvalue exceeds the effect of rounding in the
- * matrices. */
+/* According to Sylvester's law, the number of mu > s > 0 equals the number of negative pivots of K
+ * - A/s. The count is correct if the distance of s from every eigenvalue exceeds the effect of
+ * rounding in the matrices. */
 
 static const double close =
     1e-9; /* relative distance below which eigenvalues are not distinguished */
 
-/* Number of unknowns above which memory is freed instead of kept for reuse. */
+/* Number of unknowns above which memory is freed and not kept for reuse. */
 enum { LARGE = 20000 };
 
 void candidates_count_rest(candidates *p)
@@ -321,14 +322,15 @@ static int above_cluster(const candidates *p, int wanted, double *top)
     return q;
 }
 
-/* Counts by the inertia of the matrices at a value between two eigenvalues. */
+/* Counts with the inertia of the matrices at a value between two eigenvalues. */
 status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_result *work,
                                 fault *f)
 {
     static const double place[] = {0.5, 0.35, 0.65};
     double low;
     const int q = above_cluster(p, wanted, &low);
-    /* just above the cluster, because a larger value could hide missing eigenvalues below it */
+    /* The value is immediately above the cluster, because a larger value could hide missing
+     * eigenvalues below it. */
     const double told_apart = 2 * close + 32 * p->noise[q], near = 1e-2;
     const double high = q > 0 ? fmin(p->matrix_mu[q - 1], low * (1 + fmax(near, told_apart)))
                               : low * (1 + told_apart);
@@ -354,7 +356,7 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
     return STATUS_OK;
 }
 
-/* Projections of Y = K^-1 s A X need no product with K, since Y^T K Y = Y^T s A X. */
+/* Projections of Y = K^-1 s A X need no product with K, because Y^T K Y = Y^T s A X. */
 
 /* Computes Ax = s A x. */
 static void signed_product(const candidates *p, const double x[], double Ax[])
@@ -364,7 +366,7 @@ static void signed_product(const candidates *p, const double x[], double Ax[])
         Ax[i] *= p->sign;
 }
 
-/* Computes Y^T K Y and Y^T s A Y, column-major, upper triangles. */
+/* Computes the upper triangles of Y^T K Y and Y^T s A Y, column-major. */
 static void project(candidates *p, const double Y[], double K[], double A[])
 {
     const size_t n = (size_t)p->n, count = (size_t)p->count;
@@ -378,7 +380,7 @@ static void project(candidates *p, const double Y[], double K[], double A[])
     }
 }
 
-/* Replaces Y by Y C with the column-major C[count x count]; row[count]: workspace. */
+/* Replaces Y by Y C with the column-major C[count x count]. row[count]: work space. */
 static void combine(size_t n, size_t count, double Y[], const double C[], double row[])
 {
     for (size_t i = 0; i < n; i++) {
@@ -389,8 +391,8 @@ static void combine(size_t n, size_t count, double Y[], const double C[], double
     }
 }
 
-/* Replaces the candidates by the Ritz vectors of Y = K^-1 s A X; they do not change if LAPACK
- * fails. Workspace: Y[count x n], small[2 count^2 + count]. */
+/* Replaces the candidates by the Ritz vectors of Y = K^-1 s A X. They do not change if LAPACK
+ * fails. Work space: Y[count x n], small[2 count^2 + count]. */
 static status replace(candidates *p, double Y[], double small[], long *solutions, fault *f)
 {
     const size_t n = (size_t)p->n, count = (size_t)p->count;

@@ -6,16 +6,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Adds to the candidates of each side the first wanted[i] vectors of that side: the most positive
- * (0) and the most negative (1). side[i] NULL: this side is not requested. */
+/* Adds the first wanted[i] vectors of each side to its candidates: the most positive eigenvalues
+ * (0) and the most negative eigenvalues (1). side[i] NULL: this side is not requested. */
 static status eigen_dense_add(candidates *const side[2], const int wanted[2], fault *f);
 
 enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
 enum {
     DENSE_AT_LAST_UP_TO = 700
-}; /* largest size that is solved densely after the iteration ended early; this takes seconds */
+}; /* largest size for which a dense solution follows an iteration that ended early; such a solution
+      takes seconds */
 
-/* The iteration ignores eigenvalues below this fraction of the largest one. */
+/* The iteration ignores eigenvalues below this fraction of the largest eigenvalue. */
 static const double negligible = 1e-9;
 
 static void free_side(eigen_side *s)
@@ -33,7 +34,7 @@ void eigen_free(eigen_result *r)
     memset(r, 0, sizeof *r);
 }
 
-/* Adds candidates from one Lanczos run in the complement of the present candidates; mu[count],
+/* Adds candidates from a Lanczos run in the complement of the present candidates. mu[count],
  * Kx[candidates x n]. */
 static status take_lanczos(candidates *p, int count, double mu[], const double Kx[], double least,
                            long *solutions, fault *f)
@@ -59,9 +60,9 @@ static status run_lanczos(candidates *p, int wanted, double least, long *solutio
     return outcome;
 }
 
-/* Sets *exist to the number of existing eigenvalues, at most `enough`, counted above smaller and
- * smaller values. At very small values, where K is small compared with A/s, the count may fail for
- * lack of pivoting; the last valid count is then used. */
+/* Sets *exist to the number of existing eigenvalues, at most `enough`. They are counted above
+ * smaller and smaller values. At very small values, where K is small compared with A/s, the count
+ * may fail because of missing pivoting. The last valid count is then used. */
 static status count_existing(candidates *p, int enough, double scale, double least, int *exist,
                              eigen_result *r, fault *f)
 {
@@ -79,7 +80,7 @@ static status count_existing(candidates *p, int enough, double scale, double lea
     return STATUS_OK;
 }
 
-/* Solves for both sides from all eigenvectors. NULL: this side is not requested. */
+/* Solves for both sides from all eigenvectors. NULL: the side is not requested. */
 static status solve_densely(candidates *up, candidates *down, const int wanted[2], eigen_result *r,
                             fault *f)
 {
@@ -123,8 +124,8 @@ static status keep_first(candidates *p, eigen_result *r, fault *f)
     return STATUS_OK;
 }
 
-/* Solves for one side (0: the most positive) by iteration, and densely if that ends early and the
- * problem is small. */
+/* Solves for one side (0: most positive) by iteration. If the iteration ends early and the problem
+ * is small, solves with dense matrices. */
 static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, eigen_result *r,
                          fault *f)
 {
@@ -147,8 +148,8 @@ static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, e
                                        : keep_first(p, r, f);
 }
 
-/* Drops values that are rounding errors of A. If one value is a rounding error, so are all smaller
- * values. The largest value is tested, and all values that are small compared with it. */
+/* Removes values that are rounding errors of A. If a value is a rounding error, all smaller values
+ * are. The largest value is tested, and all values that are small compared with it. */
 static void drop_rounding(candidates *p, eigen_side *out)
 {
     const double suspect = 1e-6; /* fraction of the largest value */
@@ -161,7 +162,7 @@ static void drop_rounding(candidates *p, eigen_side *out)
         }
 }
 
-/* Computes the residuals and errors of the first `count` candidates; returns the largest error. */
+/* Computes the residuals and errors of the first `count` candidates. Returns the largest error. */
 static double judge(candidates *p, int count, eigen_side *out, long *solutions)
 {
     double largest = 0;
@@ -172,12 +173,12 @@ static double judge(candidates *p, int count, eigen_side *out, long *solutions)
     return largest;
 }
 
-/* Improves the vectors if the assembly of K has changed the eigenvalues, since its errors affect
- * the vectors too. */
+/* Improves the vectors if the assembly of K has changed the eigenvalues, because its errors also
+ * affect the vectors. */
 static status improve(candidates *p, int count, eigen_side *out, eigen_result *r, fault *f)
 {
     enum { SWEEPS = 3 };
-    const double bearable = 1e-6; /* the error of an eigenvalue is about its square */
+    const double bearable = 1e-6; /* the error of an eigenvalue is about the square of this value */
     const double good = 1e-8;
     if (p->problem->K_product == NULL || candidates_departure(p, count) <= bearable) {
         judge(p, count, out, &r->solutions);
@@ -262,8 +263,8 @@ static status solve(const eigen_problem *e, candidates *up, candidates *down, ei
                                       : fault_set(f, worse->status, "%s", worse->reason);
 }
 
-/* Uses the upper triangle of a matrix stored in full. K - A/mu, of which few digits may remain, is
- * then symmetric, even if rounding has made K and A unsymmetric. */
+/* Uses the upper triangle of a matrix of which all entries are stored. K - A/mu, of which few
+ * digits may remain, is then symmetric, even if K and A are unsymmetric because of rounding. */
 static status take_upper(const sparse **a, by_numbers **whole, fault *f)
 {
     if ((*a)->symmetric)
@@ -316,7 +317,8 @@ static void fill_dense(const sparse *a, double factor_, double D[])
             D[(size_t)a->row[k] * n + j] = D[j * n + (size_t)a->row[k]] = factor_ * a->value[k];
 }
 
-/* Computes all eigenvalues mu[n], ascending, with their vectors x[n x n], one after the other. */
+/* Computes all eigenvalues mu[n] in ascending order, and their vectors x[n x n], one after the
+ * other. */
 static status solve_dense(const eigen_problem *e, double mu[], double x[], fault *f)
 {
     const int n = e->K->n;
@@ -333,7 +335,7 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
                                  info);
 }
 
-/* Takes the candidates of one or both sides from all eigenvectors; side[i] NULL: not requested;
+/* Takes the candidates of one or both sides from all eigenvectors. side[i] NULL: not requested.
  * mu[n], x[n x n]. */
 static status take_dense(candidates *const side[2], const int wanted[2], double mu[], double x[],
                          fault *f)

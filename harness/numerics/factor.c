@@ -1,10 +1,9 @@
-/* LDL^T for symmetric and LU for unsymmetric matrices, with a check whether a small pivot is only
- * round-off.
- *
- * With x = A^-1 e_i and y = A^-T e_k the number x_k = y^T A x is a sum of terms y_i a_ij x_j.
- * Rounding of A changes x_k by about eps times the square root of the sum of the squares of these
- * terms. If this change is as large as x_k, A is singular to working precision. (The last pivot of
- * a free beam of n elements is eps n^2, not eps, times its diagonal entry.) */
+/* LDL^T for symmetric and LU for unsymmetric matrices. A check shows if a small pivot is only a
+ * rounding error. With x = A^-1 e_i and y = A^-T e_k, the number x_k = y^T A x is a sum of terms
+ * y_i a_ij x_j. Rounding of A changes x_k by about eps times the square root of the sum of the
+ * squares of these terms. If this change is as large as x_k, A is singular to working precision.
+ * For example, the last pivot of a free beam with n elements is eps n^2 times its diagonal entry,
+ * and not eps times this entry. */
 #include "harness/numerics/numerics_impl.h"
 
 #include <float.h>
@@ -14,23 +13,24 @@
 
 static status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
                                        factor_counts *counts, fault *f);
-/* Returns OK, SINGULAR, or FAULT if memory ran out. The first pivot order is used again for all
- * later matrices, without allocation, until pivot growth requires new ones. *row, *column: position
- * of the smallest pivot; *ratio: its size relative to the largest entries of that row and
- * column. */
+/* Factors the values. Returns OK, SINGULAR, or FAULT if out of memory. The first pivot order is
+ * used again for all later matrices, without allocation, until pivot growth requires a new order.
+ * *row, *column: position of the smallest pivot. *ratio: its magnitude relative to the largest
+ * entries of this row and column. */
 static status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a,
                                          factor_counts *counts, int *row, int *column,
                                          double *ratio);
 
 struct matrix_factor {
     int n;
-    factor_operator by;              /* with functions NULL: there is no operator */
-    factor_symmetric *symmetric;     /* LDL^T; a matrix with by_numbers has both */
+    factor_operator by;              /* operator; functions NULL: there is no operator */
+    factor_symmetric *symmetric;     /* LDL^T; a matrix with by_numbers has both factors */
     factor_unsymmetric *unsymmetric; /* KLU; both NULL: there are no unknowns */
-    by_numbers *whole;               /* for a matrix with by_numbers, otherwise NULL */
-    int upper;                       /* 1: `symmetric` contains the last factors */
-    factor_counts counts, of_upper;  /* of_upper: entries and flops of `symmetric` if both exist */
-    double *residual, *other;        /* [n] workspace; `other` is for unsymmetric matrices only */
+    by_numbers *whole; /* upper triangle of a matrix with by_numbers, otherwise NULL */
+    int upper;         /* 1: `symmetric` contains the last factors */
+    /* of_upper: entries and flops of `symmetric` if both factors exist */
+    factor_counts counts, of_upper;
+    double *residual, *other; /* [n] work space; `other` is only for unsymmetric matrices */
 };
 
 /* Allocates everything except the factors. */
@@ -108,7 +108,7 @@ static void unit_vector(int n, int i, double e[])
     e[i] = 1;
 }
 
-/* Returns the fraction of x_column that is round-off, where x = A^-1 e_row. */
+/* Returns the fraction of x_column that is a rounding error, where x = A^-1 e_row. */
 static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
 {
     double *x = fa->residual, *y = fa->residual, sum = 0;
@@ -120,7 +120,7 @@ static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
         factor_unsymmetric_solve_transposed(fa->unsymmetric, y);
     }
     const double scale =
-        fabs(x[column]); /* absolute values, because a sum of squares of x may overflow */
+        fabs(x[column]); /* sum of absolute values, because a sum of squares of x may overflow */
     for (int j = 0; j < fa->n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             const double term = y[a->row[k]] / scale * a->value[k] * x[j];
@@ -129,8 +129,8 @@ static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
     return DBL_EPSILON * sqrt(sum);
 }
 
-/* Selects LDL^T if the values of a matrix stored in full are symmetric; *a then becomes its upper
- * triangle. */
+/* Selects LDL^T if the values of a matrix of which all entries are stored are symmetric. *a then
+ * becomes its upper triangle. */
 static status choose(matrix_factor *fa, const sparse **a, fault *f)
 {
     const factor_counts before = fa->counts;
@@ -220,23 +220,21 @@ const sparse *factor_upper(const matrix_factor *fa)
     return fa->whole != NULL && fa->upper ? by_numbers_upper(fa->whole) : NULL;
 }
 
-/* Hager's estimate of the 1-norm condition number (W.W. Hager, SIAM J. Sci. Stat. Comput. 5, 1984)
- * which needs solutions only.
- *
- * Translations, rotations and warping have different units, and the condition number should not
- * depend on them. Therefore rows and columns are scaled by the square root of the diagonal, which
- * for a positive definite matrix is within a factor n of the best scaling (A. van der Sluis, Numer.
- * Math. 14, 1969). */
+/* Hager's estimate of the 1-norm condition number (W.W. Hager, SIAM J. Sci. Stat. Comput. 5, 1984),
+ * which needs only solutions. Translations, rotations and warping have different units, and the
+ * condition number should not depend on the units. Therefore rows and columns are scaled by the
+ * square root of the diagonal. For a positive definite matrix, this scaling is within a factor n of
+ * the best scaling (A. van der Sluis, Numer. Math. 14, 1969). */
 
 enum { MOST_STEPS = 5 };
 
 typedef struct condition {
     matrix_factor *fa;
     int n;
-    const double *scale; /* [n] diagonal of S; the matrix is S A S */
+    const double *scale; /* [n] diagonal of S in the scaled matrix S A S */
 } condition;
 
-/* Replaces x by (S A S)^-1 x; transposed 1: by (S A S)^-T x. */
+/* Replaces x by (S A S)^-1 x. transposed 1: replaces x by (S A S)^-T x. */
 static void solve_scaled(const condition *c, int transposed, double x[])
 {
     for (int i = 0; i < c->n; i++)
@@ -249,8 +247,8 @@ static void solve_scaled(const condition *c, int transposed, double x[])
         x[i] /= c->scale[i];
 }
 
-/* Estimates |(S A S)^-1|_1: searches the largest column sum by steps along the subgradient. x, z:
- * workspace [n]. */
+/* Estimates |(S A S)^-1|_1: searches for the largest column sum in steps along the subgradient. x,
+ * z: work space [n]. */
 static double inverse_norm(const condition *c, double x[], double z[])
 {
     const int n = c->n;
@@ -284,7 +282,7 @@ static double inverse_norm(const condition *c, double x[], double z[])
     return norm;
 }
 
-/* Computes the scale of every unknown and returns the norm of S A S. sum: workspace [n]. */
+/* Computes the scale of every unknown, and returns the norm of S A S. sum: work space [n]. */
 static double scaled_norm(const sparse *a, double scale[], double sum[])
 {
     double norm = 0;
@@ -321,8 +319,8 @@ double factor_condition(matrix_factor *fa, const sparse *a)
     return estimate;
 }
 
-/* KLU scales every row by its largest entry and orders by AMD on A + A^T; diagonal pivots are
- * preferred. */
+/* Factor of KLU, which scales every row by its largest entry and orders by AMD on A + A^T. Diagonal
+ * pivots are preferred. */
 
 struct factor_unsymmetric {
     int n;
@@ -332,8 +330,8 @@ struct factor_unsymmetric {
     double *largest; /* [n] largest entry of every column of the scaled matrix */
 };
 
-/* The pivot order is reused while the entries of U stay below this factor times those of the
- * matrix. */
+/* The pivot order is reused as long as the entries of U are below this factor times the entries of
+ * the matrix. */
 static const double tolerable_growth = 1e4;
 
 static status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
@@ -365,7 +363,8 @@ void factor_unsymmetric_free(factor_unsymmetric *fu)
     free(fu);
 }
 
-/* Returns 1 if the numeric factors of a were computed with the pivot order of an earlier matrix. */
+/* Returns 1 if the numeric factors of `a` were computed with the pivot order of an earlier matrix.
+ * */
 static int refactor(factor_unsymmetric *fu, const sparse *a)
 {
     return fu->numeric != NULL &&
@@ -388,8 +387,8 @@ static status factor_anew(factor_unsymmetric *fu, const sparse *a, factor_counts
     return STATUS_OK;
 }
 
-/* Returns the sign of a permutation: a cycle of k members consists of k - 1 exchanges. `done`:
- * workspace. */
+/* Returns the sign of a permutation. A cycle of k members consists of k - 1 exchanges. done: work
+ * space. */
 static int sign_of(int n, const int permutation[], double done[])
 {
     int sign = 1;

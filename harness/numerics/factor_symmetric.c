@@ -1,6 +1,6 @@
 /* The columns of L and the pivots are those of C = P A P^T with the permutation P from AMD. A pivot
  * is d_k = a_kk - sum_j l_kj^2 d_j. The digits of A are lost if d_k is as small as a rounding error
- * of these terms, or if the terms are far larger than the whole column of A. */
+ * of these terms, or if the terms are much larger than the whole column of A. */
 #include "harness/numerics/numerics_impl.h"
 
 #include <amd.h>
@@ -16,22 +16,24 @@
 struct factor_symmetric {
     int n;
     int lent;             /* 1: another factor owns `integers`, L_row, groups and rest */
-    int *integers;        /* one allocation for the next nine arrays */
-    int *order, *inverse; /* [n] P: C(i, j) = A(order[i], order[j]) */
-    int *column, *row; /* [n + 1], [entries] upper triangle of C; row holds positions in L once its
-                          columns are known */
-    int *source;       /* [entries] position in A of each entry of C */
-    int *L_column;     /* [n + 1] */
-    int *parent, *in_column, *mark; /* [n] elimination tree, and workspace of LDL */
-    double *D;                      /* [n]; D is the start of one allocation for these three */
-    double *diagonal, *terms;       /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
-    double *rest;                   /* workspace of triangular_rows and of solutions */
+    int *integers;        /* a single allocation for the next nine arrays */
+    int *order, *inverse; /* [n] P: C(i, j) = A(order[i], order[j]); inverse of this permutation */
+    /* [n + 1] and [entries] upper triangle of C; `row` contains positions in L after its columns
+     * are known */
+    int *column, *row;
+    int *source;                    /* [entries] position in A of each entry of C */
+    int *L_column;                  /* [n + 1] */
+    int *parent, *in_column, *mark; /* [n] elimination tree, and work space of LDL */
+    double *D;                /* [n] D is the start of a single allocation for these three arrays */
+    double *diagonal, *terms; /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
+    double *rest;             /* work space of triangular_rows and of solutions */
     triangular_groups groups;
     int *L_row; /* [L_column[n]] */
     double *L_value;
 };
 
-/* Allocates the arrays of numbers. Returns 0 if out of memory, as the functions below do. */
+/* Allocates the arrays of numbers. This function and the functions below return 0 if out of memory.
+ * */
 static int lay_out_numbers(factor_symmetric *fs, size_t n)
 {
     fs->D = malloc((3 * n + 1) * sizeof *fs->D);
@@ -184,8 +186,8 @@ static double largest_entry(const factor_symmetric *fs, const double a[], int k)
     return largest;
 }
 
-/* Sums the terms of the pivots. This is needed only if a pivot is not positive; otherwise the terms
- * do not exceed a_kk. */
+/* Sums the absolute values of the terms of the pivots. This is needed only if a pivot is not
+ * positive; otherwise the terms do not exceed a_kk. */
 static void sum_terms(factor_symmetric *fs, int negative_pivots)
 {
     memcpy(fs->terms, fs->diagonal, (size_t)fs->n * sizeof *fs->terms);

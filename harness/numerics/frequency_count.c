@@ -39,7 +39,7 @@ void subspace_free(subspace *b)
     free(b->Gp);
 }
 
-/* Computes y = G x for a skew G whose upper triangle is stored. */
+/* Computes y = G x for a skew-symmetric G whose upper triangle is stored. */
 static void subspace_skew_mul(const sparse *G, const double x[], double y[])
 {
     if (!G->symmetric) {
@@ -65,7 +65,7 @@ int subspace_add(subspace *b, const double x[])
     memcpy(v, x, n * sizeof *v);
     b->S(b->context, v, Sv);
     const double before = sqrt(fmax(0, dense_dot(b->n, v, Sv)));
-    for (int pass = 0; pass < 2; pass++) /* two passes suffice for orthogonality */
+    for (int pass = 0; pass < 2; pass++) /* two passes are sufficient for orthogonality */
         for (int i = 0; i < b->count; i++) {
             const double c = dense_dot(b->n, b->SV + (size_t)i * n, v);
             for (size_t k = 0; k < n; k++)
@@ -92,7 +92,7 @@ int subspace_add(subspace *b, const double x[])
     return 1;
 }
 
-/* Computes K, M and G times the real and the imaginary part of a vector, and its residual. */
+/* Computes K, M and G times the real part and the imaginary part of a vector, and its residual. */
 enum { K_RE, K_IM, M_RE, M_IM, G_RE, G_IM, R_RE, R_IM, WORK, PARTS };
 
 status estimate_alloc(int n, motion_estimate *e, fault *f)
@@ -205,9 +205,9 @@ static double share(const motion_estimate *e, int k)
     return creal(sum * conj(sum));
 }
 
-/* Returns twice the missing part of the vector, relative to the eigenvalue: the components along
- * other modes that were found, and those along modes that were not found, whose lowest frequency is
- * known. */
+/* Returns twice the missing part of the vector, relative to the eigenvalue. The missing part has
+ * components along other modes that were found, and along modes that were not found, whose lowest
+ * frequency is known. */
 static double missed(motion_estimate *e, int i, double complex lambda, double own)
 {
     const double size = cabs(lambda);
@@ -228,8 +228,8 @@ static double missed(motion_estimate *e, int i, double complex lambda, double ow
     return 2 * sum;
 }
 
-/* Returns a bound on the rounding error of x^H (K + lambda^2 M + lambda G) x. The entries of the
- * matrices are themselves results of a few operations each. */
+/* Returns a bound of the rounding error of x^H (K + lambda^2 M + lambda G) x. The entries of the
+ * matrices are results of a few operations each. */
 static double rounding(const motion_estimate *e, double size, const double re[], const double im[])
 {
     const double operations = 4;
@@ -255,7 +255,7 @@ void estimate_pair(motion_estimate *e, int i, const double re[], const double im
 }
 
 /* Allocates the pattern of the Hermitian A + i B as a real symmetric matrix of twice the size, with
- * [a, -b; b, a] for each entry. Its eigenvalues come in pairs. */
+ * [a, -b; b, a] for each entry. Its eigenvalues occur in pairs. */
 static status doubled_alloc(const sparse *pattern, sparse *out, fault *f)
 {
     const int n = pattern->n, entries = pattern->column[n];
@@ -323,7 +323,7 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
     return outcome;
 }
 
-/* Returns x^H (K + |lambda|^2 M) x relative to the size of its terms; c^H c = 1 means that x^H (K +
+/* Returns x^H (K + |lambda|^2 M) x relative to the size of its terms. c^H c = 1 means that x^H (K +
  * shift M) x = 1. */
 static double index_energy(const ritz *r, const subspace *b, double shift, int i)
 {
@@ -343,7 +343,7 @@ static double index_energy(const ritz *r, const subspace *b, double shift, int i
 
 /* Energies below this relative size count as zero. */
 static const double no_energy = 1e-6;
-/* A real part above this fraction of |lambda| is growth, not round-off. */
+/* A real part above this fraction of |lambda| is growth and not a rounding error. */
 static const double clear_growth = 1e-3;
 
 int gyroscopic_index_grows(const ritz *r, const subspace *b, double shift, int i)

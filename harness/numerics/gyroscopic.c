@@ -11,27 +11,28 @@ enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
 
 /* relative to x^H K x; the relative error of a frequency is the square of the residual */
 static const double good_residual = 1e-8, bearable_residual = 1e-5;
-/* A pair need not converge if rounding changes its residual by more than this, because its mass is
+/* A pair need not converge if rounding changes its residual by more than this limit. Its mass is
  * then a rounding error of the largest mass. */
 static const double no_digits = 1e-7;
 /* K counts as nearly singular if the smallest eigenvalue of (K, M) is below near_zero times the
- * others, or times the square of the rate of G. The shift is then away_from_zero times these. */
+ * others, or below near_zero times the square of the rate of G. The shift is then away_from_zero
+ * times these values. */
 static const double near_zero = 1e-4, away_from_zero = 1e-2;
 /* If all pairs have been found, the ratio of any other frequency to the last one found is at least
- * this. */
+ * this value. */
 static const double far = 1e3;
 
 typedef struct gyroscopic_solver {
     const gyroscopic_problem *p;
     gyroscopic_result *out;
-    double shift; /* [1/s^2] S = K + shift M */
+    double shift; /* [1/s^2] shift in S = K + shift M */
     double least; /* [1/s^2] lower bound of the shift */
     double nearest,
-        furthest; /* smallest and largest magnitude of the eigenvalues of (K, M) at the start ... */
-    double softest;  /* ... and the smallest eigenvalue of (S, M) */
-    int all_known;   /* 1: the start found everything that was searched for */
-    const sparse *S; /* points to K, or ... */
-    sparse shifted;  /* ... to this matrix */
+        furthest;    /* smallest and largest magnitudes of the eigenvalues of (K, M) at the start */
+    double softest;  /* smallest eigenvalue of (S, M) */
+    int all_known;   /* 1: the start found all modes that it searched for */
+    const sparse *S; /* points to K or to `shifted` */
+    sparse shifted;
     subspace basis;
     ritz pairs;
     double *re, *im, *work, *product; /* [free] */
@@ -59,7 +60,7 @@ static void basis_product(void *context, const double x[], double y[])
         y[i] += s->shift * s->product[i];
 }
 
-/* Adds a multiple of a combination of vectors to out_re + i out_im: times sum_k c_k vector_k. */
+/* Adds the combination sum_k c_k vector_k, multiplied by `times`, to out_re + i out_im. */
 static void accumulate(const gyroscopic_solver *s, const double *vectors, const double complex c[],
                        double complex times)
 {
@@ -79,7 +80,7 @@ static void clear(const gyroscopic_solver *s)
     memset(s->im, 0, (size_t)s->basis.n * sizeof *s->im);
 }
 
-/* Returns r^H S^-1 r for one half of a residual, and replaces the half by S^-1 times it. */
+/* Returns r^H S^-1 r for one half of a residual, and replaces this half by S^-1 times the half. */
 static double solve_half(gyroscopic_solver *s, double half[])
 {
     memcpy(s->work, half, (size_t)s->basis.n * sizeof *half);
@@ -88,8 +89,8 @@ static double solve_half(gyroscopic_solver *s, double half[])
     return fmax(0, dense_dot(s->basis.n, s->work, half));
 }
 
-/* Returns the size of the residual of pair i. If it is large, S^-1 times the residual extends the
- * basis. */
+/* Returns the size of the residual of pair i. If the residual is large, S^-1 times the residual
+ * extends the basis. */
 static double improve(gyroscopic_solver *s, int i, int *grown)
 {
     const double complex lambda = s->pairs.lambda[i],
@@ -147,8 +148,8 @@ static status iterate(gyroscopic_solver *s, int wanted, fault *f)
     }
 }
 
-/* Starts the basis with the first `count` modes for G = 0. This includes modes whose eigenvalue is
- * lost in round-off, because the basis improves them. */
+/* Starts the basis with the first `count` modes for G = 0. It includes modes whose eigenvalue is
+ * lost in rounding, because the basis improves them. */
 static status start(gyroscopic_solver *s, int count, fault *f)
 {
     eigen_result e = {0};
@@ -171,14 +172,14 @@ static status start(gyroscopic_solver *s, int count, fault *f)
     return outcome == STATUS_NOT_CONVERGED && isfinite(s->softest) ? STATUS_OK : outcome;
 }
 
-/* Returns the number of negative eigenvalues of K for which the pairs found do not account. */
+/* Returns the number of negative eigenvalues of K that the pairs do not explain. */
 static int unaccounted(const gyroscopic_solver *s)
 {
     return s->out->negative -
            gyroscopic_index_of(&s->pairs, &s->basis, s->shift, s->found).negative;
 }
 
-/* For an indefinite K: checks the first `last` pairs by a count below the gap that follows them. A
+/* Checks the first `last` pairs for an indefinite K, by a count below the gap that follows them. A
  * failed count proves nothing. */
 static status prove(gyroscopic_solver *s, int last, status counted, int below, int *number)
 {
@@ -209,7 +210,7 @@ static double departure(gyroscopic_solver *s)
 }
 
 /* Sets *number to the number of frequencies below the first gap after those found, minus the number
- * found. There is no gap between equal frequencies. */
+ * of frequencies found. There is no gap between equal frequencies. */
 static status missing(gyroscopic_solver *s, int wanted, int *number, fault *f)
 {
     const double gap = fmax(1e-6, 4 * departure(s)); /* relative gap */
@@ -236,7 +237,8 @@ static status missing(gyroscopic_solver *s, int wanted, int *number, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the rate of G [1/s]: its largest entry relative to the masses of its row and column. */
+/* Returns the rate of G [1/s]: its largest entry relative to the masses of the row and the column.
+ * */
 static double rate_of_turning(const sparse *G, const sparse *M)
 {
     double rate = 0;
@@ -249,7 +251,7 @@ static double rate_of_turning(const sparse *G, const sparse *M)
     return rate;
 }
 
-/* Finds the smallest shift, in powers of ten, that makes K + shift M positive definite. */
+/* Finds the smallest shift, in powers of ten, for which K + shift M is positive definite. */
 static status find_shift(gyroscopic_solver *s, fault *f)
 {
     const sparse *K = s->p->K, *M = s->p->M;
@@ -279,8 +281,8 @@ static status find_shift(gyroscopic_solver *s, fault *f)
     }
 }
 
-/* Returns the shift needed according to the first start, if K or K + shift M is nearly singular, as
- * at a critical speed; the present shift if no larger one is needed. */
+/* Returns the shift that the first start shows to be necessary because K or K + shift M is nearly
+ * singular, as at a critical speed. Returns the present shift if no larger shift is needed. */
 static double shift_after(const gyroscopic_solver *s, status started)
 {
     const double rate = rate_of_turning(s->p->G, s->p->M);
@@ -291,7 +293,7 @@ static double shift_after(const gyroscopic_solver *s, status started)
     return nearly ? away_from_zero * scale : 0;
 }
 
-/* Starts the basis, and starts it again with a different shift if necessary. */
+/* Starts the basis. If necessary, starts it again with another shift. */
 static status begin(gyroscopic_solver *s, int count, fault *f)
 {
     const status outcome = start(s, count, f);
@@ -305,7 +307,7 @@ static status begin(gyroscopic_solver *s, int count, fault *f)
     return start(s, count, f);
 }
 
-/* Multiplies the vector by the phase that makes its real part as large as possible. */
+/* Multiplies the vector by the phase for which its real part is largest. */
 static void turn_phase(const gyroscopic_solver *s)
 {
     double complex square = 0;
@@ -319,7 +321,7 @@ static void turn_phase(const gyroscopic_solver *s)
     }
 }
 
-/* Stores pair i in the result; its vector is in re and im. */
+/* Stores pair i in the result. Its vector is in re and im. */
 static void take_pair(gyroscopic_solver *s, int i, motion_estimate *e)
 {
     gyroscopic_result *r = s->out;

@@ -1,6 +1,6 @@
 /* OP = K^-1 s A is symmetric in the inner product of K (ARPACK mode 2). The projection I - X X^T K
- * removes known eigenvectors X. A single starting vector yields only one copy of a repeated
- * eigenvalue; further runs yield the others one by one. */
+ * removes known eigenvectors X. A single starting vector gives only one copy of a repeated
+ * eigenvalue. Further runs give the other copies one by one. */
 #include "harness/numerics/numerics_impl.h"
 
 #include <arpack/arpack.h>
@@ -13,9 +13,10 @@ enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 12, PARAMETERS = 11, POINTERS = 14 };
 enum {
     ENDED_EARLY = 1,
     CONVERGED = 4
-}; /* positions in ARPACK's arrays: result, number of converged values */
+}; /* indices in ARPACK's arrays: result, number of converged values */
 
-/* Tolerance for the error of a vector. The error of its Rayleigh quotient is the square of this. */
+/* Tolerance for the error of a vector. The error of its Rayleigh quotient is the square of this
+ * value. */
 static const double tolerance = 1e-10;
 
 typedef struct lanczos_workspace {
@@ -65,7 +66,7 @@ static void fill_start(int n, double x[])
     }
 }
 
-/* Removes the components of x along X. The dual vectors measure the coefficients. */
+/* Removes the components of x along X. The dual vectors measure these components. */
 static void deflate(int n, int known, const double *dual, const double *measured, const double *X,
                     double x[])
 {
@@ -92,7 +93,7 @@ static void apply(const lanczos_problem *p, double x[], double y[])
     deflate(n, p->known, p->X, x, p->KX, x);
 }
 
-/* Returns ARPACK's status: 0 if all requested values converged. */
+/* Returns ARPACK's status. 0 means that all requested values converged. */
 static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutions)
 {
     int ido = 0, info = 1;
@@ -114,7 +115,7 @@ static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutio
     }
 }
 
-/* Reverses the order, because ARPACK's values ascend and mu[] descends. */
+/* Reverses the order, because ARPACK's values are ascending and mu[] is descending. */
 static void reverse(size_t n, int count, double x[])
 {
     for (int low = 0, high = count - 1; low < high; low++, high--)
@@ -125,7 +126,8 @@ static void reverse(size_t n, int count, double x[])
         }
 }
 
-/* Copies ARPACK's values and vectors, largest first. *x: the basis, shortened to these vectors. */
+/* Copies ARPACK's values and vectors, with the largest value first. *x: the basis, shortened to
+ * these vectors. */
 static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, double mu[],
                            double **x, fault *f)
 {
@@ -161,7 +163,7 @@ static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, 
 }
 
 /* ARPACK stores its state between calls in static variables, so only one thread may use it at a
- * time. A process that is forked during this time does not have that thread. */
+ * time. A process that is forked while another thread uses ARPACK does not have this thread. */
 static pthread_mutex_t arpack = PTHREAD_MUTEX_INITIALIZER;
 static pthread_once_t forks = PTHREAD_ONCE_INIT;
 

@@ -6,78 +6,81 @@
 
 #include "elements/shared/status.h"
 
-/* Sparse matrices in compressed columns, and their direct factorisation.
- *
- * A symmetric matrix stores only its upper triangle (row <= column), any other matrix all entries.
- * If by_numbers is 1, a matrix stored in full is factored as symmetric if its values are symmetric.
- * The pattern does not change; values are added by position, so assembly needs no search. */
+/* Sparse matrices in compressed columns, and their direct factorisation. Of a symmetric matrix,
+ * only the upper triangle (row <= column) is stored; of any other matrix, all entries are stored.
+ * If by_numbers is 1, all entries are stored, and the matrix is factored as symmetric if its values
+ * are symmetric. The pattern does not change. Values are added by position, so assembly needs no
+ * search. */
 
 typedef struct sparse {
     int n, symmetric;
-    int *column;    /* [n + 1] */
-    int *row;       /* [column[n]], ascending in each column */
-    double *value;  /* [column[n]] */
-    int by_numbers; /* 1: stored in full, and factored as symmetric if its values are */
+    int *column;   /* [n + 1] */
+    int *row;      /* [column[n]] rows, in ascending order within each column */
+    double *value; /* [column[n]] */
+    /* 1: all entries are stored, and the matrix is factored as symmetric if its values are
+     * symmetric */
+    int by_numbers;
 } sparse;
 
-/* Allocates a matrix that shares the pattern (column, row) of the first and owns only its
- * values. */
+/* Allocates a matrix that shares column and row of the pattern. Only the values belong to the new
+ * matrix. */
 status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f);
 void sparse_free_values(sparse *a);
 void sparse_zero(sparse *a);
 /* Copies the leading rows and columns of `whole`. */
 void sparse_copy_leading(const sparse *whole, sparse *leading);
-/* Returns entry (j, j); 0 if none is stored. */
+/* Returns entry (j, j), or 0 if it is not stored. */
 double sparse_diagonal(const sparse *a, int j);
 void sparse_mul(const sparse *a, const double x[], double y[]);            /* y = A x */
 void sparse_mul_transposed(const sparse *a, const double x[], double y[]); /* y = A^T x */
 /* Returns the change of x^T A y if all terms are rounded in the same direction. A is symmetric, or
- * skew with its upper triangle stored. */
+ * skew-symmetric with its upper triangle stored. */
 double sparse_rounding(const sparse *a, const double x[], const double y[]);
 
-/* Upper triangle of a matrix stored in full, and a test for symmetry. */
+/* Upper triangle of a matrix of which all entries are stored, and a test for symmetry. */
 typedef struct by_numbers by_numbers;
 
 status by_numbers_alloc(const sparse *pattern, by_numbers **out, fault *f);
 void by_numbers_free(by_numbers *);
 /* Copies the upper triangle of `a`. Returns the largest |a_ij - a_ji|/sqrt|a_ii a_jj| of `a`;
- * INFINITY if that is NaN. */
+ * INFINITY: this value is NaN. */
 double by_numbers_take(by_numbers *, const sparse *a);
 const sparse *by_numbers_upper(const by_numbers *);
 
 typedef struct matrix_factor matrix_factor;
 
 typedef struct factor_counts {
-    long entries;        /* number of nonzeros of the factors */
+    long entries;        /* number of nonzero entries of the factors */
     double flops;        /* of one numeric factorisation */
     long factorisations; /* number of numeric factorisations so far */
-    int negative_pivots; /* of a symmetric matrix; otherwise -1 */
-    double asymmetry; /* of a matrix with by_numbers: its largest |a_ij - a_ji|/sqrt|a_ii a_jj| */
-    int determinant;  /* sign of the determinant */
-    double condition; /* cheap estimate of the condition number, max|d|/min|d| */
+    int negative_pivots; /* number of negative pivots of a symmetric matrix; otherwise -1 */
+    double asymmetry;    /* for a matrix with by_numbers: largest |a_ij - a_ji|/sqrt|a_ii a_jj| */
+    int determinant;     /* sign of the determinant */
+    double condition;    /* inexpensive estimate of the condition number, max|d|/min|d| */
 } factor_counts;
 
-/* Largest asymmetry at which a matrix with by_numbers is factored as symmetric. */
+/* Largest asymmetry for which a matrix with by_numbers is factored as symmetric. */
 #define FACTOR_SYMMETRIC_WITHIN 1e-11
-/* Symbolic analysis with a fill-reducing order (AMD), done once. A symmetric matrix is factored as
- * LDL^T without pivoting, whose signs give the inertia; an unsymmetric one by KLU. A matrix with
- * by_numbers is factored either as LDL^T of its upper triangle, bitwise as a matrix that stores
- * only this triangle, or by KLU. */
+/* Makes a symbolic analysis, once, with an order that reduces fill-in (AMD). A symmetric matrix is
+ * factored as LDL^T without pivoting; the signs of D give the inertia. An unsymmetric matrix is
+ * factored by KLU. A matrix with by_numbers is factored by KLU, or as LDL^T of its upper triangle
+ * with bitwise the same result as a matrix of which only this triangle is stored. */
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f);
-/* Like factor_alloc for a matrix with the same pattern as `of`. A symmetric matrix uses the order
- * of `of`, which must outlive it; the two must not be factored at the same time. */
+/* Like factor_alloc, for a matrix with the same pattern as `of`. A symmetric matrix uses the order
+ * of `of`, which must outlive the new factor. The two must not be factored at the same time. */
 status factor_alloc_like(const matrix_factor *of, const sparse *pattern, matrix_factor **out,
                          fault *f);
 void factor_free(matrix_factor *fa);
-/* SINGULAR: a pivot is zero or not finite, or the growth of the factors has destroyed all
- * digits. */
+/* Factors the values. SINGULAR: a pivot is zero or not finite, or growth of the factors has
+ * destroyed all digits. */
 status factor_numeric(matrix_factor *fa, const sparse *a, fault *f);
 /* Returns 1 if the last values were factored as symmetric. */
 int factor_is_symmetric(const matrix_factor *fa);
-/* Returns the factored upper triangle of a matrix with by_numbers, or NULL. The factor owns it. */
+/* Returns the upper triangle of a matrix with by_numbers that was factored as symmetric, otherwise
+ * NULL. The factor owns this triangle. */
 const sparse *factor_upper(const matrix_factor *fa);
 void factor_solve(matrix_factor *fa, double x[]); /* solves A x = b in place */
-/* Solves for `columns` right-hand sides, `stride` numbers apart. */
+/* Solves for `columns` right-hand sides. Their starts are `stride` numbers apart. */
 void factor_solve_many(matrix_factor *fa, int columns, int stride, double x[]);
 void factor_solve_transposed(matrix_factor *fa, double x[]); /* solves A^T x = b in place */
 factor_counts factor_count(const matrix_factor *fa);
@@ -89,22 +92,22 @@ typedef struct factor_operator {
     factor_counts (*count)(const void *context);
     void (*free)(void *context);
 } factor_operator;
-/* Makes a factor from an operator, which it then owns: factor_solve, factor_solve_transposed and
- * factor_count call the operator, and no matrix is factored. */
+/* Makes a factor from an operator, which the factor then owns. factor_solve,
+ * factor_solve_transposed and factor_count call the operator, and no matrix is factored. */
 status factor_of(const factor_operator *, matrix_factor **out, fault *f);
 /* Returns an estimate of the 1-norm condition number of the factored matrix a, with rows and
- * columns scaled by the square root of its diagonal. Hager's estimate is a lower bound, correct
- * within a small factor. NAN: out of memory. */
+ * columns scaled by the square root of its diagonal. Hager's estimate is a lower bound that is
+ * accurate within a small factor. NAN: out of memory. */
 double factor_condition(matrix_factor *fa, const sparse *a);
 
 /* A few eigenpairs of A x = mu K x with K symmetric positive definite and A symmetric, which may be
  * indefinite or singular.
  *
  * Buckling: A = -G, mu = 1/lambda. Vibration: A = M, mu = 1/omega^2 (for a structure without
- * supports, K + shift M replaces K). Small problems are solved densely (LAPACK), large ones by the
- * Lanczos method in the inner product of K (ARPACK). Each mu is the quotient of two quadratic
- * forms, which the caller can evaluate more accurately than the matrices give them. The inertia of
- * K - A/s proves that no eigenvalue is missing, repeated ones included. */
+ * supports, K + shift M replaces K). Small problems are solved with dense matrices (LAPACK), large
+ * problems by the Lanczos method in the inner product of K (ARPACK). Each mu is the quotient of two
+ * quadratic forms, which the caller can evaluate more accurately than the matrices do. The inertia
+ * of K - A/s proves that no eigenvalue is missing, including repeated eigenvalues. */
 
 /* Relative error above which a value has no significant digits. */
 #define EIGEN_LARGEST_ERROR 1e-2
@@ -113,46 +116,49 @@ typedef double eigen_form(void *context, const double x[]);
 typedef void eigen_product(void *context, const double x[], double y[]);
 
 typedef struct eigen_problem {
-    const sparse *K, *A;             /* same pattern */
-    matrix_factor *K_factor;         /* after factor_numeric */
-    double sign;                     /* +1: A; -1: -A */
-    int largest;                     /* number of most positive mu requested */
-    int smallest;                    /* number of most negative mu requested */
-    eigen_form *K_energy, *A_energy; /* x^T K x and x^T A x (A without the sign), in the unit of K;
-                                        NULL: computed from the matrix */
+    const sparse *K, *A;     /* same pattern */
+    matrix_factor *K_factor; /* after factor_numeric */
+    double sign;             /* +1: A; -1: -A */
+    int largest;             /* number of requested eigenvalues mu on the most positive side */
+    int smallest;            /* number of requested eigenvalues mu on the most negative side */
+    /* return x^T K x and x^T A x (A without the sign), in the unit of K; NULL: the matrix is used
+     * */
+    eigen_form *K_energy, *A_energy;
     eigen_form *K_rounding,
-        *A_rounding; /* estimated rounding errors of the two forms; NULL: negligible */
-    eigen_product
-        *K_product; /* y = K x, more accurate than the matrix product; NULL: not available */
-    void *context;  /* passed to all of these functions */
-    int iterate;    /* 1: Lanczos for any size (for tests) */
+        *A_rounding; /* return estimated rounding errors of the two forms; NULL: negligible */
+    eigen_product *K_product; /* computes y = K x more accurately than the matrix product; NULL: not
+                                 available */
+    void *context;            /* passed to all of these functions */
+    int iterate;              /* 1: the Lanczos method is used for any size (for tests) */
 } eigen_problem;
 
 typedef struct eigen_side {
-    int count;        /* number found; less than requested if no more exist, or for `reason` */
+    /* number of eigenvalues; smaller than requested if there are no more, or because of `reason` */
+    int count;
     double *mu;       /* [count] largest magnitude first */
-    double *mode;     /* [count x n] x^T K x = 1 */
-    double *residual; /* [count] an eigenvalue lies within residual |mu| of mu */
-    double *error; /* [count] estimated relative error of mu, which is at most about residual^2 */
-    int rounding;  /* number of candidates that were rejected as round-off of A */
-    status status; /* NOT_CONVERGED: the iteration ended before all requested values were proved
-                      complete ... */
-    char reason[FAULT_TEXT]; /* ... for this reason; the values found are still the first ones of
-                                their side */
+    double *mode;     /* [count x n] vectors with x^T K x = 1 */
+    double *residual; /* [count] the distance from mu to an eigenvalue is at most residual |mu| */
+    double *error;    /* [count] estimated relative error of mu, at most about residual^2 */
+    int rounding;     /* number of candidates that were rejected as rounding errors of A */
+    /* NOT_CONVERGED: the iteration ended before the requested eigenvalues were proved to be
+     * complete */
+    status status;
+    /* reason for NOT_CONVERGED; the values found are still the first ones of their side */
+    char reason[FAULT_TEXT];
 } eigen_side;
 
 typedef struct eigen_result {
     int n;
     eigen_side positive, negative;
     long solutions, factorisations;
-    double dense_operations; /* sum of n^3 over the dense solutions */
+    double dense_operations; /* sum of n^3 over the solutions with dense matrices */
 } eigen_result;
 
-/* REFUSED: K is not positive definite. NOT_CONVERGED: one of the sides did not converge; the values
- * found on both sides are kept. A value counts as zero and is not returned if it is within the
- * rounding error of the largest value or of its own form, or in large problems below 1e-9 of the
- * largest. `error` gives the accuracy of a value; a value without significant digits is not
- * returned. */
+/* Solves the problem. REFUSED: K is not positive definite. NOT_CONVERGED: one of the sides did not
+ * converge; the values found on both sides are kept. A value counts as zero and is not returned if
+ * it is within the rounding error of the largest value or of its quadratic form, or in large
+ * problems if it is below 1e-9 of the largest value. `error` gives the accuracy of a value. A value
+ * without significant digits is not returned. */
 status eigen_solve(const eigen_problem *problem, eigen_result *out, fault *f);
 void eigen_free(eigen_result *r);
 
@@ -160,14 +166,14 @@ void eigen_free(eigen_result *r);
 
 /* Returns the wall-clock time [s] from an arbitrary origin. */
 double clock_wall_seconds(void);
-/* Returns the processor time [s] of this thread, which does not depend on the load of other
- * programs. */
+/* Returns the processor time [s] of this thread, which the load of other programs does not affect.
+ * */
 double clock_processor_seconds(void);
 
 /* Small motions x exp(lambda t) in a frame that rotates at a constant rate: (lambda^2 M + lambda G
- * + K) x = 0, K and M symmetric, G skew.
+ * + K) x = 0, with symmetric K and M and skew-symmetric G.
  *
- * If K is positive definite, every lambda = i omega is imaginary, whatever G is (Kelvin, Tait).
+ * If K is positive definite, every lambda = i omega is imaginary for any G (Kelvin, Tait).
  * Projected on a real basis, the problem is then Hermitian: mu [x; y] = [-i G, R^T; R, 0] [x; y]
  * with mu = 1/omega, M = R^T R and K the identity matrix. The basis starts with the modes for G = 0
  * and is extended by K^-1 times the residuals. The inertia counts the frequencies and proves that
@@ -175,61 +181,67 @@ double clock_processor_seconds(void);
  * replaces it in the basis and the general projected problem is solved. A growing mode then has a
  * lambda with positive real part; numerics_impl.h explains what the count proves in this case.
  *
- * Massless coordinates have no frequency. Coordinates with very little mass (frequencies above some
- * 1e4 times those of the heavy parts) may end the search before all wanted modes are found.
+ * Massless coordinates have no frequency. Because of coordinates with very little mass (frequencies
+ * above about 1e4 times those of the heavy parts), the search may end before all requested modes
+ * are found.
  *
  * The assembly of K loses digits of soft motions. Therefore the orthonormal basis and all residuals
  * use K_product, which keeps these digits; the factors of the matrix only improve the vectors. */
 
 typedef struct gyroscopic_problem {
-    const sparse *K, *M, *G; /* same symmetric pattern for K and M; G stores its upper triangle */
-    matrix_factor *K_factor; /* after factor_numeric; its values are replaced if K is indefinite */
-    int wanted;              /* number of lowest modes requested */
-    eigen_product
-        *K_product; /* y = K x, more accurate than the matrix product; NULL: not available */
-    eigen_form *K_rounding; /* rounding error of x^T K x; NULL: estimated from the matrix */
-    void *context;          /* passed to both functions */
+    /* K and M have the same symmetric pattern; the upper triangle of G is stored */
+    const sparse *K, *M, *G;
+    /* factor after factor_numeric; its values are replaced if K is indefinite */
+    matrix_factor *K_factor;
+    int wanted;               /* number of requested modes, which have the lowest frequencies */
+    eigen_product *K_product; /* computes y = K x more accurately than the matrix product; NULL: not
+                                 available */
+    /* returns the rounding error of x^T K x; NULL: estimated from the matrix */
+    eigen_form *K_rounding;
+    void *context; /* passed to both functions */
 } gyroscopic_problem;
 
 typedef struct gyroscopic_result {
-    int n, count;      /* count: fewer than requested if no more exist */
-    double *frequency; /* [count] lambda = growth + i frequency [1/s], ascending by magnitude */
-    double *growth;    /* [count] zero if K is positive definite */
-    double *error;     /* [count] estimated error of lambda, relative to |lambda| */
-    double *mode;      /* [count x n] real or imaginary part of the motion, whichever is larger */
-    int negative;      /* number of negative eigenvalues of K, and ... */
-    int unproven; /* ... how many of them no mode accounts for: that many growing modes, or modes
-                     whose energy is negative, are missing */
+    int n, count; /* count: number of modes; smaller than requested if there are no more */
+    /* [count] frequency of lambda = growth + i frequency [1/s], in ascending order of magnitude */
+    double *frequency;
+    double *growth; /* [count] growth; zero if K is positive definite */
+    double *error;  /* [count] estimated error of lambda, relative to |lambda| */
+    double *mode;   /* [count x n] real or imaginary part of the motion, whichever is larger */
+    int negative;   /* number of negative eigenvalues of K */
+    /* number of negative eigenvalues of K that the modes do not explain: as many growing modes, or
+     * modes with negative energy, are missing */
+    int unproven;
     long solutions, factorisations;
-    double dense_operations; /* sum of n^3 over the dense solutions */
+    double dense_operations; /* sum of n^3 over the solutions with dense matrices */
 } gyroscopic_result;
 
 status gyroscopic_solve(const gyroscopic_problem *, gyroscopic_result *, fault *);
 void gyroscopic_free(gyroscopic_result *);
 
 /* Checks the available memory before a problem is solved. Some systems grant memory that they do
- * not have and then end this program, or others, without a message. This section also contains
- * growing lists. */
+ * not have, and later end this or another program without a message. This section also contains
+ * lists that grow. */
 
-/* REFUSED: `what` needs more memory than the machine has. bytes: lower bound of the memory
- * needed. */
+/* Checks the memory. REFUSED: `what` needs more memory than the machine has. bytes: lower bound of
+ * the required memory. */
 status memory_check(double bytes, const char *what, const char *remedy, fault *f);
-/* Appends a copy of `entry` (`size` bytes) to *list, the address of its pointer; free it with
- * free(). FAULT: "out of memory for WHAT"; WHAT is the text `what`. */
+/* Appends a copy of `entry` (`size` bytes) to the list at *list. The caller frees the list with
+ * free(). FAULT: "out of memory for WHAT", where WHAT is the text `what`. */
 status memory_append(void *list, int *count, const void *entry, size_t size, const char *what,
                      fault *f);
 
-/* Processor time of a solution, split into the parts of a Newton iteration and the rest. If several
- * threads share the elements, this is the time of the leading thread, including the time for which
- * it waits. The clock is read only on request and only inside an iteration. The time of the
- * readings themselves, 0.4 us each, belongs to no part. */
+/* Processor time of a solution, divided into the parts of a Newton iteration and the remaining
+ * time. If several threads share the elements, the time is that of the leading thread, including
+ * the time in which it waits. The clock is read only on request and only inside an iteration. The
+ * time for the readings, 0.4 us each, belongs to no part. */
 
 typedef enum newton_phase {
     PHASE_ELEMENTS,
     PHASE_ASSEMBLY,
     PHASE_FACTORISATION,
     PHASE_SOLUTION,
-    PHASE_REST, /* outside the iterations; the parts that follow belong to no iteration */
+    PHASE_REST, /* time outside the iterations; the following parts do not belong to an iteration */
     PHASES
 } newton_phase;
 
@@ -241,7 +253,8 @@ typedef struct phases {
     double seconds[PHASES]; /* [s] */
 } phases;
 
-/* Sets all parts to zero and measures the duration of a reading, the shortest of several. */
+/* Sets all parts to zero and measures the duration of a reading, which is the shortest of several.
+ * */
 static inline void phases_want(phases *p, int wanted)
 {
     enum { FEW = 50 };
@@ -276,7 +289,7 @@ static inline void phases_stop(phases *p)
     p->running = 0;
 }
 
-/* Computes all parts so that they add up to `whole` [s] minus the duration of the readings. */
+/* Computes all parts such that their sum is `whole` [s] minus the duration of the readings. */
 static inline void phases_of_whole(const phases *p, double whole, double part[PHASES])
 {
     part[PHASE_REST] = whole - (double)p->readings * p->reading;
@@ -293,61 +306,64 @@ static inline const char *phase_name(newton_phase k)
     return name[k];
 }
 
-/* Threads that share a loop. Each takes one range of consecutive indices, so results do not depend
- * on the number of threads. */
+/* Threads that share a loop. Each thread takes one range of consecutive indices, so results do not
+ * depend on the number of threads. */
 
 typedef struct thread_team thread_team;
 typedef void team_work(void *context, int first, int end); /* [first, end) */
 
-/* Computes one piece of the work and stores the results in a slot. */
+/* Computes a piece of the work and stores the results in a slot. */
 typedef void team_fill(void *context, int piece, int slot);
-/* Called in the calling thread to use the content of a slot; returns 0 to stop. */
+/* Uses the contents of a slot, in the calling thread. Returns 0 to stop. */
 typedef int team_take(void *context, int piece, int slot);
 
 enum { TEAM_MOST = 16, TEAM_SLOTS = 8 };
 
 status team_alloc(int threads, thread_team **out,
-                  fault *f); /* the caller counts as one thread; threads <= 1: *out = NULL */
+                  fault *f); /* the caller counts as one thread; threads <= 1: *out is NULL */
 void team_free(thread_team *t);
-/* Runs `work` over [0, count) on all threads; t NULL: on the calling thread alone. Returns when
- * everything is done. */
+/* Runs `work` over [0, count) on all threads, and returns when all work is done. t NULL: only the
+ * calling thread is used. */
 void team_run(thread_team *t, int count, team_work *work, void *context);
-/* Any free thread fills the next of the pieces [0, pieces), at most a few ahead. The caller uses
- * the pieces in order, and also fills pieces. The slots fit into the cache, and sums keep their
- * order. slot: less than TEAM_SLOTS; 0 if t is NULL. */
+/* Fills and uses the pieces [0, pieces). Any free thread fills the next piece, at most a few pieces
+ * ahead. The caller uses the pieces in order, and also fills pieces. The slots fit into the cache,
+ * and the order of sums does not change. slot: less than TEAM_SLOTS; 0 if t is NULL. */
 void team_relay(thread_team *t, int pieces, team_fill *fill, team_take *take, void *context);
 
-/* Matrices as lists of entries, to be stored and written. */
+/* Matrices as lists of entries, which are stored and written. */
 
 typedef enum matrix_kind { MATRIX_GENERAL, MATRIX_SYMMETRIC, MATRIX_SKEW } matrix_kind;
 
-/* Nonzero entries. Symmetric and skew kinds have only those on and below the diagonal. */
+/* Nonzero entries. Of symmetric and skew-symmetric matrices, only entries on and below the diagonal
+ * are listed. */
 typedef struct triplets {
     matrix_kind kind;
     int rows, columns, entries;
-    int *row, *column; /* [entries] zero-based, column by column */
+    int *row, *column; /* [entries] indices starting at zero, column by column */
     double *value;     /* [entries] */
 } triplets;
 
-/* Sets *out to the entries of a. skew = 1: a stores the upper triangle of a skew matrix. */
+/* Sets *out to the entries of `a`. skew 1: `a` contains the upper triangle of a skew-symmetric
+ * matrix. */
 status triplets_of(const sparse *a, int skew, triplets *out, fault *);
 /* Removes all rows and columns except the leading n. */
 void triplets_lead(triplets *, int n);
-/* Takes the entries from a dense matrix [columns x rows], column by column. */
+/* Copies the entries of a dense matrix [columns x rows], column by column. */
 status triplets_of_columns(int rows, int columns, const double value[], triplets *out, fault *);
 /* Computes y[rows] = A x. */
 void triplets_mul(const triplets *A, const double x[], double y[]);
 void triplets_free(triplets *);
 
-/* Linear models with inputs u and outputs y, dense and row by row:
- *   M q'' + C q' + K q = B u,  y = L0 q + L1 q' + L2 q'' + D u.
- * The last coordinates are prescribed motions, whose accelerations are inputs. Their rows of M and
- * B are those of the identity matrix; their rows of K and C are zero. */
+/* Linear models with inputs u and outputs y, as dense matrices row by row: M q'' + C q' + K q = B
+ * u, y = L0 q + L1 q' + L2 q'' + D u. The last coordinates are prescribed motions, whose
+ * accelerations are inputs. Their rows of M and B are those of the identity matrix, and their rows
+ * of K and C are zero. */
 typedef struct second_order {
-    int n, motions; /* number of coordinates other than prescribed motions; number of these */
+    /* number of coordinates other than prescribed motions, and number of prescribed motions */
+    int n, motions;
     int inputs, outputs;
-    int *motion_of; /* [inputs] prescribed motion whose acceleration is this input; -1: the input is
-                       a force */
+    /* [inputs] prescribed motion whose acceleration is the input; -1: the input is a force */
+    int *motion_of;
     double *K, *C, *M; /* [(n + motions)^2] */
     double *B;         /* [(n + motions) x inputs] */
     double *L[3], *D;  /* [outputs x (n + motions)], [outputs x inputs] */
@@ -363,7 +379,7 @@ void second_order_free(second_order *);
  * is larger if it would separate modes with the same frequency. */
 status second_order_reduce(const second_order *, const char edge[], int *modes, second_order *out,
                            double **T, fault *);
-/* Computes the undamped natural frequencies [Hz] with the prescribed motions at rest, [n]; NAN:
+/* Computes the undamped natural frequencies [Hz] with the prescribed motions at rest: [n]; NAN:
  * none. */
 status second_order_frequencies(const second_order *, double hertz[], fault *);
 /* Computes the transfer functions from u to y at a circular frequency: out[outputs x inputs x 2],
@@ -372,28 +388,28 @@ status second_order_frequencies(const second_order *, double hertz[], fault *);
 status second_order_transfer(const second_order *, double w, double out[], const char kind[],
                              double rounding[], fault *);
 
-/* x' = A x + B u, y = C x + D u, dense and row by row. */
+/* State-space form x' = A x + B u, y = C x + D u, as dense matrices row by row. */
 typedef struct state_space {
-    int states, eliminated; /* eliminated: number of coordinates without mass and damping */
-    int improper;           /* output that cannot be written as a state space; -1: none */
+    int states, eliminated; /* eliminated: number of coordinates without mass and without damping */
+    int improper;           /* index of an output that has no state-space form; -1: none */
     double *A, *B, *C, *D;
 } state_space;
 
-/* REFUSED: an output, the masses or the stiffnesses do not allow a state space. The caller frees
- * *out in any case. */
+/* Computes the state-space form. The caller frees *out, even after a failure. REFUSED: an output,
+ * the masses or the stiffnesses do not allow a state-space form. */
 status state_space_of(const second_order *, state_space *out, fault *);
 void state_space_free(state_space *);
 
-/* A feedback loop: proportional (r - y) + derivative (r' - y') + integral (integral of r - y),
- * multiplied by `times`, is added to an input. y: output `measured`; y': output `rate` (only with a
- * derivative gain). */
+/* A feedback loop. It adds proportional (r - y) + derivative (r' - y') + integral (integral of r -
+ * y), multiplied by `times`, to an input. y is the output `measured`, and y' is the output `rate`
+ * (only if there is a derivative gain). */
 typedef struct state_space_loop {
     int input, measured, rate;
-    int reference; /* input that becomes the rate of r and must have no other effect */
+    int reference; /* input that becomes the rate of r; the input must have no other effect */
     double times, proportional, derivative, integral;
 } state_space_loop;
 
-/* Closes the loops; keeps the first `outputs` outputs. */
+/* Closes the loops, and keeps only the first `outputs` outputs. */
 status state_space_close(state_space *, int inputs, int outputs, int loops,
                          const state_space_loop[], fault *);
 

@@ -11,30 +11,31 @@
 
 typedef struct candidates {
     const eigen_problem *problem;
-    double sign; /* s: sign of the problem, reversed when the most negative values are sought */
+    /* sign s of the problem, which is reversed when the most negative values are sought */
+    double sign;
     int n, count, room;
-    double *mu;          /* [room] descending */
-    double *matrix_mu;   /* [room] the Rayleigh quotient of the assembled matrices, including their
-                            rounding errors */
+    double *mu; /* [room] descending */
+    /* [room] Rayleigh quotient of the assembled matrices, which includes their rounding errors */
+    double *matrix_mu;
     double *noise;       /* [room] change of matrix_mu due to rounding of its sums */
-    double *stiffness;   /* [room] x^T K x as evaluated by the caller */
-    double *x;           /* [room x n] normalised so that x^T K x = 1 with the matrix */
+    double *stiffness;   /* [room] x^T K x from the caller's function */
+    double *x;           /* [room x n] vectors, with x^T K x = 1 for the matrix K */
     double *work, *form; /* [n] each */
     int refinements;     /* number of refinements of every solution */
-    double *correction;  /* [n] during refined solutions, otherwise NULL */
-    sparse shifted;      /* K - s A/mu; its values are set when first needed */
+    double *correction;  /* [n] work space for refined solutions; NULL: solutions are not refined */
+    sparse shifted;      /* K - s A/mu, whose values are set when they are first needed */
     matrix_factor *shifted_factor;
 } candidates;
 
 status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f);
 void candidates_free(candidates *p);
-/* Returns a lower estimate of the largest |mu|, from a few powers of K^-1 A; 0 if A contains only
+/* Returns a lower estimate of the largest |mu|, from a few powers of K^-1 A; 0: A contains only
  * rounding errors. */
 double candidates_scale(candidates *p, long *solutions);
-/* Returns 1 if rounding alone can make x^T A x as large as `energy`. */
+/* Returns 1 if x^T A x could be as large as `energy` because of rounding alone. */
 int candidates_is_rounding(const candidates *p, double energy, const double x[]);
-/* Returns the largest relative change of x^T K x caused by the assembly of K, over the first
- * `count` candidates. */
+/* Returns the largest relative change of x^T K x due to the assembly of K, over the first `count`
+ * candidates. */
 double candidates_departure(const candidates *p, int count);
 /* Makes all later solutions K^-1 A x use K_product, with iterative refinement until the present
  * departure is reduced by a factor of 1e-6. */
@@ -42,39 +43,39 @@ status candidates_refine(candidates *p, int count, fault *f);
 /* Returns the threshold below which values are rounding errors of the largest value `scale`. In a
  * slender structure with n unknowns, n^(3/2) rounding errors add up. */
 double candidates_least(int n, double scale);
-/* Adds the vectors x[count x n], of any norm; omits those with mu <= least. */
+/* Adds the vectors x[count x n], which may have any norm. Omits vectors with mu <= least. */
 status candidates_add(candidates *p, int count, const double x[], double least, fault *f);
-/* Like candidates_add for allocated vectors, which the candidates then own. */
+/* Like candidates_add, for allocated vectors, which the candidates then own. */
 status candidates_take(candidates *p, int count, double *x, double least, fault *f);
 /* Returns K times each candidate, [count x n], which the caller frees; NULL: out of memory. */
 double *candidates_products(const candidates *p);
 /* Computes the residual of candidate i and the estimated error of its mu, both relative to mu. This
- * takes one solution. */
+ * needs one solution. */
 void candidates_judge(candidates *p, int i, double *residual, double *error);
 
-/* Proof that no eigenvalue is missing among candidates. */
+/* Proof that no eigenvalue is missing among the candidates. */
 
-/* Sets *missing to the number of eigenvalues that are missing among the candidates and that lie
- * clearly above the candidate of rank `wanted` (counted from 1). Requires wanted <= count.
- * NOT_CONVERGED if the inertia counts fewer than were found, or cannot be computed. */
+/* Sets *missing to the number of eigenvalues that are missing among the candidates and are clearly
+ * larger than the candidate of rank `wanted` (counted from 1). Requires wanted <= count.
+ * NOT_CONVERGED: the inertia counts fewer eigenvalues than were found, or cannot be computed. */
 status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_result *work,
                                 fault *f);
-/* Frees the memory used for counting if it is large; the next count allocates it again. */
+/* Frees the memory used for counting if it is large. The next count allocates it again. */
 void candidates_count_rest(candidates *p);
 /* Sets *above to the number of eigenvalues larger than s > 0. */
 status candidates_count_above(candidates *p, double s, int *above, eigen_result *work, fault *f);
 
 /* Computes all eigenvectors of a small problem by LAPACK. */
 
-/* Growing real basis V of a quadratic eigenvalue problem, orthonormal in K + shift M, with the
- * projected matrices. */
+/* Growing real basis V of a quadratic eigenvalue problem, which is orthonormal with respect to K +
+ * shift M, and the projected matrices. */
 
 typedef struct subspace {
-    eigen_product *S; /* y = S x, S = K + shift M, positive definite */
+    eigen_product *S; /* computes y = S x, where S = K + shift M is positive definite */
     void *context;
-    const sparse *M, *G; /* M: symmetric pattern; G stores its upper triangle */
+    const sparse *M, *G; /* M has a symmetric pattern; the upper triangle of G is stored */
     int n, count, room;
-    double *V, *SV, *MV, *GV; /* [room x n] the basis and its products with S, M and G */
+    double *V, *SV, *MV, *GV; /* [room x n] basis, and its products with S, M and G */
     double *Mp, *Gp;          /* [room x room] V^T M V, V^T G V */
 } subspace;
 
@@ -85,46 +86,48 @@ void subspace_free(subspace *b);
  * and the basis was not full. */
 int subspace_add(subspace *b, const double x[]);
 
-/* Approximate eigenpairs of (lambda^2 M + lambda G + K) x = 0 in a subspace: dense problems of
+/* Approximate eigenpairs of (lambda^2 M + lambda G + K) x = 0 in a subspace, from dense problems of
  * twice its size (LAPACK). */
 
 typedef struct ritz {
     int room, count,
-        size; /* largest number of pairs; number found; size of the basis at that time */
-    double complex *lambda; /* [room] ascending by magnitude; one of each set lambda, -lambda, conj
-                               lambda, -conj lambda */
+        /* largest number of pairs; number of pairs found; size of the basis when they were found */
+        size;
+    /* [room] eigenvalues in ascending order of magnitude, with one of each set lambda, -lambda,
+     * conj lambda, -conj lambda */
+    double complex *lambda;
     double complex
         *c; /* [room x basis room] coefficients of x in the basis, normalised to length 1 */
-    double complex *left; /* likewise for the left eigenvectors, w^H (lambda^2 M + lambda G + K) =
-                             0; for S = K they equal x */
+    /* coefficients of the left eigenvectors, w^H (lambda^2 M + lambda G + K) = 0; they equal those
+     * of x if S = K */
+    double complex *left;
 } ritz;
 
-/* Relative real part of lambda up to which it counts as round-off. */
+/* Relative real part of lambda up to which it counts as rounding. */
 static const double ritz_imaginary = 1e-7;
 
 status ritz_alloc(ritz *r, int room, const subspace *b, fault *f);
 void ritz_free(ritz *r);
-/* Solves with S = K. The problem is Hermitian, every lambda is imaginary, and the positive ones are
+/* Solves with S = K. The problem is Hermitian, and every lambda is imaginary. The positive ones are
  * returned. */
 status ritz_hermitian(const subspace *b, ritz *r, fault *f);
 /* Solves with S = K + shift M. */
 status ritz_general(const subspace *b, double shift, ritz *r, fault *f);
 
-/* Accuracy of a mode found in a subspace.
- *
- * If w^H (lambda^2 M + lambda G + K) = 0, a change d of K changes lambda by w^H d x/(w^H (2 lambda
- * M + G) x), and lambda w^H (2 lambda M + G) x = w^H (lambda^2 M - K) x. For an oscillation, w = x,
- * and the error of the vector enters as its square: r^H S^-1 r with the residual r, divided by the
- * distance to other frequencies. If two frequencies coincide, this quotient is unbounded, but the
- * square root of the change is bounded. */
+/* Accuracy of a mode found in a subspace. If w^H (lambda^2 M + lambda G + K) = 0, a change d of K
+ * changes lambda by w^H d x/(w^H (2 lambda M + G) x), and lambda w^H (2 lambda M + G) x = w^H
+ * (lambda^2 M - K) x. For an oscillation, w = x, and the effect of the error of the vector is
+ * quadratic: r^H S^-1 r with the residual r, divided by the distance to other frequencies. If two
+ * frequencies coincide, this quotient is unbounded, but the square root of the change is bounded.
+ * */
 
 typedef struct motion_estimate {
     const gyroscopic_problem *p;
-    const subspace *basis;   /* orthonormal in S = K + shift M, ... */
-    matrix_factor *S_factor; /* ... and its factored matrix */
+    const subspace *basis;   /* basis that is orthonormal with respect to S = K + shift M */
+    matrix_factor *S_factor; /* factored S */
     const ritz *pairs;
     double shift;
-    int found;    /* number of pairs that are returned, which come first */
+    int found;    /* number of returned pairs, which come first */
     double *work; /* [11 n] */
     long solutions;
 } motion_estimate;
@@ -132,30 +135,31 @@ typedef struct motion_estimate {
 status estimate_alloc(int n, motion_estimate *, fault *);
 void estimate_free(motion_estimate *);
 /* Estimates the error of pair i, x = re + i im. For an oscillation, *lambda is improved by solving
- * the quadratic forms k - omega^2 m + omega g = 0; the error of this solution is of the order of
- * the square of the error of x. grows = 1: the mode is not an oscillation. *error: estimated error
- * of lambda relative to |lambda|. */
+ * the quadratic forms k - omega^2 m + omega g = 0. The error of this solution is of the order of
+ * the square of the error of x. grows 1: the mode is not an oscillation. *error: estimated error of
+ * lambda relative to |lambda|. */
 void estimate_pair(motion_estimate *, int i, const double re[], const double im[], int grows,
                    double complex *lambda, double *error);
-/* Computes y = K x, with K_product if it is available. */
+/* Computes y = K x, using K_product if it is available. */
 void estimate_stiffness(const gyroscopic_problem *, const double x[], double y[]);
 
-/* LDL^T of a sparse symmetric matrix without pivoting (SuiteSparse AMD and LDL): the signs of D are
- * the inertia. */
+/* LDL^T of a sparse symmetric matrix without pivoting (SuiteSparse AMD and LDL). The signs of D
+ * give the inertia. */
 
 typedef struct factor_symmetric factor_symmetric;
 
 status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, factor_counts *counts,
                               fault *f);
-/* Allocates for a matrix with the same pattern as `of`, and shares its order, pattern and
- * workspace. `of` must outlive it; only one of the two may be factored at a time. */
+/* Allocates a factor for a matrix with the same pattern as `of`, whose order, pattern and work
+ * space are shared. `of` must outlive the factor. Only one of the two may be factored at a time. */
 status factor_symmetric_alloc_like(const factor_symmetric *of, factor_symmetric **out, fault *f);
 void factor_symmetric_free(factor_symmetric *fs);
-/* Returns OK or SINGULAR; allocates nothing. *weakest: the unknown whose pivot has lost the most
- * digits; *ratio: this pivot divided by the size of the terms whose sum it is. */
+/* Factors the values without allocating memory. Returns OK or SINGULAR. *weakest: unknown whose
+ * pivot has lost the most digits. *ratio: this pivot divided by the magnitude of the terms of its
+ * sum. */
 status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts,
                                 int *weakest, double *ratio);
-/* Solves in place for `columns` right-hand sides, `stride` numbers apart. */
+/* Solves in place for `columns` right-hand sides. Their starts are `stride` numbers apart. */
 void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, double x[]);
 
 /* LU of a sparse unsymmetric matrix with partial pivoting (SuiteSparse KLU). */
@@ -163,36 +167,38 @@ void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, doubl
 typedef struct factor_unsymmetric factor_unsymmetric;
 
 void factor_unsymmetric_free(factor_unsymmetric *fu);
-/* Solves in place for `columns` right-hand sides, `stride` numbers apart. */
+/* Solves in place for `columns` right-hand sides. Their starts are `stride` numbers apart. */
 void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[]);
 void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[]);
 
-/* Number of frequencies below a given one: the number of negative eigenvalues of the Hermitian
- * matrix K - omega^2 M + i omega G with K positive definite. */
+/* Number of frequencies below a given frequency: the number of negative eigenvalues of the
+ * Hermitian matrix K - omega^2 M + i omega G with positive definite K. */
 
-/* SINGULAR if omega is too close to a frequency. */
+/* Counts the frequencies below omega. SINGULAR: omega is too close to a frequency. */
 status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, double omega, int *below,
                         fault *f);
 
 /* Proves, from the negative eigenvalues of K, that no mode about an unstable state is missing.
  *
- * (lambda^2 M + lambda G + K) x = 0 with M positive. Each negative eigenvalue of K belongs to a
- * mode, so negative(K) = real + 2 complex + 2 opposed where the three numbers count the real lambda
- * > 0, the pairs the lambda = a + i b with a, b > 0, and the frequencies whose energy x^H (K
+ * The problem is (lambda^2 M + lambda G + K) x = 0 with positive M. Each negative eigenvalue of K
+ * belongs to a mode, so negative(K) = real + 2 complex + 2 opposed. The three numbers on the right
+ * count the real lambda > 0, the lambda = a + i b with a, b > 0, and the frequencies whose energy
+ * x^H (K
  * + omega^2 M) x is negative (T. Kapitula, P. Kevrekidis, B. Sandstede, Physica D 195 (2004)
- * 263-282). If the modes found add up to this number, none is missing. The number of negative
- * eigenvalues of K - omega^2 M + i omega G is then that of K, plus one for each frequency of
- * positive energy below omega, minus one for each opposed frequency. */
+ * 263-282). If the modes explain all negative eigenvalues, none is missing. The number of negative
+ * eigenvalues of K - omega^2 M + i omega G is then that of K, plus one for each frequency with
+ * positive energy below omega, minus one for each opposed frequency below omega. */
 
 typedef struct gyroscopic_index {
-    int negative; /* number of negative eigenvalues of K that the modes account for */
-    int crossed;  /* number of frequencies of positive energy minus number of those of negative
-                     energy */
+    int negative; /* number of negative eigenvalues of K that the modes explain */
+    /* number of frequencies with positive energy minus number of frequencies with negative energy
+     * */
+    int crossed;
 } gyroscopic_index;
 
-/* Returns 1 if mode i grows. The energy of a growing mode is zero, that of an oscillation is not; a
- * real part of an oscillation is round-off. If two frequencies coincide, neither test applies, and
- * the modes count as oscillations. */
+/* Returns 1 if mode i grows. The energy of a growing mode is zero, and the energy of an oscillation
+ * is not. A real part of an oscillation is a rounding error. If two frequencies coincide, neither
+ * test applies, and the modes count as oscillations. */
 int gyroscopic_index_grows(const ritz *, const subspace *, double shift, int i);
 /* Computes the index from the first `count` pairs found with S = K + shift M. */
 gyroscopic_index gyroscopic_index_of(const ritz *, const subspace *, double shift, int count);
@@ -204,51 +210,51 @@ typedef struct lanczos_problem {
     const sparse *K, *A;
     matrix_factor *K_factor;
     double sign;      /* sign s of the problem */
-    int known;        /* number of eigenvectors that are removed from the problem ... */
-    const double *X;  /* ... [known x n], K-orthonormal */
-    const double *KX; /* [known x n] K times each of them */
+    int known;        /* number of eigenvectors that are removed from the problem */
+    const double *X;  /* [known x n] these eigenvectors, K-orthonormal */
+    const double *KX; /* [known x n] K times each of these eigenvectors */
 } lanczos_problem;
 
-/* Computes `wanted` <= n - known - 1 eigenvalues mu[wanted] in descending order with K-orthonormal
- * vectors (*x)[wanted x n], which the caller frees. *found: number of values that have converged,
- * at least one; it is less than `wanted` if the iteration ends early. */
+/* Computes `wanted` <= n - known - 1 eigenvalues mu[wanted] in descending order and their
+ * K-orthonormal vectors (*x)[wanted x n], which the caller frees. *found: number of values that
+ * have converged, at least one. It is smaller than `wanted` if the iteration ends early. */
 status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
                        long *solutions, fault *f);
 
-/* Improves candidates whose soft motions lost digits in the assembly of K. */
+/* Improves candidates whose soft motions have lost digits in the assembly of K. */
 
-/* Replaces the candidates by Ritz vectors of K^-1 A times them, with refined solutions
- * (candidates_refine). Components outside the span of the candidates shrink by the ratio of their
- * mu to that of the candidate. This takes one refined solution per candidate. */
+/* Replaces the candidates by Ritz vectors of K^-1 A times the candidates, computed with refined
+ * solutions (candidates_refine). Components outside the span of the candidates are reduced by the
+ * ratio of their mu to that of the candidate. This needs one refined solution per candidate. */
 status polish(candidates *p, long *solutions, fault *f);
 
-/* Computes the values of L and D in P A P^T = L D L^T, row by row. Consecutive rows that have
- * entries in the same columns are computed together, one in each lane. Consecutive columns of equal
+/* Computes the values of L and D in P A P^T = L D L^T, row by row. Consecutive rows with entries in
+ * the same columns are computed together, one in each lane. Consecutive columns with the same
  * pattern are subtracted together. The terms of every number are summed in the order of the
  * columns, so all numbers agree bitwise with those of SuiteSparse's ldl_numeric. */
 
 enum { TRIANGULAR_LANES = 4, TRIANGULAR_RUN = 7 };
 
-/* A run of consecutive columns of L in which the same rows have entries. */
+/* A run of consecutive columns of L with entries in the same rows. */
 typedef struct triangular_run {
     int first, count; /* count: 1 .. TRIANGULAR_RUN */
 } triangular_run;
 
 typedef struct triangular_rows {
-    int groups; /* number of groups, each of 1 .. TRIANGULAR_LANES rows */
-    const int *first_of_group,
-        *run_of_group; /* [groups + 1] first row of each group; [groups + 1] its first run */
-    const triangular_run *run; /* [run_of_group[groups]] in the order of summation */
-    const int *begin_A;        /* [n + 1] entries of each row of P A P^T ... */
-    const int *place,
-        *source; /* ... column TRIANGULAR_LANES + lane of the row; index into the values of a */
-    const int *begin, *row; /* L: [n + 1], [begin[n]] */
-    int *filled;            /* [n] number of entries of a column so far */
-    double *value;          /* L: [begin[n]] */
-    double *D;              /* [n] */
-    double *diagonal;       /* [n] diagonal of |A| */
-    double *rest; /* [n + TRIANGULAR_LANES][TRIANGULAR_LANES] work space, zero before and after each
-                     call */
+    int groups; /* number of groups, each with 1 .. TRIANGULAR_LANES rows */
+    const int *first_of_group, *run_of_group; /* [groups + 1] first row of each group; [groups + 1]
+                                                 first run of each group */
+    const triangular_run *run; /* [run_of_group[groups]] runs in the order of summation */
+    const int *begin_A;        /* [n + 1] start of the entries of each row of P A P^T */
+    const int *place, *source; /* for each entry: column TRIANGULAR_LANES + lane of the row; index
+                                  in the values of A */
+    const int *begin, *row;    /* L: starts of the columns [n + 1], and rows [begin[n]] */
+    int *filled;               /* [n] number of entries of a column so far */
+    double *value;             /* L: [begin[n]] */
+    double *D;                 /* [n] */
+    double *diagonal;          /* [n] diagonal of |A| */
+    /* [n + TRIANGULAR_LANES][TRIANGULAR_LANES] work space, zero before and after each call */
+    double *rest;
 } triangular_rows;
 
 /* Returns the column of an entry of P A P^T from its position. */
@@ -257,8 +263,8 @@ static inline int triangular_column_of(int place)
     return place / TRIANGULAR_LANES;
 }
 
-/* Returns 0 if a pivot is zero; this row and the rows after it are then not computed. The second
- * function is for processors with AVX2: elements/math/real.h. */
+/* Computes the rows. Returns 0 if a pivot is zero; this row and the following rows are then not
+ * computed. The second function is for processors with AVX2 (elements/math/real.h). */
 int triangular_rows_factor_plain(const triangular_rows *, const double a[]);
 int triangular_rows_factor_avx2(const triangular_rows *, const double a[]);
 
@@ -267,47 +273,51 @@ int triangular_rows_factor_avx2(const triangular_rows *, const double a[]);
 /* A symmetric matrix and its factor, in the order of elimination. */
 typedef struct triangular_pattern {
     int n;
-    const int *column, *row; /* upper triangle of the matrix: [n + 1], [column[n]] */
-    const int *parent;       /* [n] elimination tree, -1: a root */
-    const int *begin;        /* [n + 1] of L */
-    int *mark, *path;        /* [n] workspace */
+    /* upper triangle of the matrix: starts of the columns [n + 1], and rows [column[n]] */
+    const int *column, *row;
+    const int *parent; /* [n] elimination tree; -1: a root */
+    const int *begin;  /* [n + 1] starts of the columns of L */
+    int *mark, *path;  /* [n] workspace */
 } triangular_pattern;
 
 typedef struct triangular_groups {
     int groups;
     int *first_of_group, *run_of_group; /* [groups + 1] */
     triangular_run *run;                /* [run_of_group[groups]] */
-    int columns;                        /* runs of all columns ... */
+    int columns;                        /* number of runs of all columns */
     triangular_run *of_columns;         /* ... [columns] */
 } triangular_groups;
 
-/* Also fills L_row[begin[n]]. Returns 0 if out of memory; call triangular_groups_free in either
- * case. */
+/* Finds the groups, and fills L_row[begin[n]]. Returns 0 if out of memory. Call
+ * triangular_groups_free even after a failure. */
 int triangular_groups_find(const triangular_pattern *, int L_row[], triangular_groups *out);
-/* Converts rows of the matrix [column[n]] into the positions where triangular_rows adds its
- * entries; column: [n + 1]. */
+/* Converts rows of the matrix [column[n]] to the positions where triangular_rows adds its entries.
+ * column: [n + 1]. */
 void triangular_groups_place(const triangular_groups *, const int column[], int row[]);
 void triangular_groups_free(triangular_groups *);
 
 /* Solves P^T L D L^T P x = b for one or several right-hand sides. Terms are summed in the order of
- * SuiteSparse's ldl_lsolve and ldl_ltsolve, so the bits do not depend on how many right-hand sides
- * are solved together. */
+ * SuiteSparse's ldl_lsolve and ldl_ltsolve, so the bits do not depend on the number of right-hand
+ * sides that are solved together. */
 
 enum { TRIANGULAR_TOGETHER = 4 };
 
 typedef struct triangular_factors {
     int n;
-    const int *order;        /* [n] order[k] is the unknown at position k */
-    const int *begin, *row;  /* L: [n + 1], [begin[n]] ascending in each column */
+    const int *order; /* [n] order[k] is the unknown at position k */
+    /* L: starts of the columns [n + 1], and rows [begin[n]] in ascending order within each column
+     * */
+    const int *begin, *row;
     const double *value, *D; /* L: [begin[n]]; [n] */
-    int runs; /* runs of all columns: each column except the last of a run has one more entry, in
-                 the next column ... */
-    const triangular_run *run; /* ... and otherwise the rows of that column */
+    int runs;                /* number of runs of all columns */
+    /* runs; each column of a run except the last has one more entry than the next column, in the
+     * row of this next column, and otherwise the same rows */
+    const triangular_run *run;
 } triangular_factors;
 
-/* Solves in place. x: `columns` right-hand sides of length n, `stride` numbers apart; work:
- * [TRIANGULAR_TOGETHER n]. The second function is for processors with AVX2:
- * elements/math/real.h. */
+/* Solves in place. x: `columns` right-hand sides of length n, whose starts are `stride` numbers
+ * apart. work: [TRIANGULAR_TOGETHER n]. The second function is for processors with AVX2
+ * (elements/math/real.h). */
 void triangular_solve_plain(const triangular_factors *, int columns, int stride, double x[],
                             double work[]);
 void triangular_solve_avx2(const triangular_factors *, int columns, int stride, double x[],

@@ -17,16 +17,16 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for a reduced model");
 }
 
-/* A basis under construction, with the columns of V one after the other. */
+/* A basis under construction. The columns of V follow one another. */
 typedef struct reduction {
     const second_order *m;
-    int inner, edge; /* number of coordinates outside the interface, and in it */
-    int *of;         /* [n] coordinates, first the inner ones */
-    double *K;       /* [inner^2] symmetric; becomes its Cholesky factor */
-    double *mode;    /* [inner^2] modes by columns, K-orthonormal, the highest frequency first */
-    double *mu;      /* [inner] 1/w^2 of the modes */
-    double *V;       /* [columns x n] */
-    double *r;       /* [motions x n] static shapes of motions */
+    int inner, edge; /* numbers of coordinates outside and in the interface */
+    int *of;         /* [n] coordinates, inner coordinates first */
+    double *K;       /* [inner^2] symmetric stiffness, which becomes its Cholesky factor */
+    double *mode; /* [inner^2] K-orthonormal modes, by columns, with the highest frequency first */
+    double *mu;   /* [inner] 1/w^2 of the modes */
+    double *V;    /* [columns x n] */
+    double *r;    /* [motions x n] static deflection shapes due to unit prescribed motions */
     int columns;
     int modes; /* in V: those requested, and those with the same frequency as the last one */
 } reduction;
@@ -143,7 +143,8 @@ static void build(reduction *b, double room[])
     }
 }
 
-/* Assembles right[size x reduced size], which includes the motions, and left, which does not. */
+/* Assembles `right`[size x reduced size], which includes the motions, and `left`, which does not.
+ * */
 static void assemble(const reduction *b, double left[], double right[])
 {
     const second_order *m = b->m;
@@ -175,8 +176,8 @@ static void project(const double left[], const double A[], const double right[],
                 out[i * R + j] += left[k * R + i] * room[k * R + j];
 }
 
-/* Subtracts z^T (K q + C q' + M q'' - B u), which is zero, from row y of the outputs, with the
- * static shape z of the output. The remainder is due to inertia and damping (mode acceleration
+/* Subtracts z^T (K q + C q' + M q'' - B u), which is zero, from row y of the outputs, where z is
+ * the static shape of the output. The remainder is due to inertia and damping (mode acceleration
  * method). */
 static void correct_output(const reduction *b, int y, double *L[3], double D[], double room[])
 {
@@ -285,7 +286,7 @@ status second_order_frequencies(const second_order *m, double hertz[], fault *f)
         }
     const int info =
         n == 0 ? 0 : LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'N', 'L', m->n, M, m->n, K, m->n, mu);
-    for (size_t i = 0; i < n; i++) /* none if the structure is free */
+    for (size_t i = 0; i < n; i++) /* there are none if the structure is free */
         hertz[i] =
             info == 0 && mu[n - 1 - i] > 0 ? 1 / sqrt(mu[n - 1 - i]) / (2 * PI) : (double)NAN;
     free(K);

@@ -39,7 +39,7 @@ static double complex *left_coefficients(const subspace *b, const ritz *r, int i
     return r->left + (size_t)i * (size_t)b->room;
 }
 
-enum { RITZ_BEHIND = 8 /* columns after the end of a matrix */ };
+enum { RITZ_BEHIND = 8 /* number of columns after the end of a matrix */ };
 
 static void normalise(int k, double complex c[])
 {
@@ -50,8 +50,8 @@ static void normalise(int k, double complex c[])
         c[j] /= sqrt(square);
 }
 
-/* Computes R[k x k], row-major, with R^T R equal to the projected M. A row is zero if M is there
- * only a rounding error of its largest eigenvalue. */
+/* Computes R[k x k], row-major, with R^T R equal to the projected M. A row is zero if its part of M
+ * is only a rounding error of the largest eigenvalue of M. */
 static int root_of_mass(const subspace *b, double R[])
 {
     const int k = b->count;
@@ -81,8 +81,8 @@ static void hermitian_matrix(const subspace *b, const double R[], double complex
         }
 }
 
-/* Stores the pairs of mu[found], which ascend. Skips infinite frequencies, whose modes have no
- * mass. */
+/* Stores the pairs for mu[found], which is in ascending order. Skips infinite frequencies, whose
+ * modes have no mass. */
 static void take_hermitian(const subspace *b, int found, const double mu[], const double complex *z,
                            ritz *r)
 {
@@ -99,9 +99,9 @@ static void take_hermitian(const subspace *b, int found, const double mu[], cons
     }
 }
 
-/* Computes the largest `most` eigenvalues mu, ascending, with their vectors z. zgemv of some
- * OpenBLAS versions (0.3.21, Haswell) reads a few columns past the end of its matrices; H and the
- * work array are allocated with room for that. */
+/* Computes the largest `most` eigenvalues mu, in ascending order, and their vectors z. zgemv of
+ * some OpenBLAS versions (0.3.21, Haswell) reads a few columns past the end of its matrices. H and
+ * the work array are allocated with additional columns for this reason. */
 static int largest_eigenvalues(int n, int most, double complex H[], double mu[], double complex z[],
                                lapack_int support[], lapack_int *found)
 {
@@ -163,7 +163,7 @@ static int is_first_of_its_kind(double complex lambda)
                                 : cimag(lambda) >= -tiny && creal(lambda) > 0;
 }
 
-/* Inserts a pair in the order of magnitude; c[2 x basis size]: coefficients of x and of w. */
+/* Inserts a pair in the order of magnitude. c[2 x basis size]: coefficients of x and of w. */
 static void insert(const subspace *b, ritz *r, double complex lambda, const double complex c[])
 {
     int at = r->count;
@@ -187,8 +187,8 @@ static void insert(const subspace *b, ritz *r, double complex lambda, const doub
 
 /* Fills the column-major matrices of nu [Kp, 0; 0, 1] z = [-Gp, -R^T; R, 0] z, where nu = 1/lambda,
  * z = (x, lambda R x), Mp = R^T R and Kp = 1 - shift Mp. A massless mode is a simple eigenvalue nu
- * = 0. With lambda x instead of lambda R x it would be a double eigenvalue, which rounding splits
- * by the square root of the rounding error. */
+ * = 0. If lambda x replaced lambda R x, it would be a double eigenvalue, which rounding splits by
+ * the square root of the rounding error. */
 static void general_matrices(const subspace *b, double shift, const double R[], double A[],
                              double B[])
 {
@@ -205,7 +205,7 @@ static void general_matrices(const subspace *b, double shift, const double R[], 
 }
 
 /* Copies the first half of column i of z[n x n] to c[k]. For a conjugate pair, this column contains
- * the real part and the next one the imaginary part. */
+ * the real part and the next column contains the imaginary part. */
 static void take_column(int k, int i, int is_complex, int second, const double *z,
                         double complex c[])
 {
@@ -217,7 +217,7 @@ static void take_column(int k, int i, int is_complex, int second, const double *
 }
 
 /* Stores the first of each conjugate pair of eigenvalues beta/(re + i im) [n]. Their columns of z
- * (right) and w (left) contain real and imaginary parts; c[2 k]: workspace. */
+ * (right) and w (left) contain real and imaginary parts. c[2 k]: work space. */
 static void take_general(const subspace *b, const double re[], const double im[],
                          const double beta[], const double *z, const double *w, double complex c[],
                          ritz *r)

@@ -36,8 +36,8 @@ void sparse_copy_leading(const sparse *whole, sparse *leading)
                (size_t)(leading->column[j + 1] - leading->column[j]) * sizeof *leading->value);
 }
 
-/* Multiplies by a matrix whose upper triangle represents both halves; the diagonal entry, if
- * stored, is the last one of its column. */
+/* Multiplies by a matrix whose upper triangle represents both halves. If the diagonal entry is
+ * stored, it is the last entry of its column. */
 static void mul_symmetric(const sparse *a, const double x[], double y[])
 {
     for (int j = 0; j < a->n; j++) {
@@ -96,12 +96,13 @@ double sparse_rounding(const sparse *a, const double x[], const double y[])
 
 struct by_numbers {
     sparse upper;
-    int *from, *mirror; /* [entries of upper] positions in the whole matrix; mirror -1: the mirrored
-                           entry is not stored */
-    double *diagonal;   /* [n] */
+    /* [entries of upper] positions in the whole matrix; mirror -1: the mirrored entry is not stored
+     * */
+    int *from, *mirror;
+    double *diagonal; /* [n] */
 };
 
-/* Returns the position of an entry; -1: it is not stored. */
+/* Returns the position of an entry; -1: not stored. */
 static int place_of(const sparse *a, int row, int column)
 {
     int low = a->column[column], high = a->column[column + 1] - 1;
@@ -272,7 +273,7 @@ void triplets_mul(const triplets *A, const double x[], double y[])
     }
 }
 
-/* Returns the memory of the machine, or the limit of this process [byte]. */
+/* Returns the memory of the machine, or the limit of this process if it is smaller [byte]. */
 static double usable(void)
 {
     struct rlimit own;

@@ -1,10 +1,8 @@
-/* State space of M q'' + C q' + K q = B u.
- *
- * Coordinates with mass become undamped modes a with unit mass. Their circular frequencies w come
- * from a one-sided Jacobi method, which is accurate for low and high frequencies alike (Z. Drmac,
- * K. Veselic, SIAM J. Matrix Anal. Appl. 29 (2008) 1322); the states are w a and a'. Coordinates
- * without mass but with damping are of first order; coordinates with neither are eliminated by
- * their static equations. */
+/* State-space form of M q'' + C q' + K q = B u. Coordinates with mass become undamped modes a with
+ * unit mass. Their circular frequencies w are computed with a one-sided Jacobi method, which is
+ * accurate for low and high frequencies alike (Z. Drmac, K. Veselic, SIAM J. Matrix Anal. Appl. 29
+ * (2008) 1322). The states are w a and a'. Coordinates with damping but without mass are of first
+ * order. Coordinates with neither are eliminated by their static equations. */
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
@@ -14,19 +12,19 @@
 #include "elements/math/dense.h"
 #include "harness/numerics/numerics_impl.h"
 
-/* Matrices of the free coordinates in new coordinates q = T x: first those with mass [masses], then
- * those of first order [slow], then those that are eliminated [rigid]. */
+/* Matrices of the free coordinates in new coordinates q = T x. Coordinates with mass come first
+ * [masses], followed by those of first order [slow] and those that are eliminated [rigid]. */
 typedef struct split {
     const second_order *of;
     int n, masses, slow, rigid;
-    double *T;            /* [n x n] */
-    double *w;            /* [n] circular frequencies of coordinates with mass, otherwise 1 */
-    double *K, *C, *M;    /* [n x n] T^T K T, T^T C T, T^T M T */
-    double *moved[3], *F; /* [n x motions] forces due to motions through K, C and M; [n x inputs]
-                             forces of inputs */
-    double shift;         /* shift of the squares of frequencies */
-    double
-        *still; /* [rigid x (n + motions + inputs)] eliminated coordinates in terms of the others */
+    double *T; /* [n x n] */
+    double *w; /* [n] circular frequencies of coordinates with mass; 1 for other coordinates */
+    double *K, *C, *M; /* [n x n] T^T K T, T^T C T, T^T M T */
+    /* [n x motions] forces due to motions through K, C and M; [n x inputs] forces of inputs */
+    double *moved[3], *F;
+    double shift;  /* shift of the squares of frequencies */
+    double *still; /* [rigid x (n + motions + inputs)] eliminated coordinates as functions of the
+                      others */
     double *row, *of_input; /* [states x states], [states x inputs] */
 } split;
 
@@ -67,7 +65,7 @@ static status congruence(const split *s, const double A[], int size, double out[
     return STATUS_OK;
 }
 
-/* Computes out[n x columns] = T^T times the columns of A [. x size] that start at `from`. */
+/* Computes out[n x columns] = T^T times the columns of A [. x size] from column `from` on. */
 static void turned(const split *s, const double A[], int size, int from, int columns, double out[])
 {
     const size_t n = (size_t)s->n;
@@ -95,8 +93,8 @@ static status project(split *s, fault *f)
 }
 
 /* Replaces columns `from` to s->n of T by eigenvectors of the symmetric part of A [n x n], scaled
- * by the square roots of its diagonal. Those whose eigenvalue exceeds round-off come first. Returns
- * their number; -1: out of memory. */
+ * by the square roots of its diagonal. Eigenvectors whose eigenvalue exceeds rounding come first.
+ * Returns their number; -1: out of memory. */
 static int range_of(split *s, const double A[], const double scale[], int from, fault *f)
 {
     const size_t n = (size_t)s->n, size = n - (size_t)from;
@@ -156,7 +154,7 @@ static status split_masses(split *s, fault *f)
     return outcome;
 }
 
-/* Separates those with damping among the coordinates without mass. */
+/* Separates the coordinates with damping among those without mass. */
 static status split_dampers(split *s, fault *f)
 {
     const size_t n = (size_t)s->n, from = (size_t)s->masses;
@@ -214,7 +212,7 @@ static status eliminate(split *s, fault *f)
 }
 
 /* Computes G = R L^-T from K + shift M = R^T R and M = L L^T, column by column, for the coordinates
- * with mass; L is the lower triangle [masses x masses]. Returns 0 if K + shift M is not positive
+ * with mass. L is the lower triangle [masses x masses]. Returns 0 if K + shift M is not positive
  * definite. */
 static int relative(const split *s, double L[], double G[])
 {
@@ -264,8 +262,8 @@ static status decompose(split *s, double L[], double G[], double V[], int *posit
     return STATUS_OK;
 }
 
-/* Computes the undamped modes of the coordinates with mass. The stiffness of a
- * free structure is shifted just enough to become positive definite. */
+/* Computes the undamped modes of the coordinates with mass. The stiffness of a free structure is
+ * shifted just enough to become positive definite. */
 static status take_modes(split *s, double L[], double G[], double V[], fault *f)
 {
     const size_t n = (size_t)s->n, p = (size_t)s->masses;
@@ -396,7 +394,7 @@ static void fill_rows(const split *s, double rows[])
             rows[(first + motions + p + (size_t)m->motion_of[j]) * width + states + j] = 1;
 }
 
-/* Fills q = Q x + R u: [(n + motions) x (states + inputs)]. */
+/* Fills the rows [(n + motions) x (states + inputs)] of q = Q x + R u. */
 static void fill_positions(const split *s, double out[])
 {
     const second_order *m = s->of;

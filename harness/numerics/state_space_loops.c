@@ -1,6 +1,6 @@
-/* Closes feedback loops around a state space: x' = A x + B w, and for each loop the factor
- *   u = Kp (r - y) + Kd (r' - y') + Ki z,  z' = r - y,
- * which is added to its input. The references r are states, whose rates are inputs. */
+/* Closes feedback loops around a state-space form x' = A x + B w. For each loop, the factor u = Kp
+ * (r - y) + Kd (r' - y') + Ki z, with z' = r - y, is added to its input. The references r are
+ * states, and their rates are inputs. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@ typedef struct closing {
     double *u;   /* [loops x wide] */
 } closing;
 
-/* Adds `times` row y of the outputs without loops to the row to[wide]. */
+/* Adds `times` row y of the outputs of the open loops to the row to[wide]. */
 static void add_output(const closing *c, int y, double times, double to[])
 {
     const size_t states = (size_t)c->of->states, inputs = (size_t)c->inputs;
@@ -31,8 +31,8 @@ static void add_output(const closing *c, int y, double times, double to[])
         to[states + 2 * (size_t)c->loops + j] += times * c->of->D[(size_t)y * inputs + j];
 }
 
-/* Adds `times` the contribution that the loops make through the inputs to the row to[wide].
- * by_input: row of B or D [inputs]. */
+/* Adds `times` the contribution of the loops through the inputs to the row to[wide]. by_input: row
+ * of B or D [inputs]. */
 static void add_loops(const closing *c, const double by_input[], double times, double to[])
 {
     for (int l = 0; l < c->loops; l++)
@@ -41,8 +41,8 @@ static void add_loops(const closing *c, const double by_input[], double times, d
                      c->u[(size_t)l * c->wide + j];
 }
 
-/* Solves (1 + Kp D + Kd D') u = ... for the factors, which may act instantaneously on their
- * measured outputs. */
+/* Solves (1 + Kp D + Kd D') u = ... for the factors, which may act instantaneously on the measured
+ * outputs. */
 static status find_factors(closing *c, fault *f)
 {
     const size_t loops = (size_t)c->loops, states = (size_t)c->of->states;
@@ -77,8 +77,8 @@ static status find_factors(closing *c, fault *f)
                       : STATUS_OK;
 }
 
-/* Returns the position of a loop's integral after the states and references. Integrals that are not
- * used are skipped. */
+/* Returns the position of the integral of a loop, after the states and references. Integrals that
+ * are not used are skipped. */
 static int position(const closing *c, int loop)
 {
     int at = c->of->states + c->loops;
@@ -87,8 +87,8 @@ static int position(const closing *c, int loop)
     return at;
 }
 
-/* Stores a row of the new state space. The row is given in terms of states, references, all
- * integrals and inputs. */
+/* Stores a row of the new state-space form. The row is given as a function of states, references,
+ * all integrals and inputs. */
 static void keep_row(const closing *c, const double row[], double A[], double B[])
 {
     const size_t known = (size_t)c->of->states + (size_t)c->loops;

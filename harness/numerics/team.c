@@ -1,5 +1,5 @@
-/* Worker threads spin briefly before they sleep, because the loops of one iteration follow each
- * other within microseconds. */
+/* Worker threads wait actively for a short time before they sleep, because the loops of an
+ * iteration follow each other within microseconds. */
 #include "harness/numerics/numerics.h"
 
 #include <pthread.h>
@@ -11,7 +11,7 @@ enum { SPINS = 2000 };
 
 typedef struct team_member {
     thread_team *team;
-    int index; /* 1 .. threads - 1; the calling thread is 0 */
+    int index; /* 1 .. threads - 1; the calling thread is thread 0 */
     pthread_t thread;
 } team_member;
 
@@ -21,7 +21,8 @@ struct thread_team {
     pthread_mutex_t lock;
     pthread_cond_t wake;
     atomic_int round,
-        left; /* round: changes when there is work; left: number of threads still working */
+        /* round: changes when there is work; left: number of threads that are still working */
+        left;
     int end;
     int count;
     team_work *work;
@@ -121,8 +122,8 @@ void team_run(thread_team *t, int count, team_work *work, void *context)
     int spins = 0;
     while (atomic_load_explicit(&t->left, memory_order_acquire) > 0)
         if (++spins > SPINS)
-            sched_yield(); /* the parts are equal, so this wait is short unless there are too few
-                              processors */
+            /* the parts are equal, so this wait is short unless there are too few processors */
+            sched_yield();
 }
 
 typedef struct relay {
@@ -134,7 +135,7 @@ typedef struct relay {
     atomic_int filled[TEAM_SLOTS]; /* index of the piece in the slot, plus one */
 } relay;
 
-/* Fills the next piece if there is one and its slot is free. Returns 1 if it did. */
+/* Fills the next piece if there is one and its slot is free. Returns 1 if it was filled. */
 static int fill_next(relay *r)
 {
     int piece = atomic_load(&r->claimed);
@@ -153,7 +154,7 @@ static void wait_a_moment(int *spins)
         sched_yield();
 }
 
-/* Fills pieces as long as there are any left. */
+/* Fills pieces as long as there are any. */
 static void follow(relay *r)
 {
     int spins = 0;
@@ -164,7 +165,7 @@ static void follow(relay *r)
             wait_a_moment(&spins);
 }
 
-/* Uses filled pieces in order, and fills further pieces while the next one is not ready. */
+/* Uses filled pieces in order, and fills further pieces while the next piece is not ready. */
 static void lead(relay *r)
 {
     int spins = 0, wanted = 1;

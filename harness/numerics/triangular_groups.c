@@ -28,7 +28,7 @@ static int is_nested(const triangular_pattern *of, int j)
            of->begin[j + 1] - of->begin[j] == of->begin[j + 2] - of->begin[j + 1] + 1;
 }
 
-/* Returns how many of `count` columns, from the first one, form a run. */
+/* Returns the number of columns, starting with the first of `count` columns, that form a run. */
 static int run_length(const triangular_pattern *of, int count, const int column[])
 {
     const int most = count < TRIANGULAR_RUN ? count : TRIANGULAR_RUN;
@@ -39,7 +39,8 @@ static int run_length(const triangular_pattern *of, int count, const int column[
     return length;
 }
 
-/* Splits the columns into runs, stored in `run` unless it is NULL; returns their number. */
+/* Splits the columns into runs, which are stored in `run` unless it is NULL. Returns the number of
+ * runs. */
 static int split(const triangular_pattern *of, int count, const int column[], triangular_run run[])
 {
     int runs = 0;
@@ -51,8 +52,8 @@ static int split(const triangular_pattern *of, int count, const int column[], tr
     return runs;
 }
 
-/* Returns 1 if row k joins the previous one: it has the same columns in the same order, followed by
- * the column of that row. */
+/* Returns 1 if row k joins the previous row: its columns are those of the previous row, in the same
+ * order, followed by the column of the previous row. */
 static int joins(int rows, int before, const int column_before[], int count, const int column[],
                  int k)
 {
@@ -60,7 +61,7 @@ static int joins(int rows, int before, const int column_before[], int count, con
            memcmp(column, column_before, (size_t)before * sizeof *column) == 0;
 }
 
-/* Finds the groups of rows; also fills L_row and the runs if out->run is allocated. work: [2 n]. */
+/* Finds the groups of rows. Also fills L_row and the runs if out->run is allocated. work: [2 n]. */
 static void find(const triangular_pattern *of, int work[], int L_row[], triangular_groups *out)
 {
     int *column_before = work, *filled = work + of->n, runs = 0, before = 0, rows = 0;

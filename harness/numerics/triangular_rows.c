@@ -6,12 +6,12 @@
 
 enum { ROWS = TRIANGULAR_LANES };
 
-/* One number per row; may be at addresses that are aligned for doubles only. */
+/* One number per row. The addresses may be aligned only for doubles. */
 typedef double lanes
     __attribute__((vector_size(ROWS * sizeof(double)), aligned(sizeof(double)), may_alias));
 
-/* Copies the entries of the rows in a run from x[columns], after subtraction of the previous
- * columns, and zeroes them there. */
+/* Copies the entries of the rows in a run from x[columns], after the previous columns have been
+ * subtracted, and sets them to zero in x. */
 static inline __attribute__((always_inline)) void subtract(const triangular_rows *t, int first,
                                                            int columns, lanes x[])
 {
@@ -35,8 +35,8 @@ static inline __attribute__((always_inline)) void subtract(const triangular_rows
     }
 }
 
-/* Computes the entries of L in a run, and their contribution to the rows' own block: own[s][r] for
- * row r in column s. The sizes are compile-time constants. */
+/* Computes the entries of L in a run, and their contribution to the diagonal block of the rows:
+ * own[s][r] for row r in column s. The sizes are compile-time constants. */
 static inline __attribute__((always_inline)) void use(const triangular_rows *t, int first,
                                                       int columns, int rows, lanes own[ROWS])
 {
@@ -83,7 +83,8 @@ use_run(const triangular_rows *t, triangular_run run, int rows, lanes own[ROWS])
     }
 }
 
-/* Computes the rows' own columns, after all previous ones. Returns 0 if a pivot is zero. */
+/* Computes the diagonal block of the rows, after all previous columns. Returns 0 if a pivot is
+ * zero. */
 static inline __attribute__((always_inline)) int factor_own(const triangular_rows *t, int first,
                                                             int rows, lanes own[ROWS])
 {

@@ -2,8 +2,8 @@
 
 #include "elements/math/real.h"
 
-/* The values of one unknown are contiguous: w[n x width]. width and count are compile-time
- * constants after inlining. */
+/* The values of an unknown are contiguous: w[n x width]. width and count are compile-time constants
+ * after inlining. */
 
 /* Solves L w = w for the columns of a run. */
 static inline __attribute__((always_inline)) void

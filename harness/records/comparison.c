@@ -6,16 +6,16 @@
 
 #include "elements/shared/choice.h"
 
-/* Counts a line and writes its beginning: kind, name, mesh. */
+/* Counts a line and writes its start: kind, name and mesh. */
 static void comparison_lines_heading(const listing *l, comparison_kind kind);
-/* Compares sums over `meshes` meshes. The threshold is that of one mesh, whatever the number of
- * meshes. */
+/* Compares sums over `meshes` meshes. The threshold is the same as for one mesh, regardless of the
+ * number of meshes. */
 static void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
                                   const long after[RESULTS_WORKS], int meshes);
-/* Writes the difference of counted work if both are known. */
+/* Writes the difference of the costs of counted work if both are known. */
 static void comparison_lines_cost(const listing *l, double before, double after);
 static void comparison_cells(const listing *l, const result_cell *a, const result_cell *b);
-/* Compares two sweeps; also writes a line for each point, formulation and mesh that exists in only
+/* Compares two sweeps, and writes a line for each point, formulation and mesh that exists in only
  * one of them. */
 static void comparison_sweeps(const listing *l, const char *select);
 
@@ -55,7 +55,7 @@ static int selected(const char *select, const char *name)
     return select == NULL || select_matches(select, name) > 0;
 }
 
-/* Writes one line for all meshes of a series of another program that is missing or new, with a
+/* Writes a line for all meshes of a series of another program that is missing or new, with a
  * remedy. */
 static void tell_foreign(const listing *l, int which, const char **last)
 {
@@ -87,9 +87,9 @@ static int has_series(const stored_results *r, const char *name)
     return 0;
 }
 
-/* Handles a series, or a mesh of it (elements > 0), that exists in one run only. which: 0: the old
- * run, 1: the new one. *last: the last series counted; series are visited in the order of their
- * names. */
+/* Handles a series, or a mesh of a series (elements > 0), that exists in only one run. which: 0 for
+ * the old run, 1 for the new run. *last: last series that was counted. Series are visited in the
+ * order of their names. */
 static void tell_lone(const listing *l, int which, const char **last)
 {
     const stored_results *here = which == 0 ? l->before : l->after,
@@ -190,7 +190,7 @@ static const result_value *value_named(const result_cell *c, int near, const cha
     return NULL;
 }
 
-/* Compares the errors of two values by magnitude. A value without a reference value can only be
+/* Compares the absolute errors of two values. A value without a reference value can only be
  * reported as changed. */
 static void compare_value(const listing *l, const result_value *a, const result_value *b)
 {
@@ -243,7 +243,7 @@ static void comparison_cells(const listing *l, const result_cell *a, const resul
     if (l->before->swept)
         comparison_lines_cost(l, a->cost, b->cost);
     else if (!results_part_differ(l->before, l->after,
-                                  l->name)) /* work of the requested quantities only */
+                                  l->name)) /* only work for the requested quantities */
         comparison_lines_work(l, a->work, b->work, 1);
     compare_values(l, a, b);
 }
@@ -307,7 +307,7 @@ static void comparison_lines_cost(const listing *l, double before, double after)
             100 * (after - before) / before);
 }
 
-/* Compares two series, at least one of which is known only from the short table. */
+/* Compares two series of which at least one is known only from the short table. */
 
 /* Returns the largest relative difference due to rounding to this number of digits. */
 static double last_digit(int digits)
@@ -315,7 +315,7 @@ static double last_digit(int digits)
     return 0.5 * pow(10, 1 - digits);
 }
 
-/* Writes a line for each mesh whose status has changed or that exists in one run only. Returns 1 if
+/* Writes a line for each mesh whose status has changed or that exists in only one run. Returns 1 if
  * the meshes are the same. */
 static int compare_meshes(const listing *l, const result_series *a, const result_series *b)
 {
@@ -426,19 +426,19 @@ void comparison_series(const listing *l, const result_series *a, const result_se
         compare_limits(l, a, b);
 }
 
-/* Compares two sweeps, each of which has all formulations and meshes at each of its points. */
+/* Compares two sweeps. In a sweep, all points have all formulations and meshes. */
 
 enum { TOLD = 1 << 14, NAME = 2048 };
 
-/* Records entries that exist in only one of the runs, and entries that were printed. */
+/* Entries that exist in only one of the runs, and entries that were printed. */
 typedef struct lone {
     comparison_kind kind;
     const stored_results *other;
-    char told[TOLD];  /* formulations and meshes that were printed, one per line */
+    char told[TOLD];  /* formulations and meshes that were printed, in one line each */
     char where[NAME]; /* the last point printed */
 } lone;
 
-/* Returns 1 if the name of cell `next` - 1 or `next` of the run begins with the first `length`
+/* Returns 1 if the name of cell `next` - 1 or `next` of the run starts with the first `length`
  * characters of `name`. */
 static int is_beside(const stored_results *r, int next, const char *name, size_t length)
 {
@@ -464,7 +464,7 @@ static void tell_point(const listing *l, lone *only, int length)
     tell(l, only->kind, only->where, 0);
 }
 
-/* Reports an entry that exists in only one run at all points: case/formulation, or a mesh of the
+/* Reports an entry that exists in only one run, for all points: case/formulation, or a mesh of the
  * case. */
 static void tell_column(const listing *l, lone *only, const char *key, int elements)
 {
@@ -478,7 +478,7 @@ static void tell_column(const listing *l, lone *only, const char *key, int eleme
     tell(l, only->kind, name, elements);
 }
 
-/* Handles a cell that exists in only one run. `next`: position of the neighbouring cells in the
+/* Handles a cell that exists in only one run. next: position at which the cell would be in the
  * other run. */
 static void tell_cell(const listing *l, int next, lone *only)
 {

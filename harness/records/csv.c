@@ -5,8 +5,8 @@
 
 #include "cases/scene/scene.h"
 
-/* Writes a line for a value. For a curve, writes a line for each point, and one with the reason if
- * the curve ends early. */
+/* Writes a line for a value. For a curve, writes a line for each point, and another line with the
+ * reason if the curve ends early. */
 static void write_lines(FILE *to, int parts, csv_part row[], int value)
 {
     const subject s = row[value].s;
@@ -41,8 +41,8 @@ void csv_solution(FILE *to, const sweep *s)
     gather_free(&list);
 }
 
-/* Writes a line for each quantity of each mesh, or only for those with a reference value. `parts`
- * records describe the quantity and its cell. */
+/* Writes a line for each quantity of each mesh, or only for quantities with a reference value.
+ * `parts` records describe the quantity and its cell. */
 static void list_meshes(FILE *to, const gathering *g, int with_truth, int parts, csv_part row[])
 {
     const sweep *s = g->sweep;
@@ -163,7 +163,7 @@ void csv_record_line(FILE *to, int parts, const csv_part part[])
     fputc('\n', to);
 }
 
-/* Writes a matrix; comment: one line, or NULL. */
+/* Writes a matrix. comment: one line; NULL: no comment. */
 static void matrix_market_write(FILE *to, const triplets *t, const char *comment)
 {
     static const char *const kind[] = {"general", "symmetric", "skew-symmetric"};
@@ -193,7 +193,8 @@ typedef struct titled {
     const char *comment;
 } titled;
 
-/* Returns the name of an analysis, with '_' for characters that a folder name cannot contain. */
+/* Returns the name of an analysis, in which '_' replaces characters that a folder name cannot
+ * contain. */
 static scene_words plain_folder(const scene *s, int analysis)
 {
     scene_words out;
@@ -232,7 +233,7 @@ static void name_state(const contents *c, const state_matrices *s, char name[NAM
         snprintf(name, NAME, "%s_station_%d", analysis.text, s->station);
 }
 
-/* Writes the name, or an empty field. */
+/* Writes the name of a node or member, or an empty field. */
 static void name_cell(FILE *to, const scene *s, scene_list list, int index)
 {
     if (index != SCENE_NONE)
@@ -257,8 +258,8 @@ static void write_rows(FILE *to, const void *what)
     }
 }
 
-/* Writes the range of the member on which a load acts, and the load's vector at the end of that
- * range; writes nothing for a load on a node. */
+/* Writes the range of the member on which a load acts, and the vector of the load at the end of
+ * this range. Writes nothing for a load on a node. */
 static void write_extent(FILE *to, const scene_load *l)
 {
     const double *last = l->varies ? l->last : l->vector;
@@ -373,7 +374,7 @@ static void write_matrix(FILE *to, const void *what)
     matrix_market_write(to, t->matrix, t->comment);
 }
 
-/* Adds a matrix, unless it has no rows or columns. */
+/* Adds a matrix, unless it has no rows or no columns. */
 static status add_matrix(const output_folder *folder, const char *state, const char *letter,
                          const triplets *t, const char *comment, fault *f)
 {
@@ -427,7 +428,7 @@ static void write_errors(FILE *to, const void *what)
     }
 }
 
-/* Writes the title with the number of elements, and says whether feedback loops are closed. */
+/* Writes the title with the number of elements. The title says if feedback loops are closed. */
 static void titled_state(const contents *c, const char *name, int closed, char out[TITLE])
 {
     snprintf(out, TITLE, "%.120s%s, %.90s", c->title,

@@ -117,7 +117,7 @@ int digest_add_file(digest *d, const char *path)
     return bad ? -1 : 0;
 }
 
-enum { MOST_RANK = 8, CHUNK = 1 << 20 /* CHUNK: [bytes] of rows that are read together */ };
+enum { MOST_RANK = 8, CHUNK = 1 << 20 /* CHUNK: number of bytes of rows that are read together */ };
 
 typedef struct walk {
     digest d;
@@ -210,7 +210,7 @@ typedef struct table {
     hid_t set, space, type; /* of memory */
     int rank;
     hsize_t size[MOST_RANK];
-    size_t row; /* number of bytes per first index */
+    size_t row; /* number of bytes per value of the first index */
 } table;
 
 /* Adds rows first to first + count - 1. */
@@ -271,7 +271,8 @@ static int is_left_out(const char *path)
     return strcmp(leaf, "timings") == 0 || strncmp(leaf, "seconds", 7) == 0;
 }
 
-/* Visits links, because the function that visits objects changed in HDF5 1.12. */
+/* Called for each link. Links are visited, because the function that visits objects has changed in
+ * HDF5 1.12. */
 static herr_t visit(hid_t file, const char *path, const H5L_info_t *link, void *context)
 {
     walk *w = context;

@@ -1,4 +1,4 @@
-/* Records of parameter points, of series of meshes and of one mesh: size, work, times. */
+/* Records of parameter points, of series of meshes, and of a mesh (size, work, times). */
 #include "harness/records/records_impl.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ static void get_features(const subject *s, field_value *out)
     out->text = out->room;
 }
 
-/* Lines that do not fit are truncated. */
+/* Gives the eliminated coordinates. Lines that do not fit are truncated. */
 static void get_left_out(const subject *s, field_value *out)
 {
     const cell_result *cell = fields_keys_cell(s);
@@ -55,7 +55,7 @@ static void get_strains(const subject *s, field_value *out)
     out->whole = size->strains + size->inner;
 }
 
-/* Returns the cost of a run; imported runs have no counts. */
+/* Gives the cost of a run. Imported runs have no counts. */
 static void get_cost(const subject *s, field_value *out)
 {
     schema_set_number(out, s->series->imported == NULL
@@ -98,7 +98,7 @@ static void get_model(const subject *s, field_value *out)
     schema_set_text(out, s->series->imported != NULL ? s->series->imported->model : "beam");
 }
 
-/* Sets the change of the model; NAN: no physics is omitted, or the change is unknown. */
+/* Gives the change of the model; NAN: no physics is omitted, or the change is unknown. */
 static void get_model_change(const subject *s, field_value *out)
 {
     schema_set_number(out, s->series->without.what != 0 ? s->series->without.change : NAN);
@@ -170,7 +170,7 @@ static const schema_field fields_of_cell[] = {
      CELL(solve.seconds_solve)},
     {0}};
 
-/* Add new counters here, one line each. */
+/* Add new counters here, in one line each. */
 #define WORK(counter) AT(cell_result, counters.counter)
 static const schema_field fields_of_work[] = {
     {"strain_evaluations", "1", FIELD_LONG, "deformation functions of elements",
@@ -282,7 +282,7 @@ static const rounds_reading *reading_of(const field_value *out, const cell_timin
     return out->of->offset < offsetof(cell_timing, keep_all) ? &t->as_is : &t->keep_all;
 }
 
-/* Sets NAN if nothing was measured. The offset selects a number or a round. */
+/* Gives a measured time; NAN: nothing was measured. The offset selects a number or a round. */
 static void get_measured(const subject *s, field_value *out)
 {
     const cell_timing *t = timing_of(s);
@@ -393,7 +393,7 @@ const record_type record_timing = {
     "repeated runs of a cell",
     {keys_of_point, keys_of_series, key_of_mesh, fields_of_readings, fields_of_parts}};
 
-/* Records of results of other programs: each value with its position in the file from which it was
+/* Records of results of other programs. Each value has its position in the file from which it was
  * read. */
 
 static void get_file(const subject *s, field_value *out)

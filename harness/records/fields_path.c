@@ -297,7 +297,7 @@ const record_type record_matrix = {"matrix",
                                    "compliance and stiffness of a node at a station of a path",
                                    {keys_of_point, keys_of_series, key_of_mesh, fields_of_matrix}};
 
-/* Declarations of a formulation with its current options. */
+/* Declarations of a formulation for its current options. */
 
 static const element_type *type_of(const subject *s)
 {
@@ -362,7 +362,7 @@ static void get_theory(const subject *s, field_value *out)
     schema_set_text(out, words);
 }
 
-/* Sets the lowest or highest order for each analysis, as the offset selects. */
+/* Gives the lowest or highest order of each analysis, according to the offset. */
 static void get_order(const subject *s, field_value *out)
 {
     const size_t i = out->of->offset;
@@ -371,7 +371,7 @@ static void get_order(const subject *s, field_value *out)
     out->whole = i % 2 == 0 ? order.least : order.highest;
 }
 
-/* Sets the order for motions. Offset 0: lowest order, 1: highest order. */
+/* Gives the order for motions. Offset 0: lowest order; 1: highest order. */
 static void get_motion(const subject *s, field_value *out)
 {
     const element_order order = element_order_of_motion();

@@ -1,5 +1,5 @@
-/* Records of the contents of a case: scenes, parameters, quantities, and assumptions on its
- * sections. */
+/* Records of the contents of a case: scenes, parameters, quantities, and assumptions on sections.
+ * */
 #include "harness/records/records_impl.h"
 
 #include <float.h>
@@ -196,14 +196,14 @@ static void get_noise_measured(const subject *s, field_value *out)
     out->whole = s->series->noise != NULL && isfinite(s->series->noise[s->index]);
 }
 
-/* Sets the number of elements for a level, whose index is the offset. */
+/* Gives the number of elements for a level. The offset is the index of the level. */
 static void get_reach(const subject *s, field_value *out)
 {
     const int mesh = reach_mesh(s->sweep, s->verdict, reach_level[out->of->offset]);
     out->whole = mesh >= 0 ? s->series->mesh[mesh] : 0;
 }
 
-/* Add new fields of a verdict here, one line each. */
+/* Add new fields of a verdict here, in one line each. */
 static const schema_field fields_of_verdict[] = {
     {"verdict", "", FIELD_ENUM, "verdict", AT(verdict, kind), .word = word_of_verdict,
      .words = VERDICT_KINDS},

@@ -62,8 +62,8 @@ subject gather_coverage(const gathering *g, const coverage *c, int left_out)
         .sweep = g->sweep, .point = &g->sweep->point[c->point], .record = c, .index = left_out};
 }
 
-/* Returns the index of the first verdict of the series or of a later one. Verdicts are in the order
- * of the series. */
+/* Returns the index of the first verdict on the series or on a later series. Verdicts are in the
+ * order of the series. */
 static int first_verdict(const judgement *j, int series_index)
 {
     int low = 0, high = j->verdicts;
@@ -98,7 +98,7 @@ static void compare_with(const gathering *g, int series_index, subject *s)
         }
 }
 
-/* Adds the records of one mesh that form an array. */
+/* Adds the records of a mesh that form an array. */
 static void add_array(subject s, int count, const void *array, size_t size, subjects *out)
 {
     for (s.index = 0; s.index < count; s.index++) {
@@ -141,7 +141,7 @@ static void add_matrices(subject s, const solve_result *r, subjects *out)
 {
     for (int i = 0; i < r->matrix_sets; i++)
         add_array(s, r->matrices[i].stations, &r->matrices[i], 0,
-                  out); /* one record that is read at each station */
+                  out); /* a single record that is read at each station */
 }
 
 void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh,
@@ -238,7 +238,7 @@ void gather_assumptions(const sweep_point *p, subjects *out)
         gather_add(out, &s);
 }
 
-/* Adds the records of the first point only, or of all points. */
+/* Adds the records of all points, or only of the first point. */
 static void gather_of_points(const gathering *g, const record_type *type, const case_type *of,
                              subjects *out)
 {

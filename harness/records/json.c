@@ -7,7 +7,7 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-/* Converts numbers. A value that does not exist becomes null, because JSON has no NaN. */
+/* Converts numbers. A missing value becomes null, because JSON has no NaN. */
 static json_t *json_record_numbers(int count, const double value[]);
 
 enum { DUMP = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };
@@ -26,7 +26,7 @@ static json_t *values_of(const assignment_list *l, const double value[])
     return all;
 }
 
-/* Lists all applicable reference values of the continuum, each with the error relative to it. */
+/* Lists all applicable reference values of the continuum. Each has the error relative to it. */
 static json_t *truths_of(const subject *s, const truths *t)
 {
     const sweep_point *p = s->point;
@@ -45,7 +45,7 @@ static json_t *truths_of(const subject *s, const truths *t)
     return list;
 }
 
-/* Adds the records of one kind of the first cell, as a list named after their table. */
+/* Adds the records of one kind of the first cell as a list with the name of their table. */
 static void add_list(json_t *root, const gathering *g, const record_type *type)
 {
     subjects list = {0};
@@ -72,8 +72,8 @@ static void add_quantities(json_t *root, const gathering *g)
     gather_free(&list);
 }
 
-/* Adds the points of curves. HDF5 stores those of all curves in shared arrays; here each curve has
- * its own. */
+/* Adds the points of curves. In HDF5, all curves share arrays. In JSON, each curve has a separate
+ * array. */
 static void add_curves(json_t *root, const gathering *g)
 {
     subjects list = {0};
@@ -141,7 +141,7 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     return json_finish(root, to, f);
 }
 
-/* Text before and after the verdicts, in the same layout, for a document with no other contents. */
+/* Text before and after the verdicts of a document with no other contents, in the same layout. */
 static const char alone_before[] = "{\n \"verdicts\": [", alone_behind[] = "\n ]\n}",
                   none[] = "\n \"verdicts\": []";
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lists the values of one quantity on every mesh, with the runs that computed them. */
+/* Lists the values of a quantity on every mesh, with the runs that computed the values. */
 static json_t *meshes_of(const gathering *g, int series_index, int quantity)
 {
     json_t *all = json_array();
@@ -42,8 +42,8 @@ static json_t *number(double x)
     return isfinite(x) ? json_real(x) : json_null();
 }
 
-/* Describes a curve by the difference of each mesh from the finest one, and of the finest mesh from
- * the other formulation. */
+/* Describes a curve by its differences: between each mesh and the finest mesh, and between the
+ * finest mesh and the other formulation. */
 static json_t *curve_of(const sweep *s, const series *one, int quantity, const series *other)
 {
     const scene *what = &s->point[one->point].scene;
@@ -98,7 +98,7 @@ static char *said(void (*write)(FILE *, const sweep *, const truths *, double), 
     return NULL;
 }
 
-/* Returns the conclusion, as in the last lines of the text output. */
+/* Returns the conclusion, with the same words as the last lines of the text output. */
 static json_t *sentence_of(const sweep *s, const truths *t, double level)
 {
     char *line = said(reach_line_write, s, t, level),
@@ -111,8 +111,8 @@ static json_t *sentence_of(const sweep *s, const truths *t, double level)
     return out;
 }
 
-/* Lists the formulations within the level, in the order of the line. rank 0: the verdict of the
- * formulation is not a pass, or the formulation is not ranked by cost. */
+/* Lists the formulations within the level, in the same order as in the line. rank 0: the verdict on
+ * the formulation is not a pass, or the formulation is not ranked by cost. */
 static json_t *answers_of(const sweep *s, const truths *t, double level)
 {
     json_t *out = json_array();
@@ -174,7 +174,7 @@ static void write_reached(FILE *to, const sweep *s, const reached *r)
         fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
-/* Writes the formulations with a verdict other than pass, grouped by verdict. */
+/* Writes the formulations with a verdict other than pass, in groups with the same verdict. */
 static void write_defective(FILE *to, const reach_question *q, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {
@@ -194,7 +194,8 @@ static void write_defective(FILE *to, const reach_question *q, const reached lis
     }
 }
 
-/* Writes the formulations with the lowest cost first, then the others, then those with a defect. */
+/* Writes the formulations with the lowest cost first, then the others, then the formulations with a
+ * defect. */
 static void write_ranking(FILE *to, const reach_question *q, const reached list[], int count)
 {
     const int ties = reach_ties(list, count);
@@ -233,8 +234,8 @@ static int is_reached(const reached list[], int count, int series_index)
     return found;
 }
 
-/* Writes the requested quantity in which the series is not within the level: the quantity without a
- * value on the finest mesh, or with the largest error there. */
+/* Writes the requested quantity in which the series is not within the level: a quantity without a
+ * value on the finest mesh, or the quantity with the largest error on this mesh. */
 static void write_worst(FILE *to, const reach_question *q, int series_index)
 {
     const series *one = &q->s->series[series_index];
@@ -276,7 +277,7 @@ static void write_others(FILE *to, const reach_question *q, const reached list[]
     }
 }
 
-/* Writes the other models that were solved, each once. */
+/* Writes the other models that were solved, without repetition. */
 static void write_other_models(FILE *to, const reach_question *q)
 {
     const char *before = "; a different model, not ranked: ";
@@ -298,8 +299,8 @@ static int has_reference(const reach_question *q, int quantity)
     return known;
 }
 
-/* Writes the requested quantities: all except curves, or those with a reference value and the names
- * of the others. Returns the number of quantities with a reference value. */
+/* Writes the requested quantities: all quantities except curves, or those with a reference value
+ * and the names of the others. Returns the number of quantities with a reference value. */
 static int write_asked(FILE *to, const reach_question *q)
 {
     const char *before = " (without a reference: ";
@@ -337,8 +338,8 @@ static int is_of_another_model(const verdict *v)
            strcmp(other->kind, "agreement") != 0 && strcmp(other->kind, "experiment") != 0;
 }
 
-/* Writes the largest difference of the passing formulations from another model; if none passes, the
- * difference of the formulation with the lowest cost. */
+/* Writes the largest difference of the passing formulations from another model. If no formulation
+ * passes, writes the difference of the formulation with the lowest cost. */
 static void write_model_error(FILE *to, const reach_question *q, reached list[])
 {
     const int count = reach_ranking(q, list);
@@ -364,7 +365,7 @@ static void write_model_error(FILE *to, const reach_question *q, reached list[])
             most->model_error > 0 ? "+" : "", percent, 100 * q->level);
 }
 
-/* Writes the reason why no formulation runs. Returns 0 if any formulation runs. */
+/* Writes the reason why no formulation runs. Returns 0 if at least one formulation runs. */
 static int write_nothing_runs(FILE *to, const sweep *s)
 {
     const char *before = "nothing was run: ";
@@ -402,7 +403,7 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
     fputc('\n', to);
 }
 
-/* Writes the answer for all quantities with `write`. */
+/* Writes the answer for all quantities with the function `write`. */
 static void reach_write(FILE *to, const sweep *s, const truths *t, double level,
                         void (*write)(FILE *, const reach_question *, reached[]))
 {

@@ -119,7 +119,7 @@ typedef struct junit_counts {
     int tests, failures, skipped;
 } junit_counts;
 
-/* Counts the entries that will be written, by the same rules as the functions that write them. */
+/* Counts the entries that will be written, with the same rules as the functions that write them. */
 static junit_counts count_all(const sweep *s, const judgement *j)
 {
     const int nothing = judgement_exit(j) == JUDGED_NOTHING;
@@ -188,7 +188,7 @@ const char *assumptions_kind(int kind)
     return kind >= 0 && kind < ASSUMPTION_KINDS ? names[kind] : "";
 }
 
-/* Returns 1 if the section has an assumption of that kind. */
+/* Returns 1 if the section has an assumption of this kind. */
 static int of_section(const scene *s, assumption *a)
 {
     const scene_words name = scene_name(s, SCENE_SECTIONS, a->section);
@@ -208,7 +208,7 @@ static int of_section(const scene *s, assumption *a)
     return a->physics[0] != '\0';
 }
 
-/* Only users' scenes have assumptions. The data of a built-in case come from its source. */
+/* Only the scenes of users have assumptions. The data of a built-in case come from its source. */
 int assumptions_at(const sweep_point *p, int index, assumption *out)
 {
     int found = 0;
@@ -226,7 +226,7 @@ int assumptions_at(const sweep_point *p, int index, assumption *out)
 
 void assumptions_words(const sweep_point *p, size_t size, char out[])
 {
-    const size_t rest = 40; /* room for the number of the remaining assumptions */
+    const size_t rest = 40; /* capacity for the number of the remaining assumptions */
     size_t used = 0;
     int left = 0;
     assumption a;

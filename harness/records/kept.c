@@ -17,7 +17,7 @@ hid_t kept_group(record_file *r, const char *name)
     return own;
 }
 
-/* Returns 1 if the file begins with the HDF5 signature. */
+/* Returns 1 if the file starts with the HDF5 signature. */
 static int is_hdf5(const char *path)
 {
     static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
@@ -37,8 +37,8 @@ static status unfit(const char *path, fault *f)
                      path);
 }
 
-/* Locks a file and waits for it up to `patience` tenths of a second; -1: without limit. Returns 0
- * on success, otherwise -1 and sets errno. */
+/* Locks a file, waiting at most `patience` tenths of a second; -1: no limit. Returns 0 on success.
+ * Otherwise returns -1 and sets errno. */
 static int hold(int file, int kind, int patience)
 {
     const int wait = patience < 0 ? 0 : LOCK_NB;
@@ -50,8 +50,8 @@ static int hold(int file, int kind, int patience)
     return 0;
 }
 
-/* Waits for another writer, because the HDF5 library locks files that it writes and cannot read
- * locked files. */
+/* Waits for another writer. The HDF5 library locks files that it writes, and cannot read locked
+ * files. */
 static status await_writer(const char *path, int patience, fault *f)
 {
     const int file = open(path, O_RDONLY | O_CLOEXEC), held = hold(file, LOCK_SH, patience),
@@ -73,7 +73,7 @@ static int is_ours(hid_t file)
             strcmp(schema, SCHEMA_NAME) == 0);
 }
 
-/* Opens the existing file. *file -1: there is nothing to keep. */
+/* Opens the existing file. *file is -1 if there is nothing to keep. */
 static status open_former(const char *path, int patience, hid_t *file, fault *f)
 {
     *file = -1;
@@ -116,7 +116,7 @@ static herr_t copy_attribute(hid_t from, const char *name, const H5A_info_t *unu
     return 0;
 }
 
-/* Copies the links that do not exist in the new file yet. */
+/* Copies the links that do not exist in the new file. */
 static void copy_links(record_file *r, hid_t from, hid_t to)
 {
     enum { NAME = 256 };
@@ -163,7 +163,7 @@ static void copy_former(record_file *r, const char *name, hid_t former)
         copy_all(r, former, r->file);
 }
 
-/* Writes the schema into a file without results of verify. */
+/* Writes the schema to a file without results of verify. */
 static void put_schema(record_file *r)
 {
     if (H5Aexists(r->file, "schema") > 0)
@@ -172,8 +172,8 @@ static void put_schema(record_file *r)
     record_count(r, r->file, "schema_version", SCHEMA_VERSION);
 }
 
-/* Merges the previous content. The new content is written to disk first, because the previous one
- * may be larger than the memory. */
+/* Merges the previous content. The new content is written to disk first, because the previous
+ * content may be larger than the memory. */
 static status merge(record_file *r, const char *name, hid_t former, const char *path, fault *f)
 {
     record_file all;
@@ -206,7 +206,8 @@ static status close_merged(record_file *r, const char *name, const file_place *a
     return record_close(r, path, f);
 }
 
-/* Returns 1 if the lock file still exists after waiting, 0 if its previous owner has removed it. */
+/* Returns 1 if the lock file still exists after waiting, and 0 if its previous owner has removed
+ * it. */
 static int is_there(int lock, const char *name)
 {
     struct stat own, there;
@@ -214,9 +215,9 @@ static int is_there(int lock, const char *name)
            own.st_ino == there.st_ino;
 }
 
-/* Uses a separate lock file, because the results file is replaced. A lock file left by a killed run
- * is harmless, because the lock ends with its process. Returns -1 and sets errno if there is no
- * lock. */
+/* Locks a separate file, because the results file is replaced. A lock file that a killed run has
+ * left is harmless, because the lock ends with its process. If there is no lock, returns -1 and
+ * sets errno. */
 static int take_lock(const char *name, int patience)
 {
     for (;;) {
@@ -259,7 +260,7 @@ static void unlock(const char *beside, int lock)
 
 status kept_check(const char *path, fault *f)
 {
-    enum { PATIENCE = 100 }; /* [0.1 s] longer than the time needed to write a file */
+    enum { PATIENCE = 100 }; /* [0.1 s] longer than the time for writing a file */
     char beside[PATH_MAX];
     hid_t file;
     file_place at;

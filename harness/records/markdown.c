@@ -6,7 +6,7 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-enum { MOST_ROWS = 50 }; /* keeps comments readable; JSON contains all rows */
+enum { MOST_ROWS = 50 }; /* keeps comments on pull requests readable; JSON contains all rows */
 
 /* Writes a cell of a table. Escapes vertical bars and line ends, which would break the table. */
 static void cell(FILE *to, const char *text)
@@ -78,7 +78,7 @@ static void write_unexpected(FILE *to, const sweep *s, const judgement *j)
         fprintf(to, "\n… and %d more.\n", j->unexpected - rows);
 }
 
-/* Writes one row for each formulation, with its verdicts by kind. */
+/* Writes a row for each formulation, with its verdicts by kind. */
 static void write_formulations(FILE *to, const sweep *s, const judgement *j)
 {
     fprintf(to, "\n| formulation");
@@ -105,7 +105,7 @@ static void write_formulations(FILE *to, const sweep *s, const judgement *j)
     }
 }
 
-/* Explains the marks that occur, the worst first. */
+/* Explains the marks that occur, with the worst mark first. */
 static void write_legend(FILE *to, const overview *o)
 {
     int used[OVERVIEW_MARKS] = {0}, entries = 0;
@@ -139,8 +139,8 @@ static void write_row(FILE *to, const overview *o, int row)
     fprintf(to, " |\n");
 }
 
-/* Lists the cases without a row: those in which something is evaluated, or those in which nothing
- * is. */
+/* Lists the cases without a row: either cases in which something was evaluated, or cases in which
+ * nothing was evaluated. */
 static void write_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     int named = 0;
@@ -174,7 +174,7 @@ static void write_overview(FILE *to, const overview *o)
     write_legend(to, o);
 }
 
-/* Returns 1 if anything was computed at the point. */
+/* Returns 1 if something was computed at the point. */
 static int is_run(const sweep *s, int point)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -183,7 +183,7 @@ static int is_run(const sweep *s, int point)
     return 0;
 }
 
-/* Writes the omitted physics, with one line for each case and for each point that differs from its
+/* Writes the omitted physics, in one line for each case and for each point that differs from its
  * case. */
 static void write_omitted(FILE *to, const sweep *s)
 {

@@ -14,10 +14,10 @@
 enum {
     MOST_TRIES = 100,
     LEAF = 100
-}; /* LEAF: number of bytes of the given name with which a temporary name begins */
+}; /* LEAF: number of bytes of the given name with which a temporary name starts */
 
-/* Temporary files and folders that exist now, up to MOST_OPEN. owner: their process; 0: unused, -1:
- * a name is being written. */
+/* Existing temporary files and folders, up to MOST_OPEN. owner: their process; 0: unused; -1: a
+ * name is being written. */
 enum { MOST_OPEN = 16 };
 static struct {
     atomic_int owner;
@@ -43,11 +43,11 @@ static void output_forget(const char *path)
             atomic_store(&unfinished[i].owner, 0);
 }
 
-/* Removes all outputs. The functions from here on use only system calls, as a signal handler
- * requires. */
+/* Removes all outputs. The following functions use only system calls, as a signal handler requires.
+ * */
 static void remove_all(int at, const char *name);
 
-/* Removes the entries of a folder. Returns the number of entries found. */
+/* Removes the entries of a folder. Returns the number of entries that were found. */
 static int empty_once(int folder)
 {
     _Alignas(struct dirent64) char room[4096];
@@ -67,8 +67,8 @@ static int empty_once(int folder)
     return entries;
 }
 
-/* Removes a file, or a folder with its contents. Repeats this, because the removal of entries may
- * reveal others. */
+/* Removes a file, or a folder with its contents. Repeats the removal, because the removal of
+ * entries may reveal others. */
 static void remove_all(int at, const char *name)
 {
     if (unlinkat(at, name, 0) == 0 || errno == ENOENT)
@@ -100,8 +100,8 @@ static status fail(const char *path, int why, fault *f)
                      strerror(why));
 }
 
-/* Calls `make` with an unpredictable name next to `path` and returns its result, or -1 with errno
- * set. The file counts as incomplete until output_forget is called. */
+/* Calls `make` with an unpredictable name next to `path`. Returns its result, or -1 with errno set.
+ * The file counts as incomplete until output_forget is called. */
 static int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX])
 {
     const char *leaf = place_leaf(path);
@@ -115,7 +115,8 @@ static int output_beside(const char *path, int (*make)(const char *name), char t
             errno = ENAMETOOLONG;
             return -1;
         }
-        remember(temporary); /* before the file exists, because a signal may arrive at any time */
+        /* called before the file exists, because a signal may arrive at any time */
+        remember(temporary);
         const int made = make(temporary);
         if (made >= 0)
             return made;
@@ -131,7 +132,7 @@ static int make_file(const char *name)
     return open(name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
-/* Copies the permissions, and if possible the owner, of the file to be replaced. */
+/* Copies the permissions and, if possible, the owner of the file that is to be replaced. */
 static void keep_permissions(const file_place *to, int file)
 {
     if (to->kind == PLACE_FILE &&
@@ -212,8 +213,8 @@ static void discard(output *out)
     }
 }
 
-/* Writes to the disk. Returns 1 even for a file that cannot be synchronised, such as a pipe or a
- * device. */
+/* Writes the file to the disk. Returns 1 even if the file cannot be synchronised, such as a pipe or
+ * a device. */
 static int is_stored(FILE *stream)
 {
     if (ferror(stream) || fflush(stream) != 0)
@@ -265,7 +266,7 @@ status output_try(const char *path, output_form form, file_place *where, fault *
     char temporary[PATH_MAX];
     TRY(place_find(path, where, f));
     TRY(check_form(path, where, form, f));
-    if (where->kind == PLACE_STREAM) /* opening a pipe would wake up its reader */
+    if (where->kind == PLACE_STREAM) /* opening a pipe would wake its reader */
         return STATUS_OK;
     const int file = output_beside(where->path, make_file, temporary);
     if (file < 0)
@@ -318,7 +319,7 @@ static int make_folder(const char *name)
     return mkdir(name, S_IRWXU);
 }
 
-/* Creates the folder; an empty folder may already exist at its path. */
+/* Creates the folder. An empty folder may already exist at its path. */
 static status create(output_folder *out, fault *f)
 {
     if (output_beside(out->to.path, make_folder, out->temporary) < 0) {

@@ -24,8 +24,8 @@ static void add_wall(outline *out, const double a[2], const double b[2], double 
     }
 }
 
-/* Adds side k of a tube that is drawn as a polygon. The corners of the side lie on the circles of
- * the tube, the inner corner before the outer one at each end. */
+/* Adds side k of a tube that is drawn as a polygon. The corners of the side are on the circles of
+ * the tube. At each end, the inner corner precedes the outer corner. */
 static void add_side(outline *out, const section_spec *spec, int k)
 {
     double(*corner)[2] = out->corner[out->walls++];
@@ -46,10 +46,10 @@ static void principal(const section *s, const double point[2], double out[2])
     out[1] = c * z - d * y;
 }
 
-/* Computes the sides along y and z of a rectangle that represents a section. */
+/* Computes the lengths along y and z of the sides of a rectangle that represents a section. */
 static void sides_of(const section_spec *spec, const section *c, double side[2])
 {
-    const double ratio = sqrt(c->Iy / c->Iz); /* ratio of width to height: Iy/Iz = (w/h)^2 */
+    const double ratio = sqrt(c->Iy / c->Iz); /* ratio of width w to height h: Iy/Iz = (w/h)^2 */
     side[0] = spec->kind == SECTION_MATRICES ? sqrt(12 * c->Iz / c->A) : sqrt(c->A / ratio);
     side[1] = spec->kind == SECTION_MATRICES ? sqrt(12 * c->Iy / c->A) : sqrt(c->A * ratio);
     if (c->rectangle) {
@@ -109,14 +109,15 @@ void outline_between(const outline *near, const outline *far, double x, outline 
 enum { POLY_LINE = 4, QUAD = 9 }; /* cell types of VTK */
 
 /* Points and cells of a picture. Each point of a centre line is followed by the points of both
- * edges of every wall there. */
+ * edges of every wall of its section. */
 typedef struct grid {
     const scene *scene;
     const shapes *shapes;
     outline *outline; /* [sections] */
-    outline *far; /* [members] outlines at the far ends of tapered members; NULL: none is tapered */
+    /* [members] outlines at the far ends of tapered members; NULL: no member is tapered */
+    outline *far;
     int points, cells, ids; /* numbers for one state */
-    int states, *state;     /* the states that are written as time steps */
+    int states, *state;     /* number and indices of the states that are written as time steps */
 } grid;
 
 static const outline *outline_at(const grid *g, int member)
@@ -139,8 +140,8 @@ static void count(grid *g)
     }
 }
 
-/* Chooses the states: those of a motion; if there is none, those of a path; otherwise solutions and
- * modes. */
+/* Chooses the states of a motion. If there is no motion, chooses the states of a path. If there is
+ * no path, chooses solutions and modes. */
 static void choose_states(grid *g)
 {
     int paths = 0, frames = 0;
@@ -214,8 +215,8 @@ static const struct {
                    {"moment (Mx, My, Mz)", "N m", 3},
                    {"bimoment", "N m^2", 1}};
 
-/* Fills the fields of a point at (0, y, z) of the section at a centre-line point. rest: the same
- * point, undeformed. */
+/* Fills the fields of a point at (0, y, z) of the section at a point of a centre line. rest: the
+ * same point in the undeformed state. */
 static void fill_point(const centreline_point *p, const centreline_point *rest, double y, double z,
                        double *out[FIELDS])
 {
@@ -293,7 +294,7 @@ static void put_offsets(record_file *r, hid_t at, const char *name, const grid *
     free(value);
 }
 
-/* Writes the time steps. The cells do not change; the points of successive states follow one
+/* Writes the time steps. The cells do not change. The points of successive states follow one
  * another. */
 static void put_steps(record_file *r, hid_t at, const grid *g)
 {
@@ -346,7 +347,8 @@ static void put_grid(record_file *r, const grid *g)
     H5Gclose(at);
 }
 
-/* Creates the outlines of all sections, and of the far ends of members whose section varies. */
+/* Creates the outlines of all sections, and outlines at the far ends of members whose section
+ * varies. */
 static void make_outlines(record_file *r, grid *g)
 {
     const scene *sc = g->scene;

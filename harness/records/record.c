@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { GROWTH = 1 << 22, MOST_RANKS = 4 }; /* GROWTH: [bytes] by which the file in memory grows */
+/* GROWTH: number of bytes by which the file in memory grows */
+enum { GROWTH = 1 << 22, MOST_RANKS = 4 };
 
 static void check(record_file *r, int good)
 {
@@ -26,8 +27,8 @@ static status open_file(record_file *r, const char *name, hid_t access, fault *f
 
 status record_open(record_file *r, fault *f)
 {
-    static unsigned number; /* makes the names different, because several files in memory may be
-                               open at the same time */
+    /* distinguishes the names of several files in memory that are open at the same time */
+    static unsigned number;
     char name[40];
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     snprintf(name, sizeof name, "beamwork-%u", number++);
@@ -173,7 +174,7 @@ void record_ascii(record_file *r, hid_t at, const char *name, const char *text)
     H5Tclose(type);
 }
 
-/* Returns the layout of a data set: large ones are compressed, in chunks along the first
+/* Returns the layout of a data set. Large data sets are compressed, in chunks along the first
  * dimension. */
 static hid_t layout_of(hid_t type, int rank, const hsize_t size[])
 {
@@ -227,8 +228,8 @@ hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int c
     return record_array(r, at, name, type, 1, &size, row);
 }
 
-/* Returns text[count] concatenated, each padded to the length of the longest one, which *longest
- * receives. NULL: out of memory. */
+/* Returns the texts of text[count] in one block, each padded to the length of the longest text,
+ * *longest; NULL: out of memory. */
 static char *side_by_side(int count, const char *const text[], size_t *longest)
 {
     *longest = 1;
@@ -274,7 +275,7 @@ typedef struct rows_column {
     size_t offset, size;
 } rows_column;
 
-/* number of bytes of one value; for a text, the length of the longest one in its column */
+/* number of bytes of a value; for a text, the length of the longest text in the column */
 static const size_t size_of_kind[FIELD_KINDS] = {[FIELD_INT] = sizeof(int),
                                                  [FIELD_LONG] = sizeof(long),
                                                  [FIELD_DOUBLE] = sizeof(double),

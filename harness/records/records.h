@@ -21,9 +21,9 @@
 #include "harness/newton/newton.h"
 #include "harness/study/study.h"
 
-/* Assumptions on the sections of a user's scene: properties that its section data do not define are
+/* Assumptions on the sections of a user's scene. Properties that the section data do not define are
  * set to zero, and physics that no formulation models is omitted. Text, CSV, JSON, HDF5 and the
- * report share this list. */
+ * report use the same list. */
 
 typedef enum assumption_kind {
     ASSUMPTION_NOT_KNOWN,
@@ -36,18 +36,18 @@ typedef struct assumption {
     assumption_kind kind;
     int section;                /* index of the section in the scene */
     char physics[100];          /* words of `omit`, such as "shear, warping"; "": none */
-    char text[ASSUMPTION_TEXT]; /* the assumption, including the name of the section */
+    char text[ASSUMPTION_TEXT]; /* text of the assumption, with the name of the section */
 } assumption;
 
-const char *assumptions_kind(int kind); /* Returns the name of a kind, such as "not known". */
-/* Sets *out to assumption number `index` of the point; returns 0 if there is none. */
+const char *assumptions_kind(int kind); /* returns the name of a kind, such as "not known" */
+/* Sets *out to assumption number `index` of the point. Returns 0 if there is no such assumption. */
 int assumptions_at(const sweep_point *p, int index, assumption *out);
-/* Writes all assumptions as "kind: text", separated by semicolons. If `out` is too small, the
- * text ends with the number of the remaining assumptions. */
+/* Writes all assumptions as "kind: text", separated by semicolons. If the capacity of `out` is too
+ * small, the text ends with the number of the remaining assumptions. */
 void assumptions_words(const sweep_point *p, size_t size, char out[]);
 
 /* Results of a stored run: errors and work of each cell, and a summary of each series of meshes.
- * They are read from results.h5, or from the short table of its series, which is small enough to be
+ * They are read from results.h5 or from the short table of the run, which is small enough to be
  * committed. */
 
 typedef enum results_work {
@@ -58,18 +58,19 @@ typedef enum results_work {
 } results_work;
 extern const char *const results_work_names[RESULTS_WORKS];
 
-/* Relative errors below this are due to round-off and the convergence criterion of iterations. */
+/* Relative errors below this value are due to rounding and to the convergence criterion of
+ * iterations. */
 #define RESULTS_FLOOR 1e-8
 
 enum { RESULTS_STATUS = 16, RESULTS_MOST_ELEMENTS = 10000000 };
 
 typedef struct result_value {
     char quantity[SCENE_NAME];
-    double value, near_zero; /* [unit of the quantity]; value NAN: there is none; values below
-                                near_zero count as zero */
-    double error;            /* relative to the reference value; NAN: no reference value */
-    double limit; /* limit of the series, stored with its finest mesh at a default point; NAN: there
-                     is none */
+    /* [unit of the quantity] value (NAN: none); values below near_zero count as zero */
+    double value, near_zero;
+    double error; /* relative to the reference value; NAN: there is no reference value */
+    /* limit of the series, which is stored with its finest mesh at a default point; NAN: none */
+    double limit;
 } result_value;
 
 typedef struct result_cell {
@@ -77,7 +78,7 @@ typedef struct result_cell {
     int elements;
     char status[RESULTS_STATUS];
     long work[RESULTS_WORKS];
-    double cost; /* cost of the counted work [s], in a sweep; not positive or NAN: unknown */
+    double cost; /* [s] cost of the counted work, in a sweep; not positive or NAN: unknown */
     int values;
     result_value *value;
 } result_cell;
@@ -89,10 +90,10 @@ typedef struct result_mesh {
 
 typedef struct result_limit {
     char quantity[SCENE_NAME];
-    double value, near_zero; /* as in result_value; near_zero 0: unknown */
+    double value, near_zero; /* like the members of result_value; near_zero 0: unknown */
 } result_limit;
 
-/* Largest |error| on one mesh. elements 0: no value has an error. */
+/* Largest absolute error on a mesh; elements 0: no value has an error. */
 typedef struct result_error {
     double size;
     int elements;
@@ -105,54 +106,60 @@ typedef struct result_series {
     int meshes, limits;
     result_mesh *mesh;        /* [meshes] ascending by elements */
     long work[RESULTS_WORKS]; /* sums over the meshes */
-    int errors;               /* number of values with an error, over all meshes */
-    double decades; /* sum of log10(max(|error|, RESULTS_FLOOR)) over these values: it changes with
-                       every error above RESULTS_FLOOR, but not with rounding below it */
+    int errors;               /* number of values with an error on all meshes */
+    /* sum of log10(max(|error|, RESULTS_FLOOR)) over these values, which depends on every error
+     * above RESULTS_FLOOR, but not on rounding below it */
+    double decades;
     result_error least,
-        largest; /* least: of the mesh on which this error is smallest; largest: over all meshes */
-    result_limit *limit; /* [limits] at a default point, in the order of the point's quantities */
+        /* least: largest error on the mesh where it is smallest; largest: largest error on all
+         * meshes */
+        largest;
+    /* [limits] at a default point, in the order of the quantities of the point */
+    result_limit *limit;
 } result_series;
 
-/* Selection of a run. Series outside the selection are not missing, because they were not
- * requested. NULL: no selection. */
+/* Selection of a run. Series outside the selection were not requested, so they are not missing.
+ * NULL: there is no selection. */
 typedef struct results_part {
     char *select;               /* expression of harness/formulations/formulations.h */
     char *cases, *formulations; /* one per line */
-    char *fresh; /* formulations that do not affect the exit status yet, one per line; NULL: none */
+    /* formulations that do not affect the exit status yet, in one line each; NULL: none */
+    char *fresh;
 } results_part;
 
 typedef struct stored_results {
     results_part part;
     int cells, seriess;
-    int whole;             /* 1: with cells, 0: with series only */
-    int limits;            /* 1: limits were evaluated */
-    int swept;             /* 1: a sweep; cells without a mesh contain the references of a point */
-    result_cell *cell;     /* ascending by name and elements */
+    int whole;  /* 1: the run has cells; 0: it has only series */
+    int limits; /* 1: limits were evaluated */
+    int swept;  /* 1: a sweep; its cells without a mesh contain the reference values of a point */
+    result_cell *cell;     /* cells in ascending order of name and elements */
     result_series *series; /* ascending by name */
 } stored_results;
 
-/* Reads HDF5 or a table, distinguished by the first bytes. FAULT: the file is missing, truncated,
- * foreign or damaged, or is a sweep. */
+/* Reads an HDF5 file or a table, which are distinguished by their first bytes. FAULT: the file is
+ * missing, truncated, damaged or not such a file, or contains a sweep. */
 status results_read(const char *path, stored_results *out, fault *f);
-/* Like results_read for the results of an experiment: "verify", "bench", or "sweep", which has no
- * series; NULL: the first of these in the file. */
+/* Like results_read, for the results of an experiment: "verify", "bench", or "sweep" (without
+ * series); NULL: the first of these experiments in the file. */
 status results_read_any(const char *path, const char *experiment, stored_results *out, fault *f);
 void results_free(stored_results *r);
 
 status results_table_read(const char *path, FILE *from, stored_results *out, fault *f);
 void results_table_write(FILE *to, const stored_results *r);
 
-/* Comparison of two stored runs: lists the results that became worse or better, or that exist in
- * only one of them. Complete runs and sweeps are compared cell by cell and quantity by quantity,
- * others series by series. No reference value is used: a previous run shows only that a result has
- * changed, not which result is right. */
+/* Comparison of two stored runs. Lists the results that became worse or better, or that exist in
+ * only one run. Complete runs and sweeps are compared cell by cell and quantity by quantity, other
+ * runs series by series. Reference values are not used, because a previous run shows only that a
+ * result has changed, not which result is right. */
 
 typedef struct comparison_limits {
     double error; /* threshold for the relative change of an error */
-    double floor; /* largest change of a value, relative to its reference value, that counts as
-                     round-off */
-    double work; /* threshold for the relative change of a count of one mesh; for a series: relative
-                    to the mean over its meshes */
+    /* largest change of a value, relative to its reference value, that counts as rounding */
+    double floor;
+    /* threshold for the relative change of a count on a mesh; the count of a series is divided by
+     * the number of its meshes */
+    double work;
 } comparison_limits;
 /* Default limits. */
 extern const comparison_limits comparison_limits_default;
@@ -169,43 +176,44 @@ extern const char *const comparison_kind_names[COMPARISON_KINDS];
 
 typedef struct comparison {
     int whole;                     /* 1: cell by cell; 0: series by series */
-    int judged;                    /* 1: both runs have limits */
+    int judged;                    /* 1: both runs contain limits */
     int swept;                     /* 1: sweeps */
-    int pairs;                     /* number of cells or series in both runs */
+    int pairs;                     /* number of cells or series that exist in both runs */
     int count[COMPARISON_KINDS];   /* number of lines of each kind */
-    double work[2][RESULTS_WORKS]; /* sums over the pairs: old, new */
-    double cost[2];                /* cost of the counted work [s], of sweeps */
-    /* number of series in one run only (old, new) that do not count as changes. outside: not
-     * selected in the other run; fresh: of formulations that do not affect the exit status yet */
+    double work[2][RESULTS_WORKS]; /* sums over the pairs: old run, new run */
+    double cost[2];                /* [s] cost of the counted work of sweeps: old run, new run */
+    /* numbers of series that exist in only one run (old, new) and do not count as changes; outside:
+     * not selected in the other run; fresh: the formulation does not affect the exit status yet */
     int outside[2], fresh[2];
-    int partial; /* number of series for which one run omits some quantities: their errors and work
-                    are not compared */
+    /* number of series for which one run omits some quantities; their errors and work are not
+     * compared */
+    int partial;
 } comparison;
 
-/* Reads any of the entries in "error=0.01,floor=1e-8,work=0.02". REFUSED: the message names the
+/* Reads any of the entries of "error=0.01,floor=1e-8,work=0.02". REFUSED: the message names the
  * invalid entry. */
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f);
-/* Writes one line for each difference. Series outside the selection of one run, and series of new
- * formulations in one run only, are counted but not written. Series whose names do not match
- * `select` (study.h; NULL: all) are skipped. */
+/* Writes one line for each difference. Two kinds of series are counted but not written: series
+ * outside the selection of one run, and series of new formulations that exist in only one run.
+ * Series whose names do not match `select` (study.h; NULL: all) are skipped. */
 void comparison_run(FILE *to, const stored_results *before, const stored_results *after,
                     const comparison_limits *limits, const char *select, comparison *out);
 int comparison_differs(const comparison *c);
 
-/* Results for spreadsheets: one row per value, in full precision. Cells without a value are
- * empty. */
+/* Results for spreadsheets, with one row per value, in full precision. Missing values are empty
+ * cells. */
 
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);
-/* Writes the table of a benchmark, with a row for every cell and evaluated quantity. */
+/* Writes the table of a benchmark. There is a row for every cell and evaluated quantity. */
 void csv_timing(FILE *to, const sweep *s, const judgement *j);
 
-/* One schema for all records: a table of fields for each kind of record. HDF5, JSON, CSV and
- * `beamwork schema` are written from it with the same names. A new field is one line in a table. */
+/* A schema for all records, with a table of fields for each kind of record. HDF5, JSON, CSV and
+ * `beamwork schema` use this schema and the same names. A new field is one line in a table. */
 
 enum { SCHEMA_VERSION = 3, SCHEMA_OLDEST = 2, SCHEMA_MOST_FIELDS = 96, FIELD_ROOM = 2048 };
 #define SCHEMA_NAME "beamwork-results"
-/* Unit of a number whose unit is given by the field `unit` of the same record. */
+/* Unit of a number for which the field `unit` of the same record gives the unit. */
 #define OWN_UNIT "unit"
 
 /* Role of a field that identifies the subject of the record. KEY_AROUND: the field is needed only
@@ -229,12 +237,13 @@ typedef struct subject {
     const series *series;
     int mesh;           /* index in the series */
     const void *record; /* record to which most offsets refer */
-    int index; /* index among records of the same kind: a quantity, a step, an iteration, a station
-                */
-    int group; /* step of an iteration; first point of a curve */
+    /* index among records of the same kind, for example of a quantity, step, iteration or station
+     * */
+    int index;
+    int group; /* step of an iteration, or first point of a curve */
     const verdict *verdict;
     const truth *truth, *model_truth; /* reference values of the quantity */
-    const void *owner;                /* record that contains this one */
+    const void *owner;                /* record that contains this record */
 } subject;
 
 /* Parts of the context to which the offset of a field may refer. */
@@ -255,27 +264,28 @@ typedef struct schema_field schema_field;
 /* The kind of the field determines which member is set. */
 typedef struct field_value {
     const schema_field *of;
-    long whole;            /* for INT, LONG, FLAG, ENUM */
-    const double *numbers; /* DOUBLE: [count of the field]; NAN: no value */
-    const char *text;      /* TEXT, or the word of an ENUM */
-    double number;         /* storage for one number ... */
-    char room[FIELD_ROOM]; /* ... and for a composed text */
+    long whole;            /* value of INT, LONG, FLAG and ENUM */
+    const double *numbers; /* [count of the field] value of DOUBLE; NAN: no value */
+    const char *text;      /* value of TEXT, or word of an ENUM */
+    double number;         /* storage for a number */
+    char room[FIELD_ROOM]; /* storage for a composed text */
 } field_value;
 
 typedef void field_getter(const subject *s, field_value *out);
 
 struct schema_field {
-    const char *name, *unit; /* unit "1": dimensionless number; "": not a number */
+    /* unit: "1" for a dimensionless number, "" for a field that is not a number */
+    const char *name, *unit;
     field_kind kind;
     const char *summary;
     field_base base; /* object to which the offset refers; NULL: there is no value */
     size_t offset;
     int address;              /* 1: the offset refers to a pointer to the TEXT */
-    field_getter *get;        /* computes a derived value; the offset is then not used */
+    field_getter *get;        /* computes a derived value, for which the offset is not used */
     const char *(*word)(int); /* ENUM: its words ... */
-    int words;                /* ... 0 to words - 1 */
-    int count;                /* DOUBLE: length of an array (a square matrix); 0: a single number */
-    int key;                  /* KEY, KEY_AROUND, or 0: a result */
+    int words;                /* number of words, for the values 0 to words - 1 */
+    int count; /* DOUBLE: length of an array or size of a square matrix; 0: a single number */
+    int key;   /* KEY, KEY_AROUND, or 0: a result */
 };
 
 /* Value of a member of the record. */
@@ -284,36 +294,36 @@ struct schema_field {
 #define OF(place, type, member)      .base = BASE_##place, .offset = offsetof(type, member)
 #define TEXT_OF(place, type, member) OF(place, type, member), .address = 1
 
-/* Tables end with a field without a name. */
+/* Tables end with a field that has no name. */
 enum { RECORD_PARTS = 5 };
 typedef struct record_type {
     const char *name, *table, *summary; /* table: name of the table in HDF5 and of lists in JSON */
-    const schema_field *part[RECORD_PARTS]; /* field tables in order, NULL-terminated */
+    const schema_field *part[RECORD_PARTS]; /* field tables, in order and NULL-terminated */
 } record_type;
 
-/* The kinds of records: a series of meshes, one mesh, its results and how they were found, its
- * times, its evaluation, and others. */
+/* The kinds of records: a series of meshes, a mesh, its results, the way in which they were found,
+ * its times, its evaluation, and others. */
 extern const record_type record_point, record_series, record_cell, record_quantity, record_curve,
     record_step, record_iteration, record_event, record_motion, record_matrix, record_timing,
     record_verdict, record_agreement, record_coverage, record_import, record_scene,
     record_parameter, record_meaning, record_assumption;
 extern const record_type
-    *const record_types[];                   /* all kinds except the two below, NULL-terminated */
-extern const record_type record_truth;       /* reference values of a quantity, in JSON only */
-extern const record_type record_declaration; /* declarations of a whole run, in HDF5 only */
+    *const record_types[];                   /* all kinds except the two below; NULL-terminated */
+extern const record_type record_truth;       /* reference values of a quantity (only in JSON) */
+extern const record_type record_declaration; /* declarations of a whole run (only in HDF5) */
 
-/* Sets out to the fields whose key is at most `keys`, in order, and returns their number. */
+/* Sets `out` to the fields whose key is at most `keys`, in order, and returns their number. */
 int schema_fields(const record_type *type, int keys, const schema_field *out[SCHEMA_MOST_FIELDS]);
 void schema_read(const subject *s, const schema_field *which, field_value *out);
 const char *schema_kind_name(field_kind kind);
-/* For getters: set a text, which may be NULL, or a number. */
+/* Functions for getters, which set a number or a text. The text may be NULL. */
 void schema_set_text(field_value *out, const char *text);
 void schema_set_number(field_value *out, double number);
 
-/* Records as lines of CSV, in full precision. Cells without a value are empty. */
+/* Records as lines of CSV, in full precision. Missing values are empty cells. */
 
-/* A line consists of several records, each with its own subject. If several fields have the same
- * name, only the first is written. Matrices are omitted. */
+/* Part of a line. A line consists of several records, each with a separate subject. If several
+ * fields have the same name, only the first is written. Matrices are omitted. */
 typedef struct csv_part {
     const record_type *type;
     subject s;
@@ -336,22 +346,22 @@ digest digest_begin(void);
 void digest_add(digest *, const void *data, size_t size);
 void digest_add_text(
     digest *,
-    const char *text); /* includes the terminating zero, so "ab", "c" differs from "a", "bc" */
-/* Equal numbers give equal digests: -0 counts as 0, and all NaN are alike. */
+    const char *text); /* the terminating zero is included, so "ab", "c" differs from "a", "bc" */
+/* Adds a number. Equal numbers give equal digests: -0 counts as 0, and all NaN values are equal. */
 void digest_add_number(digest *, double value);
-/* Writes the digits; further data may then be added to the digest. */
+/* Writes the digits. Further data may then be added to the digest. */
 void digest_text(const digest *, char out[DIGEST_TEXT]);
 /* Adds all bytes of a file. Returns 0, or -1 if the file cannot be read. */
 int digest_add_file(digest *, const char *path);
 
-/* Identity of a record: the first fields of the tables of fields_*.c, and shared helpers. */
+/* Identity of a record: the first fields in the tables of fields_*.c, and shared functions. */
 
 extern const schema_field keys_of_point[];  /* case and parameter point */
 extern const schema_field keys_of_series[]; /* parameters of the point, and formulation */
 extern const schema_field key_of_mesh[];    /* number of elements of each member */
 
 enum { STATUSES = STATUS_NO_VALUE + 1 };
-/* ENUM fields: the words of their values. */
+/* Words for the values of ENUM fields. */
 const char *fields_keys_word_of_status(int status);
 const char *fields_keys_word_of_moments(int convention);
 
@@ -359,9 +369,9 @@ const char *fields_keys_word_of_moments(int convention);
 const scene_quantity *fields_keys_quantity(const subject *s);
 const cell_result *fields_keys_cell(const subject *s);
 
-/* Modes followed over a parameter, written as CSV and JSON. */
+/* Modes that are followed over a parameter, as CSV and JSON. */
 
-/* Writes a row for each value and mode. */
+/* Writes a row for each value and each mode. */
 void follow_record_csv(FILE *to, const char *parameter, const follow_curves *);
 /* Writes the columns of each mode, the crossings and the veerings. */
 status follow_record_json(FILE *to, const char *parameter, const follow_curves *, fault *);
@@ -377,14 +387,14 @@ typedef struct subjects {
 } subjects;
 
 /* Reference values with which quantities are compared: those used for the verdicts, or the stored
- * values if nothing was evaluated. Both may be NULL. */
+ * values if nothing was evaluated. Both pointers may be NULL. */
 typedef struct gathering {
     const sweep *sweep;
     const judgement *judged;
     const truths *truths;
 } gathering;
 
-/* Adds the records of one mesh. If the mesh has no records of a kind, nothing is added. */
+/* Adds the records of a mesh. Adds nothing for kinds of which the mesh has no records. */
 void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh,
                  subjects *out);
 /* Adds the assumptions on the sections of a point. */
@@ -394,21 +404,21 @@ subject gather_verdict(const gathering *g, const verdict *v);
 subject gather_agreement(const gathering *g, const agreement *a);
 subject gather_coverage(const gathering *g, const coverage *c, int left_out);
 void gather_add(subjects *list, const subject *one);
-/* Copies a record; the copy lasts as long as the list. Returns NULL if out of memory. */
+/* Copies a record. The copy exists as long as the list. Returns NULL if out of memory. */
 const void *gather_keep(subjects *list, const void *record, size_t size);
 void gather_free(subjects *list);
 
 /* JSON of one solution and of a verification (jansson). */
 
-/* Writes and frees root. FAULT: root is NULL (out of memory), or it cannot be written. */
+/* Writes and frees `root`. FAULT: root is NULL (out of memory), or `root` cannot be written. */
 status json_finish(json_t *root, FILE *to, fault *f);
 
 /* Adds the physics that the scene of a point omits ("omitted"), and the assumptions on its sections
  * ("assumptions"). */
 void json_add_physics(json_t *root, const sweep_point *p);
-/* Writes the solution of one cell of a one-point sweep; t may be NULL. */
+/* Writes the solution of a cell of a one-point sweep. t may be NULL. */
 status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f);
-/* Verdicts as text, collected while others are still being computed. */
+/* Verdicts as text, collected while others are being computed. */
 typedef struct json_part {
     int verdicts; /* number of verdicts in the text so far */
     char *text;
@@ -416,48 +426,49 @@ typedef struct json_part {
     FILE *to; /* NULL: out of memory */
 } json_part;
 
-/* The structure must not move until it is freed. */
+/* Starts the text. The structure must not move until it is freed. */
 void json_part_begin(json_part *);
 /* Adds the verdicts found since the last call. */
 void json_part_add(json_part *, const sweep *s, const judgement *j);
 void json_part_free(json_part *);
-/* Writes the verdicts of a verification. part: verdicts that were already converted; NULL: none. */
+/* Writes the verdicts of a verification. part: verdicts that have already been converted; NULL:
+ * none. */
 status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e,
                            json_part *part, fault *f);
 
 /* JSON of a convergence study: values, limits, orders. */
 
-/* Writes every quantity of every series over its meshes, with limit, order and verdict, and the
+/* Writes every quantity of every series for all meshes, with limit, order and verdict, and the
  * formulations whose error is within the level in every quantity. */
 status json_convergence_write(FILE *to, const sweep *s, const truths *t, double level, fault *f);
 
 /* Records as JSON objects, field by field. */
 
-/* keys: KEY_AROUND if the context does not identify the record, otherwise 0. */
+/* Converts a record. keys: KEY_AROUND if the context does not identify the record, otherwise 0. */
 json_t *json_record(const record_type *type, const subject *s, int keys);
 void json_record_add(json_t *list, const record_type *type, const subject *s, int keys);
 json_t *json_record_type(const record_type *type); /* describes the fields of a record */
 
-/* Writes verdicts for continuous integration as JUnit XML, with values and tolerances as
- * properties. */
+/* Writes verdicts for continuous integration as JUnit XML. Values and tolerances are properties. */
 
 void junit_write(FILE *to, const sweep *s, const judgement *j);
 
-/* Target of a path: its kind, and whether two paths refer to the same file. */
+/* Target of a path: its kind, and a test for two paths to the same file. */
 
 typedef enum place_kind {
-    PLACE_FREE,   /* does not exist, but its folder does */
-    PLACE_FILE,   /* an existing regular file */
-    PLACE_STREAM, /* a pipe or a device, or the file that standard output or error goes to */
+    PLACE_FREE, /* the file does not exist, but its folder does */
+    PLACE_FILE, /* an existing regular file */
+    /* a pipe or a device, or the file that receives standard output or standard error */
+    PLACE_STREAM,
     PLACE_FOLDER
 } place_kind;
 
 typedef struct file_place {
     place_kind kind;
-    int descriptor;      /* 1, 2: standard output or error of this process; -1: none */
-    int shared;          /* 1: a character device, to which several may write */
-    char path[PATH_MAX]; /* with links resolved; a stream keeps the given path */
-    dev_t device;        /* of the file; for a free path, of its folder */
+    int descriptor;      /* 1, 2: standard output or standard error of this process; -1: none */
+    int shared;          /* 1: a character device, to which several outputs may be written */
+    char path[PATH_MAX]; /* path with links resolved; for a stream, the given path */
+    dev_t device;        /* device of the file, or of its folder if the path is free */
     ino_t inode;
     mode_t mode; /* permissions of the existing file */
     uid_t owner;
@@ -467,14 +478,15 @@ typedef struct file_place {
 /* Finds the target of a path. REFUSED: the path is empty. FAULT: the path is too long, or its
  * folder does not exist. */
 status place_find(const char *path, file_place *out, fault *f);
-/* Returns 1 if the two are the same file, by device and inode; if the paths are free, by the same
- * name in the same folder. */
+/* Returns 1 if both are the same file, according to device and inode. If the paths are free,
+ * compares the names in the same folder. */
 int place_same(const file_place *a, const file_place *b);
 /* Returns the part of a path after its folder. */
 const char *place_leaf(const char *path);
 
-/* Files that appear complete or not at all: written under a temporary name in the same folder, then
- * renamed to the target of any links. Pipes and devices are written directly, and only as text. */
+/* Files that appear complete or not at all. They are written under a temporary name in the same
+ * folder, then renamed to the target of any links. Pipes and devices are written directly, and only
+ * as text. */
 
 /* A whole file must be a regular file, because it is accessed at arbitrary positions. */
 typedef enum output_form { OUTPUT_TEXT, OUTPUT_WHOLE_FILE } output_form;
@@ -490,41 +502,42 @@ int output_is_hdf5(const char *path);
 /* Opens a text file. path NULL: standard output. */
 status output_open(const char *path, output *out, fault *f);
 status output_open_whole(const char *path, output *out, fault *f);
-/* Flushes and renames the file; reports every write error. After a failure no file remains. */
+/* Flushes and renames the file, and reports every write error. After a failure, no file remains. */
 status output_close(output *out, fault *f);
-/* Closes the output if `written` is OK; otherwise discards it. */
+/* Closes the output if `written` is OK, otherwise discards it. */
 status output_finish(output *out, status written, fault *f);
-/* Flushes standard output. FAULT: it could not be written. */
+/* Flushes standard output. FAULT: the output cannot be written. */
 status output_flush(fault *f);
-/* Checks an output before any computation. REFUSED: an invalid name, or a target that cannot take
- * this form. FAULT: it cannot be written. *where: its location, for comparison with other
- * outputs. */
+/* Checks an output before any computation. REFUSED: the name is invalid, or the target does not
+ * support this form. FAULT: the output cannot be written. *where: location of the output, for
+ * comparison with other outputs. */
 status output_try(const char *path, output_form form, file_place *where, fault *f);
-/* Deletes incomplete temporary files and folders of this process; may be called by a signal
- * handler. */
+/* Deletes incomplete temporary files and folders of this process. A signal handler may call this
+ * function. */
 void output_abandon(void);
 /* Sets `partial` to the name for the partial result of an interrupted run, such as
  * "results.partial.h5" for "results.h5". A stream keeps its name. */
 status output_partial(const char *path, char partial[PATH_MAX], fault *f);
 
-/* Writes an HDF5 file that appears complete or not at all: it is built in memory or under a
- * temporary name, then renamed. Every call is checked. After the first failure no further call has
- * an effect, and record_close reports it. */
+/* Writes an HDF5 file that appears complete or not at all. The file is built in memory or under a
+ * temporary name, then renamed. Every call is checked. After the first failure, further calls have
+ * no effect, and record_close reports the failure. */
 
 typedef struct record_file {
-    hid_t file, scalar; /* scalar: the shape of an attribute */
+    hid_t file, scalar; /* scalar: shape of an attribute */
     int bad;
-    output to; /* of a file built on disk; stream NULL: in memory */
+    /* output of a file that is built on disk; stream NULL: the file is built in memory */
+    output to;
 } record_file;
 
 status record_open(record_file *r, fault *f);
-/* Begins a file that is built on disk, for data larger than memory. REFUSED, FAULT: the file cannot
- * be written there. */
+/* Starts a file that is built on disk, for data larger than memory. REFUSED, FAULT: the file cannot
+ * be written at this path. */
 status record_open_beside(record_file *r, const char *path, fault *f);
 /* Writes the file and frees its memory. path NULL: writes nothing. A file built on disk is written
- * to the path given when it was opened. */
+ * to the path that was given when it was opened. */
 status record_close(record_file *r, const char *path, fault *f);
-/* Frees the memory without writing; returns `outcome`. */
+/* Frees the memory without writing the file. Returns `outcome`. */
 status record_drop(record_file *r, status outcome);
 
 /* Attributes. */
@@ -534,38 +547,39 @@ void record_text_list(record_file *r, hid_t at, const char *name, int count,
                       const char *const text[]);
 void record_count(record_file *r, hid_t at, const char *name, long value);
 void record_number(record_file *r, hid_t at, const char *name, double value);
-/* Creates a data set of any type, compressed if large; the caller closes it with H5Dclose. */
+/* Creates a data set of any type. Large data sets are compressed. The caller closes the data set
+ * with H5Dclose. */
 hid_t record_array(record_file *r, hid_t at, const char *name, hid_t type, int rank,
                    const hsize_t size[], const void *value);
-/* Creates a data set of rank 0 to 3 with its unit (NULL: none); the caller closes it with H5Dclose.
- */
+/* Creates a data set of rank 0 to 3 with its unit (NULL: none). The caller closes the data set with
+ * H5Dclose. */
 hid_t record_values(record_file *r, hid_t at, const char *name, int rank, const hsize_t size[],
                     const double value[], const char *unit);
-/* Returns a fixed-length UTF-8 type; the caller closes it with H5Tclose. */
+/* Returns a fixed-length UTF-8 type. The caller closes the type with H5Tclose. */
 hid_t record_text_type(size_t length);
-/* Creates a data set row[count] of the given type; the caller closes it with H5Dclose. */
+/* Creates a data set row[count] of the given type. The caller closes the data set with H5Dclose. */
 hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int count,
                    const void *row);
 
-/* One results file for all experiments. Each has its own group below /experiments, which a later
- * run replaces completely; verify writes to the root. Several runs may write to one file at the
- * same time: each one merges, under a lock, what others have written. */
+/* A results file for all experiments. Each experiment has a group below /experiments, which a later
+ * run replaces completely. The verb verify writes to the root. Several runs may write to one file
+ * at the same time: each run merges its results with those of the others under a lock. */
 
 #define KEPT_GROUPS "experiments"
 #define KEPT_SWEEP  "sweep"
-/* Attribute of the group of a sweep, or of the root of a file written for one sweep only; if
- * another experiment is added to such a file, its root becomes the group. */
+/* Attribute of the group of a sweep, or of the root of a file that was written for a single sweep.
+ * If another experiment is added to such a file, its root becomes the group. */
 #define KEPT_SWEEP_MARK "beamwork_sweep"
 
-/* Creates the group for the output of an experiment; name NULL: the root. The caller closes it with
- * H5Gclose. */
+/* Creates the group for the output of an experiment; name NULL: the root. The caller closes the
+ * group with H5Gclose. */
 hid_t kept_group(record_file *r, const char *name);
-/* Like record_close, but keeps the other experiments in the file at `path`. After a FAULT the file
+/* Like record_close, but keeps the other experiments in the file at `path`. After FAULT, the file
  * is unchanged. */
 status kept_close(record_file *r, const char *name, const char *path, fault *f);
-/* Must be called before the computation. REFUSED: the existing HDF5 file is damaged or contains no
- * results, so its contents would be lost, or another program has locked it. FAULT: the file cannot
- * be locked. */
+/* Checks an existing file before the computation. REFUSED: the HDF5 file is damaged or contains no
+ * results, so its contents would be lost, or another program has locked the file. FAULT: the file
+ * cannot be locked. */
 status kept_check(const char *path, fault *f);
 
 /* Summary of a verification as Markdown, for the description of a pull request. */
@@ -573,7 +587,7 @@ status kept_check(const char *path, fault *f);
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
                     const environment *e);
 
-/* A folder that appears complete or not at all: its files are written to a temporary folder next to
+/* A folder that appears complete or not at all. Its files are written to a temporary folder next to
  * it, which is then renamed. Existing files are never replaced. */
 
 typedef struct output_folder {
@@ -581,7 +595,7 @@ typedef struct output_folder {
     char temporary[PATH_MAX];
 } output_folder;
 
-/* Checks whether the folder can be created, and sets *where. REFUSED: the path exists and is not an
+/* Checks that the folder can be created, and sets *where. REFUSED: the path exists and is not an
  * empty folder. FAULT: the folder cannot be written. */
 status output_folder_try(const char *path, file_place *where, fault *f);
 status output_folder_open(const char *path, output_folder *out, fault *f);
@@ -589,23 +603,23 @@ status output_folder_open(const char *path, output_folder *out, fault *f);
  * `what`. */
 status output_folder_file(const output_folder *, const char *name,
                           void (*write)(FILE *, const void *what), const void *what, fault *f);
-/* Renames the folder if `written` is OK; otherwise removes it. */
+/* Renames the folder if `written` is OK, otherwise removes it. */
 status output_folder_finish(output_folder *, status written, fault *f);
 
-/* Conclusion of a convergence table: the formulations that reach an error, and with how many
- * elements. */
+/* Conclusion of a convergence table: the formulations that reach an error, and the numbers of
+ * elements that they need. */
 
 #define REACH_LINE_LEVEL 0.01 /* level if none is requested */
 
 /* Writes one line such as "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2
  * (0.4 ms): costs tie; beamw n = 8 (2 ms)". The order is that of study.h, and the times are the
- * costs of the counted work. Formulations with a defect and those not within the level come last.
- * "in 5 of 6 quantities (without a reference: frequency_1)" is added if some quantities have
- * neither a reference value nor an agreement; curves are not counted. The line refers to the first
- * point. */
+ * costs of the counted work. Formulations with a defect and formulations that are not within the
+ * level come last. "in 5 of 6 quantities (without a reference: frequency_1)" is added if some
+ * quantities have neither a reference value nor an agreement. Curves are not counted. The line
+ * refers to the first point. */
 void reach_line_write(FILE *to, const sweep *s, const truths *t, double level);
-/* Writes one line with the difference of the passing formulations from a solid, plate or shell; no
- * line if the difference is unknown. */
+/* Writes one line with the difference of the passing formulations from a solid, plate or shell.
+ * Writes nothing if the difference is unknown. */
 void reach_model_write(FILE *to, const sweep *s, const truths *t, double level);
 
 /* Like record_rows_of_type, for records that the context does not identify. */
@@ -614,22 +628,22 @@ void record_rows_alone(record_file *r, hid_t at, const record_type *type, int co
 /* Writes a record as attributes. */
 void record_fields(record_file *r, hid_t at, const record_type *type, const subject *s);
 
-/* One hash for the content of a stored run: two runs that differ only in times, machines and
- * versions have the same hash. */
+/* Hash for the content of a stored run. Two runs that differ only in times, machines and versions
+ * have the same hash. */
 
 typedef struct results_hash {
     char text[DIGEST_TEXT]; /* SHA-256 */
     long values;            /* number of hashed numbers and texts */
 } results_hash;
 
-/* Hashes every data set in the order of names, row by row; for results.h5 and any other beamwork
- * file. Omits the tables `timings`, data sets named `seconds...`, and attributes. FAULT: the file
+/* Hashes every data set of results.h5 or of another beamwork file, row by row and in the order of
+ * names. Omits the tables `timings`, data sets named `seconds...`, and attributes. FAULT: the file
  * is not a beamwork file. */
 status results_hash_of(const char *path, results_hash *out, fault *f);
 
 /* results.h5: all results of a sweep, for the reports. Below /cases/CASE there is a table for each
- * kind of record (record_type), with arrays for the points of curves and the shapes; `beamwork
- * schema` describes them. */
+ * kind of record (record_type). Arrays contain the points of curves and the shapes. `beamwork
+ * schema` describes all of them. */
 
 /* A file that is filled case by case during the run. */
 typedef struct store {
@@ -640,52 +654,53 @@ typedef struct store {
     const judgement *judged;
 } store;
 
-/* The arguments must exist as long as the file is open. */
+/* Opens the store. The arguments must exist as long as the file is open. */
 status store_open(const char *experiment, const sweep *s, const judgement *j, store *out, fault *f);
-/* Adds a case; all its series must have been evaluated. */
+/* Adds a case. All its series must have been evaluated. */
 void store_case(store *, const case_type *);
 /* Adds the remaining cases and the description of the run. The file is written under a temporary
- * name and renamed: after a FAULT no file remains. path NULL: nothing is written. */
+ * name and renamed. After FAULT, no file remains. path NULL: nothing is written. */
 status store_close(store *, const char *path, const environment *e, fault *f);
 
-/* Writes the whole file under a temporary name and renames it; after a FAULT no file remains. */
+/* Writes the whole file under a temporary name and renames it. After FAULT, no file remains. */
 status store_write(const char *path, const char *experiment, const sweep *s, const judgement *j,
                    const environment *e, fault *f);
-/* Writes the first cell of a sweep in the same way, without verdicts; its shapes are also written
+/* Writes the first cell of a sweep in the same way, without verdicts. Its shapes are also written
  * for VTK. */
 status store_write_solution(const char *path, const sweep *s, const environment *e, fault *f);
 
-/* Writes the program, commit and time as attributes of a group. */
+/* Writes the program, the commit and the time as attributes of a group. */
 void store_environment(record_file *r, hid_t at, const environment *e);
 
 /* A folder with the matrices of small motions about the states of a solution:
  *   dofs.csv meaning of each row, loads.csv meaning of each column of B, states.csv meaning of each
  * folder STATE/      K.mtx, M.mtx, where the axes turn G.mtx, where there are loads B.mtx */
 
-/* title: one line that describes the solution, for the comments of the matrices. The folder appears
- * complete or not at all. */
+/* Writes the folder, which appears complete or not at all. title: description of the solution in
+ * one line, for the comments of the matrices. */
 status system_folder_write(const char *path, const char *title, const scene *,
                            const system_matrices *, fault *);
 
 /* Reads columns of an HDF5 table into rows of the caller. The contents of the file are checked. */
 
 /* A column is read into a member of the row: INT, LONG, DOUBLE, FLAG (a signed char), or a text of
- * at most room - 1 bytes (an ENUM is stored as its word). */
+ * at most room - 1 bytes. An ENUM is stored as its word. */
 typedef struct table_column {
     const char *name;
     field_kind kind;
-    size_t offset, room; /* room: size of a text */
+    size_t offset, room; /* room: capacity for a text */
 } table_column;
 
-/* Reads the table, whose rows have `size` bytes and which the caller frees, and returns the number
- * of rows. Returns -1 if the table or a column of that kind is missing, or if out of memory. */
+/* Reads the table and returns the number of rows. Each row has `size` bytes. The caller frees the
+ * rows. Returns -1 if the table or a column of this kind is missing, or if out of memory. */
 int table_reader_rows(hid_t at, const char *name, int columns, const table_column column[],
                       size_t size, void **rows);
 
-/* Reads a text attribute of fixed length; returns 0 if it is missing, too long or of another
- * type. */
+/* Reads a text attribute of fixed length. Returns 0 if the attribute is missing, too long or of
+ * another type. */
 int table_reader_attribute_text(hid_t at, const char *name, char *text, size_t size);
-/* Reads an integer from a scalar attribute; returns 0 if it is missing or of another type. */
+/* Reads an integer from a scalar attribute. Returns 0 if the attribute is missing or of another
+ * type. */
 int table_reader_attribute_count(hid_t at, const char *name, long *out);
 
 #endif

@@ -10,39 +10,40 @@
 #include "harness/newton/newton.h"
 #include "harness/records/records.h"
 
-/* Appends a zeroed cell and returns it; NULL: out of memory. */
+/* Appends a cell filled with zeros and returns it; NULL: out of memory. */
 result_cell *results_add(stored_results *r);
 
 int results_order(const result_cell *a,
-                  const result_cell *b); /* compares by name, then by elements */
+                  /* compares two cells by name, then by number of elements */
+                  const result_cell *b);
 /* Computes the series from the sorted cells. FAULT: out of memory. */
 status results_series_summarise(stored_results *r, fault *f);
-/* Computes the sums of a series over the meshes that another run has of it. Returns 0 if r does not
- * have all of them, or if out of memory. The caller frees out->mesh and out->limit. */
+/* Computes the sums of a series over those meshes that another run also has. Returns 0 if r does
+ * not have all of them, or if out of memory. The caller frees out->mesh and out->limit. */
 int results_series_restrict(const stored_results *r, const result_series *to, result_series *out);
 
-/* Returns 1 if the text is one of the lines; 0 for lines NULL. */
+/* Returns 1 if the text is one of the lines. Returns 0 if `lines` is NULL. */
 int results_part_has(const char *lines, const char *text);
 /* Returns 1 if the series belongs to another program, or to an element that is not loaded. No
- * selection names such a series; it is requested wherever its case is run. */
+ * selection names such a series. It is requested wherever its case is run. */
 int results_part_is_foreign(const char *series);
-/* Returns the name of a foreign formulation that r has at the same case and parameters and that
- * `other` does not have; NULL: none. */
+/* Returns the name of a formulation of another program that r contains for the same case and
+ * parameters but `other` does not contain; NULL: none. */
 const char *results_part_instead(const stored_results *r, const stored_results *other,
                                  const char *series);
 /* Returns 1 if the selection includes this quantity of a series (case/parameters/formulation). */
 int results_part_selects(const results_part *p, const char *series, const char *quantity);
-/* Returns 1 if the selection of run r includes the series, with any quantity that the two runs
- * contain. */
+/* Returns 1 if the selection of run r includes at least one quantity of the series that the two
+ * runs contain. */
 int results_part_wants(const stored_results *r, const stored_results *other, const char *series);
-/* Returns 1 if the two runs requested different quantities of a series, among those that they
- * contain. */
+/* Returns 1 if the two runs requested different quantities of a series, among the quantities that
+ * they contain. */
 int results_part_differ(const stored_results *a, const stored_results *b, const char *series);
 /* Returns 1 if the formulation of the series is new to the run. */
 int results_part_is_fresh(const results_part *p, const char *series);
 void results_part_free(results_part *);
 
-extern const record_type record_omission; /* omissions at a value, in the CSV of a solution only */
+extern const record_type record_omission; /* omissions at a value (only in the CSV of a solution) */
 
 extern const schema_field names_of_quantity[]; /* name and unit of the quantity */
 
@@ -54,12 +55,13 @@ void fields_keys_assumed(const subject *s, field_value *out);
 
 /* Adds the records of all series of a case. */
 void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out);
-/* Adds one record for each formulation run by this program, in the order of the series. */
+/* Adds a record for each formulation run by this program, in the order of the series. */
 void gather_declarations(const gathering *g, subjects *out);
 
-/* Opens a group of this name, or creates it; the caller closes it with H5Gclose. */
+/* Opens the group with this name, or creates it. The caller closes the group with H5Gclose. */
 hid_t record_group(record_file *r, hid_t at, const char *name);
-/* Write two integers, or an ASCII text with exactly its own length, as VTK requires. */
+/* Write attributes in the form that VTK requires: two integers, or an ASCII text without padding.
+ * */
 void record_version(record_file *r, hid_t at, const char *name, const int version[2]);
 void record_ascii(record_file *r, hid_t at, const char *name, const char *text);
 /* Creates a data set text[count]. */
@@ -68,10 +70,10 @@ void record_texts(record_file *r, hid_t at, const char *name, int count, const c
 /* Creates a subfolder of the output folder. */
 status output_folder_below(const output_folder *, const char *name, fault *f);
 
-/* Records as rows of a typed, compressed table; units and summaries of the columns are its
- * attributes. */
+/* Records as rows of a typed, compressed table. Its attributes give the units and the summaries of
+ * the columns. */
 
-/* Creates the table `name` below `at`; each text column has the length of its longest text. */
+/* Creates the table `name` below `at`. Each text column has the length of its longest text. */
 void record_rows(record_file *r, hid_t at, const char *name, int fields,
                  const schema_field *const list[], int count, const subject row[]);
 /* Creates the table of a kind of record, including its keys. */
@@ -80,7 +82,7 @@ void record_rows_of_type(record_file *r, hid_t at, const record_type *type, int 
 
 /* Writes differences as lines. */
 
-/* Destination of the lines, counts of the lines, and the subject to which they refer. */
+/* Destination of the lines, numbers of lines of each kind, and subject of the lines. */
 typedef struct listing {
     FILE *to;
     const comparison_limits *limits;
@@ -90,61 +92,61 @@ typedef struct listing {
     int elements; /* number of elements of the mesh; 0: the line does not refer to a single mesh */
 } listing;
 
-/* Writes a line for something that exists in one run only. */
+/* Writes a line for an entry that exists in only one run. */
 void comparison_lines_lone(const listing *l, comparison_kind kind);
 void comparison_lines_status(const listing *l, const char *before, const char *after);
 
 void comparison_series(const listing *l, const result_series *a, const result_series *b);
 
-/* Matrices as text that other programs read: Matrix Market, coordinate format (R. F. Boisvert,
- * R. Pozo, K. A. Remington, NISTIR 5935, 1996), 17 digits. */
+/* Matrices as text that other programs can read: Matrix Market coordinate format (R. F. Boisvert,
+ * R. Pozo, K. A. Remington, NISTIR 5935, 1996) with 17 digits. */
 
 /* Outline of a section, for pictures: straight walls in the principal axes. */
 
 typedef struct outline {
     int walls;
     /* 1: the outline is an equivalent rectangle, for a section given by constants (same A and ratio
-     * Iy : Iz) or by matrices (same radii of inertia) */
+     * Iy : Iz) or by matrices (same radii of gyration) */
     int equivalent;
-    /* [walls] (y, z) [m]: two corners at one end of the wall's mid-line, then two at the other, in
-     * order around it */
+    /* [walls] coordinates (y, z) [m] of two corners at one end of the mid-line of the wall, then of
+     * two corners at the other end; the four corners are in order around the wall */
     double corner[SECTION_MAX_WALLS][4][2];
 } outline;
 
-/* Computes the outline. c: the constants of the section. */
+/* Computes the outline. c: constants of the section. */
 void outline_of(const section_spec *spec, const section *c, outline *out);
-/* Computes the outline at the far end of a tapered member, with the same walls and corners as
- * `near`, the section of the near end; straight lines join corresponding corners. */
+/* Computes the outline at the far end of a tapered member. It has the same walls and corners as
+ * `near`, the outline at the near end. Straight lines connect corresponding corners. */
 void outline_of_far_end(const section_spec *spec, const section *c, const section *near,
                         outline *out);
 void outline_between(const outline *near, const outline *far, double x, outline *out);
 
 /* One case of a stored run. */
 
-/* Returns FAULT with a message that names the damaged part of a file. */
+/* Returns FAULT. The message names the damaged part of the file. */
 status results_case_damaged(const char *path, const char *where, const char *what, fault *f);
 
 /* Reads a stored sweep. */
 
-/* Adds a cell for each point, formulation and mesh, named by the values of all parameters in the
- * file, in the order of their names; and one cell without a mesh for the references of each point.
- */
+/* Adds a cell for each point, formulation and mesh. Its name contains the values of all parameters
+ * in the file, in the order of their names. Also adds a cell without a mesh for the reference
+ * values of each point. */
 status results_sweep_read(const char *path, hid_t at, stored_results *out, fault *f);
 
-/* Short table of a run, with a row for each series; it is small enough to be committed and read in
+/* Short table of a run, with a row for each series. It is small enough to be committed and read in
  * a diff. */
 
-/* The header line with the columns, which harness/README.md explains. */
+/* Header line with the names of the columns. harness/README.md explains the columns. */
 extern const char results_table_head[];
 
-/* Number of digits written. Two runs cannot be compared more accurately than this. */
+/* Number of digits that are written. Two runs cannot be compared with higher accuracy. */
 enum { RESULTS_ERROR_DIGITS = 6, RESULTS_LIMIT_DIGITS = 10, RESULTS_DECADES_DECIMALS = 6 };
 
 /* Centre lines and sections of the states of a path. */
 
 /* Centre lines and walls for ParaView and VTK: the group /VTKHDF of an HDF5 file (VTKHDF file
- * format, type UnstructuredGrid). One state is written as version 1.0, several states as time steps
- * of version 2.0. */
+ * format, type UnstructuredGrid). A single state is written in version 1.0. Several states are
+ * written as time steps of version 2.0. */
 
 void vtkhdf_write(record_file *r, const scene *sc, const shapes *s);
 

@@ -8,8 +8,8 @@
 const char *const results_work_names[RESULTS_WORKS] = {"iterations", "evaluations",
                                                        "factorisations"};
 
-/* Appends a zeroed item to *list (`list` is the address of its pointer), which grows by `step`
- * items. Returns the item; NULL: out of memory. */
+/* Appends an item filled with zeros to *list, which grows by `step` items (`list` is the address of
+ * a pointer). Returns the item; NULL: out of memory. */
 static void *add(void *list, int *count, int step, size_t size)
 {
     char *all;
@@ -149,7 +149,7 @@ const char results_table_head[] =
     "series,meshes,iterations,evaluations,factorisations,errors,decades,least,least_elements,"
     "least_quantity,largest,largest_elements,largest_quantity,limits";
 
-/* Writes the meshes as in "1:singular 2 4 8"; a status is given if it is not ok. */
+/* Writes the meshes, for example "1:singular 2 4 8". A status is given if it is not ok. */
 static void write_meshes(FILE *to, const result_series *s)
 {
     for (int i = 0; i < s->meshes; i++) {
@@ -193,8 +193,8 @@ void results_table_write(FILE *to, const stored_results *r)
     }
 }
 
-/* Reads the short table of a run. All its contents are checked, because a file may be foreign,
- * truncated or damaged. */
+/* Reads the short table of a run. All its contents are checked, because the file may be truncated,
+ * damaged or not such a file. */
 
 enum {
     SERIES,
@@ -211,7 +211,7 @@ enum { LONGEST_NAME = 1200, LONGEST_LINE = 16384, MOST_ERRORS = 100000000 };
 static const long most_work = 1000000000000000000L;
 static const double most_number = 1e300;
 
-/* Splits a line into fields, the first of which may be quoted. Returns 0 if their number is not
+/* Splits a line into fields, of which the first may be in quotes. Returns 0 if their number is not
  * FIELDS. */
 static int split(char *line, char *field[FIELDS])
 {
@@ -251,7 +251,7 @@ static int number(const char *text, double *out)
     return end != text && *end == '\0' && fabs(*out) < most_number;
 }
 
-/* Copies a text. Returns 0 if it is empty or too long. */
+/* Copies a text. Returns 0 if the text is empty or too long. */
 static int word(const char *text, char *out, size_t size)
 {
     const size_t length = strlen(text);
@@ -261,7 +261,7 @@ static int word(const char *text, char *out, size_t size)
     return 1;
 }
 
-/* Reads "4" or "4:singular"; meshes must be in ascending order. */
+/* Reads "4" or "4:singular". Meshes must be in ascending order. */
 static int take_mesh(char *text, result_series *s)
 {
     long elements = 0;
@@ -297,8 +297,8 @@ static int take_words(char *list, result_series *s, int take(char *text, result_
     return 1;
 }
 
-/* Reads the size, the elements and the quantity of an error: all of them, or none if no value has
- * an error. */
+/* Reads the size, the elements and the quantity of an error. All three are given, or none if no
+ * value has an error. */
 static int take_error(char *field[], int errors, result_error *e)
 {
     long elements = 0;

@@ -1,4 +1,4 @@
-/* Reads stored runs; the first bytes determine the format. */
+/* Reads stored runs. The first bytes determine the format. */
 #include "harness/records/records_impl.h"
 
 #include <errno.h>
@@ -91,7 +91,7 @@ status results_read(const char *path, stored_results *out, fault *f)
                      path);
 }
 
-/* Reads the tables of one case of results.h5 as cells. All contents are checked. */
+/* Reads the tables of a case of results.h5 as cells. All contents are checked. */
 
 enum { NAME = 200 };
 
@@ -153,7 +153,7 @@ static const table_column limit_columns[] = {
     {"limit", FIELD_DOUBLE, offsetof(limit_row, limit), 0}};
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
-/* Tables of one case. limits -1: nothing was evaluated. */
+/* Tables of a case. limits -1: nothing was evaluated. */
 typedef struct case_tables {
     int points, cells, values, limits;
     case_point_row *point;
@@ -170,7 +170,7 @@ static void free_tables(case_tables *t)
     free(t->limit);
 }
 
-/* Reads the tables. Returns NULL, or the name of the damaged table. */
+/* Reads the tables. Returns the name of a damaged table; NULL: none. */
 static const char *read_tables(hid_t at, case_tables *t)
 {
     void *rows;
@@ -212,7 +212,7 @@ static int is_of(const cell_row *cell, const case_value_row *value)
            strcmp(cell->point, value->point) == 0;
 }
 
-/* Takes the values of one cell, starting at *next; the values are in the order of their cells.
+/* Takes the values of a cell, starting at *next. The values are in the order of their cells.
  * Returns 0 if out of memory. */
 static int take_values(const case_tables *t, const cell_row *row, int *next, result_cell *cell)
 {
@@ -234,8 +234,7 @@ static int take_values(const case_tables *t, const cell_row *row, int *next, res
     return cell->value != NULL;
 }
 
-/* Returns 1 if the counts of work are plausible, and small enough that their sums do not
- * overflow. */
+/* Returns 1 if the counts of work are plausible, and so small that their sums do not overflow. */
 static int are_counts(const cell_row *row)
 {
     static const long most = 1L << 50;
@@ -290,8 +289,8 @@ static int set_limit(result_cell *cell, const limit_row *limit)
     return 0;
 }
 
-/* Adds the limits at the default point to the finest cells; cells and table rows are in the same
- * order. */
+/* Adds the limits at the default point to the finest cells. Cells and rows of the table are in the
+ * same order. */
 static status take_limits(const char *path, const char *of, const case_tables *t,
                           result_cell cell[], fault *f)
 {
@@ -335,8 +334,8 @@ static status results_case_read(const char *path, hid_t at, const char *name, st
     return outcome;
 }
 
-/* Reads results.h5. All its contents are checked, because a file may be foreign, truncated or
- * damaged. */
+/* Reads results.h5. All its contents are checked, because the file may be truncated, damaged or not
+ * such a file. */
 
 enum { HDF5_NAME = 200 };
 
@@ -377,7 +376,7 @@ static status hdf5_read_tables(const char *path, hid_t at, stored_results *out, 
     return outcome;
 }
 
-/* Copies a text attribute; *out NULL: it is missing. Returns 0 if out of memory. */
+/* Copies a text attribute. *out is NULL if the attribute is missing. Returns 0 if out of memory. */
 static int read_text(hid_t file, const char *name, char **out)
 {
     enum { MOST = 1 << 16 };
@@ -395,8 +394,8 @@ typedef struct declared_row {
     signed char is_new;
 } declared_row;
 
-/* Reads the keys of formulations that do not affect the exit status. A file need not declare
- * any. */
+/* Reads the keys of formulations that do not affect the exit status. A file need not contain any.
+ * */
 static status read_fresh(const char *path, hid_t file, results_part *out, fault *f)
 {
     static const table_column columns[] = {
@@ -451,7 +450,7 @@ static status check_version(const char *path, hid_t file, fault *f)
 }
 
 /* Opens the group of an experiment; -1: there is none. The root belongs to verify, or to a sweep in
- * its own file. */
+ * a separate file. */
 static hid_t open_group(hid_t file, const char *name)
 {
     const int is_sweep = strcmp(name, KEPT_SWEEP) == 0, is_own = strcmp(name, "verify") == 0;

@@ -1,4 +1,4 @@
-/* Reads a sweep as cells, each named by its point. All contents are checked. */
+/* Reads a sweep as cells with the names of their points. All contents are checked. */
 #include "harness/records/records_impl.h"
 
 #include <math.h>
@@ -11,8 +11,9 @@ enum {
     VERSION = 1,
     NAME = 200,
     WORDS = 1 << 14, /* largest length of an attribute */
-    DIGITS = 12, /* digits of a value of an axis, so few that different ranges share their common
-                    points */
+    /* number of digits of a value of an axis; it is so small that different ranges share their
+     * common points */
+    DIGITS = 12,
     MOST_LISTED = 4096,
     RANKS = 4
 };
@@ -40,7 +41,7 @@ typedef struct sweep_file {
     char name[NAME], fixed[PARAMETERS_TEXT], status[WORDS];
     int points, axes, quantities, formulations, meshes;
     name_row *axis, *quantity, *formulation;
-    char (*word)[WORDS]; /* [axes] words of an axis, one per line */
+    char (*word)[WORDS]; /* [axes] words of an axis, in one line each */
     int *mesh;
     void *column[COLUMNS];
 } sweep_file;
@@ -73,8 +74,8 @@ static hid_t open_set(const sweep_file *s, const char *name)
     return H5Lexists(s->at, name, H5P_DEFAULT) > 0 ? H5Dopen2(s->at, name, H5P_DEFAULT) : -1;
 }
 
-/* Reads a whole array of this shape. An extent of 0 accepts the actual extent up to `most`. NULL:
- * the array is missing or has a different shape. */
+/* Reads a whole array of this shape. An extent of 0 accepts the actual extent up to `most`. Returns
+ * NULL if the array is missing or has another shape. */
 static void *read_array(const sweep_file *s, const char *name, hid_t type, int ranks,
                         hsize_t size[RANKS])
 {
@@ -97,7 +98,7 @@ static void *read_array(const sweep_file *s, const char *name, hid_t type, int r
     return out;
 }
 
-/* Reads one text column of a table. Returns the number of rows; 0 if the column is missing. */
+/* Reads a text column of a table. Returns the number of rows; 0: the column is missing. */
 static int read_names(const sweep_file *s, const char *table, const char *column, name_row **out)
 {
     const table_column columns[] = {{column, FIELD_TEXT, 0, sizeof(name_row)}};
@@ -107,7 +108,7 @@ static int read_names(const sweep_file *s, const char *table, const char *column
     return count > 0 && count <= MOST_LISTED ? count : 0;
 }
 
-/* Reads a text attribute of an array; out is empty if it is missing. */
+/* Reads a text attribute of an array. `out` is empty if the attribute is missing. */
 static void read_words(const sweep_file *s, const char *array, const char *name, char out[WORDS])
 {
     const hid_t set = open_set(s, array);
@@ -117,7 +118,7 @@ static void read_words(const sweep_file *s, const char *array, const char *name,
     handles_close(1, &set);
 }
 
-/* Reads the lists. Returns NULL, or the name of the damaged part. */
+/* Reads the lists. Returns the name of a damaged part; NULL: none. */
 static const char *read_lists(sweep_file *s)
 {
     hsize_t meshes[RANKS] = {0};
@@ -186,7 +187,7 @@ static const char *read_request(sweep_file *s, stored_results *out)
     return out->part.select != NULL ? NULL : "selection";
 }
 
-/* Copies line `at` of a text, at most size - 1 bytes; out is empty if there is no such line. */
+/* Copies line `at` of a text, at most size - 1 bytes. `out` is empty if there is no such line. */
 static void take_line(const char *lines, double at, char *out, int size)
 {
     const char *line = lines;
@@ -247,7 +248,7 @@ static void point_text(const sweep_file *s, int which, char *out, size_t size)
         used += (size_t)snprintf(out + used, size - used, "%s%s", i > 0 ? ";" : "", word[i]);
 }
 
-/* Adds a cell named case/parameters/`of`, with room for its values; NULL: out of memory. */
+/* Adds a cell named case/parameters/`of` with memory for its values; NULL: out of memory. */
 static result_cell *add_cell(const sweep_file *s, const char *text, const char *of,
                              stored_results *out)
 {
@@ -298,7 +299,7 @@ static int add_mesh(const sweep_file *s, size_t row, int mesh, const char *text,
     return 1;
 }
 
-/* Checks the size first, because some systems grant memory that they do not have and then end the
+/* Checks the size first, because some systems grant memory that they do not have and later end the
  * program. */
 static status check_size(const sweep_file *s, fault *f)
 {
@@ -376,7 +377,7 @@ static hid_t memory_type(hid_t member, const table_column *c)
         return -1;
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, c->room);
-    H5Tset_cset(type, H5Tget_cset(member)); /* the library converts no ASCII */
+    H5Tset_cset(type, H5Tget_cset(member)); /* the library does not convert ASCII */
     return type;
 }
 
@@ -391,7 +392,7 @@ static int add_column(hid_t type, hid_t stored, const table_column *c)
     return good;
 }
 
-/* Returns the type of a row in memory, or -1. */
+/* Returns the type of a row in memory; -1: failure. */
 static hid_t row_type(hid_t stored, int columns, const table_column column[], size_t size)
 {
     if (stored < 0 || H5Tget_class(stored) != H5T_COMPOUND)

@@ -148,7 +148,7 @@ static void set_kind(const struct stat *there, file_place *out)
         out->kind = S_ISREG(there->st_mode) && out->descriptor < 0 ? PLACE_FILE : PLACE_STREAM;
 }
 
-/* Finds the folder of out->path if that path does not exist. */
+/* Finds the folder of out->path for a path that does not exist. */
 static status find_folder(const char *given, file_place *out, fault *f)
 {
     char folder[PATH_MAX] = ".";
@@ -254,7 +254,7 @@ int results_part_selects(const results_part *p, const char *series_name, const c
     return p->select == NULL || select_matches(p->select, text) != 0;
 }
 
-/* Returns 1 if the run has a quantity of the series that this selection omits. */
+/* Returns 1 if the run has a quantity of the series that this selection excludes. */
 static int leaves_out(const results_part *p, const stored_results *known, const char *series_name)
 {
     for (int i = 0; p->select != NULL && i < known->cells; i++)
@@ -279,9 +279,9 @@ int results_part_differ(const stored_results *a, const stored_results *b, const 
            leaves_out(&b->part, a, series_name) || leaves_out(&b->part, b, series_name);
 }
 
-/* Returns 1 if `name` is the series or, if the series has no options, belongs to its case. For a
- * series with options, only the quantities that depend on them are evaluated, namely those with
- * limits. */
+/* Returns 1 if `name` is the series or, if the series has no options, a series of its case. Of a
+ * series with options, only the quantities that depend on the options are evaluated, namely those
+ * with limits. */
 static int speaks_for(const char *name, const char *series_name)
 {
     return strchr(formulation_of(series_name), ':') != NULL
@@ -289,7 +289,7 @@ static int speaks_for(const char *name, const char *series_name)
                : strncmp(name, series_name, strcspn(series_name, "/") + 1) == 0;
 }
 
-/* Returns 1 if the selection includes any quantity that a run contains. */
+/* Returns 1 if the selection includes a quantity that a run contains. */
 static int selects_any(const results_part *p, const stored_results *known, const char *series_name)
 {
     const int judged = strchr(formulation_of(series_name), ':') != NULL;
@@ -309,7 +309,7 @@ static int selects_any(const results_part *p, const stored_results *known, const
     return 0;
 }
 
-/* Returns 1 if any series of the run has this formulation. */
+/* Returns 1 if a series of the run has this formulation. */
 static int has_formulation(const stored_results *r, const char *key)
 {
     for (int i = 0; i < r->seriess; i++)
@@ -318,7 +318,7 @@ static int has_formulation(const stored_results *r, const char *key)
     return 0;
 }
 
-/* Returns 1 if the run has any series of the same case and parameters. */
+/* Returns 1 if the run has a series with the same case and parameters. */
 static int is_run(const stored_results *r, const char *series_name)
 {
     const size_t point = (size_t)(formulation_of(series_name) - series_name);
@@ -342,7 +342,7 @@ int results_part_wants(const stored_results *r, const stored_results *other,
         return 0;
     if (p->formulations != NULL && !results_part_has(p->formulations, key))
         return 0;
-    /* options are run only on request */
+    /* Options are run only on request. */
     if (strchr(key, ':') != NULL && results_part_has(other->part.formulations, key) &&
         !has_formulation(r, key))
         return 0;

@@ -5,8 +5,8 @@
 
 #include "cases/format/format.h"
 
-/* Writes a group below `at` with the centre lines, sections and bodies; the caller closes it with
- * H5Gclose. */
+/* Writes a group below `at` with the centre lines, sections and bodies. The caller closes the group
+ * with H5Gclose. */
 static hid_t store_shapes(record_file *r, hid_t at, const char *name, const scene *sc,
                           const shapes *s);
 
@@ -31,8 +31,8 @@ static void put_noise(record_file *r, hid_t at)
     record_text(r, at, "cost_noise", noise); /* smaller ratios of costs count as ties */
 }
 
-/* Defines a separate column for each parameter. The record is the point; the offset is the index of
- * the parameter. */
+/* Gives the value of a parameter. Each parameter has a separate column. The record is the point,
+ * and the offset is the index of the parameter. */
 static void get_choice(const subject *s, field_value *out)
 {
     const size_t i = out->of->offset;
@@ -71,8 +71,8 @@ static void put_points(record_file *r, hid_t at, const case_type *type, const su
     record_rows(r, at, record_point.table, count, fields, list->count, list->row);
 }
 
-/* Stores scenes. The record of a scene is its text; it is "" for a rejected point, or a scene that
- * a file cannot express. */
+/* Stores scenes. The record of a scene is its text. The text is "" for a rejected point, or for a
+ * scene that a scene file cannot express. */
 static void put_scenes(record_file *r, hid_t at, subjects *list)
 {
     char **text = calloc((size_t)list->count + 1, sizeof *text);
@@ -112,7 +112,7 @@ static void put_curves(record_file *r, hid_t at, const subjects *list)
     free(value);
 }
 
-/* Stores one picture per point, that of the first formulation with a solution. */
+/* Stores one picture per point, for the first formulation with a solution. */
 static void put_pictures(record_file *r, hid_t at, const subjects *cells)
 {
     hid_t all = -1;
@@ -167,8 +167,8 @@ static void put_case(record_file *r, hid_t cases, const gathering *g, const case
     H5Gclose(here);
 }
 
-/* Stores an attribute with names, one per line. at(s, i) returns name i, or NULL after the last
- * one. */
+/* Stores an attribute with names, in one line each. at(s, i) returns name i, or NULL after the last
+ * name. */
 static void put_names(record_file *r, hid_t group, const char *attribute, const sweep *s,
                       const char *(*at)(const sweep *s, int i))
 {
@@ -197,7 +197,8 @@ static const char *given_at(const sweep *s, int i)
     return i < s->givens ? s->given[i].key : NULL;
 }
 
-/* Stores the selection of a run: series outside it were not requested and are not missing. */
+/* Stores the selection of a run. Series outside the selection were not requested, so they are not
+ * missing. */
 static void put_selection(record_file *r, hid_t at, const sweep *s)
 {
     if (s->cases == NULL)
@@ -233,7 +234,7 @@ void store_case(store *to, const case_type *of)
     put_case(&to->file, to->cases, &g, of);
 }
 
-/* Stores the result of the run, in the words of its last line. */
+/* Stores the result of the run, with the words of its last line. */
 static void put_outcome(record_file *r, hid_t at, const sweep *s, const judgement *j)
 {
     char sentence[SENTENCE_OF_RUN];
@@ -292,7 +293,7 @@ status store_write_solution(const char *path, const sweep *s, const environment 
     return close_file(&to, path, f);
 }
 
-/* Centre lines of a cell in the result file: docs/reference/result_files.md. */
+/* Centre lines of a cell in the results file (docs/reference/result_files.md). */
 
 /* Stores columns [first, first + count) of the points of every state: [states x points x count]. */
 static void put_columns(record_file *r, hid_t at, const char *name, const shapes *s, int first,
@@ -313,7 +314,7 @@ static void put_columns(record_file *r, hid_t at, const char *name, const shapes
     free(table);
 }
 
-/* Stores one number for every state. */
+/* Stores a number for every state. */
 static void put_state_numbers(record_file *r, hid_t at, const scene *sc, const shapes *s)
 {
     const hsize_t size = (hsize_t)s->states;
@@ -390,7 +391,7 @@ static void put_sections(record_file *r, hid_t at, const scene *sc)
         char name[16];
         section c;
         if (scene_constants(sc, i, &c, NULL) != STATUS_OK)
-            continue; /* such a cell cannot have been solved */
+            continue; /* such a cell cannot have a solution */
         outline_of(&sc->section[i], &c, &o);
         const hsize_t size[3] = {(hsize_t)o.walls, 4, 2};
         snprintf(name, sizeof name, "%d", i);
@@ -401,7 +402,7 @@ static void put_sections(record_file *r, hid_t at, const scene *sc)
     H5Gclose(all);
 }
 
-/* Stores the sections at the far ends of tapered members, by the number of the member. */
+/* Stores the sections at the far ends of tapered members, with the numbers of the members. */
 static void put_far_ends(record_file *r, hid_t at, const scene *sc)
 {
     if (!scene_tapers(sc))
