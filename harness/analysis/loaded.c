@@ -436,73 +436,142 @@ static status count_at(loaded_search *s, double path, int *negative, fault *f)
     return STATUS_OK;
 }
 
-/* Finds the requested loads after the first load from the inertia along the path, up to a thousand
- * times the first load: value[*count]. */
-static status find_more(loaded_search *s, double value[], int *count, fault *f)
+/* The loads of the outcome in order: value, relative error [wanted]. */
+typedef struct loads_found {
+    int count;
+    double *value, *error;
+} loads_found;
+
+/* Adds loads until there are as many as negative eigenvalues. */
+static void add_loads(const loaded_search *s, int negative, double value, double error,
+                      loads_found *out)
 {
-    const double apart = 1e-9;
-    double low = s->estimate + 2 * closest * fabs(s->estimate - s->begin);
-    int passed = 0, above = 0;
-    const double end = s->begin + farthest * fabs(s->estimate - s->begin);
-    *count = 1;
-    value[0] = s->estimate;
-    TRY(count_at(s, low, &passed, f));
-    kinematics_state_copy(s->n.c->model, s->n.state, s->stable);
-    for (; *count < passed && *count < s->wanted; (*count)++)
-        value[*count] = s->estimate;
-    while (*count < s->wanted && low < end) {
-        double high = fmin(end, low + 0.2 * (low - s->begin));
-        TRY(count_at(s, high, &above, f));
-        while (above > passed && high - low > apart * fabs(high)) {
-            const double middle = (low + high) / 2;
-            int inside = 0;
-            const status outcome = count_at(s, middle, &inside, f);
-            if (outcome == STATUS_SINGULAR)
-                break;
-            TRY(outcome);
-            if (inside > passed) {
-                high = middle;
-                above = inside;
-            } else {
-                low = middle;
-                kinematics_state_copy(s->n.c->model, s->n.state, s->stable);
-            }
+    for (; out->count < negative && out->count < s->wanted; out->count++) {
+        out->value[out->count] = value;
+        out->error[out->count] = error;
+    }
+}
+
+/* Adds the first load, and those so close to it that they have also been passed at `low`. The
+ * eigenvalues fall almost in proportion to the distances from these loads. */
+static void add_first(const loaded_search *s, int negative, double from, double low,
+                      loads_found *out)
+{
+    const eigen_side *found = &s->found.positive;
+    const double size = fabs(s->estimate - s->begin);
+    add_loads(s, 1, s->estimate, 0, out);
+    for (int i = 1; i < negative && i < s->wanted; i++) {
+        const double sigma = i < found->count ? 1 / found->mu[i] - s->shift : NAN,
+                     value = from + (s->estimate - from) * sigma / s->sigma[0],
+                     apart = value - s->estimate;
+        if (!(apart > wanted_error * size)) /* one multiple load */
+            add_loads(s, i + 1, s->estimate, 0, out);
+        else
+            add_loads(s, i + 1, fmin(value, low), apart / size, out);
+    }
+}
+
+/* Narrows the part of the path from *low to *high, in which eigenvalues pass zero and whose ends
+ * have `passed` and *above negative ones. Close to a critical point, round-off may keep Newton's
+ * method from converging. */
+static status narrow(loaded_search *s, int passed, double *low, double *high, int *above, fault *f)
+{
+    const double apart = 1e-9, half = 0.5, less = 0.382;
+    for (double part = half; *high - *low > apart * fabs(*high);) {
+        const double middle = *low + part * (*high - *low);
+        int inside = 0;
+        const status outcome = count_at(s, middle, &inside, f);
+        const int failed = outcome == STATUS_SINGULAR || outcome == STATUS_NOT_CONVERGED;
+        if (failed && *high - *low <= closest * fabs(*high))
+            return STATUS_OK;
+        if (failed && part == half) {
+            part = less;
+            continue;
         }
-        for (int k = passed; k < above && *count < s->wanted; k++)
-            value[(*count)++] = high;
-        passed = above > passed ? above : passed;
-        low = high * (above > passed ? 1 + apart : 1);
-        int unused = 0;
-        TRY(count_at(s, low, &unused, f));
-        kinematics_state_copy(s->n.c->model, s->n.state, s->stable);
+        TRY(outcome);
+        part = half;
+        if (inside > passed) {
+            *high = middle;
+            *above = inside;
+        } else {
+            *low = middle;
+            kinematics_state_copy(s->n.c->model, s->n.state, s->stable);
+        }
     }
     return STATUS_OK;
 }
 
-/* Moves the loads to the outcome: the first load with its mode, the others without a mode. */
+/* Sets *low, from which the search continues, to the closest state above the load at `high` at
+ * which Newton's method converges, but not above `most`. */
+static status pass(loaded_search *s, double high, double width, double most, double *low,
+                   int *negative, fault *f)
+{
+    status outcome = STATUS_NOT_CONVERGED;
+    for (int last = 0; !last && (outcome == STATUS_NOT_CONVERGED || outcome == STATUS_SINGULAR);
+         width *= 10) {
+        last = high + width >= most;
+        *low = last ? most : high + width;
+        outcome = count_at(s, *low, negative, f);
+    }
+    TRY(outcome);
+    kinematics_state_copy(s->n.c->model, s->n.state, s->stable);
+    return STATUS_OK;
+}
+
+/* Finds the requested loads after the first one from the inertia along the path, up to a thousand
+ * times the first load. */
+static status find_more(loaded_search *s, loads_found *out, fault *f)
+{
+    const double size = fabs(s->estimate - s->begin), from = s->p[0],
+                 end = s->begin + farthest * size;
+    double low = s->estimate + 2 * closest * size;
+    int passed = 0;
+    TRY(pass(s, low, 0, low, &low, &passed, f));
+    add_first(s, passed, from, low, out);
+    while (out->count < s->wanted && low < end) {
+        const double step = fmin(end, low + 0.2 * (low - s->begin));
+        double high = step;
+        int above = 0;
+        TRY(count_at(s, high, &above, f));
+        const int some = above > passed;
+        if (some)
+            TRY(narrow(s, passed, &low, &high, &above, f));
+        const double width = high - low, load = low + width / 2, error = width / fabs(high);
+        if (some)
+            add_loads(s, above, load, error, out);
+        passed = above > passed ? above : passed;
+        TRY(pass(s, high, some ? width : 0, step, &low, &above, f));
+        add_loads(s, above, (load + low) / 2, (low - load) / fabs(high), out);
+        passed = above > passed ? above : passed;
+    }
+    return STATUS_OK;
+}
+
+/* Moves the loads to the outcome, and the modes of the first of them. */
 static status hand_over(loaded_search *s, outcome_side *out, fault *f)
 {
     const size_t n = (size_t)s->n.free, wanted = (size_t)s->wanted;
-    double *mode = calloc(wanted * n + 1, sizeof *mode), *value = calloc(wanted, sizeof *value),
-           *error = calloc(wanted, sizeof *error);
-    int count = 1;
+    double *mode = calloc(wanted * n + 1, sizeof *mode);
+    loads_found found = {0, calloc(wanted, sizeof(double)), calloc(wanted, sizeof(double))};
     fault why = {""};
-    if (mode == NULL || value == NULL || error == NULL) {
+    if (mode == NULL || found.value == NULL || found.error == NULL) {
         free(mode);
-        free(value);
-        free(error);
+        free(found.value);
+        free(found.error);
         return fault_set(f, STATUS_FAULT, "out of memory for critical loads");
     }
-    value[0] = s->estimate;
     const int modes = s->found.positive.count < s->wanted ? s->found.positive.count : s->wanted;
     if (s->found.positive.mode != NULL)
         memcpy(mode, s->found.positive.mode, (size_t)modes * n * sizeof *mode);
-    const status more = s->wanted > 1 ? find_more(s, value, &count, &why) : STATUS_OK;
-    *out = (outcome_side){.count = count, .value = value, .mode = mode, .error = error};
+    const status more = s->wanted > 1 ? find_more(s, &found, &why) : STATUS_OK;
+    add_loads(s, 1, s->estimate, 0, &found);
+    *out = (outcome_side){
+        .count = found.count, .value = found.value, .mode = mode, .error = found.error};
     if (more != STATUS_OK) {
         out->status = more;
-        snprintf(out->reason, sizeof out->reason, "%s", why.text);
-    } else if (count < s->wanted) {
+        snprintf(out->reason, sizeof out->reason,
+                 "%.200s; use more elements, or follow the path by a continuation", why.text);
+    } else if (found.count < s->wanted) {
         snprintf(out->reason, sizeof out->reason, "no critical load up to path %g",
                  kinematics_state_path(s->stable));
     }
