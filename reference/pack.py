@@ -1,6 +1,6 @@
 """Packs the reference values, the known deviations, the accepted formulations and the glossary into one HDF5 file.
 
-usage: pack.py -o FILE     Layout: reference/README.md.  The file appears complete or not at all.
+usage: pack.py -o FILE     reference/README.md describes the layout. The file is written completely or not at all.
 """
 import argparse
 import csv
@@ -39,7 +39,7 @@ def fnv1a(text):
 
 
 def read_defaults(path):
-    """Returns {case: [(parameter, default, choices)]} in table order."""
+    """Returns {case: [(parameter, default, choices)]} in the order of the table."""
     cases = {}
     for number, row in read_csv(path, ["case", "parameter", "value", "choices"]):
         table = cases.setdefault(row["case"], [])
@@ -117,8 +117,8 @@ def check_truth(row, where, defaults):
 
 
 def check_words(row, where, names):
-    """Checks that theory and convention are among the allowed words, and that the parameters of the row do not
-    contradict them."""
+    """Checks that theory and convention are among the allowed words, and that the parameters of the row do not contradict
+    them."""
     given = dict(item.split("=", 1) for item in row["parameters"].split(";") if "=" in item)
     if row["theory"] not in THEORIES:
         raise Refused(f"{where}: theory '{row['theory']}' is none of {'|'.join(THEORIES[1:])}")
@@ -134,8 +134,8 @@ def check_words(row, where, names):
 
 
 def truth_key(row):
-    """Returns the key that distinguishes a reference value from all others. Two programs must not derive the same
-    exact value."""
+    """Returns the key that distinguishes a reference value from all others. Two programs must not derive the same exact
+    value."""
     return tuple("" if name == "source" and row["kind"] == "exact" else repr(row[name]) if name == "at" else row[name]
                  for name in ("case", "hash", "formulation", "theory", "elements", "quantity", "at", "kind", "model", "convention", "source"))
 
@@ -219,8 +219,8 @@ def write_columns(group, rows, columns):
 
 
 def seal(path):
-    """Appends the line by which the program detects a truncated, damaged or altered file: length and CRC-32 of the
-    preceding contents."""
+    """Appends the line by which the program detects a truncated, damaged or altered file. It contains the length and the
+    CRC-32 of the preceding contents."""
     with open(path, "rb+") as file:
         data = file.read()
         file.write(b"beamwork-seal %016x %08x\n" % (len(data), zlib.crc32(data)))

@@ -1,9 +1,9 @@
-"""Reads tables of reference values from CSV: rows with declared columns; invalid rows are rejected."""
+"""Reads tables of reference values from CSV files: rows with declared columns. Invalid rows are rejected."""
 import csv
 
 
 class Refused(Exception):
-    """Raised for an invalid row, which the text names."""
+    """Raised for an invalid row. The text contains the name of the row."""
 
 
 def read_csv(path, columns):

@@ -1,8 +1,10 @@
-"""Flexural-torsional buckling of an equal angle on fork supports, one half-wave k = n pi/l at a time, 3 x 3; rigid in shear.
+"""Flexural-torsional buckling of an equal angle on fork supports. The angle is rigid in shear. Each half-wave k = n pi/l
+is a 3 x 3 problem.
 
-Unknowns: amplitudes of v_s, w_s (shear centre) and phi, all times sin kx.  The stress is -P/A - P y_a y/Iz - P z_a z/Iy of an
-axial force P at (y_a, z_a), or -M z/Iy of end moments M; it works on the slopes v' = v_s' - (z - zs) phi',
-w' = w_s' + (y - ys) phi' of the fibres (Vlasov, Thin-walled Elastic Beams, 1961, chapter V).  Section: code_aster V3.01.103.
+The unknowns are the amplitudes of v_s, w_s (shear centre) and phi, which are multiplied by sin kx. The stress is -P/A
+- P y_a y/Iz - P z_a z/Iy for an axial force P at (y_a, z_a), or -M z/Iy for end moments M. The stress does work on the
+slopes v' = v_s' - (z - zs) phi', w' = w_s' + (y - ys) phi' of the fibres (Vlasov, Thin-walled Elastic Beams, 1961,
+chapter V).  Section: code_aster V3.01.103.
 """
 from mpmath import eigsy, matrix, mp, mpf, pi, sqrt
 
@@ -14,7 +16,7 @@ G = E / mpf("2.6")
 A, IY, IZ, IT, IW = mpf("1856e-6"), mpf("4167339e-12"), mpf("1045547e-12"), mpf("39595e-12"), mpf(
     "44398819e-18")
 YS, WAGNER_Y = mpf("41.012e-3"), mpf(
-    "-84948392e-15")  # zs = 0, int z (y^2 + z^2) dA = 0: y is an axis of symmetry
+    "-84948392e-15")  # zs = 0 and int z (y^2 + z^2) dA = 0, because y is an axis of symmetry
 POINTS = {"centroid": (0, 0), "shear_centre": (YS, 0), "leg": (0, YS)}
 HALF_WAVES, LOADS = 12, 3
 
@@ -24,8 +26,8 @@ def stiffness(k, warping):
 
 
 def work(k, force, y, z, polar):
-    """Returns the work of stresses with the resultant `force`, the first moments y and z, and the second moment
-    `polar` about the centroid."""
+    """Returns the work of stresses with the resultant `force`, the first moments y and z, and the second moment `polar`
+    about the centroid."""
     m = matrix(3, 3)
     m[0, 0] = m[1, 1] = force
     m[0, 2] = m[2, 0] = -z

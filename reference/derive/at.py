@@ -1,7 +1,8 @@
 """Computes the exact values of a case at a new parameter point, with the program that derives its rows.
 
-usage: at.py CASE ["name=value;..."]     Prints one line per value: quantity, value, unit, uncertainty and convention,
-separated by tabs. Exit status: 0, or 3 if no program derives this case or these parameters; a line then says so.
+usage: at.py CASE ["name=value;..."]     Prints quantity, value, unit, uncertainty and convention, separated by tabs,
+in one line per value. The exit status is 0, or 3 if no program derives this case or these parameters; in the latter
+case, a line gives the reason.
 """
 import importlib
 import pathlib
@@ -10,7 +11,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 from reference.derive import defaults  # noqa: E402
 
-SIZES = ("height", "width", "web_thickness", "flange_thickness")  # of the C-shaped section
+SIZES = ("height", "width", "web_thickness", "flange_thickness")  # dimensions of the C-shaped section
 
 
 class NotDerivable(Exception):
@@ -99,7 +100,7 @@ def sheet_case(case, function):
 
 
 def cantilever(family, *names):
-    """Returns the solver for a case that is a family of cantilevers.py: the family gives one tuple of values for each
+    """Returns the solver of a case that is a family of cantilevers.py. The family gives one tuple of values for each
     parameter."""
 
     def solve(given):
@@ -154,7 +155,7 @@ CHANNEL = ("length", "height", "width", "web_thickness", "flange_thickness", "yo
 HEXAPOD = ("length", "width", "thickness", "young", "poisson", "fold_angle", "radius",
            "fold_warping", "wagner", "base_radius", "crank_length", "crank_azimuth",
            "platform_radius", "platform_azimuth", "height", "stroke", "steps")
-# For each case: the parameters that may differ from the defaults, the solver, and the program on which it is based.
+# Parameters that may differ from the defaults, solver, and program on which the solver is based, for each case.
 SOLVERS = {
     "c_column": (CHANNEL + ("rotary_inertia", ), c_column, "column"),
     "moment_buckling": (CHANNEL + ("wagner_moments", ), moment_buckling, "column"),

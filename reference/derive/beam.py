@@ -1,16 +1,18 @@
 """The geometrically exact (Simo-Reissner) beam with warping: its differential equations, and their spectral integration.
 
-State y(s) = (r, q, a, B), with r on the centroidal axis; F constant, m(s) = m0 - r x F in fixed axes; N = R^T F, M = R^T m;
+The state is y(s) = (r, q, a, B), with r on the centroidal axis. In fixed axes, F is constant and m(s) = m0 - r x F. In
+the axes of the section, N = R^T F, M = R^T m and
   gx = Nx/EA - t kx^2/2, ky = My/EIy - by kx^2/2, kz = Mz/EIz + kz0 + bz kx^2/2,
   Mw = Mx + zs Ny - ys Nz - (GJ + t Nx + by My - bz Mz) kx - 4 c kx^3,
   (gy - zs kx, gz + ys kx, kx - a) = f (Ny, Nz, Mw)   (strains at the shear centre and of warping; f = F/G, zero: rigid),
-  r' = R (ex + g), q' = q o (0, k)/2, EIw a' = B, B' = -Mw; uniform torsion, EIw = 0: Mw = 0.
-With p^2 the square of the distance from the shear centre: t its mean (trapeze term), bz = int y p^2/Iz, by = int z p^2/Iy (Wagner
-moments; J keeps -2 ys and -2 zs of them), c = E int (y^2 + z^2 - Ip/A)^2 dA/8 (Wagner torque, ys = zs = 0); N Eqs. 46-47 with the
-sign of u_y corrected; J's strains with Haringx's shear theory in stability.
+  r' = R (ex + g), q' = q o (0, k)/2, EIw a' = B, B' = -Mw; for uniform torsion, EIw = 0 and Mw = 0.
+p is the distance from the shear centre. The mean t of p^2 is the trapeze term. The Wagner moments are bz = int y
+p^2/Iz and by = int z p^2/Iy; J includes only the terms -2 ys and -2 zs. The Wagner torque is c = E int (y^2 + z^2 -
+Ip/A)^2 dA/8, for ys = zs = 0. These are N Eqs. 46-47 with the sign of u_y corrected, and the strains of J with
+Haringx's shear theory.
 
-Each of several intervals is integrated from values at Chebyshev points, Y_j = y_0 + h sum_k W_jk f(Y_k), with W exact for the
-interpolating polynomial; derivatives are complex steps, which cost no digits.
+Each of several intervals is integrated from values at Chebyshev points, Y_j = y_0 + h sum_k W_jk f(Y_k), where W is
+exact for the interpolating polynomial. Derivatives are computed by complex steps, which lose no digits.
 """
 import numpy as np
 
@@ -18,7 +20,8 @@ STEP = 1e-30
 
 
 class Beam:
-    """Stiffnesses in SI. shear: 3 x 3 compliance f of (y, z, w), or only fy and fz; EIw = 0: uniform torsion."""
+    """Stiffnesses in SI. `shear` is the 3 x 3 compliance f of (y, z, w), or only fy and fz. EIw = 0 means uniform
+    torsion."""
 
     def __init__(self,
                  length,
@@ -40,7 +43,7 @@ class Beam:
         self.EIw, self.t, self.c, self.curvature, self.centre, self.wagner = EIw, t, c, curvature, centre, wagner  # wagner = (by, bz)
 
     def scaled(self, length, force):
-        """Returns the same beam in units of length and force; stiffnesses that may be infinite become compliances."""
+        """Returns the beam in units of length and force. Stiffnesses that may be infinite are replaced by compliances."""
         moment = force * length
         s = Scaled()
         s.length, s.warps = self.length / length, self.EIw > 0
@@ -56,15 +59,15 @@ class Beam:
 
 
 class Scaled:
-    """Dimensionless beam; lengths are in units of the network's length."""
-    carries = False  # True for a beam with loads along it, which have additional states
+    """Dimensionless beam. Lengths are in units of the length of the network."""
+    carries = False  # True for a beam with loads along it, which has additional states
 
     @property
     def states(self):
         return 9 if self.warps else 7
 
     def _twist(self, torque, rigidity, N, a):
-        """Returns kx from kx - a = f (Ny, Nz, Mw), or from Mw = 0 in uniform torsion."""
+        """Returns kx, computed from kx - a = f (Ny, Nz, Mw), or from Mw = 0 in uniform torsion."""
         f = self.f[2]
         if not self.warps:
             scale, given = rigidity, torque
@@ -80,7 +83,7 @@ class Scaled:
         return k
 
     def slope(self, y, p):
-        """Returns dy/ds for s in [0, 1]. y: [states, many]; p = (F, m0): [6, many]."""
+        """Returns dy/ds for s in [0, 1], with y [states, many] and p = (F, m0) [6, many]."""
         R, F = rotation(y[3:7]), p[:3]
         ys, zs = self.centre
         m = p[3:] - np.cross(y[:3], F, axis=0)
@@ -175,8 +178,8 @@ def cross_matrix(v):
 
 
 def chebyshev(n):
-    """Returns n + 1 Chebyshev points in [0, 1] and W [n + 1, n + 1], where sum_k W_jk f(x_k) is the integral of the
-    interpolant from 0 to x_j."""
+    """Returns n + 1 Chebyshev points in [0, 1] and W [n + 1, n + 1]. sum_k W_jk f(x_k) is the integral of the interpolant
+    from 0 to x_j."""
     from numpy.polynomial import chebyshev as c
     x = -np.cos(np.pi * np.arange(n + 1) / n)
     to_series = np.linalg.inv(c.chebvander(x, n))

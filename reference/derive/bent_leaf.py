@@ -1,8 +1,10 @@
-"""Leaf between a clamp and a stage that moves transversely without rotating and is free along the leaf: the extensible elastica.
+"""Leaf between a clamp and a stage that moves transversely without rotating and is free along the leaf: the extensible
+elastica.
 
-Each half is a cantilever under a transverse force F at the point of inflection: N = F sin t, and with s the initial length
-  EI t'' = -F cos t (1 + F sin t/EA),   EI t'^2/2 = F (sin e - sin t) + F^2 (sin^2 e - sin^2 t)/2EA,   e = t at the inflection.
-With sin t = sin e - u^2 the integrals over the angle are smooth.  At the clamp N = 0: the stress there is E t' h/2.
+Each half is a cantilever under a transverse force F at the point of inflection, with N = F sin t. With the initial
+length s,
+  EI t'' = -F cos t (1 + F sin t/EA),   EI t'^2/2 = F (sin e - sin t) + F^2 (sin^2 e - sin^2 t)/2EA,   where e is the value of t at the inflection.
+With sin t = sin e - u^2, the integrals over the angle are smooth. At the clamp, N = 0, and the stress is E t' h/2.
 """
 from mpmath import asin, cos, findroot, mp, mpf, quad, sin, sqrt
 
@@ -39,7 +41,7 @@ def solved(travel):
 
 
 def stress(travel):
-    """Returns the stress at the clamp, where it is largest."""
+    """Returns the stress at the clamp, which is the largest stress."""
     F, e = solved(travel)
     return E * THICK / 2 * curvature(F, e, sqrt(sin(e)))
 

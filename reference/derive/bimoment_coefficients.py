@@ -1,9 +1,10 @@
 """Computes the torsional coefficients of the potential of the third-order sheet element (N Eqs. 44-51, App. B) to 120
 digits.
 
-They follow directly from the definitions, with L = GJ = 1, EIw = 1/lambda^2: the bimoment is the hyperbolic function of App. B
-(its factor 1/lambda^4 restored), and every integrand is a sum of polynomials times exp(k lambda x), which is integrated term
-by term. There is no integration by parts, so that the results can verify the form that uses it.
+The coefficients are computed directly from the definitions, with L = GJ = 1 and EIw = 1/lambda^2. The bimoment is the
+hyperbolic function of App. B, with its factor 1/lambda^4 restored. Every integrand is a sum of polynomials times exp(k
+lambda x), which is integrated term by term. Integration by parts is not used, so the results can verify the form that
+uses it.
 
 usage: bimoment_coefficients.py > elements/test/bimoment_values.h
 """
@@ -26,7 +27,7 @@ LOADS = {
 
 
 class Sum:
-    """A sum over k of p_k(x) exp(k lambda x). p_k: coefficients in ascending powers of x."""
+    """A sum over k of p_k(x) exp(k lambda x). p_k contains coefficients in ascending powers of x."""
 
     def __init__(self, lam, parts):
         self.lam, self.parts = lam, {k: [mpf(c) for c in p] for k, p in parts.items()}
@@ -80,7 +81,7 @@ def polynomial(lam, coefficients):
 
 
 def bimoments(lam, loads):
-    """Returns the bimoments B per unit stress (and angle), and per unit twist rate at the ends."""
+    """Returns the bimoments B for unit stresses (and angles), and for unit twist rates at the ends."""
     sine, half = (exp(lam) - exp(-lam)) / 2, (exp(lam / 2) + exp(-lam / 2)) / 2
     c1 = Sum(lam, {1: [1 / (2 * sine)], -1: [1 / (2 * sine)]})
     c2 = Sum(lam, {-1: [exp(lam) / (2 * sine)], 1: [exp(-lam) / (2 * sine)]})
@@ -97,8 +98,8 @@ def bimoments(lam, loads):
 
 
 def coefficients(lam, loads):
-    """Returns named values: A for pairs of unit stresses, b for a stress and a twist variable, and P0 for the twist
-    rates of the ends."""
+    """Returns named values: A for pairs of unit stresses, b for a stress and a twist variable, and P0 for the twist rates
+    of the ends."""
     B, ends = bimoments(lam, loads)
     T = {}
     for name in B:

@@ -12,7 +12,8 @@ RELATIVE = 5e-12
 
 
 def dead_load(beam, F, steps):
-    """Returns (position of the tip/L, its rotation matrix) of a cantilever under a dead tip force F [N]."""
+    """Returns the position of the tip divided by L, and the rotation matrix of the tip, of a cantilever under a dead tip
+    force F [N]."""
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=6)
     load = np.array(F) / net.force
     angle = beam.curvature * beam.length
@@ -85,7 +86,7 @@ def bend_45(torsions=("exact", "polar"), forces=(600, 300), form=lambda beam: be
 
 
 def roll_up(all_turns=(1, 0.25, 2)):
-    """Yields rows for a cantilever that is rolled up by an end moment; the tip is at x = L sin(angle)/angle."""
+    """Yields rows for a cantilever that is rolled up by an end moment. The tip is at x = L sin(angle)/angle."""
     for turns in all_turns:
         angle = 2 * math.pi * turns
         value = 0.0 if turns >= 1 and turns == int(turns) else math.sin(angle) / angle

@@ -1,8 +1,8 @@
-"""Isotropic rod (EI = GJ = 1) of length 1 whose tip is rotated by phi = strain (0.6, 0, 0.8) relative to its root and which is
-then rotated as a whole about (1, 2, 3).
+"""Isotropic rod (EI = GJ = 1) of length 1. Its tip is rotated by phi = strain (0.6, 0, 0.8) relative to its root, and
+then the whole rod is rotated about (1, 2, 3).
 
-Without a force the moment is constant along the rod, and so is the curvature phi/L: M = phi EI/L, r = int exp(s phi)
-ex ds. After the rotation R, the moment and the position are R M and R r. """
+Without a force, the moment M = phi EI/L and the curvature phi/L are constant along the rod, and r = int exp(s phi) ex
+ds. After the rotation R, the moment and the position are R M and R r."""
 from mpmath import matrix, mp, mpf, cos, pi, sin, sqrt
 
 from reference.derive import defaults
@@ -17,7 +17,7 @@ def cross(a, b):
 
 
 def turned(angle, axis, v):
-    """Returns v rotated about the axis, by Rodrigues' formula."""
+    """Returns v rotated about the axis, computed by Rodrigues' formula."""
     once = cross(axis, v)
     return v + sin(angle) * once + (1 - cos(angle)) * cross(axis, once)
 

@@ -1,9 +1,10 @@
-"""Channel cantilever under a dead tip force parallel to its web (J section 5.2): force at given deflections of the loaded point.
+"""Channel cantilever under a dead tip force parallel to its web (J section 5.2): force at given deflections of the loaded
+point.
 
-The model is the geometrically exact beam with eccentric shear centre and warping; the root is clamped with warping restrained,
-and the tip is free to warp. The end section is rigid; the force follows its point D (top of the web) or E (bottom). As in J,
-shortening by twist and the part -2 ys of the Wagner moments are included; the Wagner torque is omitted and so is, unless
-requested, int y (y^2 + z^2) dA. Haringx's shear theory is used.
+The model is the geometrically exact beam with eccentric shear centre and warping. The root is clamped with warping
+restrained, and the tip is free to warp. The end section is rigid, and the force acts at its point D (top of the web)
+or E (bottom). As in J, shortening by twist and the part -2 ys of the Wagner moments are included, and the Wagner
+torque is omitted. int y (y^2 + z^2) dA is included only if requested. Haringx's shear theory is used.
 """
 import numpy as np
 
@@ -19,7 +20,7 @@ RELATIVE = 1e-9
 
 
 def channel_beam(sizes, shear, wagner_moments):
-    """Returns (beam, half the height, y of the web) for a flange thickness of 16 mm and a web thickness of 10 mm."""
+    """Returns (beam, half of the height, y of the web) for a flange thickness of 16 mm and a web thickness of 10 mm."""
     s = channel(*SIZES[sizes], "0.016", "0.010")
     ys, zs = float(s.ys), float(s.zs)
     beam = Beam(LENGTH,
@@ -36,8 +37,8 @@ def channel_beam(sizes, shear, wagner_moments):
 
 
 def path(deflections, intervals=6, nodes=11, form=lambda beam: beam, **given):
-    """Returns (force [N], displacement of the loaded point along y [m]) at each deflection [m], in steps so small that
-    the branch does not change."""
+    """Returns (force [N], displacement of the loaded point along y [m]) at each deflection [m]. The steps are so small
+    that the branch does not change."""
     value = {**defaults.values("c_cantilever"), **given}
     beam, half, web = channel_beam(value["sizes"], value["shear"], value["wagner_moments"])
     beam = form(beam)

@@ -1,11 +1,12 @@
 """The channel cantilever of J section 5.2, rotating about the vertical axis through its root: force at given deflections.
 
-Beam and load as in channel_cantilever.py.  In the rotating frame, every piece of the centroidal axis is pulled outward by f = rho
-A Omega^2 times its distance from the axis. With rotary inertia, the fibres are pulled too: at v = R (omega a, y, z) from the
-centroid they are pulled by rho Omega^2 P v more, P = I - e_z e_z^T, which gives the moment c = rho Omega^2 sum_k I_k d_k x P d_k
-about it (d_k the columns of R, I = (Iw a^2, Iz, Iy); int omega y, int omega z and int y z vanish) and does the work
-rho Iw a Omega^2 d_x . P d_x on da.  F' = -f, m0' = -r x f - c and B' = -Mw - that are integrated with the state of the beam
-(beam.py), by Chebyshev collocation of all intervals at once; Newton's method with derivatives by complex steps.
+The beam and the load are those of channel_cantilever.py. In the rotating frame, the outward force per length on the
+centroidal axis is f = rho A Omega^2 times the distance from the rotation axis. With rotary inertia, a fibre at v = R
+(omega a, y, z) from the centroid has the additional force rho Omega^2 P v with P = I - e_z e_z^T. These forces have
+the moment c = rho Omega^2 sum_k I_k d_k x P d_k about the centroid, where d_k are the columns of R and I = (Iw a^2,
+Iz, Iy); int omega y, int omega z and int y z vanish. They do the work rho Iw a Omega^2 d_x . P d_x on da. F' = -f, m0'
+= -r x f - c, and B' is -Mw minus this work. These equations are integrated with the state of the beam (beam.py) by
+Chebyshev collocation of all intervals at once. Newton's method uses derivatives by complex steps.
 """
 import numpy as np
 
@@ -14,7 +15,7 @@ from reference.derive.beam import STEP, chebyshev, rotation
 from reference.derive.channel_cantilever import LENGTH, channel_beam
 
 DENSITY, INTERVALS, NODES = 7800.0, 6, 12
-STATES = 15  # number of states: those of the beam (9), F and m0
+STATES = 15  # number of states: 9 of the beam, F and m0
 RELATIVE = 1e-8
 
 
@@ -30,8 +31,7 @@ class Turning:
         self.beam = form(beam).scaled(LENGTH, self.force)
         area = beam.EA / 210e9
         self.pull = DENSITY * area * omega ** 2 * LENGTH ** 2 / self.force
-        turning = rotary * DENSITY * omega ** 2 / self.force  # dimensionless after multiplication by the moments of
-                                                              # area
+        turning = rotary * DENSITY * omega ** 2 / self.force  # dimensionless after multiplication by the moments of area
         self.moments, self.bimoments = turning * np.array(
             [beam.EIz, beam.EIy]) / 210e9, turning * beam.EIw / 210e9 / LENGTH ** 2
         self.arm = np.array([0, self.web, self.half]) / LENGTH
@@ -52,8 +52,8 @@ class Turning:
         return np.concatenate([y, -outward, -np.cross(z[:3], outward, axis=0) - moment])
 
     def ends(self, z0, z1, load, deflection):
-        """Returns the residuals of sixteen conditions: the root is clamped with warping restrained; force, moment,
-        bimoment and deflection of the tip."""
+        """Returns the residuals of sixteen conditions. The root is clamped with warping restrained. The other conditions
+        are the force, the moment, the bimoment and the deflection of the tip."""
         r, R, F = z1[:3], rotation(z1[3:7]), z1[9:12]
         arm, pull = R @ self.arm, np.array([0 * load, 0 * load, -load])
         return np.concatenate([
@@ -105,8 +105,8 @@ class Turning:
 
 
 def advance(t, at, w):
-    """Solves at the next deflection between `at` and w [m] and returns this deflection. Steps that do not converge are
-    halved."""
+    """Solves at the next deflection between `at` and w [m] and returns this deflection. If a step does not converge, it
+    is halved."""
     step, before = 0.025 if at < 0.4 else 0.05, (t.z.copy(), t.load)
     while step > 1e-3:
         to = min(at + step, w)

@@ -1,13 +1,14 @@
-"""Buckling and vibration of a simply supported thin-walled beam: one half-wave k = n pi/l at a time, 6 x 6.
+"""Buckling and vibration of a simply supported thin-walled beam. Each half-wave k = n pi/l is a 6 x 6 problem.
 
-Unknowns: amplitudes of v_s, w_s, phi (sin kx) and of the shear strains g_y, g_z, g_w (cos kx).
+The unknowns are the amplitudes of v_s, w_s, phi (sin kx) and of the shear strains g_y, g_z, g_w (cos kx). The
+quadratic forms are
   strain    EIz k^2 (kV - g_y)^2 + EIy k^2 (kW - g_z)^2 + EIw k^2 (kP - g_w)^2 + G It (kP)^2 + G g^T D g
   prestress (v_c'^2 + w_c'^2 + Ip/A phi'^2) - c [(g_y^2 + g_z^2) + 2 (zs g_y - ys g_z) phi'],  v_c = v_s + zs phi, w_c
   = w_s - ys phi
   kinetic   rho [A (v_c^2 + w_c^2) + Ip phi^2 + Iz (v_s' - g_y)^2 + Iy (w_s' - g_z)^2 + Iw (phi' - g_w)^2]
-c = 0: Engesser's shear theory in stability; c = 1: Haringx's (Simo-Reissner).
-n = 0 also exists: a uniform rotation of the sections, restrained only by shear.
-Uniform end moment: closed form of the monosymmetric beam with shear deformation (reference/ERRATA.md).
+c = 0 gives Engesser's shear theory in stability, and c = 1 gives Haringx's theory (Simo-Reissner). n = 0 is a uniform
+rotation of the sections that only shear restrains. For a uniform end moment, the closed form of the monosymmetric beam
+with shear deformation is used (reference/ERRATA.md).
 """
 from mpmath import mp, mpf, matrix, pi, sqrt, cholesky, inverse, eigsy
 
@@ -22,7 +23,7 @@ PRINTED = {
 
 
 def channel_data(**given):
-    """Returns the section of c_column and moment_buckling. given: parameters that differ from the defaults."""
+    """Returns the section of c_column and moment_buckling. `given` contains parameters that differ from the defaults."""
     at = defaults.decimals("c_column", given)
     s = channel(at["height"], at["width"], at["flange_thickness"], at["web_thickness"])
     s.E, s.G, s.RHO = at["young"], at["shear_modulus"], at["density"]
@@ -94,7 +95,7 @@ def _kinetic(s, k, shear, rotary):
 
 
 def _ratios(a, b):
-    """Returns the eigenvalues of B x = nu A x, A positive definite."""
+    """Returns the eigenvalues of B x = nu A x, where A is positive definite."""
     l = inverse(cholesky(a))
     c = l * b * l.T
     return [v for v in eigsy((c + c.T) / 2, eigvals_only=True)]
@@ -110,7 +111,7 @@ def buckling_load(s, length, shear, haringx):
 
 
 def frequencies(s, length, shear, rotary, count, load=0, haringx=False, prestress=_prestress):
-    """Returns the lowest frequencies under the axial compression `load`, neglecting its deformation."""
+    """Returns the lowest frequencies under the axial compression `load`. The deformation due to this load is neglected."""
     found = []
     if shear and rotary:  # n = 0: sections rotate and warp in pure shear
         inertia = [s.RHO * i for i in (s.Iz, s.Iy, s.Iw)]
@@ -129,8 +130,8 @@ def frequencies(s, length, shear, rotary, count, load=0, haringx=False, prestres
 
 
 def buckling_moments(s, length, shear, haringx, wagner):
-    """Returns the critical moments, the solutions of W (1 - (1-c) F_zw M/G)^2 + G It - M (b_z - 2 ys) = M^2 [1/(EIy
-    k^2) + (1-c) F_zz/G], n = 1."""
+    """Returns the critical moments, which are the solutions of W (1 - (1-c) F_zw M/G)^2 + G It - M (b_z - 2 ys) = M^2
+    [1/(EIy k^2) + (1-c) F_zz/G] for n = 1."""
     k = pi / length
     c = 1 if haringx or not shear else 0
     fww = s.F[2, 2] if shear else mpf(0)
@@ -180,7 +181,7 @@ def branched():
 
 
 def loaded(s, at):
-    """Yields (quantity, value, unit) of a column under an axial load; at: all parameters."""
+    """Yields (quantity, value, unit) of a column under an axial load. `at` contains all parameters."""
     l, shear, haringx = at["length"], at["shear"], at["shear_stability"] == "haringx"
     yield "buckling_load", buckling_load(s, l, shear, haringx), "N"
     for i, value in enumerate(

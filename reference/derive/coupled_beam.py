@@ -1,11 +1,18 @@
-"""A cantilever with a section given by matrices: (N, Q, M) = C (gamma, kappa), kinetic energy 1/2 v . M v per length; L = 1.
+"""A cantilever with a section given by matrices: (N, Q, M) = C (gamma, kappa), and the kinetic energy per length is 1/2 v
+. M v. L = 1.
 
-Linear statics: the displacement along a load is int of (N, Q, M) . C^-1 (N, Q, M of the unit load); weight acts at the centre of mass.
-Helix: no force, M along kappa = (C^-1)_kk M / its eigenvalue is the same at every section in space and in the section's axes: strains
-are uniform, R = exp(s kappa~), r = int R (e_x + gamma) ds.
-Frequencies: gamma = u' + e_x x theta, kappa = theta', N' = -omega^2 (M v)_force, M' = -e_x x N - omega^2 (M v)_moment: the transfer
-matrix exp(A) of twelve constant equations; clamped and free.
-Buckling under the dead force n = -P e_x: the force on the rotated section changes by n x theta, M' = -e_x x N - u' x n.
+Linear statics: the displacement along a load is the integral of (N, Q, M) . C^-1 (N, Q, M of the unit load). Weight
+acts at the centre of mass.
+
+Helix: there is no force, and M is an eigenvector of (C^-1)_kk, so M is along kappa. M is constant both in space and in
+the axes of the section. Therefore strains are uniform, R = exp(s kappa~) and r = int R (e_x + gamma) ds.
+
+Frequencies: gamma = u' + e_x x theta, kappa = theta', N' = -omega^2 (M v)_force and M' = -e_x x N - omega^2 (M
+v)_moment. These twelve equations with constant coefficients A have the transfer matrix exp(A). One end is clamped and
+the other is free.
+
+Buckling under the dead force n = -P e_x: the force on the rotated section changes by n x theta, and M' = -e_x x N - u'
+x n.
 """
 from mpmath import cos, det, expm, findroot, matrix, mp, mpf, pi, quad, sin, sqrt
 
@@ -32,8 +39,8 @@ def stiffness(coupling, helix):
 
 
 def mass(coupling):
-    """Returns the mass matrix int rho [1, -x~; x~, -x~ x~] dA of a slice from its moments of inertia about the
-    centre."""
+    """Returns the mass matrix int rho [1, -x~; x~, -x~ x~] dA of a slice from its moments of inertia about the centre of
+    mass."""
     y, z = (coupling * c for c in CENTRE)
     x = matrix([[0, -z, y], [z, 0, 0], [-y, 0, 0]])
     out, turned = matrix(6, 6), -MASS * x * x
@@ -66,7 +73,7 @@ def displacement(coupling, weight, row):
             x, (mpf(1000), 0, mpf(50), mpf(10), 0, 0))
         return (at_section(x, unit).T * F * here)[0]
 
-    return quad(density, [0, 1])  # a polynomial
+    return quad(density, [0, 1])  # the integrand is a polynomial
 
 
 def helix(coupling, turn):
@@ -90,8 +97,8 @@ def cross_matrix(a):
 
 
 def free_end(F, M, squared, force):
-    """Returns the forces at the free end due to unit unknowns at the clamped end, with an arbitrary common factor,
-    from (u, theta, N, M)' = A (u, theta, N, M)."""
+    """Returns the forces at the free end due to unit unknowns at the clamped end, up to a common factor, from (u, theta,
+    N, M)' = A (u, theta, N, M)."""
     axis, n = cross_matrix((1, 0, 0)), cross_matrix((-force, 0, 0))
     S, A, scale = matrix(6, 12), matrix(12, 12), sqrt(STIFF[4])
     for i in range(6):

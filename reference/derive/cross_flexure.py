@@ -1,11 +1,11 @@
-"""Cross-flexure hinge: three leaves cross at their middles, half_angle and pi - half_angle from x,
-the outer two in one direction; the arm rotates about z.
+"""Cross-flexure hinge: three leaves cross at their middles, at the angles half_angle and pi - half_angle from x. The
+outer two are in one direction. The arm rotates about z.
 
-There is one body, the arm, whose rotation about z is given; its tilts are fixed (rotation hinge, vector) or free
-(first, last, between: the position of the drive's rotation among the three makes no difference in a plane state). A
-unit load acts on the arm while it cannot rotate about z: the moment of the drive, along z, keeps the
-other two components of a dead moment (spatial moments), or follows the tilt (semitangential: K
-changes by m~/2 on the tilts; symmetrised: its symmetric part).
+The only body is the arm, whose rotation about z is given. Its tilts are fixed (rotation hinge, vector) or free (first,
+last, between). In a plane state, the position of the rotation of the drive among the three rotations makes no
+difference. A unit load acts on the arm while the rotation about z is fixed. The moment of the drive along z is dead
+(spatial moments) or follows the tilt. For semitangential moments, K changes by m~/2 on the tilts. For symmetrised
+moments, K is replaced by its symmetric part.
 """
 import math
 
@@ -25,7 +25,7 @@ TILTS_FREE = ("first", "last", "between")
 
 
 def hinge(given, intervals=4, nodes=14, form=lambda beam: beam):
-    """Returns the network and its arm; form: see sheets.cantilever."""
+    """Returns the network and its arm. `form` is explained at sheets.cantilever."""
     value = {**DEFAULTS, **given}
     beam = form(sheet(**{k: value[k] for k in SIZES}))
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)
@@ -46,8 +46,8 @@ def hinge(given, intervals=4, nodes=14, form=lambda beam: beam):
 
 
 def compliance(net, arm, turned, tilts_free, convention):
-    """Returns the compliance for (ux, uy, uz, thx, thy) [5, 5] if the tilts are free, otherwise for the translations
-    [3, 3], in SI units."""
+    """Returns the compliance in SI units: for (ux, uy, uz, thx, thy) [5, 5] if the tilts are free, otherwise for the
+    translations [3, 3]."""
 
     def tilting(level, x, R, force, moment, numbers):
         return np.concatenate([force, moment[:2], turned(level, x, R, force, moment, numbers)[5:]])

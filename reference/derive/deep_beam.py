@@ -1,9 +1,9 @@
 """Frequencies of a simply supported Timoshenko beam with a square section, fixed axially and in torsion at one end only.
 
-Bending, k = n pi/l: amplitudes of w (sin kx) and of the section's rotation t (cos kx),
+Bending has k = n pi/l and the amplitudes of w (sin kx) and of the rotation t of the section (cos kx):
   strain  EI (k t)^2 + kGA (k w - t)^2        kinetic  rho (A w^2 + I t^2)
-and both planes are alike; torsion and extension: (2n - 1) c/(4 l), c^2 = GJ/(rho Ip) or E/rho.
-J of the square follows from Saint-Venant's series.
+Both planes have the same frequencies. Torsion and extension have the frequencies (2n - 1) c/(4 l) with c^2 = GJ/(rho
+Ip) or E/rho. J of the square is computed from Saint-Venant's series.
 """
 from mpmath import mp, mpf, pi, sqrt
 
@@ -22,7 +22,7 @@ def bending(n, shear, rotary):
     if not shear:
         return [E * I * k ** 4 / (RHO * (A + (I * k ** 2 if rotary else 0)))]
     s = SHEAR_FACTOR * G * A
-    if not rotary:  # t follows from w: t = s k/(EI k^2 + s) w
+    if not rotary:  # t = s k/(EI k^2 + s) w
         return [E * I * k ** 4 * s / (E * I * k ** 2 + s) / (RHO * A)]
     # RHO A RHO I x^2 - (s k^2 RHO I + (EI k^2 + s) RHO A) x + s EI k^4 = 0
     a, b, c = RHO * A * RHO * I, s * k ** 2 * RHO * I + (E * I * k ** 2 +

@@ -17,13 +17,13 @@ def _table():
 
 
 def texts(case):
-    """Returns {parameter: text}, where the text is a number as written or the word of a choice; returns {} if there is
-    no such case."""
+    """Returns {parameter: text}, where the text is a number as written or the word of a choice. Returns {} if there is no
+    such case."""
     return dict(_table().get(case, {}))
 
 
 def value(text):
-    """Converts text to a number (a whole number to int) or returns it as a word."""
+    """Converts text to a number, which is an int if it is whole, or returns the text if it is a word."""
     try:
         return float(text) if not text.lstrip("-").isdigit() else int(text)
     except ValueError:
@@ -36,8 +36,8 @@ def values(case, *names):
 
 
 def decimals(case, given):
-    """Returns the values of `values` as mpmath numbers made from the decimal text. given: values that differ from the
-    defaults, as text or numbers."""
+    """Returns the values of `values` as mpmath numbers made from the decimal text. `given` contains values that differ
+    from the defaults, as text or numbers."""
     from mpmath import mpf
     at = {**texts(case), **given}
     return {k: v if isinstance(value(str(v)), str) else mpf(v) for k, v in at.items()}

@@ -1,10 +1,11 @@
 """Frequencies of eight equal pinned arms that meet at a hub, in their plane (NAFEMS FV2).
 
-Rigid in shear, no rotary inertia.  The arms share a mode as e^{i m a}, with a the angle of an arm, since a rotation by one arm changes
-nothing. If all arms bend alike (m = 0), the hub rotates without a resisting moment: the arms are pinned at both ends. For m = 1 and 7 the
-hub moves without rotation, and the arms stretch: of the eight forces per displacement, half are along the arms and half across them; their
-sum must vanish, which happens twice. For the other m the hub is at rest: the arms are clamped there, with five modes of each. Stretching
-alone starts at c/(2 L) = 500 Hz.
+The arms are rigid in shear and have no rotary inertia. A rotation by one arm does not change the structure, so the
+amplitudes of the arms in a mode are proportional to e^{i m a}, where a is the angle of the arm. For m = 0, all arms
+bend in the same way, and the hub rotates without a resisting moment: the arms are pinned at both ends. For m = 1 and
+7, the hub moves without rotation, and the arms stretch. Half of the sum of the eight forces per displacement is along
+the arms and half across them. The sum must vanish, which gives each mode twice. For the other m, the hub is at rest
+and the arms are clamped there, which gives each mode five times. Modes of stretching start at c/(2 L) = 500 Hz.
 """
 from mpmath import cos, mp, mpf, pi, sin, sqrt
 
@@ -36,8 +37,8 @@ def at_rest(f):
 
 
 def moving(f):
-    """Returns the sum of the forces per displacement of an arm, times w and sin(k L). The forces are Q/w across the
-    arm, with t = 0, and EA k cot(k L) along it."""
+    """Returns the sum of the forces per displacement of an arm, multiplied by w and sin(k L). The forces are Q/w across
+    the arm, with t = 0, and EA k cot(k L) along the arm."""
     rows, k = from_pin(f), 2 * pi * f / sqrt(E / RHO)
     return E * A * k * cos(k * LENGTH) * minor(rows, 0, 1) + sin(k * LENGTH) * minor(rows, 3, 1)
 

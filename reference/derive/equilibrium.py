@@ -1,16 +1,19 @@
-"""Stability of, and small vibrations about, a loaded and deformed state of the geometrically exact beam (beam.py).
+"""Stability and small vibrations of the geometrically exact beam (beam.py) in a loaded and deformed state.
 
-Critical load: the determinant of the linearised boundary-value problem vanishes along the nonlinear path of equilibrium.
+Critical load: the determinant of the linearised boundary-value problem vanishes along the nonlinear path of
+equilibrium.
 
-Vibration: with y = (r, q, a, B) and p = (F, m0) of the equilibrium, and small u, theta, a exp(i omega t),
+Vibration: let y = (r, q, a, B) and p = (F, m0) be those of the equilibrium, and u, theta, a small amplitudes of exp(i
+omega t). Then
   dy' = (df/dy) dy + (df/dp) dp - omega^2 rho Iw a on B,
   dF' = -omega^2 rho A u,   dm0' = r x dF' - omega^2 rho R diag(Ip, Iy, Iz) R^T theta
-(m = m0 - r x F is the moment in fixed axes), integrated spectrally as in network.py: an eigenvalue problem L z = omega^2 M z.
+where m = m0 - r x F is the moment in fixed axes. Spectral integration as in network.py gives an eigenvalue problem L z
+= omega^2 M z.
 
-interpolated: a consistent mass derives the warping amplitude along an element from its twist, psi = kx - w (1 - 6 x (1 - x)), w = kx - a,
-so that kx^2 + w^2/5 has the inertia of a^2 (J section 3.2 without flexible warping; with J Eq. 66, w = -(n_y ky + n_z
-kz)). This inertia adds the momentum rho Iw (kx + w/5) to Mx and -rho Iw w/5 to B'. Mx changes kx in turn; this is
-neglected (1e-11 of a frequency).
+Option `interpolated`: a consistent mass derives the warping amplitude along an element from its twist, psi = kx - w (1
+- 6 x (1 - x)) with w = kx - a. Therefore kx^2 + w^2/5 has the inertia of a^2 (J section 3.2 without flexible warping;
+with J Eq. 66, w = -(n_y ky + n_z kz)). This inertia adds the momentum rho Iw (kx + w/5) to Mx and -rho Iw w/5 to B'.
+The change of kx due to the change of Mx is neglected (1e-11 of a frequency).
 """
 import math
 
@@ -42,7 +45,7 @@ def singular_load(net, start, end):
 
 
 def lateral(bracket, ratio, K=0.0):
-    """Returns the critical tip force of lateral_buckling, N: weak EI = GJ = 1 N m^2, strong EI = ratio."""
+    """Returns the critical tip force of lateral_buckling [N], for weak EI = GJ = 1 N m^2 and strong EI = ratio."""
     beam = Beam(1.0, EA=1e6, EIy=ratio, EIz=1.0, GJ=1.0, EIw=1 / K if K else 0.0)
     net = Network(1.0, 1.0, intervals=6, nodes=14)
     root = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0)))
@@ -62,8 +65,8 @@ def buckling():
 
 
 class Vibration:
-    """Generalised eigenvalue problem of one member whose ends are at the reference points of bodies, in the units of
-    the network."""
+    """Generalised eigenvalue problem of one member whose ends are at the reference points of bodies, in the units of the
+    network."""
 
     def __init__(self, member, inertia, interpolated=False):
         self.m, self.n, self.interpolated = member, member.beam.states, interpolated
@@ -93,7 +96,7 @@ class Vibration:
         return A, G
 
     def matrices(self, start, end):
-        """Returns L and M of L z = omega^2 M z. start, end: rows of the conditions on z at the ends."""
+        """Returns L and M of L z = omega^2 M z. `start` and `end` contain the rows of the conditions on z at the ends."""
         N, f, W = self.points, self.fields, self.m.h * self.m.W
         left, mass = np.zeros((self.size, self.size)), np.zeros((self.size, self.size))
         row = 0
@@ -128,8 +131,8 @@ class Vibration:
 
 
 def twist_rate(q, slope, by, fields):
-    """Returns the change [fields] of the x component of 2 vec(q* o q'), where q' = slope. by: change of q' [4,
-    fields]."""
+    """Returns the change [fields] of the x component of 2 vec(q* o q'), where q' is `slope` and `by` [4, fields] is the
+    change of q'."""
     conjugate = np.array([1, -1, -1, -1])
     rate = 2 * product(q * conjugate, by)[1]
     rate[3:7] += [2 * product(e * conjugate, slope)[1] for e in np.eye(4)]
@@ -143,8 +146,8 @@ def turn_of(q):
 
 
 def held_tip(vibration, y, p, free_warping):
-    """Returns the conditions at the tip: u_y and the rotation about the fixed axis z are fixed; the forces along x and
-    z and the moments about the fixed axes x and y are zero."""
+    """Returns the conditions at the tip. u_y and the rotation about the fixed z axis are fixed. The forces along x and z
+    and the moments about the fixed x and y axes are zero."""
     n, f = vibration.n, vibration.fields
     rows = np.zeros((f // 2, f))
     theta, F = turn_of(y[3:7]), p[:3]
@@ -162,13 +165,13 @@ def held_tip(vibration, y, p, free_warping):
 
 
 def sheet_frequencies(count, given, form=lambda beam: beam, interpolated=False):
-    """Returns the frequencies [Hz] of the sheet fixed at its deflected tip; form: see sheets.deflected."""
+    """Returns the frequencies [Hz] of the sheet fixed at its deflected tip. `form` is explained at sheets.deflected."""
     value = {**defaults.values("sheet_cantilever"), **given}
     net, _ = deflected(given, form)
     width, thickness, length = value["width"], value["thickness"], value["length"]
     beam = sheet(**value)
     A, Iy, Iz = width * thickness, thickness * width ** 3 / 12, width * thickness ** 3 / 12
-    mass = value["density"] / net.force  # dimensionless after multiplication by area and length^2, per 1/s^2
+    mass = value["density"] / net.force  # in 1/s^2; dimensionless after multiplication by area and length^2
     inertia = (mass * A * length ** 2, mass * np.array([Iy + Iz, Iy, Iz]),
                mass * beam.EIw / value["young"] / length ** 2)
     member = net.members[0]

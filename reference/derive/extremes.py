@@ -1,6 +1,7 @@
-"""Exact values at the extremes of cases (cases/extremes): closed forms and boundary-value problems of the other programs.
+"""Exact values at the extremes of cases (cases/extremes), from closed forms and boundary-value problems of the other
+programs.
 
-They are stored separately (reference/extremes), because a verification does not run them.
+The values are stored separately (reference/extremes), because a verification does not run the extremes.
 """
 import math
 
@@ -16,7 +17,7 @@ EQUAL_WIDTH = mpf("0.223203587801597"
 
 
 def decimal(value):
-    """Rounds to 15 digits, like the parameters in the program."""
+    """Rounds to 15 digits, as the program rounds parameters."""
     return "%.15g" % float(value)
 
 
@@ -89,8 +90,8 @@ def torsion():
 
 
 def lateral():
-    """Yields the lateral buckling loads. The initial guesses are gamma^2 = c K at small K (warping alone: phi'''' = c
-    x^2 phi) and gamma = 4.0126 (1 + a/sqrt K) at large K."""
+    """Yields the lateral buckling loads. The initial guess is gamma^2 = c K at small K (only warping: phi'''' = c x^2
+    phi) and gamma = 4.0126 (1 + a/sqrt K) at large K."""
     guess = linear_buckling.lateral_load("tip", 1, "15.7")
     for K in ("1e-2", "1e-4", "1e-6"):
         guess *= 10
@@ -111,8 +112,8 @@ def lateral():
 
 
 def twisted():
-    """Yields the torque with fixed ends and no axial force, GJ phi/L divided by 1 - tanh(kL/2)/(kL/2), k^2 = GJ/EIw;
-    and that of the strip with the Wagner torque."""
+    """Yields the torque with fixed ends and no axial force, GJ phi/L divided by 1 - tanh(kL/2)/(kL/2) with k^2 = GJ/EIw.
+    Yields the torque of the strip with the Wagner torque."""
     beam = sheets.sheet(**{**defaults.values("sheet_wagner"), "wagner": 0})
     half = math.sqrt(beam.GJ / beam.EIw) * beam.length / 2
     for angle in (0.1, 0.5, 1, 1.3, 1.4, 1.5):
@@ -145,7 +146,7 @@ def released():
 
 
 def steady():
-    """Yields values for a body that rotates steadily about a principal axis: 2 rad/s, 3 kg m^2."""
+    """Yields values for a body that rotates steadily about a principal axis, with 2 rad/s and 3 kg m^2."""
     at = f"spin=steady;time={{}};{rigid_body.ANY}"
     yield "rigid_body", at.format("*"), "w_z", mpf(2), "rad/s"
     yield "rigid_body", at.format("*"), "energy", mpf(6), "J"

@@ -1,21 +1,21 @@
 """Lateral-torsional buckling of beams on fork supports from their bent state: the linearised Kirchhoff rod about plane
 bending.
 
-Plane state, bent by theta about y, triad nX = (cos, 0, -sin)(theta), nY = y,
-nZ = (sin, 0, cos)(theta).  One end is free along x, so that the force in a section is vertical,
-F = -(P/2 - q s) ez (a force P in the middle: q = 0), with N = F . nX:
+The plane state is bent by theta about y, with the triad nX = (cos, 0, -sin)(theta), nY = y, nZ = (sin, 0, cos)(theta).
+One end is free along x, so the force in a section is vertical: F = -(P/2 - q s) ez, where q = 0 for a force P in the
+middle. With N = F . nX,
   x' = (1 + N/EA) cos theta,   EIy theta' = My,   My' = (1 + N/EA) cos theta Fz;
   My(0) = 0, theta(1/2) = 0 (symmetry).
-Neighbouring state: displacement v along y, spin psi = phi nX + chi nZ, moment dm in fixed axes
-(m_x, 0, m_z).  With dF = 0 (dead loads, a mode that is symmetric about the middle) and
-dm = (dMx - chi My) nX + (dMz + phi My) nZ:
+The neighbouring state has the displacement v along y, the rotation increment psi = phi nX + chi nZ, and the moment dm
+in fixed axes (m_x, 0, m_z). dF = 0 for dead loads and a mode that is symmetric about the middle. With dm = (dMx - chi
+My) nX + (dMz + phi My) nZ,
   v' = (1 + N/EA) chi,   chi' = phi theta' + dMz/EIz,   phi' = kx - chi theta',
   m_x' = -v' Fz,   m_z' = 0,
   dMx = GJ kx (K = 0), else kx = a, EIw a' = B, B' = -(dMx - GJ a).
-Fork: two guides normal to y hold the web, which the section's z axis follows: nZ . y = 0, so that
-phi = 0, and its reaction is a moment along nX: v = phi = 0, dm . nZ = 0, B = 0.  Middle: chi = 0,
-m_x = 0, a = 0.  The determinant of these conditions vanishes at the critical load.
-(A fixed rotation about the fixed x axis, cos(theta) phi + sin(theta) chi = 0, is a different support.)
+At the fork, two guides normal to y hold the web, which is along the z axis of the section. Therefore nZ . y = 0 and
+phi = 0, and the reaction is a moment along nX. The conditions are v = phi = 0, dm . nZ = 0 and B = 0 at the fork, and
+chi = 0, m_x = 0 and a = 0 in the middle. The determinant of these conditions vanishes at the critical load. A fixed
+rotation about the fixed x axis, cos(theta) phi + sin(theta) chi = 0, would be a different support.
 """
 import functools
 
@@ -25,8 +25,8 @@ from scipy.optimize import brentq
 
 RELATIVE = 2e-10
 EA = 1e6  # axial stiffness of the case; weak EI = GJ = 1, length 1
-THETA, MY, FIRST = 0, 1, 2  # positions of theta, My and the first field; the fields v, phi, chi, m_x, m_z, a, B of
-                            # every solution follow
+THETA, MY, FIRST = 0, 1, 2  # indices of theta, My and the first of the fields v, phi, chi, m_x, m_z, a, B
+                            # of every solution
 FIELDS = 7
 
 
@@ -70,7 +70,7 @@ def _middle(theta, P, q, ratio, K, tolerance=1e-13):
 
 
 def _rotation_at_fork(P, distributed, ratio, K, near):
-    """Returns theta(0) of the plane state by the secant method, starting from the value for a neighbouring load."""
+    """Returns theta(0) of the plane state, computed by the secant method from the value for a neighbouring load."""
 
     def turn(theta):
         return _middle(theta, P, P if distributed else 0.0, ratio, K)[0]

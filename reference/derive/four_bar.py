@@ -1,9 +1,11 @@
-"""A four-bar linkage whose crank bends: its clamp rotates while a dead force increases on the joint of coupler and rocker.
+"""A four-bar linkage whose crank bends: its clamp rotates while a dead force increases on the joint of coupler and
+rocker.
 
-Coupler and rocker are pinned at both ends: they stay straight, stretch, and transmit forces along them. Therefore the crank is a
-cantilever, E I t' = M0 - (x F_y - y F_x), (x, y)' = (1 + F . e/EA) e, e = (cos t, sin t), with the coupler's force F at its end and no
-moment there (Gauss's rule of order eight).  The unknowns are M0 (of the motor: -M0), the forces of coupler and rocker, and their
-directions.
+The coupler and the rocker are pinned at both ends. They stay straight, stretch, and transmit only axial forces.
+Therefore the crank is a cantilever with the force F of the coupler and no moment at its end: E I t' = M0 - (x F_y - y
+F_x) and (x, y)' = (1 + F . e/EA) e with e = (cos t, sin t). These equations are integrated by Gauss's rule of order
+eight. The unknowns are M0 (the moment of the motor is -M0), the forces of coupler and rocker, and the directions of
+these forces.
 """
 import numpy as np
 from scipy.optimize import fsolve
@@ -11,7 +13,7 @@ from scipy.optimize import fsolve
 TABLES = "examples"
 CRANK, COUPLER, ROCKER, GROUND, BEGIN = 0.1, 0.3, 0.25, 0.3, np.pi / 3
 YOUNG, WIDTH, THIN, THICK = 210e9, 0.01, 0.001, 0.004
-TURNED, LOAD = 2.0, -20.0  # [rad], [N] along y
+TURNED, LOAD = 2.0, -20.0  # rotation [rad] and force along y [N]
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 LEVELS, RELATIVE = 20, 1e-11
 
@@ -62,8 +64,7 @@ def residual(u, part, intervals):
 
 
 def at_rest():
-    """Returns the directions of coupler and rocker in the undeformed state, with the joint above the line of the
-    ground."""
+    """Returns the directions of coupler and rocker in the undeformed state, with the joint above the line of the ground."""
     end = CRANK * along(BEGIN)
     d = [GROUND, 0] - end
     a = (COUPLER ** 2 - ROCKER ** 2 + d @ d) / (2 * np.hypot(*d))

@@ -1,9 +1,9 @@
-"""Flexure-based hexapod (N section 4.3, synthetic dimensions): support stiffness along z of twelve joints of geometrically exact
-sheets.
+"""Flexure-based hexapod (N section 4.3, synthetic dimensions): support stiffness along z of twelve joints of
+geometrically exact sheets.
 
-Six cranks rotate about horizontal tangents by one common, unknown angle, such that the platform has the prescribed
+Six cranks rotate about horizontal tangents by one common, unknown angle, which gives the platform the prescribed
 height. Then the cranks are fixed, and a unit force acts on the platform. The base of each joint is on the rod. The z
-axis of a joint is along the rod and points away from it; the x axis is in the plane of the rod and the global z axis,
+axis of a joint is along the rod and points away from it. The x axis is in the plane of the rod and the global z axis,
 on the upper side.
 """
 import math
@@ -59,7 +59,7 @@ def add_leg(net, beam, value, leg, platform):
 
 
 def stiffness_curve(intervals=3, nodes=9, form=lambda beam: beam, **given):
-    """Returns [(stiffness in N/m, crank angle in rad)] at the positions from -stroke to +stroke. form: see
+    """Returns [(stiffness in N/m, crank angle in rad)] at the positions from -stroke to +stroke. `form` is explained at
     sheets.deflected."""
     value = {**DEFAULTS, **given}
     beam = form(sheet_of(value))

@@ -1,4 +1,4 @@
-"""Momentum of freely flying structures: the integral of the load, after it has ended."""
+"""Momentum of freely flying structures after the load has ended, which is the integral of the load."""
 from mpmath import mpf
 
 ANY = "integrator=*;step=*;tolerance=*"
@@ -8,7 +8,7 @@ SPACE_TIMES = ("5", "7", "7.5", "9", "10")
 
 
 def plane():
-    """Returns the momentum [kg m/s] due to 8 N for 2.5 s, either constant or as a squared sine with twice the
+    """Returns the momentum [kg m/s] due to 8 N for 2.5 s. The force is constant, or a squared sine with twice the
     amplitude and therefore the same mean."""
     return 8 * mpf("2.5")
 

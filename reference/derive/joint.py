@@ -1,10 +1,11 @@
-"""Spherical flexure joint (N section 4.2): support stiffness of twelve geometrically exact sheets over one revolution of the tilt
-axis.
+"""Spherical flexure joint (N section 4.2): support stiffness of twelve geometrically exact sheets over one revolution of
+the tilt axis.
 
-Geometry: fold lines through the centre at the polar angle from z, their outer ends at the radius; the two sheets of a fold are
-symmetric about the vertical plane through it, the fold angle apart, on the outer side, perpendicular to the fold line. Three folds
-join base and intermediate body; their mirror images in the xy plane, rotated by 60 degrees, join the intermediate body to the end
-effector.  The sheet on the +azimuth side is attached to the lower-numbered body. Warping is restrained at bodies.
+The fold lines pass through the centre at the polar angle from z, and their outer ends are at the radius. The two
+sheets of a fold are perpendicular to the fold line, on the outer side, symmetric about the vertical plane through the
+fold line, and include the fold angle. Three folds join the base and the intermediate body. Their mirror images in the
+xy plane, rotated by 60 degrees, join the intermediate body to the end effector. The sheet on the +azimuth side is
+attached to the lower-numbered body. Warping is restrained at bodies.
 """
 import math
 
@@ -25,7 +26,7 @@ def sheet_of(given):
 
 
 def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
-    """Adds two sheets and the body where they meet. axes: columns are x, y, z of the joint."""
+    """Adds two sheets and the body where they meet. The columns of `axes` are x, y, z of the joint."""
     value = {**DEFAULTS, **given}
     up = np.diag([1, 1, -1.0 if mirrored else 1.0])
     turn = np.array([[math.cos(azimuth), -math.sin(azimuth), 0],
@@ -42,14 +43,14 @@ def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
         end = middle + value["length"] * along
         x, z = -to_global @ along, to_global @ line
         at_fold = {"shared": name, "free": "free", "fixed": "fixed"}[value["fold_warping"]]
-        # z along the fold line, y normal to the sheet.
+        # z along the fold line, y normal to the sheet
         y = np.cross(z, x)
         net.member(beam, body, crease, centre + to_global @ end, np.column_stack([x, y, z]),
                    ("fixed", at_fold))
 
 
 def add_joint(net, beam, given, centre, axes, base, effector, name):
-    """Adds one joint between two bodies. Returns its intermediate body."""
+    """Adds one joint between two bodies. Returns the intermediate body."""
     middle = net.body(centre)
     first = {**DEFAULTS, **given}["azimuth"]
     for k in range(3):
@@ -66,8 +67,7 @@ def turned(given):
     tilt, steps = value["tilt"], value["steps"]
 
     def vector(level):
-        """Returns the rotation vector at a level. Levels below 1 lead from the undeformed state to the first
-        azimuth."""
+        """Returns the rotation vector at a level. Levels below 1 lead from the undeformed state to the first azimuth."""
         azimuth = 2 * math.pi * max(level - 1, 0) / steps
         return min(level, 1.0) * tilt * np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
 

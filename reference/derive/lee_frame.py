@@ -1,9 +1,9 @@
-"""Lee's frame: limit points of the force on its beam, and the force at which a frame with equal bending stiffnesses buckles out of its
-plane.
+"""Lee's frame: limit points of the force on its beam, and the force at which a frame with equal bending stiffnesses
+buckles out of its plane.
 
-The path is parametrised by its arc length in the position, the rotation and the force of the loaded point. A limit point is the
-extremum of the interpolant of the force through Chebyshev points of the arc; a bifurcation is a zero of the determinant of the
-bordered system.
+The parameter of the path is the arc length in the space of position, rotation and force of the loaded point. A limit
+point is the extremum of the interpolant of the force through Chebyshev points of the arc; a bifurcation is a zero of
+the determinant of the bordered system.
 """
 import copy
 
@@ -18,7 +18,7 @@ RELATIVE, STEP = 1e-9, 0.05
 
 
 class Frame:
-    """A state of the frame. plane: the frame is too stiff to buckle out of its plane."""
+    """A state of the frame. If `plane` is True, the frame is too stiff to buckle out of its plane."""
 
     def __init__(self, plane):
         across = (2e6 * 720, 2e6 * G) if plane else (EI, 2.6 * G)
@@ -61,7 +61,7 @@ class Frame:
         return one
 
     def turned(self, before):
-        """Sets the direction of the arc from this state to that of the secant from the state `before`."""
+        """Sets the direction of the arc at this state to that of the secant from the state `before`."""
         self.way = self.place() - before.place()
         self.way, self.origin = self.way / np.linalg.norm(self.way), self.place()
         return self

@@ -1,8 +1,10 @@
-"""Lateral-torsional buckling of narrow beams, the shear-flexible column, and the right-angle frame, with linear prestress.
+"""Lateral-torsional buckling of narrow beams, the shear-flexible column, and the right-angle frame, with linear
+prestress.
 
-Lateral: Pi = 1/2 int EI w''^2 + GJ phi'^2 + EIw phi''^2 + int M phi w'' gives EI w'' = -M phi and, with x in units of L and K =
-L^2 GJ/EIw,  phi''''/K - phi'' - (gamma m(x))^2 phi = 0,  M = gamma m sqrt(EI GJ)/L; loads act at the shear centre. Frame: a leg
-carries a constant spatial moment (m_x, m_y + f x, M): GJ t_x' = m_x - M t_y, EI t_y' = m_y + f x + M t_x, w' = -t_y.
+Lateral buckling: Pi = 1/2 int EI w''^2 + GJ phi'^2 + EIw phi''^2 + int M phi w'' gives EI w'' = -M phi. With x in
+units of L and K = L^2 GJ/EIw, phi''''/K - phi'' - (gamma m(x))^2 phi = 0, where M = gamma m sqrt(EI GJ)/L. Loads act
+at the shear centre. Frame: each leg has the spatial moment (m_x, m_y + f x, M), so GJ t_x' = m_x - M t_y, EI t_y' =
+m_y + f x + M t_x and w' = -t_y.
 """
 from mpmath import cos, det, findroot, matrix, mp, mpf, pi, sin, sqrt, zeros
 
@@ -59,10 +61,10 @@ def _condition(load, K, gamma, terms):
     m, end = LOADS[load]
     m2, end = _square(m), mpf(end)
     cantilever = load in ("tip", "distributed")
-    if not K:  # x = 0 is the free tip, phi' = 0 there, or the fork, phi = 0
+    if not K:  # x = 0 is the free tip, where phi' = 0, or the fork, where phi = 0
         c = _series((1, 0) if cantilever else (0, 1), K, gamma, m2, terms)
         return _value(c, end, 0 if cantilever else 1)
-    # Tip: phi'' = 0 and phi''' = K phi'; fork: phi = phi'' = 0.  Root: phi = phi' = 0; middle: phi' = phi''' = 0.
+    # tip: phi'' = 0 and phi''' = K phi'; fork: phi = phi'' = 0; root: phi = phi' = 0; middle: phi' = phi''' = 0
     starts = ((1, 0, 0, 0), (0, 1, 0, K)) if cantilever else ((0, 1, 0, 0), (0, 0, 0, 1))
     orders = (0, 1) if cantilever else (1, 3)
     a, b = (_series(s, K, gamma, m2, terms) for s in starts)
@@ -71,8 +73,8 @@ def _condition(load, K, gamma, terms):
 
 
 def lateral_load(load, K, guess, terms=TERMS):
-    """Returns the critical load. terms: several times exp(1) sqrt K. The determinant, which grows with exp(sqrt K), is
-    divided by its size near the root."""
+    """Returns the critical load. `terms` must be several times exp(1) sqrt K. The determinant, which grows with exp(sqrt
+    K), is divided by its size near the root."""
     K, guess = mpf(K), mpf(guess)
     unit = abs(_condition(load, K, guess * mpf("1.01"), terms))
     return findroot(lambda g: _condition(load, K, g, terms) / unit, guess, tol=mpf(10) ** -30)
@@ -93,8 +95,8 @@ def lateral_rows():
 
 
 def column_load(given):
-    """Returns the critical load of shear_column. Engesser: 1/P = 1/P_E + 1/GA_s; Haringx: GA_s (sqrt(1 + 4 P_E/GA_s) -
-    1)/2; P_E = pi^2 EI/l^2, GA_s = 5/6 G A."""
+    """Returns the critical load of shear_column. Engesser: 1/P = 1/P_E + 1/GA_s. Haringx: GA_s (sqrt(1 + 4 P_E/GA_s) -
+    1)/2. P_E = pi^2 EI/l^2 and GA_s = 5/6 G A."""
     at = defaults.decimals("shear_column", given)
     euler = pi ** 2 * at["young"] * at["side"] ** 4 / 12 / at["length"] ** 2
     shear = at["shear_modulus"] * at["side"] ** 2 * 5 / 6
@@ -137,8 +139,8 @@ def _leg(x, M, EI, GJ):
 
 
 def frame_determinant(M, EI, GJ, length, angle):
-    """Returns the determinant for two legs that start at the corner with `angle` between them. Their ends remain in
-    the plane and rotate only about its normal.
+    """Returns the determinant for two legs that start at the corner with `angle` between them. Their ends remain in the
+    plane and rotate only about the normal of the plane.
 
     The axes of the first leg are (x, y, z); those of the second leg are rotated about z. The load of the second leg is
     opposite to that of the first.
@@ -161,13 +163,13 @@ FRAMES = ({}, {"angle": "1"}, {"angle": "2.5"}, {"leg": "0.6", "poisson": "0"}, 
 
 
 def frame_rows():
-    """Yields rows for thin strips, GJ = G b t^3/3; the second factor lies between 1.4 pi and 2 pi for every angle."""
+    """Yields rows for thin strips with GJ = G b t^3/3. The second factor lies between 1.4 pi and 2 pi for every angle."""
     for given in FRAMES:
         value = defaults.decimals("right_angle_frame", given)
         E, nu, b, t, length, angle = (value[k] for k in ("young", "poisson", "depth", "thickness",
                                                          "leg", "angle"))
         EI, GJ = E * b * t ** 3 / 12, E / (2 * (1 + nu)) * b * t ** 3 / 3
-        # With lengths relative to a leg and forces relative to sqrt(EI GJ)/leg^2, the result depends only on EI/GJ.
+        # with lengths relative to a leg and forces relative to sqrt(EI GJ)/leg^2, the result depends only on EI/GJ
         root = sqrt(EI / GJ)
         at = ";".join(f"{k}={v}" for k, v in given.items())
         for name, bracket in (("critical_moment", ("3.0", "3.3")), ("critical_moment_2", ("4.4",

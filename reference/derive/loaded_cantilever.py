@@ -1,9 +1,9 @@
 """A plane cantilever under follower or dead loads: the equations of the extensible elastica, integrated from its tip.
 
-x' = (1 + N/EA) cos t, y' = (1 + N/EA) sin t, EI t' = M, F' = -q, M' = y' F_x - x' F_y - m, N = F_x cos t + F_y sin t, with the load
-q, m per initial length; F, M: action of the outer part on the inner part. A Runge-Kutta method of order 8 starts at
-the tip, whose angle is determined such that the root does not rotate. Follower loads need no search, because the whole
-solution rotates with the tip.
+The equations are x' = (1 + N/EA) cos t, y' = (1 + N/EA) sin t, EI t' = M, F' = -q and M' = y' F_x - x' F_y - m with N
+= F_x cos t + F_y sin t. The loads q and m are per initial length. F and M are the action of the outer part on the
+inner part. A Runge-Kutta method of order 8 starts at the tip. The angle of the tip is determined by the condition that
+the root does not rotate. Follower loads need no search, because the whole solution rotates with the tip.
 """
 from math import cos, sin
 

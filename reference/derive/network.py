@@ -1,10 +1,11 @@
 """Rigid bodies joined by geometrically exact beams (beam.py): equilibrium by Newton's method, and the linear response
-about it.
+about the equilibrium.
 
-Unknowns: for each body, its position x, its rotation and the load (f, mu) on its reference point; for each beam, F, m0
-(moment about the origin, constant along the beam), its states at the ends of the intervals; additional numbers of the problem.
-Equations: for each body, equilibrium of forces and moments and six conditions; for each beam, the equations of its
-intervals, the closure at its end, and one warping condition at each end.
+The unknowns of a body are its position x, its rotation and the load (f, mu) on its reference point. The unknowns of a
+beam are F, m0 (moment about the origin, constant along the beam) and its states at the ends of the intervals. The
+problem may have additional numbers as unknowns. The equations of a body are equilibrium of forces and moments and six
+conditions. The equations of a beam are those of its intervals, the closure at its end, and one warping condition at
+each end.
 """
 import numpy as np
 from scipy.sparse import coo_matrix
@@ -13,18 +14,18 @@ from scipy.sparse.linalg import splu
 from reference.derive.beam import (STEP, Scaled, chebyshev, cross_matrix, exponential, product,
                                    quaternion, rotation)
 
-# Loads along a beam (beam.py): six more states, F and m0 (moment about the origin, fixed axes) minus their values at
-# the start,
+# Loads along a beam (beam.py) add six states, which are F and m0 (moment about the origin, fixed axes) minus their
+# values at the start:
 #   F' = -f q,   m0' = -f ((r + R d) x q + c),
-# per initial length, q and c in fixed axes, or rotating with the sections, linear along the beam (then s is a state
-# before the six);
-# d: position of q from the centroid; f: factor at the level.
+# q and c are per initial length, in fixed axes or rotating with the sections. They are constant or linear along the
+# beam; in the latter case, s is a state before the six states. d is the position of q relative to the centroid, and f
+# is the factor at the level.
 
 
 class LineLoad:
-    """A load along a beam. force [N/m], moment [N]: per length, in fixed axes or in the axes of the section, with
-    which they rotate; at [m]: position of the force in the axes of the section; factor(level): factor of the load;
-    more: linear increase of force and moment from the start to the end, or None."""
+    """A load along a beam. `force` [N/m] and `moment` [N] are per length, in fixed axes or in the axes of the section,
+    with which they rotate. `at` [m] is the position of the force in the axes of the section. `factor(level)` is the
+    factor of the load. `more` is the linear increase of force and moment from the start to the end, or None."""
 
     def __init__(self, force, moment, at, turns, factor, more=None):
         self.force, self.moment, self.at, self.turns, self.factor = (*(np.array(
@@ -43,7 +44,7 @@ class LineLoad:
 
 
 class Loaded(Scaled):
-    """A scaled beam with loads along it; the level is that of the network."""
+    """A scaled beam with loads along it. The level is that of the network."""
     carries = True
     stays = False  # True in linear analysis, where the loads remain at their undeformed positions
 
@@ -81,7 +82,7 @@ class Loaded(Scaled):
 class Body:
 
     def __init__(self, x, conditions, on=None):
-        """A rigid body. on: the body to which a joint belongs."""
+        """A rigid body. `on` is the body to which a joint belongs."""
         self.on = on
         self.x, self.q, self.load, self.conditions = np.array(x, dtype=float), np.array(
             [1.0, 0, 0, 0]), np.zeros(6), conditions
@@ -92,7 +93,7 @@ class Body:
 
 
 class Member:
-    """A beam between two bodies; warp: 'fixed', 'free' or a name shared by several ends."""
+    """A beam between two bodies. `warp` is 'fixed', 'free' or a name that several ends share."""
 
     def __init__(self, beam, bodies, ends, q0, warp, intervals, nodes):
         self.beam, self.bodies, self.warp = beam, bodies, warp
@@ -118,8 +119,8 @@ class Member:
         return y
 
     def linearise(self):
-        """Computes Y = base + A y_start + B p for the changes in each interval; base includes the residual of the
-        current values."""
+        """Computes Y = base + A y_start + B p for the changes in each interval. `base` includes the residual of the
+        present values."""
         m, n1, n = self.y.shape
         columns = self.y.reshape(-1, n).T
         f, fy, fp = self.beam.slope_and_derivatives(
@@ -168,19 +169,19 @@ class Network:
         ]  # conditions that determine the numbers: (body, function(level, x, R, force, moment, numbers))
 
     def body(self, position, conditions=free):
-        """Adds a body. position: [m]; conditions: a function that receives dimensionless values."""
+        """Adds a body. `position` is in [m]. `conditions` is a function that receives dimensionless values."""
         self.bodies.append(Body(np.array(position) / self.length, conditions))
         return self.bodies[-1]
 
     def joint(self, body, position, conditions):
-        """Adds a massless body at position [m] whose load is transmitted to another body. The last arguments of its
+        """Adds a massless body at a position [m] whose load is transmitted to another body. The last arguments of its
         conditions are the position and rotation of that body."""
         self.bodies.append(Body(np.array(position) / self.length, conditions, body))
         return self.bodies[-1]
 
     def member(self, beam, first, second, start, axes, warp=("fixed", "fixed"), loads=()):
-        """Adds a beam. start: position [m] of its start, fixed to the first body; axes: columns are x, y, z of the
-        beam; loads: LineLoads along it."""
+        """Adds a beam. `start` is the position [m] of its start, which is fixed to the first body. The columns of `axes`
+        are x, y, z of the beam. `loads` are LineLoads along the beam."""
         offset = np.array(start) / self.length - first.x
         scaled = beam.scaled(self.length, self.force)
         if loads:
@@ -200,7 +201,7 @@ class Network:
         return at, at + len(self.numbers)
 
     def _body_rows(self, level, conditions, b, put):
-        """Adds six conditions at rows b.at + 6 ..; linearised by complex steps."""
+        """Adds six conditions in the rows from b.at + 6 on, linearised by complex steps."""
         columns = list(range(b.at, b.at + BODY)) + self._places_of_numbers
         on = [] if b.on is None else list(range(b.on.at, b.on.at + 6))
         R = b.R
@@ -221,8 +222,8 @@ class Network:
         return values
 
     def _equilibrium(self, b, put, right):
-        """Adds the external load in rows b.at .. b.at + 5, to which the members add their loads; the load of a joint
-        is transmitted to its body."""
+        """Adds the external load in rows b.at .. b.at + 5, to which the members add their loads. The load of a joint is
+        transmitted to its body."""
         for owner, sign in ((b, 1.0), (b.on, -1.0)):
             if owner is None:
                 continue
@@ -265,8 +266,8 @@ class Network:
 
     @staticmethod
     def _closure(m, last, row, put, right):
-        """Adds the closure of position and rotation at the end of a member; for the rotation, 2 vec(q o q_target*) =
-        0."""
+        """Adds the closure of position and rotation at the end of a member. The closure of the rotation is 2 vec(q o
+        q_target*) = 0."""
         b, y = m.bodies[1], m.y[-1, -1]
         arm = b.R @ m.ends[1]
         _block(put, row, last, np.eye(3))
@@ -282,8 +283,8 @@ class Network:
         m.warp_row = row + 6
 
     def _warp_rows(self, put, right):
-        """Adds one warping condition for each end. Ends that share a coordinate have equal kx, and their bimoments are
-        in equilibrium."""
+        """Adds one warping condition for each end. Ends that share a coordinate have equal kx, and their bimoments are in
+        equilibrium."""
         groups = {}
         for m in (m for m in self.members if m.beam.warps):
             for end in range(2):
@@ -305,8 +306,8 @@ class Network:
                 right[ends[0][0]] -= sign * state[1]
 
     def system(self, level, override=None):
-        """Returns the sparse matrix and the right-hand side of Newton's method. override: other conditions for some
-        bodies."""
+        """Returns the sparse matrix and the right-hand side of Newton's method. `override` contains other conditions for
+        some bodies."""
         first_number, total = self._places()
         self._places_of_numbers = list(range(first_number, total))
         for m in self.members:
@@ -364,7 +365,7 @@ class Network:
         return size
 
     def solve(self, path=(1.0, ), tolerance=1e-12):
-        """Solves for equilibrium at each level in turn, at the last level to round-off."""
+        """Solves for equilibrium at each level in turn, and at the last level to round-off."""
         for level in path:
             for _ in range(30):
                 if self.iterate(level) <= tolerance:
@@ -385,11 +386,9 @@ class Network:
         return out
 
     def response(self, level, body, override):
-        """Returns the compliance [6, 6] in SI units: the change of (u, theta) of the body due to unit dead (f, mu) on
-        it, with other conditions for some bodies.
-
-        The loads act on the body itself: in the components of a load, its overriding conditions must be those of a
-        free body.
+        """Returns the compliance [6, 6] in SI units, which is the change of (u, theta) of a body due to unit dead loads
+        (f, mu) on it. `override` contains other conditions for some bodies. In the components of the loads, the
+        overriding conditions of the loaded body must be those of a free body.
         """
         matrix, _ = self.system(level, override)
         right = np.zeros((matrix.shape[0], 6))

@@ -1,13 +1,13 @@
 """Exact values of a scene that is a network of geometrically exact beams, rigid bodies and supports: displacements,
 reactions, stiffnesses, resultants at the ends of members, and frequencies about the undeformed state.
 
-usage: of_scene.py [FILE]     The scene (FILE or standard input) as 'beamwork scene' writes it.
+usage: of_scene.py [FILE]     FILE or standard input is a scene in the form that 'beamwork scene' writes.
 
-Prints one line for each quantity, like at.py. Exit status: 0, or 3 if the scene or all of its quantities are not
-supported by this program; a line for each gives the reason.
+Prints one line for each quantity, in the form of at.py. The exit status is 0, or 3 if the scene or all of its
+quantities are not supported by this program; a line for each gives the reason.
 
-Each value is that of the finer of two grids. Its uncertainty is twice the difference, and at least round-off. Grids
-are refined until the difference is below 1e-10 of the value (or of its scale).
+Each value is that of the finer of two grids. The uncertainty is twice the difference between both, and at least
+round-off. Grids are refined until the difference is below 1e-10 of the value or of its scale.
 """
 import os
 import pathlib
@@ -27,9 +27,9 @@ from reference.derive.scene_text import Refused, number, only  # noqa: E402
 
 TABLES = "examples"
 SOURCE = "reference/derive/of_scene.py"
-GRIDS = ((4, 13), (6, 14), (10, 15), (16, 16))  # (number of intervals, nodes of each)
+GRIDS = ((4, 13), (6, 14), (10, 15), (16, 16))  # (number of intervals, nodes of each interval)
 AGREEMENT, ROUND_OFF, NOTHING = 1e-10, 1e-11, 1e-13  # relative difference of grids; round-off relative to a value;
-                                                     # round-off relative to the scale of a value
+                                                     # and round-off relative to the scale of a value
 KINDS = ("displacement", "reaction", "stiffness", "compliance", "motion", "internal", "frequency")
 RESULTANTS = ("N", "Qy", "Qz", "Mx", "My", "Mz")
 
@@ -105,8 +105,8 @@ class Question:
 
 
 def analyses(scene, questions, grid, scales=None):
-    """Returns {quantity: value, or Refused with the reason} on one grid. scales: a dictionary that receives {quantity:
-    its scale}."""
+    """Returns {quantity: value, or Refused with the reason} on one grid. `scales` is a dictionary that receives
+    {quantity: scale}."""
     out, scales = {}, {} if scales is None else scales
 
     def answer(asked, stations, states):
@@ -185,8 +185,8 @@ def analyses(scene, questions, grid, scales=None):
 
 
 def solve(scene, form=lambda beam: beam):
-    """Yields (quantity, value, unit, uncertainty, convention), or (quantity, Refused) if the program does not support
-    the quantity. form: replaces each beam by another beam."""
+    """Yields (quantity, value, unit, uncertainty, convention), or (quantity, Refused) if the program does not support the
+    quantity. `form` replaces each beam by another beam."""
     questions, scene = [], cut(scene)
     for name, entry in scene["quantities"].items():
         try:
@@ -232,7 +232,7 @@ KNOWN = {"leaf_spring_guide": ("k_drive", "k_support")}  # quantities with close
 
 
 def rows():
-    """Returns the rows of the examples, whose scenes the built program writes."""
+    """Returns the rows of the examples. The built program writes the scenes."""
     if not os.access(PROGRAM, os.X_OK):
         raise SystemExit(f"of_scene.py: {PROGRAM} is not there; run make all first")
     for name in EXAMPLES:

@@ -1,9 +1,11 @@
-"""Rods moving in their plane: the thrown rod and the pendulum, exact in space to the digits on which two meshes agree.
+"""Rods moving in their plane: the thrown rod and the pendulum. The values are exact to the digits on which two meshes
+agree.
 
-Simo-Reissner beam, with fields x, y and the rotation t of the section: strains (cos t x' + sin t y' - 1,
--sin t x' + cos t y', t'), forces EA, GA, EI times these, mass rho A and rotary inertia rho I.
-Space: polynomials in Lobatto's points, whose quadrature makes the mass diagonal.  Time: the
-explicit Runge-Kutta method of order 8 by Dormand and Prince, with steps limited by wave propagation.
+The model is the Simo-Reissner beam with the fields x, y and the rotation t of the section. The strains are (cos t x' +
+sin t y' - 1, -sin t x' + cos t y', t'), the forces are EA, GA, EI times these strains, the mass is rho A and the
+rotary inertia is rho I. In space, polynomials with values at the Lobatto points are used, whose quadrature makes the
+mass diagonal. Time integration uses the explicit Runge-Kutta method of order 8 by Dormand and Prince, with steps
+limited by wave propagation.
 """
 from dataclasses import dataclass
 from functools import cache
@@ -20,7 +22,7 @@ LEAST = 1e-9  # smallest uncertainty [m]
 
 @dataclass(frozen=True)
 class Rod:
-    """A rod from (x0, y0) in the direction (cos, sin) of an angle. Stiffnesses [N, N, N m^2], mass [kg/m], rotary
+    """A rod from (x0, y0) in the direction (cos, sin) of an angle, with stiffnesses [N, N, N m^2], mass [kg/m] and rotary
     inertia [kg m]."""
     start: tuple
     angle: float
@@ -33,8 +35,7 @@ class Rod:
 
 
 def lobatto(degree):
-    """Returns Lobatto points and weights on [-1, 1], and the derivatives at these points of the Lagrange
-    polynomials."""
+    """Returns Lobatto points and weights on [-1, 1], and the derivatives at these points of the Lagrange polynomials."""
     p = legendre.Legendre.basis(degree)
     x = np.concatenate([[-1.0], np.sort(p.deriv().roots().real), [1.0]])
     D = np.zeros((degree + 1, degree + 1))
@@ -47,8 +48,8 @@ def lobatto(degree):
 
 
 class Mesh:
-    """A rod divided into elements. G maps nodal values to derivatives at the points, V to values at the points;
-    weight: [points]; lumped: [nodes]."""
+    """A rod divided into elements. G maps nodal values to derivatives at the points, and V maps them to values at the
+    points. `weight` is [points], and `lumped` is [nodes]."""
 
     def __init__(self, rod, elements, degree):
         x, w, D = lobatto(degree)
@@ -65,7 +66,8 @@ class Mesh:
 
 
 def forces(rod, mesh, q):
-    """Returns the nodal forces [3, nodes] due to the strains. q [3, nodes]: x, y and the rotation from the x axis."""
+    """Returns the nodal forces [3, nodes] due to the strains. q [3, nodes] contains x, y and the rotation from the x
+    axis."""
     (dx, dy, curvature), turn = q @ mesh.G.T, mesh.V @ q[2]
     c, s = np.cos(turn), np.sin(turn)
     stretch, shear = c * dx + s * dy - 1, c * dy - s * dx
@@ -78,7 +80,7 @@ def forces(rod, mesh, q):
 
 
 def move(rod, mesh, load, held, times):
-    """Returns (q, v) at the times, both [times, 3, nodes]. load(t, out): adds forces to out[3, nodes]."""
+    """Returns (q, v) at the times, both [times, 3, nodes]. load(t, out) adds forces to out[3, nodes]."""
     n = len(mesh.S)
     q = np.stack([
         rod.start[0] + mesh.S * np.cos(rod.angle), rod.start[1] + mesh.S * np.sin(rod.angle),

@@ -1,10 +1,11 @@
-"""Limits that printed formulations must have under refinement and that differ from the exact ones.
+"""Limits that printed formulations must have under refinement and that differ from the exact values.
 
-usage: predicted.py [--write] [CASE...]     derives reference/predicted/CASE.csv; compares or writes
+usage: predicted.py [--write] [CASE...]     derives reference/predicted/CASE.csv and compares or writes it
 
 The beam to which a formulation converges (predicted_beam.py) replaces the exact beam in the programs that derive exact
-values; predicted_column.py supplies the half-waves. A value that agrees with the exact one is not listed as a
-prediction. shear_stability=*: these formulations have one second-order form, whatever theory a case requests.
+values. predicted_column.py supplies the half-waves. A value that agrees with the exact value is not listed as a
+prediction. shear_stability=* means that these formulations have one second-order form, whatever theory a case
+requests.
 """
 import pathlib
 import sys
@@ -22,16 +23,15 @@ from reference.derive.predicted_column import (  # noqa: E402
 from reference.derive.predicted_rows import (  # noqa: E402
     differences, exact_values, row_of, write)
 
-# Relative uncertainties of values from beams and from closed forms. For sheets, it is that of the exact value.
-# predicted_test.py verifies all of them.
+# Relative uncertainties of values from beams and from closed forms. For sheets, the uncertainty is that of the exact
+# value. predicted_test.py verifies all of them.
 RELATIVE, CLOSED = 1e-9, 1e-12
 # A value within this number of uncertainties of the exact value is not a prediction. The number is one if the stated
 # uncertainty is hundreds of times the change due to other intervals and nodes, otherwise ten.
 SAME = {True: 1, False: 10}
 JONKER = ("beamw", "beamw_first")
 SHEETS = ("sheet_second", "sheet_third", "sheet_second_consistent")
-ALIASES = {"sheet_third": ("sheet_third_printed",)}  # because the sign of u_y in N Eq. 49 has only an effect of higher
-                                                     # order
+ALIASES = {"sheet_third": ("sheet_third_printed",)}  # the sign of u_y in N Eq. 49 has only an effect of higher order
 
 
 def as_printed(name):
@@ -39,8 +39,8 @@ def as_printed(name):
 
 
 def shear_elastica():
-    """Yields predictions for shear_elastica. For GA = 10, the path of J's beams ends before the last point; for
-    sheet_second_consistent, see right_angle."""
+    """Yields predictions for shear_elastica. For GA = 10, the path of the beams of J ends before the last point.
+    sheet_second_consistent is treated in right_angle."""
     for name in JONKER + SHEETS:
         stiffnesses = (500, 50, 10) if name in ("sheet_second", "sheet_third") else (500, 50)
         for row in cantilevers.shear_elastica(stiffnesses, form=as_printed(name)):
@@ -50,7 +50,7 @@ def shear_elastica():
 def right_angle():
     """Yields predictions for shear_elastica with GA = F = 10, where all sections shear to z = pi/2 and none rotates.
 
-    z = z sin z + (1 + z^2/2) cos z (ERRATA); the load then has no lever arm, so that no bending moment occurs.
+    z = z sin z + (1 + z^2/2) cos z (ERRATA). The load then has no lever arm, so no bending moment occurs.
     """
     name, at, stretch = "sheet_second_consistent", "GA=10", mpf(10) / 10 ** 9  # F/EA
     yield name, "shear_elastica", at, "u", mpf(-1), "m", CLOSED
@@ -95,7 +95,7 @@ def bent_sheets():
 
 
 def vibrating_sheets():
-    """Yields frequencies with consistent mass, the default of J's elements. The sheet elements have lumped mass."""
+    """Yields frequencies with consistent mass, the default of the elements of J. The sheet elements have lumped mass."""
     for name in JONKER + SHEETS:
         for given in VIBRATING:
             at = sheets.parameters({"modes": 3, **given})
@@ -105,7 +105,7 @@ def vibrating_sheets():
 
 
 def twisted_sheets():
-    """Yields predictions for twisted sheets. J's elements do not include the Wagner torque."""
+    """Yields predictions for twisted sheets. The elements of J do not include the Wagner torque."""
     for name in JONKER + SHEETS:
         for given in WITHOUT_TORQUE + (WITH_TORQUE if name in SHEETS else ()):
             for row in sheets.twisted(form=as_printed(name), **given):
@@ -125,7 +125,7 @@ JOINTS = (({}, SHEETS), ({"wagner": 0}, ("beamw", "beamw_first", "sheet_third"))
 
 
 def joints():
-    """Yields predictions for joints; each takes twenty seconds."""
+    """Yields predictions for joints, each of which takes twenty seconds."""
     for given, names in JOINTS:
         at = sheets.parameters(given)
         for name in names:
@@ -140,7 +140,7 @@ HEXAPODS = (({}, SHEETS), ({"wagner": 0}, ("beamw", *SHEETS)))
 
 
 def hexapods():
-    """Yields predictions for hexapods; each takes a minute and a half."""
+    """Yields predictions for hexapods, each of which takes a minute and a half."""
     for given, names in HEXAPODS:
         at = sheets.parameters(given)
         for name in names:

@@ -1,10 +1,9 @@
 """The beam to which a printed element converges: beam.py with the measures below.
 
-Energy per length W = 1/2 s.E, E(gamma, kappa, a) the measures and s their stresses.  At each point
-the stress resultants N, M of beam.py and the amplitude a are given; gamma, kappa and s follow from
+The energy per length is W = 1/2 s.E, where E(gamma, kappa, a) are the measures and s their stresses. At each point,
+the stress resultants N, M of beam.py and the amplitude a are given. gamma, kappa and s are the solution of
   E = compliance s  (torsion: s = GJ k_x + 4 c k_x^3),  N = s.dE/dgamma,  M = s.dE/dkappa
-(without warping, g_w is absent).  Then r' = R (e_x + gamma), q' = q o (0, kappa)/2, EIw a' = B,
-B' = s.dE/da.
+Without warping, g_w is absent.  Then r' = R (e_x + gamma), q' = q o (0, kappa)/2, EIw a' = B, B' = s.dE/da.
 """
 import numpy as np
 
@@ -12,10 +11,11 @@ from reference.derive.beam import Beam, Scaled, product, rotation
 
 # Strain measures of printed elements under refinement, that is, of a short element of a smooth beam.
 #
-# r' = R (e_x + gamma), kappa~ = R^T R', a warping amplitude; h length, lambda = |e_x + gamma|; chord along n = (e_x +
-# gamma)/lambda.  To leading order in h, each function returns (eps, g_y, g_z, g_w, k_x, k_y, k_z). The stiffness that
-# multiplies them tends to diag(EA, G D, GIt, EIy, EIz), and EIw a'^2;
-# the g are those of the shear centre.  Proofs with short elements: reference/test/predicted_test.py.
+# r' = R (e_x + gamma), kappa~ = R^T R', and a is the warping amplitude. h is the length, lambda = |e_x + gamma|, and
+# the chord is along n = (e_x + gamma)/lambda. Each function returns (eps, g_y, g_z, g_w, k_x, k_y, k_z) to leading
+# order in h. The corresponding stiffness tends to diag(EA, G D, GIt, EIy, EIz), and warping has the energy of EIw a'^2.
+# The shear strains g are those of the shear centre. reference/test/predicted_test.py contains proofs with short
+# elements.
 #
 # J Eq. 7, where e3, e4 = -+ h n_z + h^2 k_y/2, e5, e6 = +- h n_y + h^2 k_z/2, e2 = h^2 kappa_x:
 #   eps = lambda - 1,  g_y = n_y - zs k_x,  g_z = n_z + ys k_x,  g_w = k_x - a,
@@ -23,14 +23,14 @@ from reference.derive.beam import Beam, Scaled, product, rotation
 # J Eq. 66, with w = kappa_x - a:
 #   eps + (n_y^2 + n_z^2)/10 + (Ip/A) (kappa_x^2 + w^2/5)/2 - (ys^2 + zs^2) kappa_x^2/10,
 #   k_x + n_y k_y + n_z k_z,  k_y - n_y w/5,  k_z - n_z w/5
-# N Eqs. 37, 40, 42, with the angles of N's local coordinates, sin y = n_z, tan z = -n_y/n_x, and
-# p = kappa_x - kappa_y tan z, y' = kappa_y/cos z, z' = kappa_z:
+# N Eqs. 37, 40, 42, with the angles of N's local coordinates, sin y = n_z, tan z = -n_y/n_x, and p = kappa_x - kappa_y
+# tan z, y' = kappa_y/cos z, z' = kappa_z:
 #   eps = lambda - 1 + (y^2 + z^2)/10 + Ite p^2/2,  g_y = -z,  g_z = y,  g_w = p - a,
 #   k_x = p + y z',  k_y = y' + z p,  k_z = z' - y p
 # The same integrals over the linear solution with shear (sheet_second_consistent):
 #   eps = lambda - 1 - (y^2 + z^2)/2 + Ite p^2/2,  k_x = p + z y',  k_y = y',  k_z = z'
-# N Eqs. 44-65 (sheet_third): those of Eq. 37; the terms added by the stress function are of higher order in h,
-# and g_y has no compliance (N Eq. 50).
+# N Eqs. 44-65 (sheet_third) give the measures of Eq. 37. The terms added by the stress function are of higher order in
+# h, and g_y has no compliance (N Eq. 50).
 
 VARIABLES = 7  # gamma, kappa, a
 MEASURES = 7
@@ -101,7 +101,7 @@ def chord(gamma):
 
 
 def jonker_first(gamma, kappa, a, centre, polar):
-    """Returns the measures of J Eq. 7 alone (beamw_first); a None: no warping."""
+    """Returns the measures of J Eq. 7 alone (beamw_first). If a is None, there is no warping."""
     stretch, n = chord(gamma)
     ys, zs = centre
     k = [kappa[0], n[0] * kappa[1] - n[1] * kappa[0], n[0] * kappa[2] - n[2] * kappa[0]]
@@ -110,7 +110,7 @@ def jonker_first(gamma, kappa, a, centre, polar):
 
 
 def jonker(gamma, kappa, a, centre, polar):
-    """Returns the measures of J Eqs. 7 and 66 (beamw, beamw_vlasov); polar = Ip/A, 0 without the trapeze term."""
+    """Returns the measures of J Eqs. 7 and 66 (beamw, beamw_vlasov). polar = Ip/A, or 0 without the trapeze term."""
     eps, _, _, w, kx, ky, kz = jonker_first(gamma, kappa, a, centre, polar)
     _, n = chord(gamma)
     ys, zs = centre
@@ -123,7 +123,7 @@ def jonker(gamma, kappa, a, centre, polar):
 
 
 def _angles(gamma, kappa):
-    """Returns lambda and the angles y, z, p, y' of N's local coordinates."""
+    """Returns lambda and the angles y, z, p, y' of the local coordinates of N."""
     stretch, n = chord(gamma)
     slope = -(n[1] / n[0])  # tan z
     rate = kappa[1] * (slope * slope + 1.0).sqrt()
@@ -157,7 +157,7 @@ OF = {"beamw": jonker, "beamw_vlasov": jonker, "beamw_first": jonker_first,
       "sheet_second_consistent": nijenhuis_sheared}
 
 
-WARPING, TORSION = 3, 4  # positions among the measures
+WARPING, TORSION = 3, 4  # indices among the measures
 NEWTON_STEPS, SETTLED = 40, 1e-12
 
 
@@ -168,7 +168,7 @@ class Printed(Beam):
         self.__dict__.update(beam.__dict__)
         self.measures = OF.get(formulation, formulation)
         eccentricity = beam.centre[0] ** 2 + beam.centre[1] ** 2
-        self.polar = beam.t - eccentricity  # Ip/A, 0 without the trapeze term
+        self.polar = beam.t - eccentricity  # Ip/A, or 0 without the trapeze term
         if formulation == "sheet_third":  # N Eq. 50: g_y = 0
             self.f = self.f * np.diag([0.0, 1.0, 1.0])
 
@@ -182,7 +182,7 @@ class Printed(Beam):
 class ScaledPrinted(Scaled):
     @property
     def kept(self):
-        """Returns the positions of the measures that are used."""
+        """Returns the indices of the measures that are used."""
         return [i for i in range(MEASURES) if self.warps or i != WARPING]
 
     def _measures(self, x, a):
@@ -193,7 +193,7 @@ class ScaledPrinted(Scaled):
         return [E[i] for i in self.kept]
 
     def _compliance(self):
-        """Returns the compliance [kept, kept] without torsion, which is nonlinear: see _constitutive."""
+        """Returns the compliance [kept, kept] without torsion, which is nonlinear (see _constitutive)."""
         C = np.zeros((MEASURES, MEASURES))
         C[0, 0], C[5, 5], C[6, 6], C[1:4, 1:4] = self.a, self.by, self.bz, self.f
         return C[np.ix_(self.kept, self.kept)]
@@ -213,8 +213,7 @@ class ScaledPrinted(Scaled):
         return right, by_v, by_s
 
     def _equations(self, x, given):
-        """Returns the residual and its derivative with respect to x = (gamma, kappa, s); given = (N, M, a) [7,
-        many]."""
+        """Returns the residual and its derivative with respect to x = (gamma, kappa, s). `given` is (N, M, a) [7, many]."""
         E, s = self._measures(x, given[6]), x[6:]
         right, by_v, by_s = self._constitutive(E, s)
         gradient = np.array([e.gradient[:6] for e in E])
@@ -225,7 +224,7 @@ class ScaledPrinted(Scaled):
         return np.concatenate([right, balance]).T, np.moveaxis(matrix, 2, 0)
 
     def _settled(self, given):
-        """Returns x [n, many] from Newton's method, starting at the stress-free state."""
+        """Returns x [n, many], computed by Newton's method from the stress-free state."""
         x = np.zeros((6 + len(self.kept), given.shape[1]))
         scale = 1 + np.max(np.abs(given[:6]), axis=0)
         for _ in range(NEWTON_STEPS):

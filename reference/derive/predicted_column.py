@@ -1,8 +1,8 @@
 """Half-waves of a beam on fork supports with the strains of printed elements (measures: predicted_beam.py).
 
-The strain energy is that of column.py (amplitudes of v_s, w_s, phi; g_y, g_z, g_w); the second-order parts of the
-measures do work with a uniform axial force or moment.  At the centroid, with
-v_c' = v_s' + zs phi', w_c' = w_s' - ys phi', gy_c = g_y + zs phi', gz_c = g_z - ys phi':
+The strain energy is that of column.py, with the amplitudes of v_s, w_s, phi and g_y, g_z, g_w. The second-order parts
+of the measures do work with a uniform axial force or moment. At the centroid, with v_c' = v_s' + zs phi', w_c' = w_s'
+- ys phi', gy_c = g_y + zs phi', gz_c = g_z - ys phi':
   compression P, P/2 times v_c'^2 + w_c'^2 (J Eq. 7), and with Eq. 66
     + (gy_c^2 + gz_c^2)/5 + (Ip/A) (phi'^2 + g_w^2/5) - (ys^2 + zs^2) phi'^2/5
   moment Mz, -M times the second-order part of k_z, with phi_y = gz_c - w_c',
@@ -17,8 +17,8 @@ HALF_WAVES, NONE = 5, mpf(10) ** -30
 
 
 def _functionals(s, k, shear):
-    """Returns v_c', w_c', gy_c, gz_c, phi', g_w in terms of the amplitudes; only the first three amplitudes without
-    shear."""
+    """Returns v_c', w_c', gy_c, gz_c, phi', g_w as functions of the amplitudes. If the section is rigid in shear, there
+    are only the first three amplitudes."""
     rows = ([k, 0, s.zs * k, 0, 0, 0], [0, k, -s.ys * k, 0, 0, 0], [0, 0, s.zs * k, 1, 0, 0],
             [0, 0, -s.ys * k, 0, 1, 0], [0, 0, k, 0, 0, 0], [0, 0, 0, 0, 0, 1])
     return [[mpf(v) for v in row[:6 if shear else 3]] for row in rows]
@@ -44,7 +44,7 @@ def compression(s, k, shear, eq66):
 
 
 def moment(s, k, shear, eq66):
-    """Returns the prestress matrix of a unit moment Mz; phi phi_y' is a product of sines and has the opposite sign."""
+    """Returns the prestress matrix of a unit moment Mz. phi phi_y' is a product of sines and has the opposite sign."""
     _, w, _, gz, twist, gw = _functionals(s, k, shear)
     m = matrix(len(w), len(w))
     _product(m, -2, [a - b for a, b in zip(gz, w)], twist)
@@ -54,8 +54,8 @@ def moment(s, k, shear, eq66):
 
 
 def critical(s, length, shear, prestress, eq66):
-    """Returns the (largest negative, smallest positive) critical load over the half-waves; a load that does not exist
-    is None."""
+    """Returns the (largest negative, smallest positive) critical load over the half-waves. A load that does not exist is
+    None."""
     found = []
     for n in range(1, HALF_WAVES + 1):
         k = n * pi / length
@@ -66,10 +66,10 @@ def critical(s, length, shear, prestress, eq66):
 
 
 def pinned_square(length, side, young, shear_modulus, eq66):
-    """Returns Engesser's P = PE/(1 + PE/GA), with GA - P/5 for GA in Eq. 66 and N Eq. 37.
+    """Returns Engesser's P = PE/(1 + PE/GA), where GA - P/5 replaces GA for Eq. 66 and N Eq. 37.
 
-    Both ends of a short element rotate by -gamma relative to its chord, which Eq. 66 treats as bending: this adds
-    gamma^2/10 per unit length.
+    Both ends of a short element rotate by -gamma relative to its chord. Eq. 66 treats this rotation as bending, which
+    adds gamma^2/10 per unit length.
     """
     length, side, young, shear_modulus = (mpf(v) for v in (length, side, young, shear_modulus))
     euler = pi ** 2 * young * side ** 4 / 12 / length ** 2

@@ -1,7 +1,9 @@
-"""Derives every exact row and the rows from solids again, and compares them with reference/tables, reference/extremes and cases/examples.
+"""Derives every exact row and the rows from solids again, and compares them with reference/tables, reference/extremes and
+cases/examples.
 
-usage: rederive.py [--write] [--all] [PROGRAM...]     --write replaces the rows of the programs; review the diff.  Rows of scene files are
-printed. --all: every point of the solids (half an hour), not only the first points. Without CalculiX, the solids are skipped and named.
+usage: rederive.py [--write] [--all] [PROGRAM...]     --write replaces the rows of the programs; review the diff. Rows
+of scene files are printed. --all computes every point of the solids (half an hour), not only the first points. Without
+CalculiX, the solids are skipped and listed.
 """
 import csv
 import importlib
@@ -28,8 +30,8 @@ def read_table(path):
 
 
 def programs(names):
-    """Returns every module in this folder with a function rows(). Modules of solids, which need another program, are
-    returned as solids.NAME."""
+    """Returns every module in this folder with a function rows(). Modules of solids, which need another program, have
+    names solids.NAME."""
     here = ROOT / "reference" / "derive"
     found = sorted(".".join(p.relative_to(here).with_suffix("").parts) for p in here.rglob("*.py")
                    if "\ndef rows(" in p.read_text(encoding="utf-8"))
@@ -40,12 +42,12 @@ def programs(names):
 
 
 def folder_of(name):
-    """Returns the folder of a program's rows: its TABLES, or tables."""
+    """Returns the folder of the rows of a program: its TABLES, or tables."""
     return getattr(importlib.import_module(f"reference.derive.{name}"), "TABLES", FOLDERS[0])
 
 
 def as_text(value, relative):
-    """Returns the value as text with the digits that its relative uncertainty justifies."""
+    """Returns the value in text form with the digits that its relative uncertainty justifies."""
     from mpmath import mpf, nstr
     digits = DIGITS
     while digits > 4 and 10.0 ** (1 - digits) < relative / 5:
@@ -65,13 +67,14 @@ def kind_of(name):
 
 
 def confirms(name):
-    """Returns whether the stored rows have another source, so that the program only confirms their digits."""
+    """Returns True if the stored rows have another source, so that the program only confirms their digits."""
     return kind_of(name) == "consensus"
 
 
 def derived_rows(name, everything):
     """Returns the rows of a program, which yields (case, parameters, quantity, value, unit[, relative uncertainty[,
-    convention[, at[, formulation]]]]); with a formulation, the value is the limit that this formulation must have."""
+    convention[, at[, formulation]]]]). If a formulation is given, the value is the limit that this formulation must
+    have."""
     module = importlib.import_module(f"reference.derive.{name}")
     kind, model = kind_of(name), "other" if is_solid(name) else "same"
     for given in module.rows(everything) if is_solid(name) else module.rows():
@@ -126,8 +129,8 @@ def write(names):
 
 
 def differences(name, stored, seen, cases, everything):
-    """Returns (rows that agree, lines that describe differences, rows of cases that do not exist yet, largest
-    difference divided by the uncertainty) for one program."""
+    """Returns (rows that agree, lines that describe differences, rows of cases that do not exist yet, largest difference
+    divided by the uncertainty) for one program."""
     agree, lines, waiting, largest = 0, [], 0, 0.0
     for row, value in derived_rows(name, everything):
         folder = folder_of(name)
@@ -170,7 +173,8 @@ def read_stored():
 
 
 def compare(names, whole, everything):
-    """Returns the exit status. whole: all programs are run, so that a row which no program derives is detected."""
+    """Returns the exit status. `whole` is True if all programs are run, so that a row which no program derives is
+    detected."""
     stored, seen, agree, differ, cases = read_stored(), set(), 0, 0, read_defaults(
         ROOT / "reference" / "defaults.csv")
     for name in names:

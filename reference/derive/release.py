@@ -1,18 +1,18 @@
-"""Linear vibration of a cantilever that is deflected by a force at its tip and released: ratio of the tip deflection to
-that at t = 0.
+"""Linear vibration of a cantilever that is deflected by a force at its tip and released. The value is the ratio of the
+tip deflection to that at t = 0.
 
-Bernoulli's beam, L = EI = rho A = 1: 12 sum cos(l_n^2 t)/l_n^4 with 1 + cos(l) cosh(l) = 0.
+For the Euler-Bernoulli beam with L = EI = rho A = 1, the ratio is 12 sum cos(l_n^2 t)/l_n^4, where 1 + cos(l) cosh(l)
+= 0.
 
-With a body of mu times the beam's mass at the tip, where the response of the beam to a force is
-N/(l^3 D), N = sin(l) cosh(l) - cos(l) sinh(l), D = 1 + cos(l) cosh(l):
-  H = N/(l^3 D - mu l^4 N) at omega = l^2, poles and residues as below.
+Without a body, the response of this beam to a force is N/(l^3 D) with N = sin(l) cosh(l) - cos(l) sinh(l) and D = 1 +
+cos(l) cosh(l). With a body of mu times the mass of the beam at the tip, the response is
+  H = N/(l^3 D - mu l^4 N) at omega = l^2, with poles and residues as below.
 
-Timoshenko's beam with rotary inertia, y = (w, p, Q, M), Q = k G A (w' - p), M = E I p':
-  y' = A(omega^2) y:  Q' = -rho A omega^2 w,  M' = -Q - rho I omega^2 p;  w = p = 0 at the root, Q
-  = M = 0 at the tip.
-The tip's response to a force of frequency omega, H = w(L)/F, follows from exp(A L); its poles are
-the modes, and the residues r_n give the share of each mode in the response to a constant force, r_n/(omega_n^2 H(0)).
-All shares add up to one: the share of the modes beyond the last one is the uncertainty.
+For the Timoshenko beam with rotary inertia, y = (w, p, Q, M), Q = k G A (w' - p), M = E I p' and
+  y' = A(omega^2) y:  Q' = -rho A omega^2 w,  M' = -Q - rho I omega^2 p;  w = p = 0 at the root, Q = M = 0 at the tip.
+The response of the tip to a force of frequency omega, H = w(L)/F, is computed from exp(A L). The poles of H are the
+modes. The residues r_n give the share of each mode in the response to a constant force, r_n/(omega_n^2 H(0)). The sum
+of all shares is one, so the share of the modes beyond the last one is the uncertainty.
 """
 import numpy as np
 from mpmath import cos, cosh, diff, findroot, mp, mpf, pi, sin, sinh, tan, tanh
@@ -21,8 +21,8 @@ from scipy.optimize import brentq
 
 mp.dps = 30
 ANY = "integrator=*;step=*;tolerance=*"
-STATIC = 1e-9  # relative uncertainty of linear theory: an amplitude of 1e-5 of the length changes the geometry by
-               # 1e-10
+STATIC = 1e-9  # relative uncertainty of linear theory: an amplitude of 1e-5 of the length changes the
+               # geometry by 1e-10
 BERNOULLI_TIMES = ("0.25", "0.5", "1", "1.5", "1.75", "2", "5", "10")
 TIMOSHENKO_TIMES = ("0.001", "0.002", "0.005", "0.01", "0.02")
 JUDGED, JUDGED_AT = "0.001", "model=timoshenko;step=1e-5;time=0.001"  # a point that is used in verify
@@ -92,8 +92,8 @@ def _determinant(omega):
 
 
 def _answer(square):
-    """Returns the numerator and the determinant of H, times EI, and the derivative of the determinant with respect to
-    omega^2."""
+    """Returns the numerator and the determinant of H, multiplied by EI, and the derivative of the determinant with
+    respect to omega^2."""
     T, dT = _transfer(square)
     numerator = T[0, 2] * T[3, 3] - T[0, 3] * T[3, 2]
     slope = (dT[2, 2] * T[3, 3] + T[2, 2] * dT[3, 3] - dT[2, 3] * T[3, 2] - T[2, 3] * dT[3, 2])

@@ -1,13 +1,14 @@
-"""A rigid body that tumbles without forces: J = diag(1, 2, 3) kg m^2, body rates (0.5, 0.2, 2) rad/s and R = 1 at t = 0.
+"""A rigid body that tumbles without forces, with J = diag(1, 2, 3) kg m^2, body rates (0.5, 0.2, 2) rad/s and R = 1 at t
+= 0.
 
-Rates: with T the energy and L the angular momentum, L^2 > 2 T J2, so that
+Rates: the energy T and the angular momentum L satisfy L^2 > 2 T J2, so
   w1 = a1 cn, w2 = a2 sn, w3 = a3 dn of p t + u0, parameter m,
-a_i and p from T and L (E.T. Whittaker, Analytical Dynamics, 1904, chapter 6).  Orientation: with
-z along L, Euler's angles z x z have sin(theta) (sin(psi), cos(psi)) = (J1 w1, J2 w2)/L,
-cos(theta) = J3 w3/L, and the precession is the quadrature of
+where a_i and p are functions of T and L (E.T. Whittaker, Analytical Dynamics, 1904, chapter 6). Orientation: with z
+along L, Euler's angles z x z satisfy sin(theta) (sin(psi), cos(psi)) = (J1 w1, J2 w2)/L and cos(theta) = J3 w3/L. The
+precession is the integral of
   phi' = L (J1 w1^2 + J2 w2^2)/(J1^2 w1^2 + J2^2 w2^2).
-test/motion_test.py integrates the equations of motion instead.  Values are rounded to eight decimals, far below the
-error required of any integrator.
+For comparison, test/motion_test.py integrates the equations of motion. Values are rounded to eight decimals, far below
+the error required of any integrator.
 """
 from mpmath import atan2, cos, ellipf, ellipfun, matrix, mp, mpf, quad, sin, sqrt
 
@@ -65,7 +66,7 @@ def _precession(t):
 
 
 def orientation(t):
-    """Returns R [3 x 3], body to space, at t [s]."""
+    """Returns R [3 x 3], which maps body axes to space axes, at t [s]."""
     return matrix(_against_momentum(mpf(0))).T * _against_momentum(mpf(t))
 
 

@@ -1,13 +1,20 @@
-"""Free vibration of a cantilever in steady rotation: flap and lag for an axis normal to the beam, whirling for an axis along it.
+"""Free vibration of a cantilever in steady rotation: flap and lag for an axis normal to the beam, and whirling for an
+axis along the beam.
 
-Units: L = 1, EI = 1, rho A = 1; EA = s^2 with s the slenderness L/sqrt(I/A), the root at x = R.  No shear deformation, no rotary
-inertia. Equilibrium: stretch x' = 1 + N/EA, N' = -Omega^2 x: x = R cos kX + (1 + k R sin k) sin(kX)/(k cos k), k = Omega/s,
-hence the end stretch tan k/k - 1 + R (1/cos k - 1) and the force on the root s^2 (x'(0) - 1).
-Second order in w: 1/2 [N w'^2/x' + (w'/x')'^2]; flap: det(K - omega^2 M) = 0; lag adds -Omega^2 v and the Coriolis coupling with
-stretching, 2 Omega (u' v - u v').  s -> inf: w'''' - Omega^2/2 ((1 - X^2) w')' = omega^2 w, and lag^2 = flap^2 - Omega^2.
-Galerkin method with integrated Legendre polynomials; it converges spectrally to all digits.
-If the axis is along the beam, there is no stretch, and both planes have the modes of the beam at rest, omega_j and omega_j
-sqrt(ratio): lambda^4 + lambda^2 (a + b + 4 Omega^2) + a b = 0 with a = omega_j^2 - Omega^2, b = ratio omega_j^2 - Omega^2.
+L = 1, EI = 1 and rho A = 1. EA = s^2 with the slenderness s = L/sqrt(I/A), and the root is at x = R. Shear deformation
+and rotary inertia are neglected.
+
+Equilibrium: x' = 1 + N/EA and N' = -Omega^2 x give x = R cos kX + (1 + k R sin k) sin(kX)/(k cos k) with k = Omega/s.
+The elongation is tan k/k - 1 + R (1/cos k - 1), and the force on the root is s^2 (x'(0) - 1).
+
+Vibration: the energy of second order in w is 1/2 [N w'^2/x' + (w'/x')'^2]. Flap satisfies det(K - omega^2 M) = 0. Lag
+has the additional term -Omega^2 v and the Coriolis coupling with stretching, 2 Omega (u' v - u v'). For s -> inf,
+w'''' - Omega^2/2 ((1 - X^2) w')' = omega^2 w, and lag^2 = flap^2 - Omega^2. The Galerkin method with integrated
+Legendre polynomials converges spectrally to all digits.
+
+If the axis is along the beam, there is no stretch, and the two planes have the modes of the beam at rest, omega_j and
+omega_j sqrt(ratio). Then lambda^4 + lambda^2 (a + b + 4 Omega^2) + a b = 0 with a = omega_j^2 - Omega^2 and b = ratio
+omega_j^2 - Omega^2.
 """
 import numpy as np
 from mpmath import cos, cosh, findroot, mp, mpf, pi, sin, sqrt, tan
@@ -22,8 +29,8 @@ RELATIVE = 5e-12
 
 
 def _basis(times):
-    """Returns the values and derivatives at Gauss points of polynomials that vanish at 0, as do their first `times` -
-    1 derivatives."""
+    """Returns the values and derivatives at Gauss points of polynomials that vanish at 0, as do their first `times` - 1
+    derivatives."""
     points, weights = legendre.leggauss(2 * SIZE)
     fields = []
     for n in range(SIZE):
@@ -44,7 +51,7 @@ def matrices(omega, s, R=0):
     _, _, u = _basis(1)
     k = omega / s
     strain = (2 * np.sin(k * (1 - X) / 2) * np.sin(k * (1 + X) / 2) +
-              k * R * np.sin(k * (1 - X))) / np.cos(k)  # form without cancellation
+              k * R * np.sin(k * (1 - X))) / np.cos(k)  # a form without cancellation
     stretch, force = 1 + strain, s * s * strain
     slope = -k * (np.sin(k * X) + k * R * np.cos(k * (1 - X))) / np.cos(k)  # derivative of the stretch
     curvature = w[:, 2] / stretch - w[:, 1] * slope / stretch ** 2
@@ -61,15 +68,15 @@ def flap(omega, s, count=3, R=0):
 
 
 def lag(omega, s, count=3, R=0):
-    """Returns the lowest frequencies of u'' - 2 Omega v' + (K_u - Omega^2) u = 0, v'' + 2 Omega u' + (K - Omega^2) v =
-    0 (primes: time)."""
+    """Returns the lowest frequencies of u'' - 2 Omega v' + (K_u - Omega^2) u = 0, v'' + 2 Omega u' + (K - Omega^2) v = 0,
+    where primes are time derivatives."""
     K, M, Ku, Mu, C = matrices(omega, s, R)
     n = SIZE
     mass = np.block([[Mu, np.zeros((n, n))], [np.zeros((n, n)), M]])
     stiffness = np.block([[Ku - omega ** 2 * Mu, np.zeros((n, n))],
                           [np.zeros((n, n)), K - omega ** 2 * M]])
     gyroscopic = 2 * omega * np.block([[np.zeros((n, n)), -C], [C.T, np.zeros((n, n))]])
-    # With stiffness = L L^T and z = L^T x: (mu^2 + mu L^-1 G L^-T + L^-1 M L^-T) z = 0, mu = 1/(i omega), which is
+    # With stiffness = L L^T and z = L^T x, (mu^2 + mu L^-1 G L^-T + L^-1 M L^-T) z = 0 and mu = 1/(i omega). This form is
     # well conditioned for the lowest modes.
     inverse = np.linalg.inv(np.linalg.cholesky(stiffness))
     B = np.block([[np.zeros((2 * n, 2 * n)), np.eye(2 * n)],
@@ -91,7 +98,7 @@ def root_force(omega, s, R=0):
 
 
 def bending(count):
-    """Returns the natural frequencies of the cantilever at rest: cos(z) cosh(z) = -1, omega = z^2."""
+    """Returns the natural frequencies of the cantilever at rest: cos(z) cosh(z) = -1 and omega = z^2."""
     return [
         findroot(lambda z: cos(z) + 1 / cosh(z),
                  (j + mpf(1) / 2) * pi + (mpf("0.3") if j == 0 else 0)) ** 2 for j in range(count)
@@ -104,7 +111,7 @@ def whirl(omega, ratio, count):
     for rest in bending(count):
         a, b = rest ** 2 - mpf(omega) ** 2, ratio * rest ** 2 - mpf(omega) ** 2
         half = (a + b + 4 * mpf(omega) ** 2) / 2
-        large = half + sqrt(half ** 2 - a * b)  # lambda^2 = -large, -small
+        large = half + sqrt(half ** 2 - a * b)  # the roots lambda^2 are -large and -small
         small = a * b / large
         frequencies += [sqrt(large)] + ([sqrt(small)] if small > 0 else [])
         growth = max(growth, sqrt(-small) if small < 0 else mpf(0))

@@ -22,8 +22,8 @@ LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on",
 
 
 class Place:
-    """A node: its body, its support (if this is the support of the body), and its position [m] relative to the
-    reference point of the body."""
+    """A node: its body, its support (if this is the support of the body), and its position [m] relative to the reference
+    point of the body."""
 
     def __init__(self, body, support, offset):
         self.body, self.support, self.offset = body, support, np.array(offset)
@@ -72,11 +72,11 @@ def physics_of(scene):
 
 
 class SceneNetwork:
-    """The network of a scene. net: the Network; places: {name: Place}; motion: {name: function(level, numbers)} in SI
-    units; unknown: {motion: its number}."""
+    """The network of a scene. `net` is the Network, `places` is {name: Place}, `motion` is {name: function(level,
+    numbers)} in SI units, and `unknown` is {motion: its number}."""
 
     def __init__(self, scene, intervals, nodes, form=lambda beam: beam):
-        """form: replaces a beam by another beam, as in predicted.py."""
+        """`form` replaces a beam by another beam, as in predicted.py."""
         only(scene, "the scene", SCENE)
         self.scene, self.physics, self.form = scene, physics_of(scene), form
         self.places, self.numbers, self.extra, self.unknown, self.conditions_of = {}, 0, [], {}, []
@@ -214,7 +214,7 @@ class SceneNetwork:
         return table(numbers(entry["path"], where), numbers(entry["factor"], where))
 
     def weight(self, entry, where):
-        """Returns the weight of a body, a force at its centre."""
+        """Returns the weight of a body, which is a force at its centre of mass."""
         if entry["on"] not in self.scene["nodes"]:
             raise Refused(f"{where}: no node or member '{entry['on']}' in the deriving program")
         body = self.scene["nodes"][entry["on"]]
@@ -427,7 +427,7 @@ def whole(piece, members):
 
 
 def cut(scene):
-    """Returns an equivalent scene whose loads act on whole members; the scene itself if this is already the case."""
+    """Returns an equivalent scene whose loads act on whole members. Returns the scene itself if its loads already do."""
     loads = scene.get("loads", {})
     if not any(key in entry for entry in loads.values() for key in OF_PART):
         return scene

@@ -1,5 +1,5 @@
-"""States of the network of a scene (scene_network.py) and results: along a static path, in one linear step, and the
-response to small loads on a node.
+"""States and results of the network of a scene (scene_network.py): along a static path, in one linear step, and for small
+loads on a node.
 
 The path is followed from the undeformed state, in steps that are halved if Newton's method fails.
 """
@@ -96,8 +96,8 @@ def reaction(scene, name, component, level):
 
 
 def compliance(scene, level, entry, name):
-    """Returns the compliance C [6, 6] in SI units for dead forces and moments on a node. Released components of the
-    node are free, and their loads remain."""
+    """Returns the compliance C [6, 6] in SI units for dead forces and moments on a node. Released components of the node
+    are free, and their loads remain."""
     net, place = scene.net, scene.places[entry["node"]]
     if place.support is None:
         raise Refused(
@@ -154,8 +154,8 @@ def under(C, moment, convention, name):
 
 
 def linear(scene):
-    """Returns ({node: displacements and rotations [6]}, {member: resultants at its ends [2, 6]}) of one linear step
-    with all loads and motions at level 1."""
+    """Returns ({node: displacements and rotations [6]}, {member: resultants at its ends [2, 6]}) of one linear step with
+    all loads and motions at level 1."""
     supports = [place.support for place in scene.places.values() if place.support]
     for support in supports:
         if support.sequence or support.vector or any(callable(kind) for kind in support.kinds[3:]):
@@ -186,8 +186,8 @@ def linear_resultants(scene, m, step):
 
 
 def resultants(scene, name):
-    """Returns the resultants (N, Qy, Qz, Mx, My, Mz) [2, 6] at the ends of a member: the action of the part towards
-    its end on the part towards its start, in the axes of the rotated section [N, N m]."""
+    """Returns the resultants (N, Qy, Qz, Mx, My, Mz) [2, 6] at the ends of a member in N and N m. They are the action of
+    the part towards its end on the part towards its start, in the axes of the rotated section."""
     m, rows = scene.member[name], []
     for y in (m.y[0, 0], m.y[-1, -1]):
         p = m.p + (y[-6:] if m.beam.carries else 0.0)
@@ -204,9 +204,9 @@ def in_units(scene, load):
 # Frequencies of a scene about its undeformed state: L z = omega^2 M z for the bodies and for all members at their
 # Chebyshev points.
 #
-# The fields of a member are those of equilibrium.Vibration, z = (dy, dp). Its inertia is rho A, rho (Ip, Iy, Iz) and
-# rho Iw, of which Iy, Iz and Iw are included only with `rotary_inertia`. For a body, the external load, the loads of
-# the members' ends and omega^2 (m (u + theta x c), J theta) are in equilibrium.
+# The fields of a member are those of equilibrium.Vibration, z = (dy, dp). The inertia of a member is rho A, rho (Ip,
+# Iy, Iz) and rho Iw, of which Iy, Iz and Iw are included only with `rotary_inertia`. For a body, the external load, the
+# loads of the ends of members and omega^2 (m (u + theta x c), J theta) are in equilibrium.
 
 
 def inertia_of(scene, name):
@@ -219,7 +219,7 @@ def inertia_of(scene, name):
 
 
 def body_masses(scene, size):
-    """Returns -M of the bodies in their rows of equilibrium, for nodes with a mass; moments are about the origin."""
+    """Returns -M of the bodies in their rows of equilibrium, for nodes with a mass. Moments are about the origin."""
     out = np.zeros((size, size))
     for name, entry in scene.scene["nodes"].items():
         m = number(entry.get("mass", "0"), name) * scene.length / scene.force
@@ -281,8 +281,8 @@ def add_inside(out, v, at):
 
 
 def add_ends(out, v, at, row, shared):
-    """Adds the ends of a member: both follow their bodies, whose equilibrium includes the loads of the ends, and each
-    has a warping condition."""
+    """Adds the ends of a member. Both follow their bodies, whose equilibrium includes the loads of the ends, and each has
+    a warping condition."""
     m, f, n = v.m, v.fields, v.n
     for end, (body, sign) in enumerate(zip(m.bodies, (1.0, -1.0))):
         y, column = (m.y[0, 0], at) if end == 0 else (m.y[-1, -1], at + v.size - f)

@@ -1,10 +1,10 @@
 """Supports, drivers and loads of a body of a scene, as conditions of network.py.
 
 There are six conditions on the position x, the rotation R and the load of the members (f, and mu about the point of
-the body). If a component is free, f or mu
-is the applied load. Rotations are increments about fixed axes, each free or fixed; a rotation vector; or a sequence R = exp(a_1 t_1)
-exp(a_2 t_2) ..., whose free angles are numbers of the problem with mu . (axis of the rotation) = 0. A fork is the
-sequence (normal of the guides, web) with both angles free.
+the body). If a component is free, f or mu is the applied load. Rotations have one of three forms: increments about
+fixed axes, each free or fixed; a rotation vector; or a sequence R = exp(a_1 t_1) exp(a_2 t_2) .... The free angles of
+a sequence are numbers of the problem with mu . (axis of the rotation) = 0. A fork is the sequence (normal of the
+guides, web) with both angles free.
 """
 import numpy as np
 
@@ -15,7 +15,7 @@ WORDS = ("ux", "uy", "uz", "rx", "ry", "rz")
 
 
 def turn(axis, angle):
-    """Returns exp(axis angle); the angle may be complex."""
+    """Returns exp(axis angle). The angle may be complex."""
     A = cross_matrix(np.array(axis, dtype=float))
     return np.eye(3) + np.sin(angle) * A + (1 - np.cos(angle)) * (A @ A)
 
@@ -32,9 +32,9 @@ def rotation_vector(R):
 
 
 class Applied:
-    """A force or a moment on a body, in fixed axes or rotating with the body. arm: position of a force relative to the
-    point of the body; factor(level): factor of the load; stays: the load does not follow the body, as in linear
-    analysis."""
+    """A force or a moment on a body, in fixed axes or rotating with the body. `arm` is the position of a force relative
+    to the point of the body. factor(level) is the factor of the load. If `stays` is True, the load does not follow the
+    body, as in linear analysis."""
     stays = False
 
     def __init__(self, force, moment, arm, turns, factor):
@@ -50,9 +50,9 @@ class Applied:
 
 
 class Support:
-    """A support. kinds: FREE, HELD or a motion(level, numbers) for each of the six components (dimensionless);
-    sequence: [(axis, FREE, HELD or a motion)]; vector: three motions. A sequence or a vector replaces the last three
-    kinds, which are then HELD."""
+    """A support. `kinds` contains FREE, HELD or a motion(level, numbers) for each of the six components (dimensionless).
+    `sequence` is [(axis, FREE, HELD or a motion)], and `vector` contains three motions. A sequence or a vector
+    replaces the last three kinds, which are then HELD."""
 
     def __init__(self, place):
         self.place, self.kinds, self.sequence, self.vector = np.array(
@@ -84,8 +84,8 @@ class Support:
         return free, R
 
     def prescribed(self, level, numbers):
-        """Returns the rotation matrix if the rotation is fully prescribed (possibly by numbers of the problem),
-        otherwise None."""
+        """Returns the rotation matrix if the rotation is fully prescribed (possibly by numbers of the problem), otherwise
+        None."""
         if self.sequence is not None:
             return self._sequence(level, numbers)[1]
         if self.vector is not None:
@@ -111,12 +111,12 @@ class Support:
         return out
 
     def axes_now(self, level, numbers):
-        """Returns the axes of the free angles of a sequence, as rows."""
+        """Returns the axes of the free angles of a sequence, in rows."""
         return np.array([axis for axis, _ in self._sequence(level, numbers)[0]])
 
     def conditions(self, kept=None, axes=None):
-        """Returns the conditions. kept: {component: present load} of released components; axes: axes of the free
-        rotations, which remain fixed so that no moment rotates with them."""
+        """Returns the conditions. `kept` is {component: present load} of released components. `axes` are the axes of the
+        free rotations, which remain fixed so that no moment rotates with them."""
         kept = kept or {}
         across = None if axes is None else np.linalg.svd(axes)[2][len(axes):]
         kinds = [FREE if i in kept else kind for i, kind in enumerate(self.kinds)]
@@ -158,7 +158,7 @@ class Support:
 
     def path_dependent(self, R):
         """Returns the name of a rotation component whose increments are fixed or prescribed although the node rotates
-        about several axes, or None."""
+        about several axes. Returns None if there is no such component."""
         kinds = self.kinds[3:]
         if FREE not in kinds or kinds == [FREE] * 3:
             return None
@@ -172,16 +172,16 @@ class Support:
 
 # End release of a member: a joint (network.py) between the end and its node.
 #
-# The end is at r + R rho + R_end s, R_end = R exp(a_1 t_1) exp(a_2 t_2) with the node's body r, R; three rotations
-# have no order, and R_end is free. s: translations along the rotated end. No load does work on the released motions:
-# the moment about the joint, mu + (R_end s) x f, vanishes along the axes of the rotations, and f along the
-# translations.
+# The end is at r + R rho + R_end s, where R_end = R exp(a_1 t_1) exp(a_2 t_2), and r and R belong to the body of the
+# node. If three rotations are released, they have no order, and R_end is free. s contains the translations along the
+# rotated end. No load does work on the released motions: the moment about the joint, mu + (R_end s) x f, vanishes along
+# the axes of the rotations, and f along the translations.
 
 
 class Release:
-    """A release. words: components in their order; axes: columns are the axes of the end; at: position of the node
-    relative to the point of its body (dimensionless); new_number(): adds a number to the problem, one for each
-    component except for three rotations."""
+    """A release. `words` are the components in their order. The columns of `axes` are the axes of the end. `at` is the
+    position of the node relative to the point of its body (dimensionless). new_number() adds a number to the problem,
+    one for each component except for three rotations."""
 
     def __init__(self, words, axes, at, new_number):
         components = [WORDS.index(word) for word in words]
@@ -191,7 +191,7 @@ class Release:
         self.slides = [(axes[:, i], new_number()) for i in components if i < 3]
 
     def _axes(self, R, numbers):
-        """Returns the present axes of the rotations, and the rotation of the end. R: rotation of the node."""
+        """Returns the present axes of the rotations, and the rotation of the end. R is the rotation of the node."""
         out = []
         for axis, k in self.turns:
             out.append(R @ axis)

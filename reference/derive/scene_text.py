@@ -1,6 +1,6 @@
-"""Reads a scene as `beamwork scene` writes it, with loops and expressions expanded: text and numbers.
+"""Reads a scene in the form that `beamwork scene` writes, with loops and expressions expanded.
 
-Entries that the program does not support are rejected in one line that names them, and never ignored.
+Entries that the program does not support are rejected by name in one line. They are never ignored.
 """
 import math
 
@@ -17,7 +17,7 @@ class Refused(Exception):
 
 
 def read(text):
-    """Returns the scene as nested dictionaries and lists of words."""
+    """Returns the scene in the form of nested dictionaries and lists of words."""
     try:
         scene = yaml.load(text, Loader=yaml.BaseLoader)
     except yaml.YAMLError as error:
@@ -72,12 +72,17 @@ def table(path, value):
 
 # The beam (beam.py) of a section of a scene, with the physics that the scene does not omit.
 #
-# A fibre rotates about the shear centre: the trapeze term contains ys^2 + zs^2, and the Wagner moments contain -2 ys
-# and -2 zs, if the shear centre is not at the centroid; Ip/A only with `trapeze`, int y (y^2 + z^2) dA and int z (y^2
-# + z^2) dA only with `wagner_moments`. Rectangle: EIw by Saint-Venant's series (warping_constant), 1/F = k A with k =
-# 5/6 if not given, and then also 5/6 of the warping shear; c = (w^5 t + w t^5)/1440 = 1/8 (int r^4 dA - Ip^2/A).
-# Walls: c = 1/8 (int r^4 dA - Ip^2/A - wagner_y^2/Iz - wagner_z^2/Iy), r^2 = y^2 + z^2 (section.py). Ring of radii R >
-# r: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m = r/R (Renton 1991; Cowper 1966 at nu = 0), c = 1/8 int (r^2 - Ip/A)^2 dA.
+# A fibre rotates about the shear centre. Therefore, if the shear centre is not at the centroid, the trapeze term
+# contains ys^2 + zs^2, and the Wagner moments contain -2 ys and -2 zs. Ip/A is included only with `trapeze`. int y (y^2
+# + z^2) dA and int z (y^2 + z^2) dA are included only with `wagner_moments`.
+#
+# Rectangle: EIw is computed from Saint-Venant's series (warping_constant). 1/F = k A; if k is not given, k = 5/6, and
+# the warping shear has the factor 5/6. c = (w^5 t + w t^5)/1440 = 1/8 (int r^4 dA - Ip^2/A).
+#
+# Walls: c = 1/8 (int r^4 dA - Ip^2/A - wagner_y^2/Iz - wagner_z^2/Iy) with r^2 = y^2 + z^2 (section.py).
+#
+# Ring with radii R > r: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2 with m = r/R (Renton 1991; Cowper 1966 at nu = 0), and c = 1/8
+# int (r^2 - Ip/A)^2 dA.
 
 MATERIAL = ("young", "shear_modulus", "density", "given")
 OVERRIDES = ("Iw", "ys", "zs", "It", "Ip", "wagner_torque")
@@ -87,8 +92,8 @@ PLACES = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
 class Constants:
-    """Constants of a section. A, Iy, ...: in SI units; F [3, 3]: shear flexibilities times G; turned: angle [rad] from
-    the y axis of the description to the principal y axis."""
+    """Constants of a section. A, Iy, ... are in SI units. F [3, 3] are shear flexibilities times G. `turned` is the angle
+    [rad] from the y axis of the description to the principal y axis."""
 
     def __init__(self, **values):
         for name in NAMES:
@@ -98,7 +103,7 @@ class Constants:
 
 
 def warping_constant(wide, thin):
-    """Returns int omega^2 dA, omega = y z + sum C_n sin(k_n y) sinh(k_n z) with stress-free sides, by integration over
+    """Returns int omega^2 dA with omega = y z + sum C_n sin(k_n y) sinh(k_n z) and stress-free sides, by integration over
     the area."""
     a, b = mp.mpf(thin) / 2, mp.mpf(wide) / 2
     ks = [(2*n + 1) * mp.pi / 2 / a for n in range(60)]
@@ -184,7 +189,7 @@ def constants(entry, where):
 
 
 def inverse(matrix):
-    """Returns the inverse of the nonzero part; rows and columns that are zero (rigid) remain zero."""
+    """Returns the inverse of the nonzero part. Rows and columns that are zero (rigid) remain zero."""
     out, some = np.zeros((3, 3)), [i for i in range(3) if matrix[i, i] != 0]
     out[np.ix_(some, some)] = np.linalg.inv(matrix[np.ix_(some, some)])
     return out
@@ -213,8 +218,7 @@ def constants_of(entry, where):
 
 
 def beam(entry, physics, length, curvature, where):
-    """Returns (Beam, constants) of a member with this length [m] and curvature [1/m] about the z axis of the
-    section."""
+    """Returns (Beam, constants) of a member with this length [m] and curvature [1/m] about the z axis of the section."""
     s = constants_of(entry, where)
     E, G = number(entry["young"], where), number(entry["shear_modulus"], where)
     if s.It == 0 and s.Iw == 0:

@@ -1,12 +1,15 @@
-"""Derives the modified modes of a second-order beam from the Simo-Reissner beam, and compares them with J Eq. 66 and N Eq. 37.
+"""Derives the modified modes of a second-order beam from the Simo-Reissner beam, and compares them with J Eq. 66 and N
+Eq. 37.
 
 usage: second_order.py      prints the comparisons, which reference/test/second_order_test.py uses
 
-r' = R (e_x + gamma), kappa~ = R^T R', R = exp(phi~) relative to axes in the middle of the element. With stresses in equilibrium to
-first order, the second-order strains enter through the weighted integrals
-  e1 = int gx, e2 = L int kx, e3 = int [(L-s) ky - gz], e4 = int [s ky + gz], e5 = int [(L-s) kz + gy], e6 = int [s kz - gy]
-over the linear solution.  All results are quadratic forms in few variables with rational coefficients. They are evaluated exactly, in
-fractions, for every e_i + e_j, which determines them.  Series are truncated after the second power.
+r' = R (e_x + gamma), kappa~ = R^T R', and R = exp(phi~) relative to axes in the middle of the element. If stresses are
+in equilibrium to first order, the second-order strains contribute only through the weighted integrals
+  e1 = int gx, e2 = L int kx, e3 = int [(L-s) ky - gz], e4 = int [s ky + gz], e5 = int [(L-s) kz + gy], e6 = int [s kz
+  - gy]
+over the linear solution.  All results are quadratic forms in few variables with rational coefficients. Exact
+evaluation in fractions for every e_i + e_j determines these coefficients.  Series are truncated after the second
+power.
 """
 import itertools
 from fractions import Fraction as Q
@@ -64,7 +67,7 @@ def about(axis, angle):
 
 
 def screw(q):
-    """Returns e1 .. e6 of the screw displacement (elements/beamw/screw.h) as series in N's local coordinates q, N Eqs.
+    """Returns e1 .. e6 of the screw displacement (elements/beamw/screw.h) as series in the local coordinates q of N Eqs.
     40, 42."""
     p_triad = about(1, q["yp"]) @ about(2, q["zp"])
     q_triad = about(1, q["yq"]) @ about(2, q["zq"]) @ about(0, q["px"])
@@ -87,7 +90,7 @@ def jonker(q):
 
 
 def newton_cotes(points=9):
-    """Returns rational points in [0, 1] and weights, exact for polynomials of degree points - 1."""
+    """Returns rational points in [0, 1] and weights, which are exact for polynomials of degree points - 1."""
     x = [Q(k, points - 1) for k in range(points)]
     rows = [[xi ** n for xi in x] + [Q(1, n + 1)] for n in range(points)]
     for i in range(points):
@@ -104,8 +107,8 @@ POINTS = newton_cotes()
 
 
 def simo_reissner(e, hg, g, tw, c, centre=(Q(0), Q(0)), trapeze=Q(0)):
-    """Returns the quadratic parts of e1bar .. e6bar for e of the screw. hg, g: antisymmetric deformation in bending
-    and in shear (y, z)."""
+    """Returns the quadratic parts of e1bar .. e6bar for e of the screw. hg and g are the antisymmetric deformations in
+    bending and in shear (y, z)."""
     ys, zs = centre
     A = (e[6] - e[7]) / 2
     mean = [e[1] / L, (e[2] + e[3]) / L, (e[4] + e[5]) / L]
@@ -130,7 +133,7 @@ def simo_reissner(e, hg, g, tw, c, centre=(Q(0), Q(0)), trapeze=Q(0)):
         parts = (gamma[0], L * kappa[0], to_q * kappa[1] - gamma[2], from_p * kappa[1] + gamma[2], to_q * kappa[2] + gamma[1],
                  from_p * kappa[2] - gamma[1])
         total = [t + weight * L * part for t, part in zip(total, parts)]
-    m, share = mean, L / 24  # the part contained in the screw itself: -1/24 psi x (psi x U)
+    m, share = mean, L / 24  # the part contained in the screw: -1/24 psi x (psi x U)
     return [total[0] - share * (m[1] ** 2 + m[2] ** 2), total[1], total[2] - share * m[0] * m[2], total[3] + share * m[0] * m[2],
             total[4] + share * m[0] * m[1], total[5] - share * m[0] * m[1]]
 
@@ -168,8 +171,8 @@ def eq66(e):
 
 
 def all_modes(e, hg, g, tw, c, centre, trapeze=Q(0)):
-    """Returns the corrected J Eq. 66 for the strains e of J, for any shear flexibility and shear centre. c = 0:
-    Engesser, as in J; c = 1: Haringx (Simo-Reissner)."""
+    """Returns the corrected J Eq. 66 for the strains e of J, for any shear flexibility and shear centre. c = 0 is
+    Engesser's theory, as in J, and c = 1 is Haringx's theory (Simo-Reissner)."""
     ys, zs = centre
     e1, e2, e3, e4, e5, e6, e7, e8 = e
     A = (e7 - e8) / 2
@@ -200,8 +203,8 @@ def strains(q):
 
 
 def against_sheet():
-    """Returns the differences of e1 .. e6 of N with shear from those derived here, for u = 0, and the differences with
-    u, which are due to the factor l/l0 in the shear strain."""
+    """Returns the differences of e1 .. e6 of N with shear from those derived here, for u = 0. Returns the differences
+    with u, which are due to the factor l/l0 in the shear strain."""
     Phi = (Q(7, 5), Q(3, 8))
     inner, outer = [], []
     for q in directions():
@@ -212,7 +215,7 @@ def against_sheet():
         theirs = nijenhuis(q, Phi)
         gap = [s.c[2] + o - n for s, o, n in zip(screw(q), ours, theirs)]
         (inner if q["u"] == 0 else outer).append((q, gap, [q["u"] * (a - b) for a, b in zip(h, hg)]))
-    # The shear strains derived here have the factor 1 + u/L; those of N do not.
+    # the shear strains derived here have the factor 1 + u/L; those of N do not
     stretched = [[x - y for x, y in zip(gap, (0, 0, -g[1], g[1], g[0], -g[0]))] for _, gap, g in outer]
     return [gap for _, gap, _ in inner], stretched
 
@@ -228,15 +231,15 @@ def against_eq66():
 
 
 def against_all_modes():
-    """Returns the differences from all_modes for arbitrary shear, shear centre and trapeze term; hg, g and tw are
-    varied as independent variables."""
+    """Returns the differences from all_modes for arbitrary shear, shear centre and trapeze term. hg, g and tw are varied
+    as independent variables."""
     centre, trapeze, gaps = (Q(2, 7), Q(-5, 9)), Q(4, 17), []
     extra = (("hy", Q(3, 5)), ("hz", Q(-2, 3)), ("gy", Q(5, 8)), ("gz", Q(-7, 9)), ("tw", Q(8, 5)))
     for pair, c in itertools.product(itertools.combinations_with_replacement(("px", "bend_y", "bend_z", "Wp", "Wq") + tuple(n for n, _ in extra), 2), (0, 1)):
         on = {n: Q(int(n in pair)) for n in ("px", "bend_y", "bend_z", "Wp", "Wq")}
         value = {n: v if n in pair else Q(0) for n, v in extra}
         e2 = on["px"] * Q(5, 3)
-        # the antisymmetric bending follows from hg and g: e5 - e6 = 2 L (hg_y + g_y) + 2 zs e2/L, and likewise for z
+        # hg and g determine the antisymmetric bending: e5 - e6 = 2 L (hg_y + g_y) + 2 zs e2/L, and similarly for z
         dz = 2 * L * (value["hy"] + value["gy"]) + 2 * centre[1] * e2 / L
         dy = 2 * L * (value["hz"] + value["gz"]) - 2 * centre[0] * e2 / L
         sy, sz = on["bend_y"] * Q(7, 4), on["bend_z"] * Q(-3, 5)

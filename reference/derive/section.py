@@ -1,8 +1,8 @@
 """Computes the constants of an open thin-walled section from its mid-line, in extended precision.
 
-Straight walls (i, j, t) between points (y, z); forming a tree. Afterwards, axes are centroidal and principal.  Shear
-rigidities by shear flow: F_ij = 1/(I_i I_j) sum int S_i S_j/t ds with I = (Iz, Iy, Iw) (J Eq. 27), S the first moments
-of y, z, omega.
+Straight walls (i, j, t) between points (y, z) form a tree. The resulting axes are centroidal and principal. The shear
+rigidities are computed from the shear flow: F_ij = 1/(I_i I_j) sum int S_i S_j/t ds with I = (Iz, Iy, Iw) (J Eq. 27),
+where S are the first moments of y, z, omega.
 """
 from mpmath import mp, mpf, matrix, atan2, cos, sin, sqrt
 
@@ -12,14 +12,14 @@ class Section:
 
 
 def _integrate(f):
-    """Returns the integral by three-point Gauss quadrature on [0, 1], which is exact for the polynomials of degree
-    five that occur."""
+    """Returns the integral by three-point Gauss quadrature on [0, 1], which is exact for the polynomials of degree five
+    that occur."""
     a = sqrt(mpf(3) / 5) / 2
     return (5 * f(mpf(1) / 2 - a) + 8 * f(mpf(1) / 2) + 5 * f(mpf(1) / 2 + a)) / 18
 
 
 def _leaf_first(walls, points):
-    """Returns the walls ordered from the free ends to the root, each as (outer point, inner point, thickness)."""
+    """Returns the walls, each as (outer point, inner point, thickness), ordered from the free ends to the root."""
     left, order = list(walls), []
     degree = [sum(p in w[:2] for w in walls) for p in range(points)]
     while left:
@@ -83,14 +83,13 @@ def section(points, walls):
     out.zs = -area_integral(lambda i, j, s: at(omega, i, j, s) * at(y, i, j, s)) / out.Iz
     omega = sectorial(out.ys, out.zs)
     out.Iw = area_integral(lambda i, j, s: at(omega, i, j, s) ** 2)
-    if out.Iw < mpf(10) ** -25 * out.Iy * out.Iz / out.A:  # all walls meet in one point
+    if out.Iw < mpf(10) ** -25 * out.Iy * out.Iz / out.A:  # true if all walls meet in one point
         out.Iw = mpf(0)
     out.wagner_y = area_integral(lambda i, j, s: at(y, i, j, s) *
                                  (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
     out.wagner_z = area_integral(lambda i, j, s: at(z, i, j, s) *
                                  (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
-    # Energy E c kx^4 per length due to twist with free shortening and bending; the elongation of a fibre is r^2
-    # kx^2/2.
+    # energy E c kx^4 per length due to twist with free shortening and bending; the elongation of a fibre is r^2 kx^2/2
     quartic = area_integral(lambda i, j, s: (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2) ** 2)
     out.wagner_torque = (quartic - out.Ip ** 2 / out.A - out.wagner_y ** 2 / out.Iz -
                          out.wagner_z ** 2 / out.Iy) / 8

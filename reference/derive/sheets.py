@@ -1,8 +1,9 @@
 """The sheet flexure with prescribed tip motion: reactions, and the compliance matrix of its tip.
 
-The moment m of the reaction follows a convention as the tip rotates by theta: spatial, dead about fixed axes (as in the
-network's response); semitangential, m + theta x m/2, whose stiffness is the spatial one plus m~/2 on the rotations;
-symmetrised, the symmetric part of the spatial stiffness, which is the same matrix if the beam has a potential.
+The moment m of the reaction follows a convention as the tip rotates by theta. A spatial moment is dead about fixed
+axes, as in the response of the network. A semitangential moment becomes m + theta x m/2, and its stiffness is the
+spatial stiffness plus m~/2 on the rotations. The symmetrised stiffness is the symmetric part of the spatial stiffness,
+which equals the semitangential stiffness if the beam has a potential.
 """
 import math
 
@@ -51,8 +52,8 @@ def parameters(given):
 
 
 def clamped_sheet(value, conditions, form=lambda beam: beam):
-    """Returns the network of one sheet whose tip satisfies the conditions. value: all parameters; form: see
-    deflected."""
+    """Returns the network of one sheet whose tip satisfies the conditions. `value` contains all parameters. `form` is
+    explained at `deflected`."""
     beam = form(sheet(**value))
     net = Network(beam.length,
                   beam.EIz / beam.length ** 2,
@@ -66,7 +67,7 @@ def clamped_sheet(value, conditions, form=lambda beam: beam):
 
 
 def under_convention(C, moment, convention):
-    """Returns the compliance [6, 6] under another convention, from the compliance for spatial moments. moment: [3] in
+    """Returns the compliance [6, 6] under another convention, from the compliance for spatial moments. `moment` [3] is in
     N m."""
     K = np.linalg.inv(C)
     if convention == "semitangential":
@@ -103,8 +104,8 @@ def quantities(case, given, net, tip, entries):
 
 
 def deflected(given, form=lambda beam: beam):
-    """Returns (network, tip) of sheet_cantilever, with u_y of the tip prescribed, no rotation about z, and all other
-    components free. form: replaces the beam by another beam, as in predicted.py."""
+    """Returns (network, tip) of sheet_cantilever. u_y of the tip is prescribed, the rotation about z is zero, and all
+    other components are free. `form` replaces the beam by another beam, as in predicted.py."""
     value = {**defaults.values("sheet_cantilever"), **given}
     deflection = value["tip_deflection"] / value["length"]
 
@@ -122,8 +123,8 @@ def cantilever(form=lambda beam: beam, **given):
 
 
 def twisted(form=lambda beam: beam, **given):
-    """Returns (network, tip) of sheet_wagner, with R = Ry Rz Rx and phi_y free, so that the moment about the fixed y
-    axis is zero."""
+    """Returns (network, tip) of sheet_wagner, with R = Ry Rz Rx and phi_y free, so that the moment about the fixed y axis
+    is zero."""
     value = {**defaults.values("sheet_wagner"), **given}
     phi_x, phi_z, deflection = value["tip_phi_x"], value[
         "tip_phi_z"], value["tip_deflection"] / value["length"]

@@ -1,4 +1,5 @@
-"""Frame of von Mises: two hinged bars of EA = 1 N and L = 1 m, N = EA (1 - l/L); closed forms of its limit points and forces."""
+"""Von Mises truss: two hinged bars of EA = 1 N and L = 1 m with N = EA (1 - l/L). The limit points and forces are closed
+forms."""
 from mpmath import acos, atan, cos, mp, mpf, sin, sqrt, tan
 
 from reference.derive import defaults

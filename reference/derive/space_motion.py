@@ -1,15 +1,15 @@
-"""Rods moving in space, the thrown rod and the elbow: confirms values of other programs.
+"""Rods moving in space, the thrown rod and the elbow. The program confirms values of other programs.
 
-Intrinsic equations (D.H. Hodges, Journal of Guidance, Control and Dynamics 26 (2003) 131): the unknowns are velocities
-v, w and strains g, k in the axes of the section, without displacements or rotations; with
-t the tangent at rest, e = t + g, F and M the forces of the strains,
+The intrinsic equations (D.H. Hodges, Journal of Guidance, Control and Dynamics 26 (2003) 131) have the velocities v, w
+and the strains g, k in the axes of the section as unknowns, without displacements or rotations. With the tangent t at
+rest, e = t + g, and the forces F and moments M of the strains, the equations are
   m v' + w x m v = F_s + k x F,  J w' + w x J w = M_s + k x M + e x F,
   g' = v_s + k x v + e x w,      k' = w_s + k x w.
-At rest, the section axes are the space axes.  Velocities are polynomials in Lobatto's points, whose quadrature makes
-the mass diagonal, strains are values in Gauss's points, one fewer: products that cancel in the power cancel at each
-point, so that the energy of the rod changes only by the work of the loads. Positions and quaternions of nodes follow
-by integration in time.  Time: the explicit
-Runge-Kutta method of order 8 by Dormand and Prince, restarted at kinks of the load.
+At rest, the section axes are the space axes. Velocities are polynomials with values at the Lobatto points, whose
+quadrature makes the mass diagonal. Strains are values at the Gauss points, of which there is one fewer. Products that
+cancel in the power cancel at each point, so the energy of the rod changes only by the work of the loads. Positions and
+quaternions of nodes are integrated in time. The time integration uses the explicit Runge-Kutta method of order 8 by
+Dormand and Prince, restarted at slope discontinuities of the load.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -30,9 +30,9 @@ ELBOW_TIMES = ("1", "2")  # only the first of the stored times, because axial wa
 
 @dataclass(frozen=True)
 class Rod:
-    """A rod from `start` along legs of equal length; EA = GA = force, EI = GJ = moment; mass [kg/m], rotary inertia
-    about axes across and along the rod [kg m]; a load at the end of a leg in space axes, whose force and moment are
-    functions of time with kinks."""
+    """A rod from `start` along legs of equal length, with EA = GA = force and EI = GJ = moment. It has a mass [kg/m] and
+    a rotary inertia about axes across and along the rod [kg m]. The load at the end of a leg is in space axes; its
+    force and moment are functions of time with slope discontinuities."""
     start: tuple
     legs: tuple
     force: float
@@ -93,7 +93,7 @@ def _each(tensors, vectors):
 
 
 class Mesh:
-    """A rod with elements on each leg. U [6, nodes]: velocities; S [6, points]: strains."""
+    """A rod with elements on each leg. U [6, nodes] are velocities, and S [6, points] are strains."""
 
     def __init__(self, rod, elements, degree):
         self.rod, legs = rod, np.array(rod.legs, float)
@@ -123,7 +123,7 @@ class Mesh:
         return np.concatenate([self.rod.force * S[:3], self.rod.moment * S[3:]])
 
     def rates(self, U, S, load):
-        """Returns (U', S'); load [6, nodes] in section axes."""
+        """Returns (U', S'). `load` [6, nodes] is in section axes."""
         both = U @ self.up
         rate, here = both[:, :self.points], both[:, self.points:]
         e, k, N = self.tangent + S[:3], S[3:], self.forces(S)
@@ -150,7 +150,7 @@ class Mesh:
 
 
 def move(mesh, times, method="DOP853", tolerance=1e-9):
-    """Returns at each time (U, S, r, q): r [3, ends] and q [4, ends] of the start and the ends of legs."""
+    """Returns (U, S, r, q) at each time, where r [3, ends] and q [4, ends] belong to the start and the ends of legs."""
     n, m, ends, rod = mesh.nodes, mesh.points, mesh.ends, mesh.rod
     sizes = np.cumsum([6 * n, 6 * m, 3 * len(ends)])
 
@@ -179,7 +179,7 @@ def move(mesh, times, method="DOP853", tolerance=1e-9):
 
 
 def run(rod, elements, degree, times):
-    """Returns, at each time, the positions x, y, z of the start and of the ends of the legs, and the energy."""
+    """Returns the positions x, y, z of the start and of the ends of the legs, and the energy, at each time."""
     mesh = Mesh(rod, elements, degree)
     return np.array([[*r.T.ravel(), mesh.energy(U, S)]
                      for U, S, r, _ in move(mesh, [float(t) for t in times])])

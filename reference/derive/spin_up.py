@@ -1,6 +1,6 @@
-"""The steady stretch of the rod of spin_up at 6 rad/s: EA x'' = -rho A Omega^2 x, x(0) = 0, x'(L) = 1, so that x = sin(k
-X)/(k cos(k L)), k = Omega sqrt(rho A/EA), and the stretch is tan(k L)/k - L (6.2e-5 more than the first-order value
-rho A Omega^2 L^3/(3 EA)).
+"""The steady stretch of the rod of spin_up at 6 rad/s. EA x'' = -rho A Omega^2 x, x(0) = 0 and x'(L) = 1 give x = sin(k
+X)/(k cos(k L)) with k = Omega sqrt(rho A/EA). The stretch is tan(k L)/k - L, which is 6.2e-5 more than the first-order
+value rho A Omega^2 L^3/(3 EA).
 """
 from mpmath import mp, mpf, sqrt, tan
 

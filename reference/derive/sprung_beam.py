@@ -1,8 +1,10 @@
-"""Beams on rotational springs of stiffness k EI/L; L = 1, EI = 1, rho A = 1, no shear deformation, no rotary inertia.
+"""Beams on rotational springs of stiffness k EI/L, with L = 1, EI = 1 and rho A = 1. Shear deformation and rotary inertia
+are neglected.
 
-Two supports with equal springs, force 1 in the middle: the end moment is M = k/(8 (2 + k)), w = 1/48 - M/8.
-Buckling and vibration, symmetric: w'' = -+k w' at the ends: tan u = -2 u/k with P = 4 u^2, tan u + tanh u = -4 u/k with omega = 4 u^2.
-One support, moment m at the end: the spring rotates by m/k (a rotation of less than 3 rad), and the beam is an arc of the angle m.
+Two supports with equal springs and a force 1 in the middle: the end moment is M = k/(8 (2 + k)), and w = 1/48 - M/8.
+Symmetric buckling and vibration: w'' = -+k w' at the ends gives tan u = -2 u/k with P = 4 u^2, and tan u + tanh u = -4
+u/k with omega = 4 u^2. One support and a moment m at the end: the spring rotates by m/k, less than 3 rad, and the beam
+is an arc of the angle m.
 """
 from mpmath import cos, findroot, mp, mpf, pi, sin, tanh
 

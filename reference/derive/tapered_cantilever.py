@@ -1,12 +1,15 @@
-"""A cantilever whose section changes linearly: displacements by integrals over its flexibility, Kirchhoff's wedge, a column with Iz ~ x^3.
+"""A cantilever whose section changes linearly: displacements by integrals over its flexibility, Kirchhoff's wedge, and a
+column with Iz ~ x^3.
 
-Statics: at x, the forces at the tip cause N, Q, M in the principal axes of the section there; the displacement along a load P_i is int sum
-of (stress resultant) (the same of P_i = 1) (flexibility) dx, torsion about the shear centre, Mx - ys Qz + zs Qy.  The I-section warps: (EIw
-a')' - GIt a + T = 0 with a(0) = 0, a'(1) = 0 and twist int a dx, by collocation at the Chebyshev points.
-Waves of the wedge, at the distance s from where its thickness vanishes, of the section I1 s^3, A1 s:
+Statics: the forces at the tip cause N, Q, M in the principal axes of the section at x. The displacement along a load
+P_i is the integral over x of the sum of (stress resultant) (stress resultant for P_i = 1) (flexibility). Torsion is
+about the shear centre, Mx - ys Qz + zs Qy. The I-section warps: (EIw a')' - GIt a + T = 0 with a(0) = 0 and a'(1) = 0,
+solved by collocation at the Chebyshev points. The twist is int a dx.
+
+Waves of the wedge with the section I1 s^3, A1 s, at the distance s from the point where its thickness vanishes:
     buckling    E I1 s^3 w'' + P w = 0            w = sqrt(s) Z1(2 q/sqrt(s)),           q^2 = P/(E I1)
-    bending     E I1 (s^3 w'')'' = omega^2 rho A1 s w     w = Z1(2 b sqrt(s))/sqrt(s), I1 and K1 too (Kirchhoff 1879), b^4 = omega^2 rho
-    A1/(E I1)
+    bending     E I1 (s^3 w'')'' = omega^2 rho A1 s w     w = Z1(2 b sqrt(s))/sqrt(s),
+    where Z includes I1 and K1 (Kirchhoff 1879), b^4 = omega^2 rho A1/(E I1)
 """
 from mpmath import besseli, besselj, besselk, bessely, cos, det, findroot, lu_solve, matrix, mp, mpf, pi, quad, sin, sqrt, tanh
 
@@ -31,8 +34,8 @@ def rectangle_torsion(a, b):
 
 
 class At:
-    """Constants of the section at x: A, It, Iw, and flexibilities and shear centre in principal axes, which are
-    rotated by beta."""
+    """Constants of the section at x: A, It, Iw, and flexibilities and shear centre in principal axes, which are rotated
+    by beta."""
 
     def __init__(self, form, ratio, x):
         size = 1 + x * (ratio - 1)
@@ -55,8 +58,8 @@ class At:
 
 
 def resultants(at, x, load):
-    """Returns N, Qy, Qz, the torque about the shear centre, My, Mz in principal axes, due to (Fx, Fy, Fz, Mx, My, Mz)
-    at the tip."""
+    """Returns N, Qy, Qz, the torque about the shear centre, My, Mz in principal axes, due to (Fx, Fy, Fz, Mx, My, Mz) at
+    the tip."""
     fx, fy, fz, mx, my, mz = load
     arm = 1 - x
     my, mz = my - arm * fz, mz + arm * fy
@@ -83,8 +86,8 @@ def displacement(form, ratio, shear, row):
 
 
 def chebyshev(n):
-    """Returns points on [0, 1] and the matrix of the derivative there (Trefethen, Spectral Methods in MATLAB, chapter
-    6)."""
+    """Returns points on [0, 1] and the matrix of the derivative at these points (Trefethen, Spectral Methods in MATLAB,
+    chapter 6)."""
     x = [(1 - cos(pi * j / n)) / 2 for j in range(n + 1)]
     weight = [(-1) ** j * (mpf(2) if j in (0, n) else mpf(1)) for j in range(n + 1)]
     D = matrix(n + 1, n + 1)
@@ -107,7 +110,7 @@ def twist_of_i(ratio, n=30):
         A[0, j], A[n, j] = mpf(j == 0), D[n, j]
     T[0] = T[n] = 0
     a = lu_solve(A, T)
-    a[0] = 0  # boundary value; also the twist at this end
+    a[0] = 0  # boundary value; the twist at this end is also zero
     for j in range(n + 1):
         D[0, j] = mpf(j == 0)
     return lu_solve(D, a)[n]
@@ -134,8 +137,8 @@ def buckling_load(ratio):
     unit = E * WIDTH * THICKNESS ** 3 / 12 / root ** 3
 
     def condition(q):
-        """Returns the determinant of the two conditions w(tip) = 0 (w measured from the tip) and w'(root) = 0. With z
-        = 2 q/sqrt(s): w ~ Z1(z)/z, w' ~ z^2 Z2(z)."""
+        """Returns the determinant of the two conditions w(tip) = 0 (w measured from the tip) and w'(root) = 0. With z = 2
+        q/sqrt(s), w ~ Z1(z)/z and w' ~ z^2 Z2(z)."""
         here, there = 2 * q / sqrt(tip), 2 * q / sqrt(root)
         return besselj(1, here) * bessely(2, there) - bessely(1, here) * besselj(2, there)
 
@@ -148,8 +151,8 @@ def bending(ratio, wanted):
     speed = sqrt(E * THICKNESS ** 2 / (12 * RHO)) / root  # b^4 = (omega/speed)^2
 
     def condition(b):
-        """Returns the determinant of the four end conditions. With z = 2 b sqrt(s), w ~ Z1(z)/z, and every derivative
-        is a function of the next order, d/ds Zn/z^n ~ Zn+1/z^(n+1)."""
+        """Returns the determinant of the four end conditions. With z = 2 b sqrt(s), w ~ Z1(z)/z. Every derivative is a
+        function of the next order: d/ds Zn/z^n ~ Zn+1/z^(n+1)."""
         rows = []
         for Z, sign in ((besselj, -1), (bessely, -1), (besseli, 1), (besselk, -1)):
             row = [

@@ -1,8 +1,8 @@
-"""Determines which shear theory in stability a reference value of a case's own model follows.
+"""Determines the shear theory in stability of a reference value of the model of a case.
 
-Engesser: the axial force does work on the slope of the centroidal axis. Haringx: it does work on the rotation of the
-section, as in the geometrically exact beam (column.py states both energies).  Without shear deformation, or without
-stress, both agree. Sources: the programs that derive the reference values. """
+In Engesser's theory, the axial force does work on the slope of the centroidal axis. In Haringx's theory, it does work
+on the rotation of the section, as in the geometrically exact beam. column.py states both energies. Without shear
+deformation, or without stress, both theories agree. The sources are the programs that derive the reference values."""
 from reference.derive import defaults
 
 LARGE_DISPLACEMENT = (
@@ -16,9 +16,8 @@ LARGE_DISPLACEMENT = (
 
 
 def of(case, parameters, quantity):
-    """Returns 'engesser', 'haringx', or '' if the value does not depend on the theory.
-
-    parameters: `name=value;...` that differ from the defaults.
+    """Returns 'engesser', 'haringx', or '' if the value does not depend on the theory. `parameters` are those that differ
+    from the defaults, in the form `name=value;...`.
     """
     given = dict(item.split("=", 1) for item in parameters.split(";") if "=" in item)
     at = {**defaults.texts(case), **given}

@@ -1,14 +1,19 @@
-"""Free vibration of a cantilever with a rigid body at its end, at rest and in steady rotation about an axis through the root, normal to the
-beam.
+"""Free vibration of a cantilever with a rigid body at its end, at rest and in steady rotation about an axis through the
+root, normal to the beam.
 
-Units and beam as in rotating.py: L = 1, EI = 1, rho A = 1, EA = s^2.  The body: mass m, centre c beyond the end, inertia J = m g^2 about
-transverse axes through that centre, and none about the beam's axis.
+The units and the beam are those of rotating.py: L = 1, EI = 1, rho A = 1, EA = s^2. The body has the mass m, and its
+centre of mass is c beyond the end. Its inertia is J = m g^2 about transverse axes through that centre, and zero about
+the axis of the beam.
 
-At rest: w'''' = omega^2 w, w(0) = w'(0) = 0; with y = w + c w' at the end: w'' = omega^2 (J w' + m c y), w''' = -omega^2 m y. Equilibrium:
-x'' = -k^2 x, k = Omega/s, x(0) = 0, s^2 (x'(1) - 1) = m Omega^2 (x(1) + c).
-Second order about it, with the slope t = w'/x' at the end and y = w + c t: the body adds to the energy of the beam
-flap: 1/2 Omega^2 (m c (x + c) + J) t^2, lag: 1/2 Omega^2 (m c (x + c) t^2 - m (u^2 + y^2)), to the mass m (u^2, y^2) and J t^2, and to the
-Coriolis coupling m u y.  Galerkin method as in rotating.py.
+At rest: w'''' = omega^2 w and w(0) = w'(0) = 0. At the end, with y = w + c w', w'' = omega^2 (J w' + m c y) and w''' =
+-omega^2 m y.
+
+Equilibrium: x'' = -k^2 x with k = Omega/s, x(0) = 0 and s^2 (x'(1) - 1) = m Omega^2 (x(1) + c).
+
+Second order about this equilibrium, with the slope t = w'/x' at the end and y = w + c t: the body adds 1/2 Omega^2 (m
+c (x + c) + J) t^2 to the energy of flap and 1/2 Omega^2 (m c (x + c) t^2 - m (u^2 + y^2)) to that of lag. The body
+adds m (u^2, y^2) and J t^2 to the mass, and m u y to the Coriolis coupling. The Galerkin method is that of
+rotating.py.
 """
 import numpy as np
 from mpmath import cos, cosh, findroot, matrix, mp, mpf, sin, sinh, det
@@ -23,7 +28,7 @@ COUNT = 3
 
 
 def at_rest(m, c, g, count=COUNT):
-    """Returns the exact frequencies at rest: w = A (cosh - cos) + B (sinh - sin), whose determinant vanishes between
+    """Returns the exact frequencies at rest. w = A (cosh - cos) + B (sinh - sin), and its determinant vanishes between
     samples of the wave number."""
     m, c, J = mpf(m), mpf(c), mpf(m) * mpf(g) ** 2
 
@@ -65,8 +70,8 @@ def _ends(times):
 
 
 def matrices(omega, m, c, g, s=S):
-    """Returns, for beam and body, (K, M) of flap, (K, M) of lag, (K, M) of stretching, and the coupling. K of lag and
-    of stretching include centrifugal softening."""
+    """Returns (K, M) of flap, (K, M) of lag, (K, M) of stretching, and the coupling, for the beam and the body. K of lag
+    and of stretching include centrifugal softening."""
     X, weight, w = rotating._basis(2)
     _, _, u = rotating._basis(1)
     J = m * g * g
@@ -99,7 +104,7 @@ def flap(omega, m, c, g, s=S, count=COUNT):
 
 
 def lag(omega, m, c, g, s=S, count=COUNT):
-    """Returns the lowest lag frequencies, like rotating.lag."""
+    """Returns the lowest lag frequencies, computed as in rotating.lag."""
     _, (K, M), (Ku, Mu), C = matrices(omega, m, c, g, s)
     n = rotating.SIZE
     none = np.zeros((n, n))

@@ -1,4 +1,4 @@
-"""Torsion: Saint-Venant's constant of a rectangle; twist_ratio = phi GJ/(T L) of a cantilever with warping restrained
+"""Torsion: Saint-Venant's constant of a rectangle, and twist_ratio = phi GJ/(T L) of a cantilever with warping restrained
 at its root."""
 import functools
 
@@ -11,8 +11,8 @@ mp.dps = 40
 
 @functools.cache
 def rectangle_constant(w, t):
-    """Returns w t^3/3 (1 - 192/pi^5 t/w sum tanh(n pi w/2t)/n^5), n odd, w >= t, to 30 digits: the remaining terms are
-    extrapolated."""
+    """Returns w t^3/3 (1 - 192/pi^5 t/w sum over odd n of tanh(n pi w/2t)/n^5) for w >= t to 30 digits. The remaining
+    terms are extrapolated."""
     with workdps(40):
         w, t = mpf(w), mpf(t)
         series = nsum(lambda m: tanh((2 * m + 1) * pi * w / (2 * t)) / (2 * m + 1) ** 5, [0, inf])
@@ -20,8 +20,8 @@ def rectangle_constant(w, t):
 
 
 def twist_ratio(kl, ends):
-    """Returns 1 - tanh(x)/x, where x is kL of a cantilever. With warping restrained at both ends, each half of the
-    beam is such a cantilever."""
+    """Returns 1 - tanh(x)/x, where x is kL of a cantilever. If warping is restrained at both ends, each half of the beam
+    is such a cantilever."""
     x = mpf(kl) / (2 if ends == "fixed" else 1)
     return 1 - tanh(x) / x
 

@@ -1,6 +1,7 @@
-"""Buckling of a column under its weight q per length and a load P on its top, clamped at its base; L = EI = 1.
+"""Buckling of a column that is clamped at its base, under its weight q per length and a load P on its top; L = EI = 1.
 
-t'' + (P + q (1 - x)) t = 0, t(0) = 0, t'(1) = 0 of the slope t: a power series in the distance from the top.
+The slope t satisfies t'' + (P + q (1 - x)) t = 0, t(0) = 0 and t'(1) = 0. It is a power series in the distance from
+the top.
 """
 from mpmath import findroot, mp, mpf
 
@@ -22,8 +23,8 @@ def slope_at_foot(P, q):
 
 
 def load_factor(given):
-    """Returns the smallest load factor. The slope at the base decreases from 1 as the loads increase, so that the
-    first zero is bracketed from below."""
+    """Returns the smallest load factor. The slope at the base decreases from 1 as the loads increase, so the first zero
+    is bracketed from below."""
     at = defaults.decimals("weighted_column", given)
 
     def value(factor):

@@ -1,8 +1,8 @@
-"""The C-shaped cantilever as a solid: dead force at an end of the web (J section 5.2, Figs. 11-12).
+"""The C-shaped cantilever modelled as a solid, with a dead force at an end of the web (J section 5.2, Figs. 11-12).
 
-C3D20R, one element through each wall; the root is fixed, the tip free.  The force acts on the node
-on the web's mid-line at half the outer height above (D) or below (E) the axis, whose deflection is prescribed in
-steps; outer dimensions 30 x 10 cm (`sizes=overall`).
+The mesh of C3D20R has one element through each wall. The root is fixed, and the tip is free. The force acts on the
+node on the mid-line of the web at half the outer height above (D) or below (E) the axis. The deflection of this node
+is prescribed in steps. The outer dimensions are 30 x 10 cm (`sizes=overall`).
 """
 import tempfile
 

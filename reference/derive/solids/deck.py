@@ -49,10 +49,11 @@ def halved(stations):
 
 
 class Grid:
-    """A mesh. nodes: [count, 3] in m; elements: [count, 20]; both are counted from zero."""
+    """A mesh. `nodes` is [count, 3] in m, and `elements` is [count, 20]. Both are counted from zero."""
 
     def __init__(self, xs, ys, zs, wanted=lambda i, j, k: True):
-        """xs, ys, zs: stations of corners along each axis [m]; wanted: which cells are filled."""
+        """xs, ys, zs are the stations of corners along each axis [m]. `wanted` returns True for the cells that are
+        filled."""
         axes, number, nodes = [halved(np.asarray(a, dtype=float)) for a in (xs, ys, zs)], {}, []
 
         def node(place):
@@ -72,10 +73,10 @@ class Grid:
         return np.flatnonzero(np.abs(self.nodes[:, axis] - value) < 1e-9)
 
 
-# Rigid end of a solid: the motion of its face, the resultant on it, and their tangent.
+# Rigid end of a solid: the motion of its face, the resultant on the face, and the tangent between both.
 #
-# The face moves like the edge of a shell: as a rigid body, except that its thickness can change. The directions of the
-# face rotate with it.
+# The face moves in the same way as the edge of a shell, that is, as a rigid body whose thickness can change. The
+# directions of the face rotate with the face.
 
 
 def turned(vector):
@@ -94,7 +95,7 @@ def spin(vector):
 class Tip:
     """A face of nodes [indices] about a point.
 
-    `middle` contains the nodes that may not move along the thickness, its axis 1.
+    `middle` contains the nodes that may not move along the thickness, which is axis 1 of the face.
     """
 
     def __init__(self, grid, nodes, middle, point):
@@ -139,10 +140,10 @@ class Tip:
         return out
 
     def stiffness(self, tangent, displacements, forces, translation, R):
-        """Returns d(force, spatial moment)/d(translation, spin) [6, 6]. tangent: result of deck.tangent.
+        """Returns d(force, spatial moment)/d(translation, spin) [6, 6]. `tangent` is the result of deck.tangent.
 
-        Along the thickness, a node is free, and its force remains zero as this direction rotates. The force in fixed
-        axes therefore changes.
+        Along the thickness, a node is free, and its force remains zero as this direction rotates. Therefore the force
+        in fixed axes changes.
         """
         K, places = tangent
         index = {p: i for i, p in enumerate(places)}
@@ -162,8 +163,7 @@ class Tip:
         return self.change(index, R, arms, forces, motion, load)
 
     def change(self, index, R, arms, forces, motion, load):
-        """Returns the change of the resultant [6, 6] due to the change of the forces and of the arms of existing
-        forces."""
+        """Returns the change of the resultant [6, 6] due to the change of the forces and of the arms of existing forces."""
         out = np.zeros((6, 6))
         for n in self.nodes:
             rows = [index[n, d] for d in range(3)]
@@ -174,7 +174,7 @@ class Tip:
         return out
 
     def directions(self, index, R):
-        """Returns [n, n] with columns: directions of the rotated face at its nodes, otherwise the fixed axes."""
+        """Returns [n, n], whose columns are the directions of the rotated face at its nodes, otherwise the fixed axes."""
         out = lil_matrix(identity(len(index)))
         for n in self.nodes:
             rows = [index[n, d] for d in range(3)]
@@ -190,7 +190,7 @@ CONTROLS = "*CONTROLS,PARAMETERS=FIELD\n1e-7,1e-7\n"
 
 
 class Failed(Exception):
-    """Raised if CalculiX found no solution; contains its last message."""
+    """Raised if CalculiX found no solution. The text is the last message of CalculiX."""
 
 
 def available():
@@ -198,7 +198,7 @@ def available():
 
 
 def mesh(grid, kind, material):
-    """Returns the cards for nodes, elements and the only section. material: cards after *MATERIAL."""
+    """Returns the cards for nodes, elements and the only section. `material` contains the cards after *MATERIAL."""
     lines = (
         ["*NODE"]
         + ["%d,%.12e,%.12e,%.12e" % (i + 1, *p) for i, p in enumerate(grid.nodes)]
@@ -241,7 +241,7 @@ def run(folder, name, text):
 
 
 def printed(path, what):
-    """Returns [{node: vector [3]}] with an entry for every printed increment. what: 'displacements' or 'forces'."""
+    """Returns [{node: vector [3]}] with an entry for every printed increment. `what` is 'displacements' or 'forces'."""
     blocks, current = [], None
     for line in path.with_suffix(".dat").read_text(encoding="utf-8").splitlines():
         words = line.split()

@@ -1,9 +1,10 @@
-"""The sheet flexure as a plate, with one face fixed and the other moved like a shell's edge: its compliance.
+"""Compliance of the sheet flexure modelled as a plate. One face is fixed, and the other face moves in the same way as the
+edge of a shell.
 
-C3D20R, graded towards all edges.  Fixed face: no displacement normal to it and along its width; along the thickness,
-only its middle is fixed.  The tip's motion is a translation and one rotation
-vector; its free components follow from zero force, or zero work of the moment.
-Moments are spatial: dead about fixed axes (reference/README.md).
+The mesh of C3D20R is graded towards all edges. The fixed face has no displacement normal to the face and along its
+width. Along the thickness, only the middle of the face is fixed. The motion of the tip is a translation and one
+rotation vector. Its free components are determined by zero force, or by zero work of the moment. Moments are spatial,
+that is, dead about fixed axes (reference/README.md).
 """
 import tempfile
 
@@ -20,7 +21,7 @@ LENGTH, WIDTH, THICKNESS, YOUNG, POISSON = (
 )
 MESHES = (8, 2), (8, 1), (12, 2)  # elements along each edge, layers: coarse, thin, fine
 DEFLECTIONS, TWISTS = (0.001, 0.005, 0.01, 0.015), (0.05, 0.1, 0.15)
-# A plate has no choices of beam physics.
+# a plate has no choices of beam physics
 ANY = "tip_warping=*;warping=*;shear=*;trapeze=*;wagner=*;shear_factor=*"
 BENT = (
     ("C_ux_Fx", "C_xx", "C_uy_Fy", "C_uy_Mz", "C_thz_Fy")
@@ -31,7 +32,7 @@ TWISTED = "C_ux_My", "C_thy_Fx", "C_ux_Fx", "C_uz_Fz", "C_thx_Mx", "C_thy_My"
 
 class Sheet:
     def __init__(self, elements, layers, folder):
-        """elements: numbers of elements along the length and along the width."""
+        """`elements` contains the numbers of elements along the length and along the width."""
         ys = THICKNESS * (np.arange(layers + 1) / layers - 0.5)
         self.grid, self.folder = (
             Grid(LENGTH * graded(elements), ys, WIDTH * (graded(elements) - 0.5)),
@@ -78,9 +79,7 @@ class Sheet:
 
 def solve(sheet, motion, free, steps=8):
     """Returns (motion, force, moment, compliance [6, 6]) of the state in which the loads of the free components do no
-    work.
-
-    motion [6]: initial guess.
+    work. `motion` [6] is the initial guess.
     """
     motion = np.array(motion, dtype=float)
     for _ in range(steps):
@@ -97,9 +96,8 @@ def solve(sheet, motion, free, steps=8):
 
 
 def compared(run):
-    """Returns {name: (value, relative uncertainty)} from the results of run(elements, layers) on all meshes.
-
-    The uncertainty is the sum of the changes by both refinements.
+    """Returns {name: (value, relative uncertainty)} from the results of run(elements, layers) on all meshes. The
+    uncertainty is the sum of the changes due to both refinements.
     """
     coarse, thin, fine = [run(*mesh) for mesh in MESHES]
     return {
@@ -119,7 +117,7 @@ def bent(deflection, mesh):
 
 
 def twisted(angle, mesh):
-    """Returns the values of sheet_wagner at a twist [rad]; the initial guess is near the solution of the beam."""
+    """Returns the values of sheet_wagner at a twist [rad]. The initial guess is near the solution of the beam."""
     start = [
         -1.29e-3 - 4.7e-3 * angle**2,
         0.015,
@@ -157,10 +155,8 @@ def rows(everything=True):
 
 
 def anticlastic(mesh=MESHES[0]):
-    """Returns the relative difference between the compliances of beam and plate in F_y/u_y, F_y/phi_z and M_z/phi_z in
-    the undeformed state (N 4.1).
-
-    The difference is relative to the plate.
+    """Returns the differences between the compliances of beam and plate in F_y/u_y, F_y/phi_z and M_z/phi_z in the
+    undeformed state (N 4.1), relative to the plate.
     """
     with tempfile.TemporaryDirectory() as folder:
         plate = Sheet(*mesh, folder).state(np.zeros(6))[2][np.ix_((1, 5), (1, 5))]
