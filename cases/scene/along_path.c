@@ -408,8 +408,6 @@ static const char *const
         "instant of a motion",
     *const no_strains = "has stresses that the undeformed state does not have; request "
                         "the analysis about a static or a linear analysis",
-    *const no_diaphragm = "is a diaphragm, which motions in time do not support; connect the nodes "
-                          "by part_of, or brace them by stiff members",
     *const no_drive =
         "is prescribed, but a continuation changes only loads; remove it, or use a static path",
     *const no_spin = "rotates, but this analysis omits the Coriolis forces on moving masses; use a "
@@ -464,7 +462,7 @@ const scene_input scene_inputs[] = {
     {"node attached to another", "uuuuuuuuuuuuuuuuu", NULL, has_tied},
     {"supports in rotated axes", "uuuuuuuuuuuuuuuuu", NULL, has_axes},
     {"constraint", "uuuuuuuuuuuuuuuuu", NULL, has_constraint},
-    {"diaphragm", "uuuuuuuuxuuuxuuux", no_diaphragm, has_diaphragm},
+    {"diaphragm", "uuuuuuuuuuuuuuuuu", NULL, has_diaphragm},
     {"fork", "uuuuuuuuuuuuuuuuu", NULL, has_fork},
     {"mass of a node", "-ii-iuuuu-iuuuuuu", NULL, has_mass},
     {"inertia of a node", "-ii-iuuuu-iuuuuuu", NULL, has_inertia},

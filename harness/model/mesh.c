@@ -110,6 +110,7 @@ static void scene_vertices(model *m)
         const scene_node *n = &s->node[i];
         memcpy(v->position, n->position, sizeof v->position);
         v->body = n->attached == SCENE_NONE ? i : n->attached;
+        v->leader = NONE;
         for (int k = 0; k < 3; k++) {
             v->offset[k] = n->position[k] - s->node[v->body].position[k];
             v->vector_driver[k] = n->rotation == SCENE_ROTATION_VECTOR ? n->angle[k] : NONE;

@@ -224,9 +224,9 @@ typedef struct mesh_vertex {
     int coordinate[6];  /* global coordinates of a body; NONE: fixed */
     int turned; /* 1: the translations are along the columns of `along`, not along the fixed axes */
     double along[9];
-    /* led 1: the vertex moves with the master of a diaphragm (`leader`), on an arm about the first
-     * axis of the master */
-    int led, leader;
+    int led; /* 1: the vertex moves with the master of a diaphragm, on an arm about its first axis
+              */
+    int leader;    /* the master, also without an arm; NONE for a node: there is none */
     double arm[3]; /* [m] across that axis */
     int angles;    /* > 0: the rotation is a sequence of this number of angles about the axes */
     double axis[3][3];
@@ -404,7 +404,8 @@ static inline int model_owns(const model *m, int vertex, int coordinate)
         return 1;
     for (int c = SCENE_UX; c <= SCENE_RZ; c++) {
         const scene_tie *tie = model_tie(m, vertex, c);
-        if (tie != NULL && (c == coordinate || (c >= SCENE_RX && coordinate >= SCENE_RX)))
+        if (tie != NULL && (c == coordinate || (c >= SCENE_RX && coordinate >= SCENE_RX &&
+                                                model_mesh_of(m)->vertex[vertex].angles < 2)))
             owns &= tie->node == vertex && tie->coordinate == c;
     }
     return owns;

@@ -125,7 +125,7 @@ static void keep_heavy(const model *m, carried_mass of[], carried_masses *out)
     }
 }
 
-static status alloc(const model *m, int spread, carried_masses *out, fault *f)
+static status alloc_empty(const model *m, int spread, carried_masses *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     out->spread = spread;
@@ -135,6 +135,12 @@ static status alloc(const model *m, int spread, carried_masses *out, fault *f)
         carried_free(out);
         return fault_set(f, STATUS_FAULT, "out of memory for masses");
     }
+    return STATUS_OK;
+}
+
+static status alloc(const model *m, int spread, carried_masses *out, fault *f)
+{
+    TRY(alloc_empty(m, spread, out, f));
     for (int i = 0; i < model_elements(m) && !spread; i++)
         add_element(m, model_element(m, i), out->mass, out->warping);
     for (int i = 0; i < model_discretes(m) - model_springs(m); i++)
@@ -151,6 +157,42 @@ status carried_alloc(const model *m, carried_masses *out, fault *f)
 status carried_alloc_spread(const model *m, carried_masses *out, fault *f)
 {
     return alloc(m, 1, out, f);
+}
+
+/* Gives the mass of a node to the master of its diaphragm. */
+static void lead(const model *m, const carried_mass *one, carried_mass of[])
+{
+    const mesh_vertex *v = model_vertex(m, one->frame);
+    carried_mass *to = &of[v->leader], *own = &of[one->frame];
+    double moved[9];
+    memcpy(moved, one->inertia, sizeof moved);
+    shift(one->mass, one->moment, v->arm, moved);
+    to->mass += one->mass;
+    *own = (carried_mass){.mass = one->mass};
+    for (int i = 0; i < 3; i++) {
+        const double normal = fabs(v->axis[0][i]) > 0.5 ? one->mass : 0;
+        to->moment[i] += one->moment[i] + one->mass * v->arm[i];
+        to->less[i] += normal;
+        own->less[i] = one->mass - normal;
+    }
+    for (int i = 0; i < 9; i++)
+        to->inertia[i] += moved[i];
+}
+
+status carried_floors(const model *m, const carried_masses *all, carried_masses *out, fault *f)
+{
+    TRY(alloc_empty(m, all->spread, out, f));
+    out->damping = all->damping;
+    memcpy(out->warping, all->warping, (size_t)model_all_coordinates(m) * sizeof *out->warping);
+    for (int k = 0; k < all->masses; k++)
+        out->mass[all->mass[k].frame] = all->mass[k];
+    for (int k = 0; k < all->masses; k++)
+        if (all->mass[k].frame < model_scene(m)->nodes &&
+            model_vertex(m, all->mass[k].frame)->leader != NONE)
+            lead(m, &all->mass[k], out->mass);
+    keep_heavy(m, out->mass, out);
+    out->total = all->total;
+    return STATUS_OK;
 }
 
 void carried_free(carried_masses *c)

@@ -160,6 +160,7 @@ static void release(motion_scheme *base)
     free(s->evaluation);
     complement_free(s->complement);
     massive_free(&s->massive);
+    carried_free(&s->masses);
     free(s);
 }
 
@@ -192,6 +193,15 @@ static int turns_freely(const model *m, int vertex)
     return free > 0;
 }
 
+/* Returns 1 if the node is the master of a diaphragm. */
+static int leads(const model *m, int node)
+{
+    for (int i = 0; i < model_scene(m)->constraints; i++)
+        if (model_scene(m)->constraint[i].master == node)
+            return 1;
+    return 0;
+}
+
 static status refuse_constraint(const model *m, int node, const char *why, fault *f)
 {
     return fault_set(f, STATUS_REFUSED,
@@ -213,6 +223,10 @@ static status check_constraints(const model *m, const carried_masses *masses, fa
             continue;
         if (tie->ratio != 1)
             return refuse_constraint(m, node, "rotations in a ratio", f);
+        if (model_vertex(m, node)->leader != NONE || leads(m, node))
+            for (int k = SCENE_RY; k <= SCENE_RZ; k++)
+                if (model_vertex(m, node)->coordinate[k] != NONE)
+                    return refuse_constraint(m, node, "nodes of a diaphragm that tilt", f);
         if ((model_vertex(m, node)->angles > 0) != (model_vertex(m, tie->node)->angles > 0))
             return refuse_constraint(m, node, "equal rotations of nodes with and without axes", f);
     }
@@ -220,7 +234,7 @@ static status check_constraints(const model *m, const carried_masses *masses, fa
         const int node = masses->mass[k].frame;
         int tied = 0;
         for (int c = 0; c < SCENE_RX && node < model_scene(m)->nodes; c++)
-            tied |= model_tie(m, node, c) != NULL;
+            tied |= model_tie(m, node, c) != NULL && !leads(m, node);
         if (tied && turns_freely(m, node) &&
             vec3_norm(masses->mass[k].moment) > 1e-12 * masses->mass[k].mass * model_length(m))
             return refuse_constraint(
@@ -234,6 +248,8 @@ static status allocate(conserving *s, fault *f)
 {
     const model *m = s->of.c->model;
     const sparse *pattern;
+    TRY(carried_floors(m, s->of.masses, &s->masses, f));
+    s->of.masses = &s->masses;
     s->strains = model_springs(m) > 0 && model_strains(m) < SPRING_STRAINS ? SPRING_STRAINS
                                                                            : model_strains(m);
     const int nodes = model_nodes(m) > 2 || model_springs(m) == 0 ? model_nodes(m) : 2;
@@ -338,7 +354,10 @@ static status conserving_massless(conserving *s, fault *f)
 static double energy_of(const carried_mass *one, const carried_step *p, const double v[3],
                         const double W[3])
 {
-    return (one->mass * vec3_dot(v, v) + dense_quadratic(3, p->J, W)) / 2;
+    double sum = dense_quadratic(3, p->J, W) / 2;
+    for (int i = 0; i < 3; i++)
+        sum += (one->mass - one->less[i]) * v[i] * v[i] / 2;
+    return sum;
 }
 
 static int is_driven(const model *m, int vertex)
@@ -514,7 +533,7 @@ static void massless_together(const conserving *s, int vertex, double N[9])
 }
 
 /* Sets the rates of translations in constraints from the masses of all nodes that these
- * translations move. */
+ * translations move. Those of a diaphragm follow from its centre of mass. */
 static void rates_together(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
@@ -522,7 +541,8 @@ static void rates_together(const conserving *s, const instant *from, double h, i
         for (int c = 0; c < SCENE_RX; c++) {
             const int at = model_vertex(m, i)->coordinate[c];
             int heavy = 0;
-            if (model_tie(m, i, c) == NULL || !model_owns(m, i, c) || at == NONE || at >= s->free)
+            if (model_tie(m, i, c) == NULL || !model_owns(m, i, c) || at == NONE || at >= s->free ||
+                (leads(m, i) && !(fabs(model_vertex(m, i)->axis[0][c]) > 0.5)))
                 continue;
             for (int k = 0; k < s->of.masses->masses && !heavy; k++)
                 heavy = s->of.masses->mass[k].mass > 0 &&

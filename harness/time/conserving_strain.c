@@ -263,7 +263,7 @@ static void forces_of(const carried_mass *one, const carried_step *p, double h, 
     mat3_mul_vec(p->Rn, H0, spun0);
     mat3_mul_vec(p->R1, H1, spun1);
     for (int i = 0; i < 3; i++)
-        F[i] = one->mass * (p->v1[i] - p->v0[i]) / h;
+        F[i] = (one->mass - one->less[i]) * (p->v1[i] - p->v0[i]) / h;
     vec3_cross(p->mean, F, lever);
     for (int i = 0; i < 3; i++)
         F[3 + i] = (spun1[i] - spun0[i]) / h + lever[i] + (p->rides ? p->late[i] : 0);
@@ -275,7 +275,7 @@ static void tangent_of(const carried_mass *one, const carried_step *p, double h,
 {
     const double b = 2 / (h * h);
     double T[9], A[9], swept[9], sway[9], RJ[9], RJR[9], H1[3], spun[3], turn[9], mean[9], lever[9],
-        force[9], more[9];
+        force[9], more[9], heavy[9];
     cayley_tangent(p->c, T);
     cayley_skew(p->after, A);
     mat3_mul(A, T, swept); /* minus d(centre)/dc */
@@ -289,17 +289,18 @@ static void tangent_of(const carried_mass *one, const carried_step *p, double h,
     mat3_mul(A, T, turn);
     cayley_skew(p->mean, mean);
     carried_step_sway(p, h, T, swept, sway);
-    mat3_mul(mean, sway, lever);
+    for (int k = 0; k < 9; k++)
+        heavy[k] = (one->mass - one->less[k / 3]) * sway[k];
+    mat3_mul(mean, heavy, lever);
     cayley_skew(F, force);
     mat3_mul(force, swept, more);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             const int k = 3 * i + j;
-            K[6 * i + j] = i == j ? one->mass * b : 0;
-            K[6 * i + 3 + j] = -one->mass * b * sway[k];
-            K[6 * (3 + i) + j] = one->mass * b * mean[k];
-            K[6 * (3 + i) + 3 + j] =
-                b * RJR[k] - turn[k] / h - one->mass * b * lever[k] + more[k] / 2;
+            K[6 * i + j] = i == j ? (one->mass - one->less[i]) * b : 0;
+            K[6 * i + 3 + j] = -b * heavy[k];
+            K[6 * (3 + i) + j] = (one->mass - one->less[j]) * b * mean[k];
+            K[6 * (3 + i) + 3 + j] = b * RJR[k] - turn[k] / h - b * lever[k] + more[k] / 2;
         }
     carried_step_late(one, p, h, T, sway, K);
 }

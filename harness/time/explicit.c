@@ -127,8 +127,7 @@ static int block(const model *m, const carried_masses *masses, int index, const 
     int row[6], count = 0;
     inertia_frame(m, masses, index, s, v, NULL, &p);
     inertia_times(p.acceleration, 1, p.rate, K);
-    inertia_rows(p.turn, K);
-    kinematics_turn_matrix(model_vertex(m, masses->mass[index].frame), 6, 0, K);
+    inertia_finish(m, masses, index, &p, 0, 0, K);
     for (int i = 0; i < 6; i++)
         if (at[i] != NONE && at[i] < model_unknowns(m)) {
             of[count] = at[i];

@@ -155,6 +155,8 @@ void inertia_frame(const model *m, const carried_masses *all, int index, const m
     for (int i = 0; i < 36; i++)
         out->velocity[i] += all->damping * out->acceleration[i];
     inertia_turns(m, s, one->frame, out->turn, out->rate);
+    memcpy(out->force, F, sizeof out->force);
+    inertia_swing_of(m, s, one->frame, v, a, &out->swing);
 }
 
 /* Computes A[6 x 6] <- A diag(1, B). */
@@ -170,13 +172,26 @@ void inertia_times(const double A[36], const double translation, const double B[
         }
 }
 
-void inertia_rows(const double turn[9], double K[36])
+/* K <- diag(1, turn^T) K */
+static void rows(const double turn[9], double K[36])
 {
     for (int j = 0; j < 6; j++) {
         const double at[3] = {K[18 + j], K[24 + j], K[30 + j]};
         for (int i = 0; i < 3; i++)
             K[6 * (3 + i) + j] = turn[i] * at[0] + turn[3 + i] * at[1] + turn[6 + i] * at[2];
     }
+}
+
+void inertia_finish(const model *m, const carried_masses *all, int index, const inertia_parts *p,
+                    double rate, double place, double K[36])
+{
+    double column[6] = {0};
+    inertia_swing_column(&p->swing, 6, 0, p->acceleration, p->velocity, rate, place, column);
+    for (int i = 0; i < 6 && p->swing.led; i++)
+        K[6 * i + 3] += vec3_dot(&K[6 * i], p->swing.moved) + column[i];
+    rows(p->turn, K);
+    inertia_swing_row(&p->swing, 6, 0, p->force, place, K);
+    kinematics_turn_matrix(model_vertex(m, all->mass[index].frame), 6, 0, K);
 }
 
 /* Like inertia_add_tangent, for a released end. If its axes rotate, its rates change with the
@@ -228,8 +243,7 @@ void inertia_add_tangent(const equations *eq, const carried_masses *all, const m
         inertia_times(p.place, 1, p.turn, more);
         for (int i = 0; i < 36; i++)
             K[i] += more[i];
-        inertia_rows(p.turn, K);
-        kinematics_turn_matrix(model_vertex(m, vertex), 6, 0, K);
+        inertia_finish(m, all, k, &p, with->g, 1, K);
         for (int i = 0; i < 6; i++)
             for (int j = 0; j < 6; j++)
                 assemble_subtract(S, at[i], at[j], -K[6 * i + j]);

@@ -16,7 +16,7 @@
 static const double softness = 1e-12;
 
 /* Sets the rates of the angles of a sequence such that their sum is the angular velocity. Fixed and
- * prescribed angles keep their rates. */
+ * prescribed angles, and those of another node, keep their rates. */
 static void start_angles(const model *m, const model_state *s, int index, const double spin[3],
                          double v[])
 {
@@ -27,9 +27,11 @@ static void start_angles(const model *m, const model_state *s, int index, const 
     memcpy(rest, spin, sizeof rest);
     for (int k = 0; k < frame->angles; k++) {
         const int c = frame->coordinate[SCENE_RX + k];
-        if (c != NONE && c < model_unknowns(m))
+        const int kept =
+            c != NONE && (c >= model_unknowns(m) || !model_owns(m, index, SCENE_RX + k));
+        if (c != NONE && !kept)
             of[n++] = k;
-        for (int i = 0; i < 3 && c >= model_unknowns(m); i++)
+        for (int i = 0; i < 3 && kept; i++)
             rest[i] -= b[k][i] * v[c];
     }
     for (int i = 0; i < n; i++) {
@@ -76,7 +78,7 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
             model_owns(m, index, SCENE_RX) && (own || forms_of(m, index) == FORM_BODY))
             v[t] = body[i];
     }
-    if (frame->angles > 0 && vec3_norm(field->spin) > 0 && model_owns(m, index, SCENE_RX))
+    if (frame->angles > 0 && vec3_norm(field->spin) > 0)
         start_angles(m, s, index, field->spin, v);
 }
 
@@ -195,6 +197,10 @@ static status check_followers(const model *m, const model_state *s, const scene_
             if (turns && at->angles > 0)
                 kinematics_axes(m, s, i, b);
             velocity_of(m, s, i, field, rate);
+            inertia_swing by;
+            inertia_swing_of(m, s, i, v, NULL, &by);
+            for (int k = 0; k < 3 && by.led; k++)
+                rate[k] -= by.moved[k] * by.rate;
             for (int k = 0; k < 3; k++) {
                 along[k] = turns ? b[c - SCENE_RX][k] : at->turned ? at->along[3 * k + c] : k == c;
                 rate[k] = turns ? field->spin[k] : rate[k];
@@ -213,9 +219,12 @@ static status check_followers(const model *m, const model_state *s, const scene_
 static status set_field(const model *m, const model_state *s, const scene_start *field, double v[],
                         fault *f)
 {
-    for (int i = 0; i < model_vertices(m); i++)
-        if (model_vertex(m, i)->body == i || i >= model_first_release(m))
-            start_vertex(m, s, i, field, v);
+    for (int i = 0; i < 2 * model_vertices(m); i++) { /* masters of diaphragms before followers */
+        const int vertex = i % model_vertices(m);
+        if ((model_vertex(m, vertex)->body == vertex || vertex >= model_first_release(m)) &&
+            model_owns(m, vertex, SCENE_RX) == (i < model_vertices(m)))
+            start_vertex(m, s, vertex, field, v);
+    }
     return check_followers(m, s, field, v, f);
 }
 

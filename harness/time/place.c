@@ -236,11 +236,28 @@ static void angle_rows(const place_chain *by, const double moment[3], frame_plac
                 p->curved[(SCENE_RX + k) * n + c] += moment[i] * by->da[k][i * n + c];
 }
 
+/* Adds the motion of a body that a diaphragm moves on an arm: dr of its node is tau times the mean
+ * of normal x arm. */
+static void swing(const place_chain *by, int at, frame_place *p)
+{
+    const int n = p->columns;
+    double before[3], after[3], inward[3];
+    kinematics_arm(by->m, by->from, at, before);
+    kinematics_arm(by->m, by->now, at, after);
+    vec3_cross(model_vertex(by->m, at)->axis[0], after, inward);
+    for (int i = 0; i < 3; i++) {
+        p->work[i * n + SCENE_RX] += (before[i] + after[i]) / 2;
+        p->moved[i * n + SCENE_RX] += after[i];
+    }
+    p->curved[SCENE_RX * n + SCENE_RX] += vec3_dot(by->F, inward) / 2;
+}
+
 /* Computes all rows from the complete chain. */
 static void finish(const place_chain *by, frame_place *p)
 {
     const int n = p->columns, ball = by->release != NULL && by->release->turns == BALL;
-    const mesh_vertex *body = model_vertex(by->m, model_vertex(by->m, by->vertex)->body);
+    const int at = model_vertex(by->m, by->vertex)->body;
+    const mesh_vertex *body = model_vertex(by->m, at);
     double force[9], more[3 * PLACE_MOST], dmoment[3 * PLACE_MOST], moment[3];
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) {
@@ -269,6 +286,8 @@ static void finish(const place_chain *by, frame_place *p)
     for (int i = 0; i < 3; i++)
         lever[i] += ball ? 0 : moment[i];
     angle_rows(by, lever, p);
+    if (body->led)
+        swing(by, at, p);
 }
 
 void place_of(const conserving *s, const model_state *from, const model_state *now, int vertex,

@@ -38,8 +38,7 @@ static void add_frame(radau *r, int index, double h, int i)
             for (int x = 0; x < 36; x++)
                 K[x] += more[x];
         }
-        inertia_rows(p.turn, K);
-        kinematics_turn_matrix(model_vertex(m, vertex), 6, 0, K);
+        inertia_finish(m, r->of.masses, index, &p, of.rate, i == k, K);
         for (int row = 0; row < 6; row++)
             for (int column = 0; column < 6; column++)
                 stages_add(&r->S, i, k, at[row], at[column], K[6 * row + column]);
@@ -556,6 +555,7 @@ static void add_element(radau *r, int element, double h, int i)
         if (i == k)
             spread_times(m, &p, p.place, place, K);
         spread_rows(&p, K);
+        spread_swing(m, &p, rates[0].plain, i == k, K);
         stages_add_element(&r->S, i, k, assemble_of(r->of.c->run->patterns, &r->K), element, K);
     }
 }

@@ -498,6 +498,20 @@ static void sequence_rates(const model *m, const model_state *s, int vertex, con
     }
 }
 
+/* Adds the motion on the arm of a frame that a diaphragm moves. */
+static void add_swing(const model *m, const model_state *s, int vertex, const double v[],
+                      const double a[], frame_rates *out)
+{
+    const int c = model_vertex(m, vertex)->coordinate[SCENE_RX];
+    inertia_swing by;
+    inertia_swing_of(m, s, vertex, v, a, &by);
+    for (int i = 0; i < 3 && by.led; i++) {
+        out->v[i] += by.moved[i] * by.rate;
+        out->a[i] += by.inward[i] * by.rate * by.rate;
+        out->a[i] += c != NONE && a != NULL ? by.moved[i] * a[c] : 0;
+    }
+}
+
 void forms_rates(const model *m, const model_state *s, int vertex, const double v[],
                  const double a[], frame_rates *out)
 {
@@ -511,6 +525,7 @@ void forms_rates(const model *m, const model_state *s, int vertex, const double 
     }
     kinematics_to_fixed(frame, out->v);
     kinematics_to_fixed(frame, out->a);
+    add_swing(m, s, vertex, v, a, out);
     if (frame->angles > 0) {
         sequence_rates(m, s, vertex, v, a, out);
         return;
@@ -529,10 +544,14 @@ void forms_add_force(const model *m, const model_state *s, int vertex, const dou
                      double out[])
 {
     const mesh_vertex *frame = model_vertex(m, vertex);
-    double b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, own[3] = {F[0], F[1], F[2]};
+    double b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, own[3] = {F[0], F[1], F[2]}, moved[3];
     if (frame->angles > 0)
         kinematics_axes(m, s, vertex, b);
     kinematics_to_own(frame, own);
+    if (frame->led)
+        kinematics_arm(m, s, vertex, moved);
+    if (frame->led && frame->coordinate[SCENE_RX] != NONE)
+        out[frame->coordinate[SCENE_RX]] += vec3_dot(moved, F);
     for (int c = 0; c < 3; c++)
         if (frame->coordinate[c] != NONE)
             out[frame->coordinate[c]] += own[c];

@@ -176,7 +176,8 @@ static void begin_parts(const model *m, const mesh_element *el, const model_stat
     out->wide = 0;
     for (int k = 0; k < el->nodes; k++)
         out->wide |= model_is_released(m, el->vertex[k]) ||
-                     model_vertex(m, model_vertex(m, el->vertex[k])->body)->turned;
+                     model_vertex(m, model_vertex(m, el->vertex[k])->body)->turned ||
+                     model_vertex(m, model_vertex(m, el->vertex[k])->body)->led;
 }
 
 void spread_element(const model *m, int element, const model_state *s, const double v[],
@@ -201,9 +202,25 @@ void spread_element(const model *m, int element, const model_state *s, const dou
         out->velocity[i] += damping * out->acceleration[i];
     to_bodies(m, el, s, &e, F, out);
     set_turns(m, el, s, out);
+    for (int k = 0; k < el->nodes; k++) {
+        memcpy(out->force[k], F + NODE_COORDINATES * k, sizeof out->force[k]);
+        inertia_swing_of(m, s, model_vertex(m, el->vertex[k])->body, v, a, &out->swing[k]);
+    }
 }
 
 static const double spread_one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+/* Adds the motion of a node on the arm of a diaphragm. */
+static void swing_column(const model *m, const spread_parts *p, int node, double plain, double T[])
+{
+    const int body = model_vertex(m, p->el->vertex[node])->body, at = NODE_COORDINATES * node;
+    double moved[3];
+    if (!model_vertex(m, body)->led)
+        return;
+    kinematics_arm(m, p->state, body, moved);
+    for (int i = 0; i < 3; i++)
+        T[p->columns * (at + i) + at + 3] += plain * moved[i];
+}
 
 /* Computes T[7 nodes x columns], the derivative of the motion of the nodes with respect to the
  * coordinates of the element. moves NULL: with respect to spatial increments. */
@@ -225,6 +242,7 @@ static void wide_motion(const model *m, const spread_parts *p, const spread_moti
                     T[p->columns * (at + i) + at + j] = plain * along;
                     T[p->columns * (at + 3 + i) + at + 3 + j] = turn[3 * i + j];
                 }
+            swing_column(m, p, k, plain, T);
             continue;
         }
         released_masses of;
@@ -275,6 +293,28 @@ void spread_times(const model *m, const spread_parts *p, const double A[],
             }
             to[6] += by->plain * row[6];
         }
+}
+
+void spread_swing(const model *m, const spread_parts *p, double rate, double place, double K[])
+{
+    const int n = NODE_COORDINATES * p->el->nodes;
+    double rows[MOST * MODEL_MAX_COORDINATES], column[MOST], out[MODEL_MAX_COORDINATES];
+    int known = 0;
+    for (int k = 0; k < p->el->nodes; k++) {
+        const int at = NODE_COORDINATES * k;
+        if (!p->swing[k].led || p->el->vertex[k] >= model_first_release(m))
+            continue;
+        if (!known++)
+            wide_motion(m, p, NULL, rows);
+        memset(column, 0, sizeof column);
+        memset(out, 0, sizeof out);
+        inertia_swing_column(&p->swing[k], n, at, p->acceleration, p->velocity, rate, place,
+                             column);
+        dense_add_transpose_mul(p->columns, n, 1, rows, column, out);
+        for (int i = 0; i < p->columns; i++)
+            K[p->columns * i + at + 3] += out[i];
+        K[(p->columns + 1) * (at + 3)] += place * vec3_dot(p->swing[k].inward, p->force[k]);
+    }
 }
 
 void spread_rows(const spread_parts *p, double K[])
@@ -349,6 +389,7 @@ void spread_add_tangent(const equations *eq, const model_state *s, const double 
         spread_motion place[ELEMENT_MAX_NODES], rates[ELEMENT_MAX_NODES];
         double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
         spread_element(m, i, s, v, a, damping, &p);
+        spread_swing(m, &p, with->g, 1, K);
         const int all = model_own_coordinates(m) * model_own_coordinates(m);
         for (int k = 0; k < all; k++)
             p.acceleration[k] = with->b * p.acceleration[k] + with->g * p.velocity[k];

@@ -148,7 +148,7 @@ void between_take(step_between *b, between_degree degree, const instant *from, c
             const int at = 3 * i + k;
             if (model_owns(m, i, k))
                 put_plain(b, v->coordinate[k], moved[k], h);
-            if (v->angles > 0 && model_owns(m, i, SCENE_RX))
+            if (v->angles > 0 && model_owns(m, i, SCENE_RX + k))
                 put_plain(b, v->coordinate[SCENE_RX + k],
                           to->state->angle[at] - from->state->angle[at], h);
         }

@@ -69,6 +69,8 @@ typedef struct carried_mass {
     double mass;       /* [kg] */
     double moment[3];  /* [kg m] mass times the position of the centre relative to the frame */
     double inertia[9]; /* [kg m^2] moment of inertia about the frame */
+    /* part of `mass` that translations along each global axis do not move: carried_floors */
+    double less[3];
 } carried_mass;
 
 typedef struct carried_masses {
@@ -89,6 +91,9 @@ typedef struct carried_masses {
 status carried_alloc(const model *, carried_masses *, fault *);
 /* Like carried_alloc, but with rigid bodies only. The elements have consistent masses. */
 status carried_alloc_spread(const model *, carried_masses *, fault *);
+/* Copies these masses, but the nodes of a diaphragm, which must not tilt, give their mass and
+ * inertia to the master, except for motions along the normal. */
+status carried_floors(const model *, const carried_masses *, carried_masses *, fault *);
 void carried_free(carried_masses *);
 /* Computes a node's share of the mass of an element, with the moment of inertia about the node, and
  * the mass [kg m^4] of the warping amplitude of the node. */

@@ -277,6 +277,28 @@ void inertia_subtract(const model *, const carried_masses *, const model_state *
 void inertia_add_tangent(const equations *, const carried_masses *, const model_state *,
                          const double v[], const double a[], const inertia_relation *, sparse *S);
 
+/* Frame that a diaphragm moves on an arm about the first of its angles: v = v_master + moved
+ * angle', a = a_master + moved angle'' + inward angle'^2. */
+typedef struct inertia_swing {
+    int led;          /* 1: there is an arm; otherwise nothing else is set */
+    double moved[3];  /* derivative of the position with respect to the angle [m] */
+    double inward[3]; /* derivative of `moved` */
+    double rate;      /* [rad/s] of the angle */
+    double change[3]; /* derivative of the acceleration with respect to the angle [m/s^2] */
+} inertia_swing;
+/* a NULL: zero. */
+void inertia_swing_of(const model *, const model_state *, int vertex, const double v[],
+                      const double a[], inertia_swing *out);
+/* Adds the motion on the arm to columns and rows of K[n x n], whose rows are not yet those of the
+ * coordinates; the coordinates of the frame start at `at`. inertia_swing_column: adds the effect
+ * of the angle on the axes of the motion, with derivatives A and C [n x n] of the force with
+ * respect to accelerations and velocities; rate, place: factors of the derivatives with respect to
+ * the rate of the angle, and to the angle. inertia_swing_row: force[3] on the frame. */
+void inertia_swing_column(const inertia_swing *, int n, int at, const double A[], const double C[],
+                          double rate, double place, double out[]);
+void inertia_swing_row(const inertia_swing *, int n, int at, const double force[3], double place,
+                       double K[]);
+
 /* Derivatives [6 x 6, row-major] of the inertia force and moment on a frame. */
 typedef struct inertia_parts {
     /* with respect to spatial increments (exponential chart), at fixed rates in the axes of the
@@ -284,15 +306,19 @@ typedef struct inertia_parts {
     double place[36];
     /* with respect to velocities and to accelerations in global axes */
     double velocity[36], acceleration[36];
-    double turn[9]; /* columns: spatial rotation per unit of each rotation coordinate */
-    double rate[9]; /* columns: angular velocity per unit rate of each rotation coordinate */
+    double turn[9];  /* columns: spatial rotation per unit of each rotation coordinate */
+    double rate[9];  /* columns: angular velocity per unit rate of each rotation coordinate */
+    double force[3]; /* inertia force */
+    inertia_swing swing;
 } inertia_parts;
 void inertia_frame(const model *, const carried_masses *, int index, const model_state *,
                    const double v[], const double a[], inertia_parts *out);
-/* inertia_times computes out = A diag(1 for translations, B for rotations). inertia_rows transforms
- * the rows of rotations to coordinates: K <- diag(1, turn^T) K. */
+/* inertia_times computes out = A diag(1 for translations, B for rotations). inertia_finish
+ * transforms the rows of the sum K of such products to coordinates, and adds the motion on an arm;
+ * rate, place: as for inertia_swing_column. */
 void inertia_times(const double A[36], double translation, const double B[9], double out[36]);
-void inertia_rows(const double turn[9], double K[36]);
+void inertia_finish(const model *, const carried_masses *, int index, const inertia_parts *,
+                    double rate, double place, double K[36]);
 typedef struct inertia_balance {
     double kinetic;     /* [J] */
     double momentum[3]; /* [kg m/s] */
@@ -331,6 +357,7 @@ typedef struct evaluation evaluation;
 typedef struct conserving {
     motion_scheme base;
     scheme_request of;
+    carried_masses masses; /* carried_floors */
     int free, all;
     sparse S;
     matrix_factor *factor;
@@ -481,8 +508,8 @@ status checks_massless(const analysis_context *, const carried_masses *, const s
  * directions change with the strains, and k W d would have a component along these directions. */
 
 /* Allocates the integrator. Rates of massless coordinates are mean rates over a step. REFUSED: a
- * node has several successive angles, no rotation has inertia, or the rates cannot follow the
- * constraints. */
+ * node has several successive angles, no rotation has inertia, a node of a diaphragm tilts, or the
+ * rates cannot follow the constraints. */
 status conserving_alloc(const scheme_request *, motion_scheme **, fault *);
 
 /* An element or a spring during a step. Elements and springs differ only in the function that
@@ -1057,6 +1084,8 @@ typedef struct spread_parts {
         velocity[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
         acceleration[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     double turn[ELEMENT_MAX_NODES][9], rate[ELEMENT_MAX_NODES][9];
+    double force[ELEMENT_MAX_NODES][3]; /* inertia forces on the nodes; spread_element alone */
+    inertia_swing swing[ELEMENT_MAX_NODES];
 } spread_parts;
 void spread_element(const model *, int element, const model_state *, const double v[],
                     const double a[], double damping, spread_parts *);
@@ -1075,6 +1104,8 @@ void spread_place(const model *, const spread_parts *, spread_motion place[]);
 void spread_times(const model *, const spread_parts *, const double A[],
                   const spread_motion motion[], double out[]);
 void spread_rows(const spread_parts *, double K[]);
+/* Adds what inertia_swing_column and inertia_swing_row add besides the motion on the arm. */
+void spread_swing(const model *, const spread_parts *, double rate, double place, double K[]);
 
 /* Computes the matrices of small motions about a state during a motion, on all coordinates. The
  * accelerations of `now` are consistent with its forces. out: initially zero except for its time;

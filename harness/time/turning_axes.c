@@ -53,8 +53,10 @@ static int vector_of(const turning_axes *t, int vertex, int turns, turning_vecto
     if ((!released && v->body != vertex) || (turns && v->angles > 0) ||
         (released && (!turns || forms_of(m, vertex) != FORM_BODY)))
         return 0;
-    for (int k = 0; k < 3; k++)
-        out->at[k] = v->coordinate[(turns ? SCENE_RX : SCENE_UX) + k];
+    for (int k = 0; k < 3; k++) {
+        const int component = (turns ? SCENE_RX : SCENE_UX) + k;
+        out->at[k] = model_owns(m, vertex, component) ? v->coordinate[component] : NONE;
+    }
     vertex_rates(m, t->about->state, t->node != SCENE_NONE ? t->node : vertex, t->about->rate,
                  t->about->acceleration, &r);
     skew(r.w, out->once);
@@ -69,6 +71,21 @@ static int vector_of(const turning_axes *t, int vertex, int turns, turning_vecto
     return 1;
 }
 
+/* Returns 1 if a diaphragm determines both components of a translation. All nodes of a diaphragm
+ * rotate alike about its normal. */
+static int moves_together(const model *m, int vertex, const int pair[2])
+{
+    const scene *s = model_scene(m);
+    for (int i = 0; i < s->constraints && vertex < s->nodes; i++) {
+        const scene_constraint *c = &s->constraint[i];
+        if (c->master != SCENE_NONE && pair[0] != c->normal && pair[1] != c->normal &&
+            model_tie(m, vertex, pair[0]) != NULL &&
+            model_tie(m, vertex, pair[0])->node == c->master)
+            return 1;
+    }
+    return 0;
+}
+
 /* Returns 1 if the rotation mixes a component of the vector with a component that is not free. */
 static int is_tied(const turning_axes *t, int vertex, int turns, const turning_vector *v)
 {
@@ -77,14 +94,15 @@ static int is_tied(const turning_axes *t, int vertex, int turns, const turning_v
         size = fmax(size, fabs(v->once[k]));
     for (int k = 0; k < 9; k++) {
         const int pair[2] = {k / 3, k % 3};
+        const int together = !turns && moves_together(t->m, vertex, pair);
         int free_ones = 0, there = 0;
         for (int i = 0; i < 2; i++) {
             const int c = v->at[pair[i]];
             there += c != NONE;
-            free_ones += c != NONE && c < model_unknowns(t->m) &&
-                         model_owns(t->m, vertex, (turns ? SCENE_RX : SCENE_UX) + pair[i]) &&
-                         (vertex >= model_scene(t->m)->nodes ||
-                          model_tie(t->m, vertex, (turns ? SCENE_RX : SCENE_UX) + pair[i]) == NULL);
+            if (c == NONE || c >= model_unknowns(t->m))
+                continue;
+            free_ones += together || vertex >= model_scene(t->m)->nodes ||
+                         model_tie(t->m, vertex, (turns ? SCENE_RX : SCENE_UX) + pair[i]) == NULL;
         }
         if (fabs(v->once[k]) > 1e-9 * size && there > 0 && free_ones < 2)
             return 1;
