@@ -25,7 +25,7 @@ static const double aim = 0.7;
 
 /* Result of an attempted step. */
 typedef struct attempt {
-    const char *doubt; /* reason for doubt; NULL: the step is valid */
+    const char *doubt; /* reason why the step may be invalid; NULL: the step is valid */
     double swing;      /* rotation of the path relative to its limit */
     step_record record;
 } attempt;

@@ -7,16 +7,17 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-/* Returns the position of corner k of n elements on 0 to 1, graded towards both ends. */
+/* Returns the position of corner k of n elements on 0 to 1. The elements become smaller towards
+ * both ends. */
 static double face_graded(int k, int n);
-/* Computes the face of a section. constants: those computed from the spec. REFUSED: the section
- * is a tube, is given by constants, or has walls oblique to y and z. */
+/* Computes the face of a section. constants: those computed from `spec`. REFUSED: the section is a
+ * tube, is given by constants, or has walls oblique to y and z. */
 static status face_of(const section_spec *spec, const section *constants, face *out, fault *f);
 
 enum { BRICK_NODES = 20, DECK_LINE = 10 };
 
-/* Corners; then mid-edge nodes of the lower face, of the upper face, and between them; in half
- * steps. */
+/* Corners, followed by the mid-edge nodes of the lower face, of the upper face, and between these
+ * faces, in half steps. */
 static const int places[BRICK_NODES][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2},
                                            {2, 0, 2}, {2, 2, 2}, {0, 2, 2}, {1, 0, 0}, {2, 1, 0},
                                            {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2}, {1, 2, 2},
@@ -78,7 +79,7 @@ static double share(int at, int n)
     return (face_graded(at / 2, n) + face_graded((at + 1) / 2, n)) / 2;
 }
 
-/* Returns the coordinate of lattice position `at` along an axis of the face [m]. */
+/* Returns the coordinate [m] of lattice position `at` along an axis of the face. */
 static double across(const double corner[], int at)
 {
     return (corner[at / 2] + corner[(at + 1) / 2]) / 2;
@@ -94,8 +95,8 @@ static int is_filled(const face *s, int y, int z)
     return 0;
 }
 
-/* Returns 1 if a lattice position has a node. A position between corners in two directions has
- * none. */
+/* Returns 1 if a lattice position has a node. A position between corners in two directions has no
+ * node. */
 static int has_node(const brick *b, const int at[3])
 {
     return at[0] % 2 + at[1] % 2 + at[2] % 2 < 2 && is_filled(&b->face, at[BRICK_Y], at[BRICK_Z]);
@@ -169,10 +170,11 @@ void brick_write_elements(const brick *b, FILE *to)
 
 enum { SHEET_RATIO = 4, SHEET_ACROSS = 8, ACROSS = 2, MOST_LINES = 2 * SECTION_MAX_WALLS };
 
-/* Coordinates of a section are equal if their difference, relative to its size, is below this. */
+/* Coordinates of a section are equal if their difference, relative to the size of the section, is
+ * below this value. */
 static const double same = 1e-9;
 
-/* A wall as a rectangle: its smallest and largest y and z in wall coordinates. */
+/* A wall as a rectangle: its smallest and largest y and z in the coordinates of the walls. */
 typedef struct strip {
     double from[2], to[2];
 } strip;
@@ -202,7 +204,7 @@ static void fill_rectangle(const section_spec *spec, face *out)
         memset(out->filled[i], 1, (size_t)out->elements[1]);
 }
 
-/* Returns the axis along which the wall runs; -1: the wall is oblique. */
+/* Returns the axis along which the wall extends; -1: the wall is oblique. */
 static int axis_of(const section_spec *spec, int wall)
 {
     const double *p = spec->point[spec->wall[wall].from], *q = spec->point[spec->wall[wall].to];
@@ -212,8 +214,8 @@ static int axis_of(const section_spec *spec, int wall)
     return y > z ? 0 : 1;
 }
 
-/* Returns the extension of the wall beyond its point: half the thickness of the walls at right
- * angles there. */
+/* Returns the extension of the wall beyond its end point, which is half of the thickness of the
+ * walls at right angles to it. */
 static double extension(const section_spec *spec, int wall, int point)
 {
     double most = 0;
@@ -247,7 +249,7 @@ static int ascending(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Lists the sides of all strips along an axis, without duplicates, in ascending order. Returns
+/* Lists the sides of all strips along an axis, without repetition, in ascending order. Returns
  * their number. */
 static int lines_of(const strip strips[], int count, int axis, double line[MOST_LINES])
 {
@@ -265,7 +267,8 @@ static int lines_of(const strip strips[], int count, int axis, double line[MOST_
     return lines;
 }
 
-/* Places corners between the lines, at most `step` apart; FACE_MOST is large enough for them. */
+/* Sets corners between the lines with a distance of at most `step`. FACE_MOST is sufficient for
+ * them. */
 static void divide(const double line[], int lines, double step, int axis, face *out)
 {
     int n = 0;
@@ -321,7 +324,7 @@ static status fill_walls(const section_spec *spec, const double centroid[2], fac
     return STATUS_OK;
 }
 
-/* Returns 1 if given constants replace those computed from the dimensions. */
+/* Returns 1 if given constants replace the constants computed from the dimensions. */
 static int is_overridden(const section_spec *spec)
 {
     double given[sizeof spec->given / sizeof(double)];

@@ -90,9 +90,9 @@ static int held_rotations(const scene_node *n)
     return held;
 }
 
-/* REFUSED: the rotations of the node cannot be expressed. In CalculiX, a rotation node has a
- * rotation vector. Increments about fixed axes are the same only if no rotation, all rotations,
- * or all but one are fixed. */
+/* Checks the rotations of a node. REFUSED: a deck cannot express them. In CalculiX, a rotation node
+ * has a rotation vector. Increments about fixed axes are the same only if no rotation, all
+ * rotations, or all but one are fixed. */
 static status check_node(const scene *s, int node, fault *f)
 {
     const scene_node *n = &s->node[node];
@@ -204,7 +204,7 @@ status carried_check(const scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* REFUSED: a deck of solids cannot evaluate the quantity. */
+/* Returns REFUSED: a deck of solids cannot evaluate the quantity. */
 
 static status refuse(const scene_quantity *q, const char *why, fault *f)
 {
@@ -227,8 +227,8 @@ static status check_component(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* Requires that a linear step is about the end of the path. CalculiX loses the state after such
- * a step, which must therefore be the last one. */
+/* Requires that a linear step is about the end of the path. CalculiX loses the state after such a
+ * step, so it must be the last step. */
 static status check_last(const scene *s, const scene_quantity *q, fault *f)
 {
     const int about = s->analysis[q->analysis].follows;
@@ -252,8 +252,8 @@ static status check_last(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* REFUSED: the entry belongs to a rotation about a loaded state, where the stiffness of a
- * rotation vector corresponds to no convention for moments. */
+/* Checks an entry of a matrix. REFUSED: the entry belongs to a rotation about a loaded state, where
+ * the stiffness of a rotation vector corresponds to no convention for moments. */
 static status check_entry(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_entry *e = scene_entry_of(q);

@@ -9,7 +9,7 @@
 
 enum { DIMENSIONS = 3 }; /* m, kg, s */
 
-/* A unit as a factor times powers of m, kg, s. */
+/* A unit as a factor times powers of m, kg and s. */
 typedef struct unit_measure {
     double factor;
     int power[DIMENSIONS];
@@ -140,7 +140,7 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
 
 const axes axes_same = {{0, 1, 2}, {1, 1, 1}};
 
-/* Reads "x=-z" into the entry of x. Returns the rest of the text, or NULL after an error. */
+/* Reads "x=-z" into the entry of x. Returns the rest of the text; NULL: an error. */
 static const char *read_one(const char *at, axes *out, int *seen)
 {
     at += strspn(at, " ");
@@ -174,8 +174,8 @@ static int determinant(const axes *a)
     return (even ? 1 : -1) * a->sign[0] * a->sign[1] * a->sign[2];
 }
 
-/* Returns a component of the other program in beamwork's axes. In a reflection, rotations and
- * moments also change sign. */
+/* Returns a component of the other program in the axes of beamwork. In a reflection, rotations and
+ * moments also change their sign. */
 static int component_of(const axes *a, int theirs, int *sign)
 {
     const int turns = theirs >= SCENE_RX, axis = turns ? theirs - SCENE_RX : theirs - SCENE_UX;
@@ -188,7 +188,7 @@ static int *word_in(const entry_field *k, scene_quantity *q)
     return (int *)((char *)q + k->at);
 }
 
-/* Transforms the extracted component to beamwork's axes. Components in axes of a section, or
+/* Transforms the extracted component to the axes of beamwork. Components in axes of a section, or
  * without axes, do not change. Returns 1 if the component has axes. */
 static int turn_extract(const axes *a, scene_quantity *q, int *sign)
 {
@@ -206,8 +206,8 @@ static int turn_extract(const axes *a, scene_quantity *q, int *sign)
     return turns;
 }
 
-/* Transforms the reduction. A change of sign turns a maximum into a minimum and a rising
- * crossing into a falling one; a time has no sign. */
+/* Transforms the reduction. After a change of sign, a maximum becomes a minimum, and a rising
+ * crossing becomes a falling one. A time has no sign. */
 static void turn_reduction(scene_quantity *q, int *sign)
 {
     static const scene_reduction other[SCENE_REDUCTIONS] = {[SCENE_MAX] = SCENE_MIN,

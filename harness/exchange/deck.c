@@ -4,19 +4,19 @@
 
 #include "cases/scene/scene.h"
 
-/* Writes the lines that follow the keyword *NODE for these nodes. */
+/* Writes the lines after the keyword *NODE for these nodes. */
 static void body_write_nodes(const body_numbers *, const scene *s, FILE *to);
 /* Writes sets of faces, the bodies, and the set BODIES of all their nodes. bricks: [members]. */
 static void body_write(const body_numbers *, const scene *s, const brick bricks[], FILE *to);
-/* Writes the prescribed coordinates at `path`, following the keyword *BOUNDARY. */
+/* Writes the prescribed coordinates at `path` after the keyword *BOUNDARY. */
 static void body_write_state(const body_numbers *, const scene *s, int acting, double path,
                              FILE *to);
-/* As body_write_state, for a small motion in which the prescribed coordinates do not move.
- * released: components of `node` (bit i) that are free. */
+/* Like body_write_state, for a small motion in which the prescribed coordinates do not move.
+ * released: free components of `node` (bit i). */
 static void body_write_held(const body_numbers *, const scene *s, int node, unsigned released,
                             FILE *to);
-/* Writes all steps: linear analyses and compliances of the undeformed structure, then the static
- * path, with one unit load about its last state. FAULT: out of memory. */
+/* Writes all steps: first linear analyses and compliances of the undeformed structure, then the
+ * static path with one unit load about its last state. FAULT: out of memory. */
 static status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f);
 static status path_points_of(const scene *s, int analysis, path_points *out, fault *f);
 /* Returns 1 if a quantity of the path, or of an analysis about the path, needs its value at the
@@ -36,7 +36,7 @@ status deck_check(const deck_request *r, fault *f)
     return carried_asked_check(r->scene, f);
 }
 
-/* Makes the bricks of all members; numbers of bodies follow those of the bricks. */
+/* Makes the bricks of all members. The numbers of bodies follow those of the bricks. */
 static status make_bricks(const deck_request *r, brick out[], body_numbers *bodies, fault *f)
 {
     int node = 1, element = 1;
@@ -58,8 +58,8 @@ static void write_deck_head(const deck_request *r, int elements, FILE *to)
             r->scene->name, r->of, elements);
 }
 
-/* Writes the convention for moments. Decks have moments only about the undeformed structure, where
- * all conventions agree. */
+/* Writes the convention for moments. Decks have moments only about the undeformed structure, for
+ * which all conventions agree. */
 static void write_convention(const scene *s, FILE *to)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -94,8 +94,8 @@ static void write_mesh(const scene *s, const brick bricks[], const body_numbers 
     body_write(bodies, s, bricks, to);
 }
 
-/* Writes by how much the area of each solid differs from that of its beam, because walls overlap
- * where they meet. */
+/* Writes the difference between the area of each solid and the area of its beam, which is due to
+ * walls that overlap. */
 static status write_areas(const scene *s, const brick bricks[], FILE *to, fault *f)
 {
     for (int i = 0; i < s->members; i++) {
@@ -134,8 +134,8 @@ status deck_write(const deck_request *r, FILE *to, fault *f)
 
 enum { COMPONENTS = 6, TRANSLATIONS = 3 };
 
-/* Newton's iterations stop at 1e-7 of the mean force and of the largest displacement (defaults of
- * CalculiX: 5e-3 and 1e-2). */
+/* Newton's iterations stop at 1e-7 of the mean force and of the largest displacement. The defaults
+ * of CalculiX are 5e-3 and 1e-2. */
 #define CONTROLS "*CONTROLS,PARAMETERS=FIELD\n1e-7,1e-7\n"
 #define PRINTS   "*NODE PRINT,NSET=BODIES,FREQUENCY=1000\nU,RF\n*END STEP\n"
 
@@ -146,7 +146,7 @@ typedef struct answers_writer {
     int steps; /* number of steps written so far */
 } answers_writer;
 
-/* Writes the loads on the structure; loads on the same coordinate are combined into one card. */
+/* Writes the loads on the structure. Loads on the same coordinate are combined into one card. */
 static void write_structure_loads(const answers_writer *w, int acting, double path)
 {
     fputs("*CLOAD,OP=NEW\n", w->to);
@@ -179,8 +179,8 @@ static void write_state(answers_writer *w, int acting, double path, int incremen
     w->steps++;
 }
 
-/* Writes a unit load on a component of the compliance's node, about the undeformed structure or the
- * previous state. */
+/* Writes a unit load on a component of the node of the compliance, about the undeformed structure
+ * or about the previous state. */
 static void write_unit_load(answers_writer *w, const scene_analysis *a, int component)
 {
     const scene_compliance *c = scene_compliance_of(a);
@@ -341,8 +341,8 @@ static int mover(const scene_node *n, int component)
     return turn == axis ? n->angle[0] : SCENE_HELD;
 }
 
-/* Writes the boundary conditions. path NULL: a small motion, in which prescribed coordinates do
- * not move. */
+/* Writes the boundary conditions. path NULL: a small motion, in which prescribed coordinates do not
+ * move. */
 static void write_boundary(const body_numbers *b, const scene *s, int acting, const double *path,
                            int node, unsigned released, FILE *to)
 {
@@ -373,8 +373,8 @@ static void body_write_held(const body_numbers *b, const scene *s, int node, uns
     write_boundary(b, s, 0, NULL, node, released, to);
 }
 
-/* Inserts a value in order, without duplicates. Ignores values outside the path, which ends at
- * the last station. */
+/* Inserts a value in order, unless it is already in the list. Ignores values outside the path,
+ * which ends at the last station. */
 static void insert(path_points *p, double value, double last)
 {
     int at = p->count;

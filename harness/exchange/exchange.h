@@ -11,7 +11,7 @@
 /* Axes of another program relative to beamwork's: a signed permutation. */
 
 typedef struct axes {
-    int ours[3]; /* 0..2: indices of the axes of beamwork that are x, y, z of the other program */
+    int ours[3]; /* indices 0..2 of the axes of beamwork that are x, y, z of the other program */
     int sign[3]; /* 1 or -1 */
 } axes;
 
@@ -19,27 +19,27 @@ extern const axes axes_same;
 
 /* Reads a text such as "x=x y=-z z=y". Returns 0 if the text is not a signed permutation. */
 int axes_parse(const char *text, axes *out);
-/* Returns the quantity of the scene that corresponds to quantity `q` of the other program, after
- * conversion to beamwork's axes, and the sign of its values; NULL: none. */
+/* Returns the quantity of the scene that corresponds to quantity `q` of the other program after
+ * conversion to the axes of beamwork, and the sign of its values; NULL: none. */
 const scene_quantity *axes_quantity(const axes *a, const scene *s, const scene_quantity *q,
                                     int *sign);
 
-/* A scene as an input deck of CalculiX 2.20: members as solids, ends as rigid faces. */
+/* A scene as an input deck of CalculiX 2.20. Members are solids, and ends are rigid faces. */
 
 enum { DECK_MOST_ELEMENTS = 400 }; /* largest number of elements along a member */
 
 typedef struct deck_request {
     const scene *scene; /* valid scene */
-    const char *of;     /* name that an import uses: "case; parameters" */
-    int elements;       /* number along each member that does not specify a number itself */
+    const char *of;     /* name for an import: "case; parameters" */
+    int elements;       /* number of elements along each member that does not specify a number */
 } deck_request;
 
-/* Checks that a deck can express the scene, before anything is written. REFUSED: the message
- * names what the deck cannot express. */
+/* Checks that a deck can express the scene, before anything is written. REFUSED: the message names
+ * the part of the scene that a deck cannot express. */
 status deck_check(const deck_request *, fault *f);
 status deck_write(const deck_request *, FILE *to, fault *f);
 
-/* Import of values from other programs. Values of one program, case and parameter point form a
+/* Import of values from other programs. The values of one program, case and parameter point form a
  * series. */
 
 enum { IMPORT_SCENES = 32, IMPORT_ROWS = 200000, IMPORT_TEXT = 512 };
@@ -54,7 +54,7 @@ typedef struct import_set {
 
 void import_block_free_set(import_set *);
 
-/* A header, with the line number of each entry; line 0: the entry is missing. */
+/* A header, with the line number of each entry (0: the entry is missing). */
 typedef struct import_header {
     char program[IMPORT_TEXT], of[IMPORT_TEXT], model[IMPORT_TEXT], convention[IMPORT_TEXT],
         version[IMPORT_TEXT];
@@ -68,18 +68,18 @@ typedef struct import_block {
     const char *path; /* path of the file */
     mistakes *m;
     axes axes;
-    int at;    /* line of the map that requests the value; 0: the line of the value itself */
-    int point; /* index of the point in the sweep; -1: unknown case */
+    int at;    /* line of the map that requests the value; 0: line of the value */
+    int point; /* index of the point in the sweep; -1: the case is unknown */
     imported *found;
 } import_block;
 
-/* Starts a series: checks the case, the parameters and the other entries of the header. found
- * NULL: out of memory. */
+/* Starts a series: checks the case, the parameters and the other entries of the header. found is
+ * NULL if out of memory. */
 import_block import_block_open(import_set *set, const import_header *h, const char *path,
                                mistakes *m);
-/* Adds one value in the unit of the file. */
+/* Adds a value in the unit of the file. */
 void import_block_add(import_block *b, const imported_row *row);
-/* Sorts the values into cells and, if there are no errors, adds the series to the sweep. */
+/* Sorts the values into cells. If there are no errors, adds the series to the sweep. */
 status import_block_close(import_block *b, fault *f);
 
 /* Imports results of another program, given as tidy CSV with a header, into a sweep as a compared
@@ -98,7 +98,7 @@ status import_block_close(import_block *b, fault *f);
  * Columns may be in any order. quantity, unit, elements and value are required; a curve also needs
  * x [SI]. Header lines after rows start another series; keys that are not repeated remain valid. */
 
-/* Reads a file into `into`. Adds all errors of the file, with their lines, to m. FAULT: the file
+/* Reads a file into `into`. Adds all errors of the file with their lines to m. FAULT: the file
  * cannot be read. */
 status import_file_read(const char *path, import_set *into, mistakes *m, fault *f);
 
@@ -120,17 +120,17 @@ status import_file_read(const char *path, import_set *into, mistakes *m, fault *
 status import_map_read(const char *map, const char *const file[], int files, import_set *into,
                        mistakes *m, fault *f);
 
-/* Reads values stored by `beamwork import` as compared programs of a run. */
+/* Reads values that `beamwork import` has stored. They are compared with the results of a run. */
 
-/* Series of a file without a matching point in the run. */
+/* Series of a file for which the run has no point. */
 typedef struct import_left {
     int series, all; /* number of series without a point, and number of all series in the file */
     char first[256]; /* case/parameters/program of the first series without a point; empty: none */
 } import_left;
 
-/* For each program, adds a series to every point that has series. With a nonzero flag, verdicts on
- * these series affect the exit status. FAULT: the file is missing, damaged or foreign. REFUSED: the
- * file has no imported values, or the run already has them. */
+/* Adds a series for each program to every point for which the file has series. A nonzero flag means
+ * that verdicts on these series affect the exit status. FAULT: the file is missing, damaged or not
+ * such a file. REFUSED: the file has no imported values, or the run already has them. */
 status import_store_read(const char *path, int gates, sweep *s, import_left *left, fault *f);
 
 #endif

@@ -7,7 +7,7 @@
 #include "elements/shared/choice.h"
 #include "harness/formulations/formulations.h"
 
-/* Sorts the values by elements, then quantity, then abscissa. */
+/* Sorts the values by number of elements, then by quantity, then by abscissa. */
 static void import_cells_order(imported *found);
 
 static const scene *scene_of(const import_block *b)
@@ -15,7 +15,7 @@ static const scene *scene_of(const import_block *b)
     return b->point >= 0 ? &b->set->sweep.point[b->point].scene : NULL;
 }
 
-/* Returns the line that error messages about a value name. */
+/* Returns the line that error messages about a value give. */
 static int line_of(const import_block *b, const imported_row *row)
 {
     return b->at > 0 ? b->at : row->line;
@@ -31,7 +31,7 @@ void import_block_free_set(import_set *set)
     set->scenes = 0;
 }
 
-/* Finds the case of a scene file next to the imported file; NULL after an error. */
+/* Finds the case of a scene file next to the imported file; NULL: an error. */
 static const case_type *scene_case(import_block *b, const char *name, int line)
 {
     char path[IMPORT_TEXT + 4096];
@@ -65,8 +65,8 @@ static int ends_in(const char *name, const char *ending)
     return length > size && strcmp(name + length - size, ending) == 0;
 }
 
-/* Finds the point of the sweep with these parameters, or creates it. Returns its index, or -1
- * after an error. */
+/* Finds the point of the sweep with these parameters, or creates it. Returns its index; -1: an
+ * error. */
 static int point_of(import_block *b, const case_type *type, const double value[], int line)
 {
     sweep *s = &b->set->sweep;
@@ -113,7 +113,7 @@ static int find_point(import_block *b, const char *of, int line)
     return -1;
 }
 
-/* Returns the convention for moments of the compliances of a scene; -1: it has none. */
+/* Returns the convention for moments of the compliances of a scene; -1: there is none. */
 static int moments_of(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -221,7 +221,7 @@ static void check_row(const import_block *b, const imported_row *row, const scen
                      q->name);
 }
 
-/* Converts a value to beamwork's axes and units. Returns 0 after an error. */
+/* Converts a value to the axes and units of beamwork. Returns 0 after an error. */
 static int convert(const import_block *b, const scene_quantity *q, imported_row *row)
 {
     int sign = 1;
@@ -301,7 +301,7 @@ status import_block_close(import_block *b, fault *f)
     return outcome;
 }
 
-/* Returns no order: the order of another program is unknown. */
+/* Returns "no order", because the order of another program is unknown. */
 static element_order any_order(element_analysis analysis, const double options[])
 {
     (void)analysis;
@@ -381,8 +381,8 @@ static int take_row(const scene *s, series *one, const imported_row *row)
     if (s->quantity[index].reduction == SCENE_CURVE)
         return add_to_curve(&q->curve, row);
     q->value = row->value;
-    one->noise[index] = NAN; /* only the uncertainty on the finest mesh counts; rows are in
-                                ascending order */
+    /* only the uncertainty on the finest mesh is used; rows are in ascending order */
+    one->noise[index] = NAN;
     if (isfinite(row->uncertainty)) {
         const double size = fmax(fabs(row->value), s->quantity[index].near_zero);
         one->noise[index] = size > 0 ? row->uncertainty / size : NAN;

@@ -91,7 +91,7 @@ static void take_header(file_reader *r, const char *key, const char *value)
                      value);
 }
 
-/* Reads "# key: value # remark". Other lines that begin with # are comments. */
+/* Reads "# key: value # remark". Other lines that start with # are comments. */
 static void read_header(file_reader *r, char *line)
 {
     char *key = line_trim(line + 1), *colon = strchr(key, ':');
@@ -151,7 +151,7 @@ static void read_columns(file_reader *r, char *const field[], int count)
     }
 }
 
-/* Reads a number. Returns NAN for an empty field, if that is allowed. */
+/* Reads a number. Returns NAN for an empty field if empty fields are allowed. */
 static double number_of(const file_reader *r, const char *text, column c)
 {
     double value;

@@ -34,15 +34,15 @@ typedef struct map_reader {
 typedef struct wanted {
     const document_node *key, *of, *where;
     const char *file, *under;
-    int column, abscissa; /* starting at 0; abscissa -1: none */
+    int column, abscissa; /* indices starting at 0; abscissa -1: none */
     int rows;             /* LAST, ALL, or a row number */
     double minus, times;
     int seen;
     imported_row row;
 } wanted;
 
-/* Returns the index of a column, which is given by number or by its name in `columns`; -1 after
- * an error. */
+/* Returns the index of a column, which is given by its number or by its name in `columns`; -1: an
+ * error. */
 static int column_named(const map_reader *r, const document_node *at, const char *name)
 {
     const document_node *columns = document_find(r->root, "columns");
@@ -216,7 +216,7 @@ static import_header header_of(const map_reader *r)
     return h;
 }
 
-/* Records the data files as the source, instead of the map. */
+/* Records the data files as the source. The map is not the source. */
 static void name_files(imported *to, const char *const file[], int files)
 {
     size_t used = 0;

@@ -1,4 +1,4 @@
-/* Data of an element whose interface an adapter completes: first the adapter's data, then the
+/* Data of an element whose interface an adapter completes: the data of the adapter, followed by the
  * data of the type. */
 #ifndef BEAMWORK_ADAPTED_H
 #define BEAMWORK_ADAPTED_H
@@ -10,9 +10,9 @@
 
 struct element_data {
     const element_type *given;
-    int nodes, strains; /* numbers of the completed type */
+    int nodes, strains; /* numbers of nodes and strains of the completed type */
     double length;      /* [m] */
-    field_mass mass;    /* used when the type has no `inertia` */
+    field_mass mass;    /* used if the type has no `inertia` */
     max_align_t own[];  /* element_data of the type */
 };
 
@@ -21,7 +21,7 @@ static inline const element_data *adapted_own(const element_data *d)
     return (const element_data *)d->own;
 }
 
-/* Copies the pointers to the elements' own data, for one call of the type, and returns their
+/* Copies the pointers to the original data of the elements for one call of the type. Returns their
  * number, at most this limit. */
 enum { ADAPTED_TOGETHER = 1024 };
 static inline int adapted_owns(int count, const element_data *const data[],
@@ -33,10 +33,10 @@ static inline int adapted_owns(int count, const element_data *const data[],
     return part;
 }
 
-/* differences.c: computes the Jacobian J and the second derivatives H by finite differences, for
- * a type that computes e, or e and J. */
+/* Computes the Jacobian J and the second derivatives H by finite differences, for a type that
+ * computes e, or e and J (differences.c). */
 void differences_strain(const element_data *d, const node_state x[], strain_output *out);
-/* Computes the strains of many elements, with one call of strain_many for all perturbed states.
+/* Computes the strains of many elements with one call of strain_many for all perturbed states.
  * Requires strain_many. */
 void differences_strain_many(int count, const element_data *const data[], const node_state x[],
                              strain_output out[]);
@@ -46,14 +46,14 @@ typedef void differences_jacobian(const element_data *d, const node_state x[], d
 void differences_curvature(const element_data *d, const node_state x[], differences_jacobian *,
                            const double s[], double H[]);
 
-/* relative.c: stresses of a type that computes forces or an energy. */
+/* Stresses of a type that computes forces or an energy (relative.c). */
 /* Requires force_many. */
 void relative_stress_many(int count, const element_data *const data[], const double *const e[],
                           const double *const inner[], stress_output out[], status outcome[]);
 status relative_stress(const element_data *d, const double e[], const double inner[],
                        stress_output *out);
-/* Computes the derivative of C in the direction of the strains of this prestress, in the
- * undeformed state, by finite differences. */
+/* Computes the derivative of C in the direction of the strains that belong to this prestress, in
+ * the undeformed state, by finite differences. */
 void relative_geometric(const element_data *d, const double sigma[], double G[]);
 
 #endif

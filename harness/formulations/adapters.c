@@ -100,7 +100,7 @@ static int always(const double options[])
     return 1;
 }
 
-/* Adds functions that pass on the data of the same beam; they are stored after the data of the
+/* Adds functions that pass on the data of the original type, which are stored after the data of the
  * adapter. */
 static void wrap(const element_type *given, element_type *out)
 {
@@ -133,7 +133,7 @@ static void make_relative(const element_type *given, int nodes, element_type *ou
     out->memory = NULL;
     out->strain = places_strain;
     out->stress = relative_stress;
-    out->strain_many = NULL; /* makes no call to the formulation */
+    out->strain_many = NULL; /* does not call the formulation */
     out->stress_many = given->force_many != NULL ? relative_stress_many : NULL;
     out->geometric = relative_geometric;
 }

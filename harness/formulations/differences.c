@@ -34,8 +34,8 @@ int stencil_first(stencil_function *f, const void *context, int count, int i, do
 
 int stencil_second(stencil_function *f, const void *context, int count, int i, int j, double out[])
 {
-    /* weights for finite differences with steps h, 2 h and 3 h, whose errors have even powers of
-     * h */
+    /* weights for finite differences with steps h, 2 h and 3 h, whose errors are even powers of h
+     * */
     static const double weight[] = {3. / 2, -3. / 5, 1. / 10};
     int outcome = 0;
     memset(out, 0, (size_t)count * sizeof *out);
@@ -98,7 +98,7 @@ void chart_dexp(const double psi[3], double T[9])
 void chart_dexp_inverse(const double psi[3], double T[9])
 {
     const double t = vec3_norm(psi);
-    if (t < 1e-1) /* neglected term is below 1e-16 */
+    if (t < 1e-1) /* the neglected term is below 1e-16 */
         quadratic(psi, -1. / 2,
                   1. / 12 + t * t / 720 + t * t * t * t / 30240 + t * t * t * t * t * t / 1209600,
                   T);
@@ -106,7 +106,8 @@ void chart_dexp_inverse(const double psi[3], double T[9])
         quadratic(psi, -1. / 2, (1 - t / 2 / tan(t / 2)) / (t * t), T);
 }
 
-enum { ENOUGH = 1 << 24 }; /* with more bytes of answers than this, no further element is added */
+/* no further element is added if the answers exceed this number of bytes */
+enum { ENOUGH = 1 << 24 };
 
 static int make_room(gather *g)
 {
@@ -147,8 +148,8 @@ static int is_full(const gather *g)
     return g->failed || (size_t)g->count * g->size * sizeof *g->answer > ENOUGH;
 }
 
-/* Passes the answers to the elements. start[i]: first state of element i. An element that fails
- * may use fewer states. */
+/* Passes the answers to the elements. start[i]: first state of element i. An element that fails may
+ * use fewer states. */
 static void hand_out(gather *g, const int start[], int first, int end, gather_element *element,
                      gather_evaluate *evaluate, void *context)
 {
@@ -185,12 +186,12 @@ void gather_run(int count, int nodes, size_t size, gather_element *element,
 
 /* Derivatives of strains by central finite differences of sixth order in the rotation chart. */
 
-/* Point at which finite differences are computed. */
+/* State at which finite differences are computed. */
 typedef struct difference_place {
     const element_data *data;
     const node_state *x;
     const double *s;                /* stresses, for second derivatives */
-    differences_jacobian *jacobian; /* Jacobian of the strains, or NULL */
+    differences_jacobian *jacobian; /* Jacobian of the strains; NULL: none */
     gather *together; /* gathers all perturbed states; NULL: each state is evaluated when it is
                          needed */
 } difference_place;
@@ -203,7 +204,7 @@ static void moved(const difference_place *at, int i, double si, int j, double sj
     chart_move(at->x, at->data->nodes, step, out);
 }
 
-/* Copies an answer; writes zeros if there is no answer yet. */
+/* Copies an answer, or writes zeros if there is no answer yet. */
 static void copy_answer(const double *answer, int count, double values[])
 {
     if (answer != NULL)
@@ -296,8 +297,8 @@ static void curvature(const difference_place *at, double H[])
     memset(H, 0, (size_t)(n * n) * sizeof *H);
     for (int j = 0; j < n; j++) {
         stencil_first(forces_at, at, n, j, column);
-        for (int i = 0; i < n; i++) { /* symmetric part, which is the derivative in the
-                                         exponential chart */
+        for (int i = 0; i < n;
+             i++) { /* symmetric part, which is the derivative in the exponential chart */
             const double half = column[i] * per_unit(d, j) / 2;
             H[i * n + j] += half;
             H[j * n + i] += half;
@@ -326,7 +327,7 @@ static int leaves_h(const element_data *d)
     return (d->given->leaves & (LEAVES_J | LEAVES_H)) != 0;
 }
 
-/* Returns the derivatives that the type itself computes. */
+/* Returns the derivatives that the type computes. */
 static strain_output given_part(const element_data *d, const strain_output *out)
 {
     strain_output asked = *out;

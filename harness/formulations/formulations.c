@@ -173,7 +173,7 @@ unsigned formulation_bears_on(const formulation *chosen)
     return features;
 }
 
-/* Returns REFUSED for an unknown name; the message lists the names of loaded formulations. */
+/* Returns REFUSED for an unknown name. The message lists the names of loaded formulations. */
 static status unknown(const char *name, fault *f)
 {
     char loaded[200] = "";
@@ -233,8 +233,8 @@ status formulation_list_add(const char *text, int most, formulation list[], int 
     return STATUS_OK;
 }
 
-/* expression := term { or term };  term := factor { [and] factor };
- * factor := not factor | ( expression ) | word */
+/* Grammar: expression := term { or term }; term := factor { [and] factor }; factor := not factor |
+ * ( expression ) | word */
 
 typedef struct scanner {
     const char *at;
@@ -255,7 +255,7 @@ static int next_is(scanner *s, const char *word)
 
 static int expression_holds(scanner *s);
 
-/* Returns 1 if the word matches. It may occur anywhere in the text; "=NAME" must be one of the
+/* Returns 1 if the word matches. A word may occur anywhere in the text. "=NAME" must be one of the
  * parts between slashes. */
 static int is_called(const char *text, const char *word)
 {
@@ -383,7 +383,7 @@ void select_meet(const char *expression, const char *text, select_words *words)
             words->met[i] = is_called(text, word);
 }
 
-/* Returns name number i: first cases, then formulations. */
+/* Returns name number i: first the cases, then the formulations. */
 static const char *registered(const void *context, int i)
 {
     int cases = 0;
@@ -409,8 +409,8 @@ status select_begin(const char *expression, select_words *words, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the name nearest to the first unknown part of case/parameters/formulation; NULL: all
- * parts are known. */
+/* Returns the name that is most similar to the first unknown part of case/parameters/formulation;
+ * NULL: all parts are known. */
 static const char *nearest(const char *word)
 {
     for (const char *at = word + (word[0] == '='); *at != '\0'; at += *at == '/') {

@@ -13,8 +13,8 @@
 /* Completes the interface of a formulation: derivatives by finite differences, strains and
  * stresses from a force or an energy. */
 
-/* *out: the complete interface of the same beam, or `given` itself if nothing is missing. REFUSED:
- * the type is inconsistent. */
+/* Sets *out to the complete interface of the same beam, or to `given` if nothing is missing.
+ * REFUSED: the type is inconsistent. */
 status adapters_complete(const element_type *given, const double options[], element_type *out,
                          fault *f);
 
@@ -22,17 +22,17 @@ status adapters_complete(const element_type *given, const double options[], elem
  * (test/adapters_test.c); 0: the type needs no finite differences. */
 double adapters_error(const element_type *given);
 
-/* Returns a list of what is computed by finite differences for the type; "": nothing is. */
+/* Returns a list of everything that is computed by finite differences for the type; "": nothing. */
 const char *adapters_words(const element_type *given);
 
 /* Text form NAME=VALUE of all user choices: parameters of a case and options of a formulation. */
 
-/* Consecutive parameter tables, and the words for them in error messages. */
+/* Consecutive parameter tables, and the words with which error messages refer to them. */
 typedef struct assignment_list {
     const parameter_type *part[PARAMETER_PARTS];
     const char *what;     /* "parameter" */
     const char *owner;    /* name of the case or the formulation */
-    const char *option;   /* option of `beamwork list` before that name: "--scene " or "" */
+    const char *option;   /* option of `beamwork list` before this name: "--scene " or "" */
     const char *shown_by; /* argument of `beamwork list` that shows the parameters */
     char separator;       /* character between assignments */
 } assignment_list;
@@ -43,62 +43,65 @@ void assignment_shown(const assignment_list *, char out[ASSIGNMENT_SHOWN]);
 
 enum { ASSIGNMENT_VALUE = 64 };
 
-/* Sets "NAME=VALUE", where VALUE is a number in its range or the name of a choice, and returns the
- * index in *index (may be NULL). If `any` is not NULL, a value "*" is skipped and marked there.
- * REFUSED: the message names the word and the nearest known name. */
+/* Sets "NAME=VALUE", where VALUE is a number in its range or the name of a choice. *index: receives
+ * the index; may be NULL. If `any` is not NULL, a value "*" is skipped and marked in `any`.
+ * REFUSED: the message names the word and the most similar known name. */
 status assignment_set(const assignment_list *, const char *text, double value[], int any[],
                       int *index, fault *f);
-/* Sets the parameters of "NAME=VALUE;NAME=VALUE", in which a name may occur once. Other parameters
- * keep their values. "" sets nothing. */
+/* Sets the parameters of "NAME=VALUE;NAME=VALUE", in which each name may occur once. Other
+ * parameters keep their values. "" sets nothing. */
 status assignment_parse(const assignment_list *, const char *text, double value[], int any[],
                         fault *f);
-/* Writes the parameters in the same form: only values that differ from their defaults, in the
- * order of the tables. */
+/* Writes the parameters in the same form. Only values that differ from their defaults are written,
+ * in the order of the tables. */
 void assignment_text(const assignment_list *, const double value[], char *text, int size);
 
-/* Reads a number of any size, or the name of a choice as its index. Returns 0 if the text is
- * neither. */
+/* Reads a number of any size, or the name of a choice, which gives its index. Returns 0 if the text
+ * is neither. */
 int assignment_value(const parameter_type *, const char *text, double *value);
-/* Writes the shortest text that gives the same value when read, or the name of the choice. */
+/* Writes the shortest text that gives the same value when it is read, or the name of the choice. */
 void assignment_value_text(const parameter_type *, double value, char *text, int size);
 
 /* Cases by their names. */
 
-const case_type *case_find(const char *name, fault *f); /* returns NULL for an unknown name; the
-                                                           message gives the nearest known one */
+/* returns NULL for an unknown name; the message gives the most similar known name */
+const case_type *case_find(const char *name, fault *f);
 
-/* Moves node states by increments, as the derivatives of element.h are defined: positions and
- * warping amplitudes are added, rotations R <- exp(dphi~) R. */
+/* Moves states of nodes by increments as in the definition of the derivatives of element.h.
+ * Positions and warping amplitudes are added; rotations are changed by R <- exp(dphi~) R. */
 
-/* out = x moved by step[7 nodes] (dr [m], dphi [rad], da [rad/m] of each node). */
+/* Moves x by step[7 nodes] (dr [m], dphi [rad], da [rad/m] of each node). */
 void chart_move(const node_state x[], int nodes, const double step[], node_state out[]);
 
-/* Returns the size of a small step of coordinate c [m, rad, rad/m], scaled so that the strains
- * it causes do not depend on the length of the beam. */
+/* Returns the size of a small step of coordinate c [m, rad, rad/m]. The scale is such that the
+ * strains due to the step do not depend on the length of the beam. */
 double chart_unit(int c, double length);
 
-/* dexp(psi): d(exp(psi)) exp(-psi) = dexp(psi) dpsi, the spatial increment due to a change of
- * the rotation vector, row-major. chart_dexp_inverse computes the inverse for |psi| < 2 pi. */
+/* Computes dexp(psi), row-major, in d(exp(psi)) exp(-psi) = dexp(psi) dpsi. This is the spatial
+ * increment due to a change of the rotation vector. chart_dexp_inverse computes the inverse for
+ * |psi| < 2 pi. */
 void chart_dexp(const double psi[3], double T[9]);
 void chart_dexp_inverse(const double psi[3], double T[9]);
 
 /* Program, machine and libraries that computed a result. */
 
 typedef struct environment {
-    const char *version, *released /* version, and its date as 2026-11-21 */, *commit, *compiler,
-        *flags;
+    const char *version,
+        *released /* version of the program, and its date in the form 2026-11-21 */, *commit,
+        *compiler, *flags;
     char libraries[256], processor[128], clock[32]; /* clock: ISO 8601, UTC */
     int threads;
 } environment;
 
 environment environment_now(int threads);
-const char *environment_version(void); /* returns the version of the program as "0.12.0" */
+/* returns the version of the program, for example "0.12.0" */
+const char *environment_version(void);
 
-/* A formulation with its options: -f name:key=value,... */
+/* A formulation with its options, as in -f name:key=value,... */
 
 enum { FORMULATION_KEY = 128, FORMULATION_OPTIONS = ELEMENT_MAX_OPTIONS + 1 };
 
-/* Form of the Newton iteration: mixed and condensed in each element; in displacements only (for
+/* Form of Newton's method: mixed and condensed in each element; displacements only (for
  * comparison); or mixed and uncondensed, with dense elimination. */
 typedef enum newton_form {
     NEWTON_MIXED,
@@ -109,63 +112,62 @@ typedef enum newton_form {
 
 typedef struct formulation {
     const element_type *type;
-    double option[FORMULATION_OPTIONS]; /* options of the type in table order, then the common
-                                           options */
-    /* name, and the options that differ from their defaults */
+    /* options of the type in the order of its table, followed by the common options */
+    double option[FORMULATION_OPTIONS];
+    /* name, with the options that differ from their defaults */
     char key[FORMULATION_KEY];
 } formulation;
 
-/* Options that every formulation has, after its own. */
+/* Options that every formulation has. They follow the options of the type. */
 extern const parameter_type formulation_common[];
-/* Options of a type, followed by those that all formulations share. */
+/* Returns the options of a type, followed by the options that all formulations have. */
 assignment_list formulation_options(const element_type *);
 newton_form formulation_newton(const formulation *);
 status formulation_parse(const char *text, formulation *out, fault *f);
-/* Finds the type for "name" or "name:key=value,...". Returns NULL when there is none. */
+/* Finds the type for "name" or "name:key=value,..."; NULL: none. */
 const element_type *formulation_find(const char *key);
 void formulation_default(const element_type *type, formulation *out);
-/* Builds the default formulation with choice `choice` of option `index`. Returns 0 if there is no
- * such choice, or when it is the default. */
+/* Makes the default formulation with choice `choice` of option `index`. Returns 0 if there is no
+ * such choice, or if it is the default. */
 int formulation_choice(const element_type *type, int index, int choice, formulation *out);
-/* Returns the features that are affected by the options with non-default values
- * (element_judged). */
+/* Returns the features that options with other values than the defaults affect (element_judged). */
 unsigned formulation_bears_on(const formulation *chosen);
 
 /* List of formulations. */
 
-/* Adds a formulation given as for -f, or "all". REFUSED: a formulation is unknown or given
- * twice, or there are more than `most`. */
+/* Adds a formulation in the form of the option -f, or "all". REFUSED: a formulation is unknown or
+ * given twice, or there are more than `most`. */
 status formulation_list_add(const char *text, int most, formulation list[], int *count, fault *f);
 
-/* All formulations: first those of elements/, then those loaded at run time. */
+/* All formulations: those of elements/, followed by those loaded at run time. */
 
 enum { FORMULATIONS_MOST_LOADED = 16 };
 
 /* Returns formulation number i; NULL after the last one. */
 const element_type *formulations_at(int i);
-/* Returns the element type of this name, or NULL. */
+/* Returns the element type with this name; NULL: none. */
 const element_type *formulations_named(const char *name, size_t length);
 /* Returns 1 if the type was loaded at run time. */
 int formulations_is_loaded(const element_type *t);
 /* Returns 1 for a formulation that the project has not accepted: it was loaded at run time, or
- * formulations_accept has accepted others but not this one. The verdicts on such a formulation
- * affect the exit status only if the user loaded or named it (sweep_gates). */
+ * formulations_accept has accepted other formulations but not this one. Verdicts on such a
+ * formulation affect the exit status only if the user loaded or named it (sweep_gates). */
 int formulations_is_new(const element_type *t);
-/* Marks a formulation as accepted (reference/accepted.csv); an unknown name is ignored. */
+/* Marks a formulation as accepted (reference/accepted.csv). An unknown name is ignored. */
 void formulations_accept(const char *name);
-/* Adds a type. REFUSED: the name exists already, or is a word with another meaning ("all"). The
- * caller keeps ownership of the type and of `from`, the value of --element (NULL if none). */
+/* Adds a type. REFUSED: the name already exists, or is a word with another meaning ("all"). The
+ * caller keeps ownership of the type and of `from`, the value of --element (NULL: none). */
 status formulations_add(const element_type *t, const char *from, fault *f);
-/* Returns the value of --element that loaded the type, or NULL if the type was not loaded. */
+/* Returns the value of --element that loaded the type; NULL: the type was not loaded. */
 const char *formulations_element(const element_type *t);
 
-/* Formulations in separate processes: --element 'exec:COMMAND'. */
+/* Formulations in separate processes, loaded with --element 'exec:COMMAND'. */
 
 enum { PROCESS_MOST = 16 };
 
 /* Returns 1 if another process computes this type. */
 int process_serves(const element_type *);
-/* Sets the time limit of an answer [s], initially 120; 0: no limit. */
+/* Sets the time limit [s] of an answer, which is initially 120; 0: no limit. */
 void process_limit(int seconds);
 
 /* Parameter points of a case: conversion between text and values. */
@@ -178,20 +180,21 @@ void parameters_default(const case_type *c, double value[]);
 /* Sets a parameter. assignment: "NAME=VALUE". */
 status parameters_set(const case_type *c, const char *assignment, double value[], fault *f);
 /* Reads "NAME=VALUE;NAME=VALUE". Other parameters keep their defaults. A value "*" is skipped and
- * marked in any[] (may be NULL); "*" alone marks all parameters of the source. */
+ * marked in any[] (may be NULL). "*" alone marks all parameters of the original source. */
 status parameters_parse(const case_type *c, const char *text, double value[], int any[], fault *f);
-/* Writes the parameters in the same form; writes nothing for the defaults. */
+/* Writes the parameters in the same form. Default values are omitted. */
 void parameters_text(const case_type *c, const double value[], char *text, int size);
-/* As parameters_text, but writes only parameters of the original source. Programs that compute
+/* Like parameters_text, but writes only parameters of the original source. Programs that compute
  * reference values are called with these parameters. */
 void parameters_source_text(const case_type *c, const double value[], char *text, int size);
-int parameters_of_source(const case_type *c); /* number of parameters of the original source; they
-                                                 come first in the table */
-/* Returns the FNV-1a hash of "name=%.17g;" over all parameters in table order. Choices enter by
- * their index; parameters marked in `any` enter as "name=*;". */
+/* returns the number of parameters of the original source, which come first in the table */
+int parameters_of_source(const case_type *c);
+/* Returns the FNV-1a hash of "name=%.17g;" for all parameters in the order of the table. The number
+ * of a choice is its index. For parameters marked in `any`, "name=*;" is hashed. */
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[]);
 
-/* Words of the previous point. Between neighbouring rows of a table most of them do not change. */
+/* Words of the previous point. Between neighbouring rows of a table, most of the words do not
+ * change. */
 typedef struct parameters_words {
     int known; /* number of known words; 0: none */
     double value[CASE_MAX_PARAMETERS];
@@ -199,84 +202,88 @@ typedef struct parameters_words {
     char text[CASE_MAX_PARAMETERS][128];
 } parameters_words;
 
-/* As parameters_hash, for successive points of one case. */
+/* Like parameters_hash, for successive points of one case. */
 uint64_t parameters_hash_next(const case_type *c, const double value[], const int any[],
                               parameters_words *before);
 
 /* External formulations: a shared object with the symbol beamwork_element or the function
  * beamwork_element_type (element.h), or a process (exec:COMMAND). */
 
-/* Loads a formulation, which stays loaded until the program ends. REFUSED: the file is not a
+/* Loads a formulation, which remains loaded until the program ends. REFUSED: the file is not a
  * shared object, has no such symbol, has another interface version (ABI, size) or an incomplete
  * description, or the text is not a command. The message is one line that names the file and the
  * remedy. */
 status plugin_load(const char *path, const element_type **out, fault *f);
 
-/* Generated lists of all formulations in elements/ and all cases in cases/, NULL-terminated. */
+/* Generated lists of all formulations in elements/ and of all cases in cases/, NULL-terminated. */
 
 extern const element_type *const registry_formulations[];
 extern const case_type *const registry_cases[];
 
-/* Expressions that select runs: -k "c_column and not (beamw or beamw_first)". */
+/* Expressions that select runs, for example -k "c_column and not (beamw or beamw_first)". */
 
-/* Limits of an expression: number of words, length of a word, depth of nested brackets and nots. */
+/* Limits of an expression: number of words, length of a word, and depth of nested brackets and
+ * nots. */
 enum { SELECT_WORDS = 256, SELECT_WORD = 128, SELECT_DEPTH = 64 };
 
-/* Evaluates an expression for a text. The expression consists of words joined by and, or, not
- * and brackets. A word matches anywhere in the text; =NAME matches a whole part between slashes.
+/* Evaluates an expression for a text. The expression consists of words connected by and, or, not
+ * and brackets. A word matches anywhere in the text. =NAME matches a whole part between slashes.
  * Returns 1 or 0; -1: the expression is malformed. */
 int select_matches(const char *expression, const char *text);
-/* Returns 1 if the expression is true for every text that contains `part`, and for expression NULL;
- * 0 for an expression with `not`. */
+/* Returns 1 if the expression is true for every text that contains `part`, and for expression NULL.
+ * Returns 0 for an expression with `not`. */
 int select_covers(const char *expression, const char *part);
 
-/* Records which words of an expression have matched a name, so a misspelt word is reported. */
+/* Records which words of an expression have matched a name. A misspelt word can then be reported.
+ * */
 typedef struct select_words {
     char met[SELECT_WORDS];
 } select_words;
 
-/* expression NULL selects everything. Names of cases and formulations count as matched, even if
- * no run has them. REFUSED: the expression is malformed. */
+/* Starts the record. expression NULL: selects everything. Names of cases and formulations count as
+ * matched, even if no run has them. REFUSED: the expression is malformed. */
 status select_begin(const char *expression, select_words *, fault *);
 void select_meet(const char *expression, const char *text, select_words *);
-/* Finds the first word that matched no name. Returns 0 if all words did. */
+/* Finds the first word that matched no name. Returns 0 if all words matched. */
 int select_unmet(const char *expression, const select_words *, char word[SELECT_WORD]);
-/* REFUSED: a word matched no name; the message names the first such word and the nearest name. */
+/* Checks that all words have matched. REFUSED: a word matched no name; the message gives the first
+ * such word and the most similar name. */
 status select_all_met(const char *expression, const select_words *, fault *);
 
-/* Central finite differences of sixth order, for functions whose arguments have magnitude one. */
+/* Central finite differences of sixth order, for functions whose arguments are of the order of one.
+ * */
 
 enum { STENCIL_MOST = 576 }; /* largest number of values of a function */
 
-/* Step size h in units of the argument. Truncation error of the first and the second derivative:
- * h^6/140 times the seventh derivative, and h^6/560 times the eighth. Round-off: eps/h and 4
- * eps/h^2. */
+/* Step size h in units of the argument. The truncation error is h^6/140 times the seventh
+ * derivative for the first derivative, and h^6/560 times the eighth derivative for the second
+ * derivative. The rounding errors are eps/h and 4 eps/h^2. */
 static const double stencil_first_step = 2e-3, stencil_second_step = 1e-3;
 
-/* Computes values[count] with argument i moved by si units and argument j by sj units (if i ==
- * j, by si + sj). Returns 0, or another number when the function has no value there. */
+/* Computes values[count] with argument i moved by si units and argument j by sj units (if i == j,
+ * by si + sj). Returns 0; another number: the function has no value for these arguments. */
 typedef int stencil_function(const void *context, int i, double si, int j, double sj,
                              double values[]);
 
 /* Computes the derivatives of the values with respect to argument i, per unit. Returns 0, or the
  * nonzero number that the function returned. */
 int stencil_first(stencil_function *f, const void *context, int count, int i, double out[]);
-/* Computes the second derivatives with respect to arguments i and j, which are symmetric in i
- * and j. */
+/* Computes the second derivatives with respect to arguments i and j, which are symmetric in i and
+ * j. */
 int stencil_second(stencil_function *f, const void *context, int count, int i, int j, double out[]);
 
 /* Splits a command line into words. */
 
 enum { WORDS_MOST = 63 };
 
-/* *words: NULL-terminated; one call of free() releases the list and its words. Blanks separate
- * words; the quotes ' and " protect blanks. REFUSED: there is no word, there are too many words,
- * or a quote does not end. FAULT: out of memory. */
+/* Splits the command. *words: NULL-terminated; one call of free() releases the list and its words.
+ * Blanks separate words. The quotation marks ' and " protect blanks. REFUSED: there is no word,
+ * there are too many words, or a quotation mark is not closed. FAULT: out of memory. */
 status words_split(const char *command, char ***words, fault *f);
 
-/* Prints a word for a shell, with quotes if necessary. */
+/* Prints a word for a shell, with quotation marks if necessary. */
 void words_quote(FILE *to, const char *word);
-/* As words_quote, into a string of at most `size` bytes. */
+/* Like words_quote, into a string of at most `size` bytes. */
 void words_quoted(const char *word, char *out, size_t size);
 
 #endif

@@ -12,20 +12,19 @@
 #include "elements/shared/status.h"
 #include "harness/formulations/formulations.h"
 
-/* A child process whose standard input and output are channels; its standard error is that of
- * this process. The child ends with the thread that started it. */
+/* A child process whose standard input and output are channels. Its standard error is that of this
+ * process. The child ends with the thread that started it. */
 
 typedef struct child {
     pid_t process; /* 0: no process */
-    pid_t owner;   /* the process that started the child; only that process may communicate with the
-                      child */
+    pid_t owner;   /* process that started the child; no other process may communicate with it */
     int to, from;
 } child;
 
 typedef enum child_event {
     CHILD_DONE,
-    CHILD_ENDED, /* the child closed its output or terminated */
-    CHILD_LATE,  /* no answer within the time limit */
+    CHILD_ENDED, /* the child has closed its output or has terminated */
+    CHILD_LATE,  /* there was no answer within the time limit */
     CHILD_SPOKE  /* the child wrote before it had received the whole request */
 } child_event;
 
@@ -35,22 +34,23 @@ typedef enum child_event {
 enum { PROCESS_PROTOCOL = 1, HANDSHAKE_MOST = 65536 };
 
 typedef struct handshake {
-    element_type type; /* data members only, no functions */
+    element_type type; /* only data members, no functions */
     int whole;         /* 1: the process computes the energy, force or tangent of whole elements;
                           0: strains and stresses */
-    int inertia;       /* 1: the process computes the inertia of elements; with type.spreads,
-                          also for transient analysis */
+    /* 1: the process computes the inertia of elements; if type.spreads is set, also for transient
+     * analysis */
+    int inertia;
     element_constants constants; /* constants of the type */
 } handshake;
 
-/* Reads the first line of a process. `who` begins every error message. After success,
- * handshake_free frees what the type points to; after an error nothing needs to be freed. The
- * owner sets type.constants. REFUSED: the line does not follow the protocol. */
+/* Reads the first line of a process. who: start of every error message. After success,
+ * handshake_free frees the memory to which the type points. After an error, nothing needs to be
+ * freed. The owner sets type.constants. REFUSED: the line does not follow the protocol. */
 status handshake_read(const char *who, const char *line, size_t length, handshake *out, fault *f);
-/* Frees what the type of a handshake points to; accepts a type filled with zeros. */
+/* Frees the memory to which the type of a handshake points. Accepts a type filled with zeros. */
 void handshake_free(element_type *);
 
-/* Requests to the process of a formulation and its answers; their format is in protocol.md. */
+/* Requests to the process of a formulation and its answers. protocol.md describes their format. */
 
 enum channel_request {
     CHANNEL_PREPARE = 1,
@@ -62,18 +62,18 @@ enum channel_request {
 
 enum { CHANNEL_HEADER = 40, CHANNEL_ANSWER = 24 };
 
-/* Growing buffer that begins with a header. */
+/* Growing buffer that starts with a header. */
 typedef struct channel_bytes {
     char *at;
     size_t count, room;
 } channel_bytes;
 
 typedef struct channel {
-    char *who; /* start of messages: "exec:COMMAND", later "formulation NAME" */
+    char *who; /* start of messages: first "exec:COMMAND", later "formulation NAME" */
     char **words;
     child process;
-    long started; /* number of starts; data prepared by an earlier process are invalid */
-    int limit;    /* time limit of an answer [s]; 0: none */
+    long started; /* number of starts; data that an earlier process prepared are invalid */
+    int limit;    /* [s] time limit of an answer; 0: none */
     pthread_mutex_t lock;
     channel_bytes out, in;
     /* Error that broke the channel, stored until it is reported; "": none. */
@@ -81,25 +81,25 @@ typedef struct channel {
     int told;
 } channel;
 
-/* REFUSED: the command has no words. FAULT: out of memory. */
+/* Makes a channel. REFUSED: the command has no words. FAULT: out of memory. */
 status channel_init(channel *, const char *command, fault *);
-/* Starts the process, again if it has ended, and reads its first line: line[HANDSHAKE_MOST + 1],
- * ended by '\0'. REFUSED: the process writes no line. */
+/* Starts the process, or starts it again if it has ended, and reads its first line into
+ * line[HANDSHAKE_MOST + 1], terminated by '\0'. REFUSED: the process writes no line. */
 status channel_start(channel *, char line[], fault *);
-/* Returns 1 if the child was started by this process and is running. */
+/* Returns 1 if this process started the child and the child is running. */
 int channel_runs(const channel *);
-/* channel_begin empties the body of the next request. channel_add adds `count` bytes to it and
- * returns their address; NULL: out of memory. */
+/* channel_begin empties the body of the next request. channel_add adds `count` bytes to the body
+ * and returns their address; NULL: out of memory. */
 void channel_begin(channel *);
 void *channel_add(channel *, size_t count);
-/* Sends the request and waits for the answer. *body: the answer, of `least` to `most` bytes
+/* Sends the request and waits for the answer. *body: the answer of `least` to `most` bytes
  * (*count), valid until the next request. NOT_CONVERGED, SINGULAR, REFUSED: the process reports
- * this outcome, with a message. FAULT: the channel is broken or the process has ended, and
- * `trouble` gives the reason. */
+ * this outcome with a message. FAULT: the channel is broken or the process has ended; `trouble`
+ * gives the reason. */
 status channel_ask(channel *, enum channel_request what, int mask, int elements, size_t least,
                    size_t most, const char **body, size_t *count, fault *);
-/* Stores the reason for a REFUSED or FAULT until it is reported. Other outcomes are ignored,
- * since smaller steps may succeed. */
+/* Stores the reason for REFUSED or FAULT until it is reported. Other outcomes are ignored, because
+ * smaller steps may succeed. */
 void channel_note(channel *, status outcome, const fault *why);
 /* Sets the formulation name for later messages. */
 status channel_call(channel *, const char *name, fault *);
@@ -108,20 +108,20 @@ void channel_end(channel *);
 /* Marks the channel as broken, for a reason that the caller gives. Returns FAULT. */
 status channel_break(channel *, const char *why, fault *);
 
-/* Gathers the perturbed states of many elements, so one call evaluates all of them. A function that
- * computes finite differences is called twice: the first call records its states, and the second
- * call receives their values. */
+/* Gathers the perturbed states of many elements, so that one call evaluates all of them. A function
+ * that computes finite differences is called twice. The first call records its states, and the
+ * second call receives their values. */
 
 typedef struct gather {
-    int answered;    /* 0: states are being gathered; 1: their answers are returned, in the same
-                        order */
-    int count, next; /* number of states, and number of answers returned so far */
+    int answered;    /* 0: states are gathered; 1: their answers are returned in the same order */
+    int count, next; /* number of states, and number of answers that have been returned */
     int nodes;       /* number of nodes of a state */
     size_t size;     /* number of doubles in an answer */
-    const element_data **data; /* [count] data of the type before completion */
+    const element_data **data; /* [count] data of the type that is completed */
     node_state *x;             /* [count x nodes] */
     double *answer;            /* [count x size] */
-    int room, failed;          /* capacity in states; 1 after an allocation failure */
+    /* number of states for which there is memory; 1 after an allocation failure */
+    int room, failed;
 } gather;
 
 /* Evaluates element i by finite differences, with calls of gather_next. */
@@ -130,32 +130,32 @@ typedef void gather_element(void *context, gather *, int i);
 typedef void gather_evaluate(void *context, gather *, int first, int count);
 enum { GATHER_TOGETHER = 4096 }; /* largest number of states in one evaluation */
 
-/* Calls element(context, g, i) twice for each of `count` elements, with one `evaluate` in between.
- * When memory is short, calls it once with g NULL. */
+/* Calls element(context, g, i) twice for each of `count` elements, with one call of `evaluate` in
+ * between. If memory is short, calls it once with g NULL. */
 void gather_run(int count, int nodes, size_t size, gather_element *, gather_evaluate *,
                 void *context);
-/* Returns the answer [size] for the state x[nodes]. Returns NULL in the first pass, where the
- * caller's result is not used. */
+/* Returns the answer [size] for the state x[nodes]. Returns NULL in the first pass, in which the
+ * result of the caller is not used. */
 const double *gather_next(gather *, const element_data *own, const node_state x[]);
 
-/* Energy, forces and stiffness from the functions of the type itself, for one state or for many
- * together. */
+/* Energy, forces and stiffness from the functions of the type, for one state or for many states in
+ * one call. */
 
-/* Computes the forces with the functions of the type. With `together`: returns the gathered
- * answers, or zeros while states are being gathered. */
+/* Computes the forces with the functions of the type. together: the gathered answers are returned,
+ * or zeros while states are gathered; NULL: the functions are called. */
 status forces_of(const element_data *d, gather *together, const node_state x[], force_output *out);
 /* Returns the number of doubles in a gathered answer. */
 size_t forces_size(const element_data *d);
-/* Computes the answers of states first .. first + count - 1, with everything that the type
+/* Computes the answers of states first .. first + count - 1, including everything that the type
  * computes. Requires force_many. */
 void forces_evaluate(const element_type *given, gather *, int first, int count);
 
-/* Strains of an element that is defined by its force or energy. They are the positions of its
- * nodes relative to the first node, in the axes of that node: e = (|d| - undeformed distance, l
- * p, l log(R0^T R_k)) for every other node, and l^2 a for all nodes [m]. Here d = r_k - r_0, and
- * p = (2 n_y, 2 n_z)/(1 + n_x) for the direction n of d, which is regular unless the chord
- * points backward. The distance is a separate strain: otherwise a stiff chord would need more
- * iterations of the mixed equations than a soft one. */
+/* Strains of an element that is defined by its force or energy. They are the positions of its nodes
+ * relative to the first node, in the axes of the first node: e = (|d| - undeformed distance, l p, l
+ * log(R0^T R_k)) for every other node, and l^2 a for all nodes [m]. Here d = r_k - r_0, and p = (2
+ * n_y, 2 n_z)/(1 + n_x) for the direction n of d. p is regular unless the chord points backwards.
+ * The distance is a separate strain, because otherwise a stiff chord would need more iterations of
+ * the mixed equations than a soft one. */
 
 enum { PLACES_MOST = 6 * (ELEMENT_MAX_NODES - 1) + ELEMENT_MAX_NODES };
 
@@ -164,8 +164,8 @@ int places_strains_three(const double options[]); /* strains of an element with 
 
 void places_strain(const element_data *d, const node_state x[], strain_output *out);
 
-/* Computes the positions of the nodes for these strains, with the first node at rest at the
- * origin. */
+/* Computes the positions of the nodes for these strains. The first node is at rest at the origin.
+ * */
 void places_nodes(const element_data *d, const double e[], node_state x[]);
 
 /* Computes B [7n x strains], the derivative of the node positions with respect to the strains. */

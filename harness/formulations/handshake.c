@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reads the options to *out, a table that the caller frees, even after REFUSED; NULL when the list
- * is NULL or empty. REFUSED: see handshake_read. */
+/* Reads the options into *out, a table that the caller frees, even after REFUSED. *out is NULL if
+ * the list is NULL or empty. REFUSED: as for handshake_read. */
 static status handshake_options(const char *who, const json_t *list, const parameter_type **out,
                                 fault *f);
 static void handshake_options_free(const parameter_type *table); /* accepts NULL */
@@ -53,7 +53,7 @@ static status refuse(const handshake_reading *r, const char *key, const char *wh
                      what);
 }
 
-/* Copies a string, so it outlives the JSON. */
+/* Copies a string, because the JSON is freed earlier. */
 static status text_of(const handshake_reading *r, const char *key, const char **out)
 {
     const char *text = json_string_value(json_object_get(r->said, key));
@@ -100,7 +100,7 @@ static status no_such_word(const handshake_reading *r, const char *key, const wo
                      r->who, key, word != NULL ? word : "that is not text", words);
 }
 
-/* Combines the bits of a list of words. known NULL: the words in feature.h. */
+/* Combines the bits of a list of words. known NULL: the words of feature.h. */
 static status words_of(const handshake_reading *r, const char *key, const word_bit known[],
                        unsigned *out)
 {
@@ -118,7 +118,7 @@ static status words_of(const handshake_reading *r, const char *key, const word_b
     return STATUS_OK;
 }
 
-/* Reads a whole number; the result is `absent` if the member is missing. */
+/* Reads a whole number. The result is `absent` if the member is missing. */
 static status number_of(const handshake_reading *r, const char *key, int least, int most,
                         int absent, int *out)
 {
@@ -168,8 +168,8 @@ static status gives_of(const handshake_reading *r, handshake *out)
     return refuse(r, "gives", "give one of e; e,J; e,J,H; energy; force; tangent");
 }
 
-/* Reads what the inertia of the process supports: vibration and rotating frames only, or also
- * transient analysis. */
+/* Reads the analyses for which the process computes inertia: vibration and rotating frames only, or
+ * also transient analysis. */
 static status inertia_of(const handshake_reading *r, handshake *out)
 {
     const json_t *given = json_object_get(r->said, "inertia");
@@ -227,7 +227,7 @@ static status read_all(const handshake_reading *r, handshake *out)
     TRY(words_of(r, "offers", NULL, &t->offers));
     TRY(words_of(r, "limits", limits, &t->limits));
     TRY(words_of(r, "shear_theories", theories, &t->shear_theories));
-    /* a type with a shear theory supports its feature */
+    /* a type with a shear theory supports the feature of this theory */
     t->offers |= t->shear_theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0;
     t->offers |= t->shear_theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0;
     TRY(number_of(r, "nodes", 2, ELEMENT_MAX_NODES, 2, &out->constants.nodes));
@@ -297,8 +297,8 @@ static const char *copy_or(const json_t *text, const char *absent)
     return strdup(json_is_string(text) ? json_string_value(text) : absent);
 }
 
-/* Joins the words of a choice to "a|b"; NULL: the member is not a list of words, or out of
- * memory. */
+/* Joins the words of a choice to "a|b"; NULL: the member is not a list of words, or out of memory.
+ * */
 static const char *join(const json_t *list)
 {
     size_t length = 1;

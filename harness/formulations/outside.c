@@ -8,7 +8,7 @@
 #include "harness/formulations/process_impl.h"
 
 /* Loads the type that the command describes. The type and its process exist until this process
- * ends. Every worker process starts its own copy of the command's process. REFUSED: the command
+ * ends. Every worker process starts a separate copy of the command's process. REFUSED: the command
  * does not exist, or its first line does not follow the protocol (protocol.md). */
 static status process_load(const char *command, const element_type **out, fault *f);
 
@@ -23,7 +23,7 @@ static int is_name(const char *text)
            text[strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789_")] == '\0';
 }
 
-/* Checks the required members; the message names the first one that is missing. */
+/* Checks the required members. The message names the first missing member. */
 static status check(const char *path, const element_type *t, fault *f)
 {
     const char *why = NULL;
@@ -55,7 +55,7 @@ static status copy(const char *path, const element_type *loaded, const element_t
     if (t == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %.100s", path);
     memcpy(t, loaded, loaded->size);
-    /* a type with a shear theory supports its feature */
+    /* a type with a shear theory supports the feature of this theory */
     t->offers |= t->shear_theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0;
     t->offers |= t->shear_theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0;
     const status outcome = check(path, t, f);
@@ -66,7 +66,7 @@ static status copy(const char *path, const element_type *loaded, const element_t
     return outcome;
 }
 
-/* Returns the exported formulation; NULL: there is none. */
+/* Returns the exported formulation; NULL: none. */
 static const element_type *find_type(void *file)
 {
     const element_type *(*returned)(void) = NULL;
@@ -129,7 +129,7 @@ static size_t data_size(const element_request *request)
     return sizeof(element_data) + m * m * sizeof(double);
 }
 
-/* Starts the process again. Its description must be the same as the first time. */
+/* Starts the process again. Its description must be the same as after the first start. */
 static status start_again(process *p, fault *f)
 {
     char *line = malloc(HANDSHAKE_MOST + 1);
@@ -225,8 +225,8 @@ static status prepare(const element_request *request, element_data *out, fault *
     const status outcome = prepare_locked(p, request, out, f);
     p->to.told |= outcome != STATUS_OK;
     pthread_mutex_unlock(&p->to.lock);
-    return outcome == STATUS_FAULT ? STATUS_NOT_CONVERGED : outcome; /* as for the failure of an
-                                                                        evaluation */
+    /* the same outcome as for a failed evaluation */
+    return outcome == STATUS_FAULT ? STATUS_NOT_CONVERGED : outcome;
 }
 
 static const char *trouble(const element_data *d)
@@ -238,7 +238,8 @@ static const char *trouble(const element_data *d)
     return c->trouble;
 }
 
-/* REFUSED: the byte order of the machine is not supported, because numbers are not converted. */
+/* Checks the byte order. REFUSED: the byte order of the machine is not supported, because numbers
+ * are not converted. */
 static status check_machine(const char *command, fault *f)
 {
     const int64_t one = 1;

@@ -6,8 +6,8 @@
 
 #include "elements/shared/choice.h"
 
-/* Copies one word without its quotes. Returns the rest of the text, or NULL when a quote does
- * not end. */
+/* Copies a word without its quotation marks. Returns the rest of the text; NULL: a quotation mark
+ * is not closed. */
 static const char *take(const char *from, char **to)
 {
     char quote = '\0';
@@ -221,8 +221,8 @@ void assignment_text(const assignment_list *l, const double value[], char *text,
     }
 }
 
-/* Returns 1 if the program has added the parameter, so the original source of the case does not
- * have it. */
+/* Returns 1 if the program has added the parameter, which the original source of the case does not
+ * have. */
 static int is_shared(const parameter_type *p)
 {
     return case_is_omit(p) || case_is_mass(p);
@@ -303,7 +303,7 @@ static void write_word(const parameter_type *p, int i, double value, int any,
 {
     const size_t size = sizeof words->text[i];
     if (i < words->known && words->any[i] == any && words->value[i] == value &&
-        !signbit(words->value[i]) == !signbit(value)) /* "-0" is different from "0" */
+        !signbit(words->value[i]) == !signbit(value)) /* "-0" differs from "0" */
         return;
     words->value[i] = value;
     words->any[i] = any;
@@ -322,8 +322,8 @@ uint64_t parameters_hash_next(const case_type *c, const double value[], const in
     for (; (p = parameter_at(c->parameters, i)) != NULL; i++) {
         write_word(p, i, value[i], any != NULL && any[i], before);
         if (is_shared(p) && value[i] == 0)
-            /* the default adds nothing, so points keep the names that they had before this
-             * parameter existed */
+            /* The default adds nothing, so points keep the names that they had before this
+             * parameter existed. */
             continue;
         for (const char *at = before->text[i]; *at != '\0'; at++)
             hash = (hash ^ (unsigned char)*at) * 1099511628211ull;

@@ -18,7 +18,7 @@ int places_strains_three(const double options[])
     return PLACES_MOST;
 }
 
-/* Returns the undeformed distance of node k from the first one [m]. */
+/* Returns the undeformed distance [m] of node k from the first node. */
 static double distance(const element_data *d, int k)
 {
     return d->length * k / (d->nodes - 1);
@@ -30,7 +30,7 @@ static int first_warping(const element_data *d)
     return 6 * (d->nodes - 1);
 }
 
-/* Computes the chord to node k and its change, in the axes of the first node [m]. */
+/* Computes the chord to node k [m] and its change [m] in the axes of the first node. */
 static void chord(const node_state x[], int k, double to[3], double moved[3])
 {
     double d[3], u[3];
@@ -67,7 +67,8 @@ static void strains_of(const element_data *d, const node_state x[], double e[])
         e[first_warping(d) + k] = l * l * x[k].a;
 }
 
-/* Computes the rows Q: derivatives of the strains of a node with respect to the chord to it. */
+/* Computes the rows Q: the derivatives of the strains of a node with respect to the chord to the
+ * node. */
 static void direction_rows(double l, const double to[3], double Q[9])
 {
     const double size = vec3_norm(to);
@@ -80,8 +81,8 @@ static void direction_rows(double l, const double to[3], double Q[9])
     }
 }
 
-/* Computes the rows of another node: derivatives of its position and rotation relative to the
- * first one. */
+/* Computes the rows of another node: the derivatives of its position and rotation relative to the
+ * first node. */
 static void node_rows(const element_data *d, const node_state x[], int k, double J[])
 {
     const int n = NODE_COORDINATES * d->nodes;
@@ -91,7 +92,7 @@ static void node_rows(const element_data *d, const node_state x[], int k, double
     relative_rotation(&x[0], &x[k], psi);
     chart_dexp_inverse(psi, T);
     direction_rows(d->length, to, Q);
-    double back[9]; /* R0^T */
+    double back[9]; /* d(n.d) = n.dd + dphi.(n x d), because n rotates */
     for (int i = 0; i < 9; i++)
         back[i] = x[0].R[3 * (i % 3) + i / 3];
     mat3_mul(T, back, turned);
@@ -161,8 +162,8 @@ void places_nodes(const element_data *d, const double e[], node_state x[])
     }
 }
 
-/* Computes the derivatives of the relative position with respect to its three strains, in rows
- * of stride m. */
+/* Computes the derivatives of the relative position with respect to its three strains, in rows of
+ * stride m. */
 static void direction_columns(double l, double undeformed, const double e[], int m, double rows[])
 {
     const double c = forward(l, e), size = undeformed + e[0];

@@ -13,9 +13,9 @@
 
 #include "harness/numerics/numerics.h"
 
-/* Ends a child of this process: immediately if now is 1, otherwise after a short time in which
- * it may exit by itself. Returns its status from waitpid, or -1 if it was killed here. For a
- * child of another process, only the channels are closed. */
+/* Ends a child of this process: immediately if `now` is 1, otherwise after a short time in which it
+ * may exit. Returns its status from waitpid; -1: this function killed the child. For a child of
+ * another process, only the channels are closed. */
 static int child_end(child *, int now);
 
 enum { TO_READ, TO_WRITE };
@@ -26,7 +26,7 @@ static void close_both(const int ends[2])
     close(ends[TO_WRITE]);
 }
 
-/* In the child: executes the command, or writes the reason for the failure. */
+/* Executes the command in the child, or writes the reason for the failure. */
 static void become(char *const words[], int in, int out, int why, pid_t parent)
 {
     sigset_t none;
@@ -43,7 +43,8 @@ static void become(char *const words[], int in, int out, int why, pid_t parent)
     _exit(127);
 }
 
-/* Opens a pipe whose descriptors are not 0, 1 or 2, so dup2 does not close a descriptor in use. */
+/* Opens a pipe whose descriptors are not 0, 1 or 2. Otherwise dup2 could close a descriptor in use.
+ * */
 static int pipe_above(int ends[2])
 {
     int low[2];
@@ -65,8 +66,8 @@ static status no_process(const char *command, fault *f)
     return fault_set(f, STATUS_FAULT, "cannot start '%.100s': %s", command, strerror(errno));
 }
 
-/* REFUSED: the command does not exist; the message names it. FAULT: the pipe or the process
- * could not be created. */
+/* Starts the child. REFUSED: the command does not exist; the message names it. FAULT: the pipe or
+ * the process cannot be created. */
 static status child_start(char *const words[], child *out, fault *f)
 {
     int in[2], from[2], why[2], number = 0;
@@ -157,7 +158,7 @@ static double end_of(int limit)
     return limit > 0 ? clock_wall_seconds() + limit : 0;
 }
 
-/* As write(), but returns EPIPE without raising a signal. */
+/* Like write(), but returns EPIPE without raising a signal. */
 static ssize_t write_quietly(int to, const void *bytes, size_t count)
 {
     sigset_t pipe_only, before, pending;
@@ -197,8 +198,8 @@ static child_event child_write(const child *c, const void *bytes, size_t count, 
     return CHILD_DONE;
 }
 
-/* Reads at least `least` and at most `most` bytes. *count: number of bytes read, even when the
- * child has ended. */
+/* Reads at least `least` and at most `most` bytes. *count: number of bytes that were read, even if
+ * the child has ended. */
 static child_event child_read(const child *c, void *bytes, size_t least, size_t most, size_t *count,
                               int limit)
 {
@@ -260,7 +261,7 @@ void channel_note(channel *c, status outcome, const fault *why)
     c->told = 0;
 }
 
-/* Replaces characters that are not printable by dots, so the text is one line. */
+/* Replaces characters that are not printable by dots, so that the text is one line. */
 static void on_one_line(char text[])
 {
     for (; *text != '\0'; text++)
@@ -341,7 +342,7 @@ int channel_runs(const channel *c)
     return child_runs(&c->process);
 }
 
-/* Enlarges the buffer to at least `count` bytes in total. Returns 0 if out of memory. */
+/* Enlarges the buffer to at least `count` bytes. Returns 0 if out of memory. */
 static int make_room(channel_bytes *b, size_t count)
 {
     if (count <= b->room)
@@ -373,7 +374,7 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for a mesh in a request");
 }
 
-/* Reads the line that accompanies an outcome other than ok. */
+/* Reads the line that follows an outcome other than ok. */
 static status refused(channel *c, status outcome, size_t bytes, size_t had, fault *f)
 {
     char text[MESSAGE + 1] = "", *rest = c->in.at + CHANNEL_ANSWER;
@@ -392,7 +393,7 @@ static status refused(channel *c, status outcome, size_t bytes, size_t had, faul
     return fault_set(f, outcome, "%.100s: %.200s", c->who, text[0] != '\0' ? text : "refused");
 }
 
-/* Reads the rest of an answer after its header and possibly a part of the body. */
+/* Reads the rest of an answer after its header and, possibly, after a part of its body. */
 static status rest_of(channel *c, size_t least, size_t most, size_t had, size_t *count, fault *f)
 {
     int64_t head[2];

@@ -5,14 +5,14 @@
 #include "elements/math/dense.h"
 #include "harness/formulations/process_impl.h"
 
-enum { FRAME = 1 << 23 }; /* approximate size of a request and its answer [bytes] */
+enum { FRAME = 1 << 23 }; /* [bytes] approximate size of a request and its answer */
 
 static channel *frame_channel(const frame_question *q)
 {
     return &q->data[0]->of->to;
 }
 
-/* Returns OK when the process still has the data of these elements. */
+/* Returns OK if the process still has the data of these elements. */
 static status known(const frame_question *q, fault *f)
 {
     const process *p = q->data[0]->of;
@@ -29,8 +29,8 @@ static status known(const frame_question *q, fault *f)
     return many ? channel_break(c, "more than 65536 kinds of elements at once", f) : STATUS_OK;
 }
 
-/* Append `bytes` to a request, and read `count` doubles of an answer. Both functions advance the
- * pointer. */
+/* frame_put appends `bytes` to a request. The second function reads `count` doubles of an answer.
+ * Both functions advance the pointer. */
 static void frame_put(char **to, const void *from, size_t bytes)
 {
     memcpy(*to, from, bytes);
@@ -43,8 +43,8 @@ static void frame_take(const char **from, double to[], size_t count)
     *from += count * sizeof(double);
 }
 
-/* Starts a request and writes the kinds of the elements. *to: space for `each` bytes of every
- * element. FAULT: the process has been restarted and has not prepared these elements; or out of
+/* Starts a request and writes the kinds of the elements. *to: memory for `each` bytes of every
+ * element. FAULT: the process has been restarted and has not prepared these elements, or out of
  * memory. */
 static status frame_begin(const frame_question *q, size_t each, char **to, fault *f)
 {
@@ -60,7 +60,7 @@ static status frame_begin(const frame_question *q, size_t each, char **to, fault
     return STATUS_OK;
 }
 
-/* Sends the request and waits for the answer. *body: its count x answer bytes. */
+/* Sends the request and waits for the answer. *body: count x answer bytes. */
 static status frame_ask(const frame_question *q, const char **body, fault *f)
 {
     const size_t bytes = (size_t)q->count * q->answer;
@@ -68,8 +68,8 @@ static status frame_ask(const frame_question *q, const char **body, fault *f)
     return channel_ask(frame_channel(q), q->what, q->mask, q->count, bytes, bytes, body, &count, f);
 }
 
-/* Returns the number of elements, with `each` bytes, that fit into one request; at least 1. More
- * elements are sent in several requests. */
+/* Returns the number of elements, with `each` bytes, that fit into a request; at least 1. More
+ * elements need several requests. */
 static int frame_fitting(size_t each)
 {
     return (int)(FRAME / each) + 1;
@@ -80,7 +80,7 @@ static int frame_nodes(const element_data *d)
     return d->coordinates / NODE_COORDINATES;
 }
 
-/* Strains, stresses and forces of many elements, in one request for each kind of result. */
+/* Strains, stresses and forces of many elements, with one request for each kind of result. */
 
 _Static_assert(sizeof(node_state) == 16 * sizeof(double), "a node is sent as its bytes");
 
@@ -112,7 +112,7 @@ static void fill_nan(double to[], size_t count)
         to[i] = NAN;
 }
 
-/* Sets strains to NaN, because strain functions return no status; element_type.trouble gives the
+/* Sets strains to NaN, because strain functions return no status. element_type.trouble gives the
  * reason. */
 static void no_strains(const frame_question *q, strain_output out[], const fault *why)
 {
@@ -213,7 +213,7 @@ static void stress_frames(int count, const element_data *const data[], const dou
     pthread_mutex_unlock(&data[0]->of->to.lock);
 }
 
-/* Computes the stresses of many elements. Those of elements with constant stiffness are computed
+/* Computes the stresses of many elements. Stresses of elements with constant stiffness are computed
  * here, without the process. */
 static void stress_many(int count, const element_data *const data[], const double *const e[],
                         const double *const inner[], stress_output out[], status outcome[])
@@ -306,7 +306,7 @@ void frames_serve(process *p)
     t->force_many = p->whole ? force_many : NULL;
 }
 
-/* Inertia of a formulation whose process computes it: one request for each element. */
+/* Inertia of a formulation whose process computes it, with one request for each element. */
 
 enum { OUTPUTS = 8, TURNING = 1 << 8, RATE = 1 << 9, ACCELERATION = 1 << 10 };
 

@@ -10,25 +10,26 @@ enum { PROCESS_KINDS = 65536 }; /* number of kinds; larger numbers are taken mod
 typedef struct process {
     element_type type;
     element_constants constants;
-    int whole; /* 1: the process computes energy or forces of whole elements */
+    int whole; /* 1: the process computes the energy or the forces of whole elements */
     channel to;
-    long kinds; /* number of kinds prepared so far by the running process */
+    long kinds; /* number of kinds that the running process has prepared */
 } process;
 
 struct element_data {
     process *of;
-    long started, kind; /* number of the start of the process that prepared the kind; number of
-                           the kind in that process */
+    /* number of the start of the process that prepared the kind, and number of the kind in this
+     * process */
+    long started, kind;
     int strains, coordinates, linear;
-    double C[]; /* [strains x strains] if stresses are linear: sigma = C e */
+    double C[]; /* [strains x strains] C of linear stresses sigma = C e */
 };
 
-/* process_frames.c: sets the functions of the type that evaluate elements. */
+/* Sets the functions of the type that evaluate elements (process_frames.c). */
 void frames_serve(process *p);
-/* process_frames.c: sets the inertia function of the type if the process computes inertia. */
+/* Sets the inertia function of the type if the process computes inertia (process_frames.c). */
 void frames_serve_inertia(process *p);
 
-/* A request about many elements, with the numbers of values per element in the request and in
+/* A request about many elements. Contains the numbers of values per element in the request and in
  * the answer. */
 
 /* A request about elements. */

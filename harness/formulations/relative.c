@@ -1,6 +1,6 @@
 /* Stresses of an element that is defined by its force or energy. They are the derivatives of the
- * energy with respect to the relative positions of its nodes (formulations_impl.h), for the
- * element with its first node at rest. */
+ * energy with respect to the relative positions of its nodes (formulations_impl.h). The first node
+ * is at rest. */
 #include "harness/formulations/formulations_impl.h"
 
 #include <math.h>
@@ -9,11 +9,11 @@
 #include "elements/math/dense.h"
 #include "harness/formulations/adapted.h"
 
-/* Point at which finite differences of energies and forces are computed. */
+/* State at which finite differences of energies and forces are computed. */
 typedef struct relative_place {
     const element_data *data;
     const double *e;
-    const double *F;  /* forces of the nodes, which are fixed while the strains change */
+    const double *F;  /* forces of the nodes, which are kept while the strains change */
     gather *together; /* gathers forces of all perturbed states; NULL: each state is evaluated when
                          it is needed */
 } relative_place;
@@ -97,7 +97,7 @@ static void make_symmetric(int m, double C[])
             C[i * m + j] = C[j * m + i] = (C[i * m + j] + C[j * m + i]) / 2;
 }
 
-/* C += df/de for a function f [strains]. */
+/* Adds df/de of a function f [strains] to C. */
 static int add_columns(const element_data *d, stencil_function *f, const relative_place *at,
                        double C[])
 {
@@ -204,7 +204,7 @@ status relative_stress(const element_data *d, const double e[], const double inn
     return outcome;
 }
 
-/* Computes e = C^-1 sigma; e is zero in directions without stiffness. */
+/* Computes e = C^-1 sigma. e is zero in directions without stiffness. */
 static status flexible(int m, double C[], const double sigma[], double e[])
 {
     int pivot[PLACES_MOST];
@@ -214,7 +214,7 @@ static status flexible(int m, double C[], const double sigma[], double e[])
     memcpy(e, sigma, (size_t)m * sizeof *e);
     for (int i = 0; i < m; i++)
         if (fabs(C[i * m + i]) <=
-            1e-14 * most) { /* inactive: the warping strain of an element without warping */
+            1e-14 * most) { /* inactive: warping strain of an element without warping */
             C[i * m + i] = most;
             e[i] = 0;
         }
@@ -224,7 +224,7 @@ static status flexible(int m, double C[], const double sigma[], double e[])
     return STATUS_OK;
 }
 
-/* Computes C at si units in the direction e from the undeformed state. */
+/* Computes C at si units from the undeformed state, in the direction e. */
 static int tangent_at(const void *context, int i, double si, int j, double sj, double values[])
 {
     double e[PLACES_MOST];

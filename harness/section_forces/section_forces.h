@@ -4,7 +4,7 @@
 
 #include "elements/element.h"
 
-/* Grid of Chebyshev points on an element, with its ends, on [0, 1]. It gives integrals,
+/* Grid of Chebyshev points on an element, including its ends, on [0, 1]. It gives integrals,
  * derivatives and interpolated values of functions that are known at these points. */
 
 enum {
@@ -23,31 +23,29 @@ typedef struct span_grid {
 
 void span_grid_make(span_grid *g);
 
-/* Line of centroids of an element, and triads of its sections, between two frames. They follow
- * from the strains. */
+/* Line of centroids of an element and triads of its sections, between two frames. They follow from
+ * the strains. */
 
 typedef struct span_curve {
-    double r[SPAN_GRID_POINTS][3], R[SPAN_GRID_POINTS][9]; /* r: centroid; R: columns are the
-                                                              axes x (along the line), y and z of
-                                                              the section */
+    /* r: centroid; columns of R: axes x (along the line), y and z of the section */
+    double r[SPAN_GRID_POINTS][3], R[SPAN_GRID_POINTS][9];
 } span_curve;
 
 typedef struct span_frame {
     double r[3], R[9];
 } span_frame;
 
-/* Section forces of an element, from the forces at its ends and the loads between the ends.
- *
- * The end forces of elements are in equilibrium, whatever a formulation assumes inside. Between
- * the ends the line is that of the exact beam (Simo-Reissner with warping, the constants of the
- * section, the active physics) between the end frames. It satisfies F' = -q, m' = -r' x F - mu,
- * N = R^T F, M = R^T m, and the torsion equations of section_forces_impl.h. The solution that
- * starts at the first end p with the forces there is blended, in proportion to x, with the
- * solution that starts at the second end q with the forces there. The only error is that of the
- * end forces: values inside converge like the end forces, and agree with them at the ends. */
+/* Section forces of an element, from the forces at its ends and the loads between the ends. The end
+ * forces of elements are in equilibrium, regardless of the assumptions of a formulation. Between
+ * the ends, the line is that of the exact beam between the end frames (Simo-Reissner with warping,
+ * the constants of the section, and the active physics). It satisfies F' = -q, m' = -r' x F - mu, N
+ * = R^T F, M = R^T m, and the torsion equations of section_forces_impl.h. One solution starts at
+ * the first end p with the forces at p, and another starts at the second end q with the forces at
+ * q. They are combined with weights that are linear in x. The only error is that of the end forces:
+ * values inside the element converge like the end forces, and agree with them at the ends. */
 
-/* Action of the part towards q on the part towards p, in the principal axes of the rotated
- * section. Moments are about the centroid. */
+/* Action of the part towards q on the part towards p, in the principal axes of the rotated section.
+ * Moments are about the centroid. */
 enum span_value {
     SPAN_N,
     SPAN_QY,
@@ -57,17 +55,17 @@ enum span_value {
     SPAN_MZ,
     SPAN_BIMOMENT,
     /* Parts of the torque about the shear centre, M_x - (ys Qz - zs Qy): G It kappa_x, -B', and the
-       contribution of stresses along the rotated fibres, (rho^2 N + bending terms) kappa_x + 4 E c
-       kappa_x^3 */
+     * contribution of stresses along the rotated fibres, (rho^2 N + bending terms) kappa_x + 4 E c
+     * kappa_x^3. */
     SPAN_MX_SAINT_VENANT,
     SPAN_MX_WARPING,
     SPAN_MX_WAGNER,
-    SPAN_TWIST, /* kappa_x minus its initial value [1/m] */
+    SPAN_TWIST, /* [1/m] kappa_x minus its initial value */
     SPAN_VALUES
 };
 
 typedef struct span_end {
-    span_frame frame;           /* frame of an end, with its position [m] */
+    span_frame frame;           /* frame of an end, including its position [m] */
     double force[3], moment[3]; /* in global axes [N, N m] */
     double bimoment, amplitude; /* [N m^2, 1/m] */
 } span_end;
@@ -80,17 +78,17 @@ typedef struct span_problem {
     const element_request
         *request; /* section, length, active physics, initial curvature and initial strain */
     span_end end[2];
-    int linear; /* 1: equilibrium is that of the undeformed element */
-    /* Computes the load at x in [0, 1], on a section with this frame; NULL: there is no load. */
+    int linear; /* 1: equilibrium is formulated for the undeformed element */
+    /* Computes the load at x in [0, 1] on a section with this frame; NULL: there is no load. */
     void (*load)(void *context, double x, const span_frame *, span_load *out);
     void *context;
 } span_problem;
 
 typedef struct span_fields {
     double value[SPAN_GRID_POINTS][SPAN_VALUES];
-    span_curve curve; /* lengths relative to the length of the element, measured from p */
-    double shear[SPAN_GRID_POINTS][3], bend[SPAN_GRID_POINTS][3]; /* strains; curvatures are
-                                                                     relative to that length */
+    span_curve curve; /* lengths relative to the length of the element, with p as origin */
+    /* strains; curvatures are multiplied by the length of the element */
+    double shear[SPAN_GRID_POINTS][3], bend[SPAN_GRID_POINTS][3];
 } span_fields;
 
 /* Motion of a section from the undeformed state, in fixed axes. */
@@ -103,7 +101,7 @@ typedef struct span_move {
 status span_recover(const span_grid *g, const span_problem *problem, span_fields *out, fault *f);
 
 /* Computes the displacement and the rotation of the section at x from those of the ends. begin:
- * the undeformed frames of the ends; the line between them has the initial curvature. */
+ * undeformed frames of the ends. The line between them has the initial curvature. */
 void span_moved(const span_grid *, const span_problem *, const span_fields *,
                 const span_frame begin[2], const double curvature[3], const span_move end[2],
                 double x, span_move *out);

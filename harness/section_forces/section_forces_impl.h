@@ -4,24 +4,23 @@
 
 #include "harness/section_forces/section_forces.h"
 
-/* Solves x = g(x) with Anderson mixing, which also converges where plain iteration diverges. */
+/* Solves x = g(x) with Anderson mixing, which may converge even if plain iteration diverges. */
 
 enum { FIXED_POINT_MAX = 160 };
 
-/* Computes out = g(x) for x[n]. Returns 0, or 1 when g(x) cannot be evaluated. */
+/* Computes out = g(x) for x[n]. Returns 0, or 1 if g(x) cannot be evaluated. */
 typedef int (*fixed_point_map)(void *context, const double x[], double out[]);
 
-/* Non-uniform torsion between two sections whose bimoments and warping amplitudes are known.
- *
- *   EIw a' = B, B' = -M_w, M_s = K k + M_w, k = a + F_w M_w + f:
- * torque M_s about the shear centre, twist rate k, amplitude a, torque M_w due to restrained
- * warping, torsional stiffness K, flexibility F_w of warping in shear, and contribution f of
- * transverse forces. Two of the four end values determine a solution: the solution with (B_p, a_q)
- * is used near p and is blended with the solution with (a_p, B_q) near q. Both are well posed for
- * any K >= 0. */
+/* Non-uniform torsion between two sections whose bimoments and warping amplitudes are known. The
+ * equations are EIw a' = B, B' = -M_w, M_s = K k + M_w, k = a + F_w M_w + f, with the torque M_s
+ * about the shear centre, the twist rate k, the amplitude a, the torque M_w due to restrained
+ * warping, the torsional stiffness K, the flexibility F_w of warping in shear, and the contribution
+ * f of transverse forces. Two of the four end values determine a solution. The solution with (B_p,
+ * a_q) is used near p, and the solution with (a_p, B_q) near q, with weights that vary along the
+ * element. Both are well posed for any K >= 0. */
 
 typedef struct span_torsion {
-    double EIw;                         /* 0: the section has no warping */
+    double EIw;                         /* 0: the section does not warp */
     double flexibility;                 /* F_w */
     double bimoment[2], amplitude[2];   /* values at p and q */
     double torque[SPAN_GRID_POINTS];    /* M_s */
@@ -37,11 +36,13 @@ typedef struct span_twist {
 /* span_grid.c */
 /* Computes share[SPAN_GRID_POINTS], the weights of the grid points in the value at x. */
 void span_grid_at(const span_grid *g, double x, double share[]);
-/* out[i][k]: integral of component k from 0 to x[i]. values, out: [points x count], row-major. */
+/* Computes the integral of component k from 0 to x[i]: out[i][k]. values, out: [points x count],
+ * row-major. */
 void span_grid_integrate(const span_grid *g, int count, const double values[], double out[]);
-/* Starts from x[n], n <= FIXED_POINT_MAX. Stops when no entry changes by more than `enough`, or
- * when the change no longer decreases. x becomes the iterate with the smallest change. Returns
- * the largest change of an entry in that iterate; INFINITY when the map failed. */
+/* Solves the equation, starting from x[n] with n <= FIXED_POINT_MAX. Stops when no entry changes by
+ * more than `enough`, or when the change no longer decreases. x becomes the iterate with the
+ * smallest change. Returns the largest change of an entry in this iterate; INFINITY: the map
+ * failed. */
 double fixed_point_find(int n, fixed_point_map map, void *context, double enough, double x[]);
 
 #endif

@@ -7,20 +7,20 @@
 #include "elements/math/rotation.h"
 #include "elements/shared/beam_constants.h"
 
-/* Solves R' = R kappa~, r' = R (e_x + gamma) over [0, 1], with the length as unit. kappa[points
- * x 3] and gamma[points x 3] are in section axes. Uses a Magnus series of order six between the
- * points. The curve ends at both frames: the gap at the end, which is a discretisation error, is
- * distributed in proportion to x. */
+/* Solves R' = R kappa~, r' = R (e_x + gamma) over [0, 1], where the unit is the length.
+ * kappa[points x 3] and gamma[points x 3] are in section axes. Uses a Magnus series of order six
+ * between the points. The curve ends at both frames: the gap at the end, which is a discretisation
+ * error, is distributed in proportion to x. */
 static void span_curve_between(const span_grid *g, const span_frame *p, const span_frame *q,
                                const double kappa[], const double gamma[], span_curve *out);
-/* Solves the torsion equations over [0, 1], with the length as unit. Returns 0, or 1 when the
+/* Solves the torsion equations over [0, 1], where the unit is the length. Returns 0, or 1 if the
  * equations are singular. */
 static int span_twist_solve(const span_grid *g, const span_torsion *t, span_twist *out);
 
 enum { N = SPAN_GRID_POINTS, KAPPA = 0, GAMMA = 3 * N, UNKNOWNS = 6 * N };
 static const double span_enough = 1e-12, tolerable = 1e-7; /* strains times the length */
 
-/* All values in units of the element: length l0, force EI/l0^2, moment EI/l0, bimoment EI. */
+/* All values are in units of the element: length l0, force EI/l0^2, moment EI/l0, bimoment EI. */
 typedef struct span_work {
     const span_grid *g;
     const span_problem *problem;
@@ -30,7 +30,7 @@ typedef struct span_work {
     span_curve curve;
     span_twist twist;
     double N[SPAN_GRID_POINTS][3], M[SPAN_GRID_POINTS][3];
-    double flexibility[36]; /* flexibility of a section given by matrices */
+    double flexibility[36]; /* flexibility of a section that is given by matrices */
 } span_work;
 
 static void begin(span_work *w)
@@ -40,7 +40,7 @@ static void begin(span_work *w)
     for (int e = 0; e < 2; e++) {
         w->end[e] = w->problem->end[e];
         for (int i = 0; i < 3; i++) {
-            /* relative to p, to avoid cancellation for small elements */
+            /* Positions are relative to p, which avoids cancellation for small elements. */
             w->end[e].frame.r[i] =
                 (w->problem->end[e].frame.r[i] - w->problem->end[0].frame.r[i]) / w->l0;
             w->end[e].force[i] /= w->force_unit;
@@ -74,7 +74,7 @@ static void loads_of(span_work *w, double out[N][6])
     }
 }
 
-/* Computes force and moment at an end, transferred to the origin p. */
+/* Computes the force and the moment at an end, transferred to the origin p. */
 static void about_origin(const span_end *end, double out[6])
 {
     memcpy(out, end->force, 3 * sizeof *out);
@@ -83,7 +83,7 @@ static void about_origin(const span_end *end, double out[6])
         out[3 + i] += end->moment[i];
 }
 
-/* Computes N and M at the points, from equilibrium of the parts on both sides. */
+/* Computes N and M at the points from the equilibrium of the parts on both sides. */
 static void resultants(span_work *w)
 {
     double load[N][6], gathered[N][6], from[2][6];
@@ -105,8 +105,8 @@ static void resultants(span_work *w)
     }
 }
 
-/* Returns the torque per twist rate due to the stresses along the fibres, which the twist
- * inclines. */
+/* Returns the torque per twist rate due to the stresses along the fibres, which the twist inclines.
+ * */
 static double wagner(const span_work *w, int j, double rate)
 {
     const beam_constants *c = &w->c;
@@ -132,7 +132,7 @@ static int twisted(span_work *w, const double strains[])
     return span_twist_solve(w->g, &t, &w->twist);
 }
 
-/* Computes the strains of a section given by matrices, which has no torque due to warping. */
+/* Computes the strains of a section that is given by matrices and has no torque due to warping. */
 static void strained_matrices(span_work *w, double out[])
 {
     for (int j = 0; j < N; j++) {
@@ -218,7 +218,7 @@ status span_recover(const span_grid *g, const span_problem *problem, span_fields
             "no line between the ends of an element of %g m was found; use more elements",
             problem->request->length);
     } else {
-        again(&w, strains, made); /* evaluates the fields for the best strains found */
+        again(&w, strains, made); /* evaluates the fields for the best strains */
     }
     take(&w, made, out);
     return STATUS_OK;
@@ -274,8 +274,8 @@ static void moved_linearly(const span_grid *g, double length, const span_fields 
     close_gap(g, end[1].displacement, u);
 }
 
-/* Computes displacements as differences between the curve and the undeformed one, and rotations
- * of the sections relative to that at p. */
+/* Computes displacements as differences between the curve and the undeformed curve, and rotations
+ * of the sections relative to the rotation at p. */
 static void moved_far(const span_grid *g, double length, const span_fields *of,
                       const span_frame begin[2], const double curvature[3], const span_move end[2],
                       double u[N][3], double turn[N][3])
@@ -333,8 +333,8 @@ void span_moved(const span_grid *g, const span_problem *problem, const span_fiel
 
 enum { CURVE_N = SPAN_GRID_POINTS };
 
-/* Computes the rotation over an interval of length h, in the axes at its start (Blanes, Casas,
- * Ros, BIT 40, 2000): R^T' = -kappa~ R^T at three Gauss points. */
+/* Computes the rotation over an interval of length h, in the axes at its start (Blanes, Casas, Ros,
+ * BIT 40, 2000): R^T' = -kappa~ R^T at three Gauss points. */
 static void turn_of(const span_grid *g, int gap, const double kappa[], double h, double out[3])
 {
     double at[SPAN_GRID_GAUSS][3] = {{0}}, a[3], b[3], c[3], first[3], second[3], third[3],
@@ -361,7 +361,7 @@ static void turn_of(const span_grid *g, int gap, const double kappa[], double h,
         out[i] = -(a[i] + c[i] / 12 + second[i] / 240);
 }
 
-/* Integrates the orientations, and sets the last one to that of q. */
+/* Integrates the orientations, and sets the last orientation to that of q. */
 static void turn(const span_grid *g, const span_frame *p, const span_frame *q, const double kappa[],
                  span_curve *out)
 {

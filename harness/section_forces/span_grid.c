@@ -11,7 +11,7 @@
 enum {
     GRID_N = SPAN_GRID_POINTS,
     EXACT = GRID_N / 2
-}; /* number of Gauss points; exact for the polynomials of the grid */
+}; /* number of Gauss points, for which polynomials of the grid are integrated exactly */
 
 void span_grid_at(const span_grid *g, double x, double share[])
 {
@@ -46,7 +46,7 @@ static void make_integral(span_grid *g)
     }
 }
 
-/* Makes row sums zero, because the derivative of a constant is zero. */
+/* Makes the sum of each row zero, because the derivative of a constant is zero. */
 static void make_derivative(span_grid *g)
 {
     for (int i = 0; i < GRID_N; i++) {
@@ -88,14 +88,14 @@ void span_grid_integrate(const span_grid *g, int count, const double values[], d
 
 enum { MEMORY = 12, MOST = 100 };
 
-/* Differences of the last steps and of the values of the map. The steps are orthonormalised
+/* Differences of the last iterates, and of the values of the map. The former are orthonormalised
  * (Gram-Schmidt). */
 typedef struct history {
     int count;
     double move[MEMORY][FIXED_POINT_MAX], given[MEMORY][FIXED_POINT_MAX];
 } history;
 
-/* Adds a pair of differences; a full history is cleared first. */
+/* Adds a pair of differences. A full history is cleared first. */
 static void remember(history *h, int n, double move[], double given[])
 {
     if (h->count == MEMORY)

@@ -135,8 +135,8 @@ int paragraph_columns(const char *text)
     return columns_of(text, strlen(text));
 }
 
-/* Returns the number of bytes of the next word. In commands, blanks within quotes belong to the
- * word. */
+/* Returns the number of bytes of the next word. In commands, blanks within quotation marks belong
+ * to the word. */
 static size_t word_at(const char *text, int command)
 {
     size_t length = strcspn(text, " \n'");
@@ -150,11 +150,11 @@ static size_t word_at(const char *text, int command)
     return length;
 }
 
-/* Writes words with line breaks. joint: ends a line that is continued. */
+/* Writes words with line breaks. joint: text at the end of a line that is continued. */
 static void write_words(FILE *to, int at, int indent, const char *joint, const char *text)
 {
     const int width = PARAGRAPH_WIDTH - columns_of(joint, strlen(joint));
-    int column = at, begun = 0; /* begun: 1 if the line has a word */
+    int column = at, begun = 0; /* begun: 1 if the line contains a word */
     static const char blank[] = " \n";
     for (text += strspn(text, blank); *text != '\0'; text += strspn(text, blank)) {
         const size_t word = word_at(text, joint[0] != '\0');
@@ -212,7 +212,7 @@ void paragraph_say(FILE *to, int at, int indent, const char *format, ...)
     if (vasprintf(&text, format, arguments) >= 0) {
         paragraph_write(to, at, indent, text);
         free(text);
-    } else { /* out of memory: one long line */
+    } else { /* out of memory, so the text becomes one long line */
         fputc(' ', to);
         vfprintf(to, format, again);
         fputc('\n', to);
@@ -233,7 +233,7 @@ static int has_colour(FILE *to)
            (none == NULL || none[0] == '\0');
 }
 
-/* Returns 1 if the locale of the environment is UTF-8, whatever locale the program itself uses. */
+/* Returns 1 if the locale of the environment is UTF-8, regardless of the locale of the program. */
 static int has_utf8(void)
 {
     const locale_t here = newlocale(LC_CTYPE_MASK, "", (locale_t)0);

@@ -15,9 +15,9 @@ enum {
 /* A series that was run, and its reference value. */
 typedef struct beside_column {
     const series *one;
-    const truth *row; /* reference value; NULL: there is none */
+    const truth *row; /* reference value; NULL: none */
     verdict shown;
-    const char *name; /* rest of the name that the header does not contain yet */
+    const char *name; /* rest of the name, which the header does not contain yet */
     char title[FORMULATION_KEY + 16];
 } beside_column;
 
@@ -29,7 +29,7 @@ typedef struct block {
     beside_column list[COLUMNS];
 } block;
 
-/* Returns the length of the part of a name that one line contains, up to the last separator that
+/* Returns the length of the part of a name that a line contains, up to the last separator that
  * fits. */
 static int piece_of(const char *name)
 {
@@ -43,7 +43,7 @@ static int piece_of(const char *name)
     return fits > 0 ? fits : COLUMN - 1;
 }
 
-/* Writes one line of the names. Returns 0 if the names are complete. */
+/* Writes a line of the names. Returns 0 if the names are complete. */
 static int write_names(FILE *to, block *b, const char *head)
 {
     int left = 0, last = -1;
@@ -69,8 +69,8 @@ static const solve_result *result_of(const series *one, int elements)
     return NULL;
 }
 
-/* Writes the error; the value if there is no reference value; or the reason why there is no
- * value. */
+/* Writes the error, the value if there is no reference value, or the reason why there is no value.
+ * */
 static void write_cell(FILE *to, const block *b, const beside_column *c, int elements)
 {
     const solve_result *r = result_of(c->one, elements);
@@ -124,7 +124,8 @@ static void write_row(FILE *to, const block *b, const char *head,
     fputc('\n', to);
 }
 
-/* Writes a row for every number of elements used by a formulation of the block, ascending. */
+/* Writes a row for every number of elements that a formulation of the block has, in ascending
+ * order. */
 static void write_meshes(FILE *to, const block *b)
 {
     for (int last = 0, next = 0;; last = next) {
@@ -152,7 +153,7 @@ static void write_sentences(FILE *to, const block *b)
         if (c->shown.kind == VERDICT_PASS || c->shown.kind == VERDICT_OTHER_MODEL)
             continue; /* undecided limits are listed once, at the end */
         if (c->shown.kind == VERDICT_NO_TRUTH && (c->row != NULL || !b->known))
-            continue; /* the heading states the verdict for all of them */
+            continue; /* the heading states the common verdict */
         sentence_of_verdict(&c->shown, b->q->least_order, text, sizeof text);
         paragraph_write(to, fprintf(to, "  %s: ", c->one->formulation.key), 4, text);
     }
@@ -172,8 +173,8 @@ static void write_block(FILE *to, block *b)
     write_sentences(to, b);
 }
 
-/* Appends a reference value, such as "; exact 11419457.12 (haringx)". For an agreement, names the
- * formulations that agree. */
+/* Appends a reference value, such as "; exact 11419457.12 (haringx)". For an agreement, appends the
+ * names of the formulations that agree. */
 static void add_truth(char *line, size_t size, const truth *row)
 {
     const size_t used = strlen(line);
@@ -196,7 +197,7 @@ static void write_why(FILE *to, int at, const sweep *s, const truths *t, int qua
     paragraph_end(&words, at, 4);
 }
 
-/* Writes the name, the unit and the reference values of the formulations, without duplicates.
+/* Writes the name, the unit, and the reference values of the formulations without repetition.
  * Returns 0 if there is no reference value. */
 static int write_heading(FILE *to, const sweep *s, const truths *t, int quantity)
 {
@@ -251,7 +252,7 @@ static void write_quantity(FILE *to, const sweep *s, const truths *t, int quanti
     }
 }
 
-/* Writes the formulations that lack the same features on one line, which comes at the first of
+/* Writes the formulations that lack the same features in one line, at the position of the first of
  * them. */
 static void write_missing(FILE *to, const sweep *s)
 {

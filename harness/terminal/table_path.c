@@ -9,7 +9,8 @@
 
 enum { MOST_STEPS = 40 };
 
-/* Writes the corrections of the iterations of a step, on several lines if there are many. */
+/* Writes the corrections of the iterations of a step. If there are many, they take several lines.
+ * */
 static void corrections(FILE *to, int column, const solve_result *r, const step_record *k)
 {
     paragraph words;
@@ -19,7 +20,7 @@ static void corrections(FILE *to, int column, const solve_result *r, const step_
     paragraph_end(&words, column, column);
 }
 
-/* Returns the number of steps to report; the steps of motions are reported in a short form. */
+/* Returns the number of steps to report. Steps of motions are reported in a short form. */
 static int steps_told(const solve_result *r)
 {
     int steps = r->steps;
@@ -104,7 +105,7 @@ void table_path_events(FILE *to, const solve_result *r)
 
 enum { MOTION_INDENT = 2 };
 
-/* Records [first, end) of one motion, which start with the initial state. */
+/* Records [first, end) of a motion, which start with the initial state. */
 typedef struct motion_extent {
     const motion_record *record;
     int first, end;
@@ -190,7 +191,7 @@ static void energy_line(FILE *to, const motion_extent *e)
     paragraph_end(&words, at, MOTION_INDENT);
 }
 
-/* Prints the largest energy dissipated by the integrator, relative to the largest energy. */
+/* Prints the largest energy that the integrator dissipates, relative to the largest energy. */
 static void damping_line(FILE *to, const motion_extent *e)
 {
     account so_far = {.largest = 0};
@@ -239,8 +240,8 @@ static void momentum_line(FILE *to, const motion_extent *e)
                   change_of(e, SCENE_LX));
 }
 
-/* Reports a load whose factor at the end of the preceding path differs from that at the start of
- * the motion. */
+/* Reports a load whose factor at the end of the preceding path differs from its factor at the start
+ * of the motion. */
 static void jump_lines(FILE *to, const scene *s, int analysis, double path)
 {
     for (int i = 0; i < s->loads && isfinite(path); i++) {

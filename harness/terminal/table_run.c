@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* Prints "case (parameters), formulation, n = 1, 2: WHY" for the meshes of a series without a
- * solution; WHY is the reason for the finest of them. */
+ * solution. WHY is the reason for the finest of these meshes. */
 static void failed_series(FILE *to, const sweep *s, int index, int *lines)
 {
     const series *one = &s->series[index];
@@ -29,7 +29,8 @@ static void failed_series(FILE *to, const sweep *s, int index, int *lines)
                   status_name(last->status), last->reason);
 }
 
-/* Prints the cells without a solution, even if finer meshes have one and determine the verdict. */
+/* Prints the cells without a solution, even if finer meshes have a solution and determine the
+ * verdict. */
 static void failed_cells(FILE *to, const sweep *s)
 {
     int lines = 0;
@@ -37,8 +38,8 @@ static void failed_cells(FILE *to, const sweep *s)
         failed_series(to, s, i, &lines);
 }
 
-/* Prints how often the limits of each formulation lie within their uncertainty of exact reference
- * values, over all cases. */
+/* Prints, for each formulation and over all cases, how often its limits agree with exact reference
+ * values within their uncertainty. */
 static void coverage_lines(FILE *to, const judgement *j)
 {
     if (j->coverages > 0)
@@ -67,7 +68,7 @@ static void coverage_lines(FILE *to, const judgement *j)
 }
 
 /* Prints the published values that are incompatible with limits that agree with the reference
- * value, each of them once. */
+ * value, without repetition. */
 static void contradictions(FILE *to, const sweep *s, const judgement *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
@@ -204,8 +205,8 @@ typedef struct overview_block {
     head *head; /* [columns] */
 } overview_block;
 
-/* Returns the length of the first piece of a name, with as many words as fit into `limit`. A longer
- * word is hyphenated. */
+/* Returns the length of the first piece of a name. The piece has as many words as fit into `limit`.
+ * A longer word is hyphenated. */
 static int piece_of(const char *name, int limit, int *cut)
 {
     int fits = 0;
@@ -224,7 +225,7 @@ static int piece_of(const char *name, int limit, int *cut)
     return most < limit - 1 ? most : limit - 1;
 }
 
-/* Divides a name into lines. mark: a line above the name, or "". */
+/* Divides a name into lines. mark: line above the name, or "". */
 static head head_of(const char *name, int limit, const char *mark)
 {
     head out = {0};
@@ -243,8 +244,8 @@ static head head_of(const char *name, int limit, const char *mark)
     return out;
 }
 
-/* Returns the width of a block in whose names words have at most `limit` characters; also sets its
- * headers. */
+/* Returns the width of a block if the words in its names have at most `limit` characters, and sets
+ * its headers. */
 static int width_with(const overview *o, screen look, overview_block *b, int limit)
 {
     char text[OVERVIEW_TEXT];
@@ -332,8 +333,8 @@ static int width_of_names(const overview *o)
     return width;
 }
 
-/* Lists the cases without a row: those in which something is evaluated, or those in which nothing
- * is. */
+/* Lists the cases without a row: either cases in which something was evaluated, or cases in which
+ * nothing was evaluated. */
 static void print_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     paragraph words;
@@ -350,14 +351,14 @@ static void print_unshown(FILE *to, const overview *o, int judged, const char *w
     paragraph_end(&words, 0, 0);
 }
 
-/* Lists the cases without a row that pass everywhere. */
+/* Lists the cases without a row whose verdicts are all pass. */
 static void print_passing(FILE *to, const overview *o)
 {
     print_unshown(to, o, 1, "more pass in all verdicts");
     print_unshown(to, o, 0, "more have no verdict");
 }
 
-/* Appends the text to the line, or starts a new line with it. */
+/* Appends the text to the line, or to a new line if it does not fit. */
 static void print_entry(FILE *to, int *column, const char *text)
 {
     const int width = paragraph_columns(text);
@@ -369,7 +370,7 @@ static void print_entry(FILE *to, int *column, const char *text)
     *column += width + (*column > 0 ? 3 : 0);
 }
 
-/* Explains the marks that occur, the worst first. */
+/* Explains the marks that occur, with the worst mark first. */
 static void print_legend(FILE *to, screen look, const overview *o)
 {
     int used[OVERVIEW_MARKS] = {0}, unexpected = 0, column = 0;

@@ -11,10 +11,11 @@
 static void loop_lines(FILE *to, const scene *s);
 
 enum { NAME = 28, VALUE = 20, UNIT = 9, DIGITS = 10, INDENT = 2 };
-static const double least_rounding = 1e-11, /* smallest relative round-off of any computed value */
-    noise = 1e-4; /* round-off relative to the scale, below which values count as zero */
+/* smallest relative rounding error of a computed value */
+static const double least_rounding = 1e-11,
+                    noise = 1e-4; /* rounding relative to the scale; smaller values count as zero */
 
-/* Prints estimates of analytic models, which are not reference values. */
+/* Prints estimates from analytic models, which are not reference values. */
 static void predictions(FILE *to, const sweep_point *p, const truths *t)
 {
     for (int i = 0; i < p->scene.quantities; i++) {
@@ -40,13 +41,13 @@ static int is_told(const solve_result *r, int index)
            strcmp(r->quantity[index - 1].reason, r->quantity[index].reason) == 0;
 }
 
-/* Returns 1 if the value is only round-off. */
+/* Returns 1 if the value is only a rounding error. */
 static int is_zero(const scene *s, int index, const solve_result *r)
 {
     return fabs(r->quantity[index].value) < change_scale(s, index, r) * noise;
 }
 
-/* Returns a bound on the change of a value due to round-off and mesh refinement. */
+/* Returns a bound of the change of a value due to rounding and mesh refinement. */
 static double uncertainty_of(const scene *s, int index, const solve_result *r)
 {
     const quantity_result *v = &r->quantity[index];
@@ -93,7 +94,7 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
     fputc('\n', to);
 }
 
-/* Writes the number of load steps used, and the number of rejected longer steps. */
+/* Writes the number of load steps, and the number of rejected longer steps. */
 static void count_steps(const counters *c, char text[FAULT_TEXT])
 {
     const char *plural = c->steps == 1 ? "" : "s";
@@ -118,7 +119,7 @@ static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result
     }
 }
 
-/* Prints bounds on the contribution of omitted modes to curves. */
+/* Prints bounds of the contribution of omitted modes to curves. */
 static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
 {
     for (int i = 0; i < r->quantities; i++)
@@ -127,7 +128,8 @@ static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
                     s->quantity[i].name, r->quantity[i].rounding);
 }
 
-/* Prints the combinations if loads have cases: "ULS = 1.35 dead + 1.5 wind; ...". */
+/* Prints the combinations if loads have load cases, for example "ULS = 1.35 dead + 1.5 wind; ...".
+ * */
 static void combinations(FILE *to, const scene *s)
 {
     if (s->combinations == 0)
@@ -148,7 +150,7 @@ static void combinations(FILE *to, const scene *s)
     paragraph_end(&words, at, INDENT);
 }
 
-/* Prints the initial shapes, and the analyses that do not have them. */
+/* Prints the initial shapes, and the analyses to which they do not apply. */
 static void imperfections(FILE *to, const scene *s)
 {
     if (s->imperfections == 0)
@@ -172,8 +174,8 @@ static void imperfections(FILE *to, const scene *s)
     paragraph_end(&words, at, INDENT);
 }
 
-/* Returns 1 if an analysis that is linear about a state holds the driven components fixed; words:
- * the kinds of these analyses. */
+/* Returns 1 if an analysis that is linear about a state holds the driven components fixed. words:
+ * kinds of these analyses. */
 static int holding(const scene *s, char words[40])
 {
     static const struct {
@@ -210,7 +212,8 @@ static void put_driven(FILE *text, const scene *s, int node, const int driver[3]
                     scene_name(s, SCENE_NODES, node).text, names + 2 * k);
 }
 
-/* Prints the driven components that are fixed in an analysis: "held: stage ux, driven (modal)". */
+/* Prints the driven components that are fixed in an analysis, for example "held: stage ux, driven
+ * (modal)". */
 static void driven(FILE *to, const scene *s)
 {
     char kinds[40], *words = NULL;
@@ -260,8 +263,8 @@ static int is_weighed(const scene *s)
     return 0;
 }
 
-/* Prints the masses, in which a wrong unit shows: "mass: bodies 500 kg, members 0.0125 kg". members
- * [kg] */
+/* Prints the masses, in which a wrong unit is visible, for example "mass: bodies 500 kg, members
+ * 0.0125 kg". members: mass [kg]. */
 static void masses(FILE *to, const scene *s, double members)
 {
     enum { MOST_NAMES = 8 };
@@ -332,7 +335,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     table_path_steps(to, &c->solve);
 }
 
-/* Prints the feedback loops that small vibrations close. */
+/* Prints the feedback loops that are closed in small vibrations. */
 static void loop_lines(FILE *to, const scene *s)
 {
     for (int i = 0; i < s->loads; i++) {

@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Prints the lowest cost for the quantities of a point (`every` 1), or for the first one with a
- * reference value. Returns 0 if none has a reference value. list[series]: workspace. */
+/* Prints the lowest cost for all quantities of a point (`every` 1), or for the first quantity with
+ * a reference value. Returns 0 if no quantity has a reference value. list[series]: work space. */
 static int table_cheapest(FILE *to, const sweep *, const judgement *, int point, int every,
                           reached list[]);
 
 enum { NAME = 23 };
 
-/* Returns the verdict of a series on a quantity if it has a reference value; otherwise NULL. */
+/* Returns the verdict of a series on a quantity with a reference value; NULL: none. */
 static const verdict *judged_on(const judgement *j, int series_index, int quantity)
 {
     for (int i = 0; i < j->verdicts; i++)
@@ -31,7 +31,7 @@ static double error_on(const sweep *s, const verdict *v, int mesh)
                : NAN;
 }
 
-/* Prints the formulation and the mesh; a longer name has its own line. Returns the width in
+/* Prints the formulation and the mesh. A long name has a separate line. Returns the width in
  * columns. */
 static int subject(FILE *to, const series *one, int mesh)
 {
@@ -60,14 +60,15 @@ static void row(FILE *to, const sweep *s, const series *one, const verdict *v, i
         paragraph_say(to, column, 6, " %s", c->solve.reason);
 }
 
-/* Returns the number of meshes of a series that were run, if the series belongs to point `at`. */
+/* Returns the number of meshes of a series that were run; 0: the series does not belong to point
+ * `at`. */
 static int meshes_run(const series *one, int at)
 {
     return one->point == at && one->missing[0] == '\0' ? one->meshes : 0;
 }
 
 /* Returns the first quantity with a reference value for a formulation whose errors have not been
- * shown yet; -1: there is none. done[series] 1: the errors of the series have been shown. */
+ * shown yet; -1: none. done[series] 1: the errors of the series have been shown. */
 static int next_quantity(const sweep *s, const judgement *j, int at, const char done[])
 {
     for (int q = 0; q < s->point[at].scene.quantities; q++)
@@ -127,8 +128,8 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at, char done
     }
 }
 
-/* Prints microseconds per iteration for each part and for the rest of the solution, and the dense
- * reference if it was timed. */
+/* Prints the time in microseconds per iteration for each part and for the remaining solution, and
+ * for the dense reference if it was timed. */
 static void parts_of(FILE *to, const series *one, int mesh)
 {
     const cell_timing *t = &one->timing[mesh];
@@ -219,7 +220,8 @@ static void way(FILE *to, const sweep *s, const reached *r)
         fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
-/* Prints, after the formulations that pass, others that were faster in every round. */
+/* Prints formulations that were faster in every round than the formulations that pass, below the
+ * latter. */
 static void faster_ones(FILE *to, const sweep *s, const reached list[], int count, int ties)
 {
     int told = 0;
@@ -232,7 +234,8 @@ static void faster_ones(FILE *to, const sweep *s, const reached list[], int coun
         }
 }
 
-/* If no formulation passes, prints those within the error, grouped by defect. */
+/* Prints the formulations within the error in groups with the same defect, for the case that no
+ * formulation passes. */
 static void defective_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {
@@ -251,8 +254,8 @@ static void defective_ones(FILE *to, const sweep *s, const reached list[], int c
     }
 }
 
-/* Prints, after the ranked formulations, those that are not ranked: first those that pass, then the
- * others. Returns the number of those that pass. */
+/* Prints the formulations that are not ranked, below the ranked ones: first those that pass, then
+ * the others. Returns the number of those that pass. */
 static int unranked_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     int i = 0, told = 0;
@@ -264,8 +267,8 @@ static int unranked_ones(FILE *to, const sweep *s, const reached list[], int cou
     return i;
 }
 
-/* Returns a text with the formulation of lowest counted work at a point and those tied with it. The
- * caller frees the text; NULL: out of memory. */
+/* Returns a text with the formulation that has the lowest counted work at a point, and the
+ * formulations tied with it. The caller frees the text; NULL: out of memory. */
 static char *cheapest(const reach_question *q, reached list[])
 {
     char *text = NULL;
@@ -301,7 +304,7 @@ static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
     return 0;
 }
 
-/* The formulation of lowest cost for a quantity, for every level. */
+/* The formulation with the lowest cost for a quantity, for every level. */
 typedef struct cheapest_answer {
     int quantity, told; /* 1: has been printed */
     char *text[REACH_LEVELS];
@@ -320,8 +323,8 @@ static int same_answer(const cheapest_answer *a, const cheapest_answer *b)
     return same;
 }
 
-/* Writes one line for all quantities with the same answers as the first one: "u_x, F_y within 10, 1
- * %: collocation, n = 1". Adjacent levels with equal answers are combined. */
+/* Writes one line for all quantities with the same answers as the first one, for example "u_x, F_y
+ * within 10, 1 %: collocation, n = 1". Adjacent levels with equal answers are combined. */
 static void write_together(FILE *out, const scene *here, cheapest_answer a[], int count)
 {
     for (int level = 0, next; level < REACH_LEVELS; level = next) {

@@ -22,7 +22,7 @@ static void print_settings(FILE *to, const char *parameters)
             fputc(*parameters, to);
 }
 
-/* Prints the source of the formulation if the formulation is not built in. */
+/* Prints the source of the formulation if it is not built in. */
 static void print_element(FILE *to, const element_type *type)
 {
     const char *element = type != NULL ? formulations_element(type) : NULL;
@@ -32,7 +32,7 @@ static void print_element(FILE *to, const element_type *type)
     words_quote(to, element);
 }
 
-/* Prints the command that shows a series again. quantity: one of its quantities, or NULL. */
+/* Prints the command that shows a series again. quantity: one of its quantities; NULL: all. */
 static void print_command(FILE *to, const sweep_point *p, const series *one, const char *quantity)
 {
     paragraph words;
@@ -157,7 +157,7 @@ static void print_rules(FILE *to, const truths *t, int *number)
     }
 }
 
-/* Prints the reference values that have no case, point or quantity. */
+/* Prints the reference values whose case, point or quantity does not exist. */
 static void print_unmet(FILE *to, const truths *t, int *number)
 {
     for (int i = 0; i < t->rows; i++) {
@@ -226,8 +226,8 @@ static const curve *curve_of(const scene *s, const solve_result *r, int quantity
     return c->points > 0 ? c : NULL;
 }
 
-/* Returns the analysis whose stations are the points of the curve, if steps end there. SCENE_NONE:
- * the points are not those of a path with given stations. */
+/* Returns the analysis whose stations are the points of the curve, if steps end at these stations.
+ * SCENE_NONE: the points are not those of a path with given stations. */
 static int path_of(const scene *s, int quantity)
 {
     const int analysis = s->quantity[quantity].analysis;
@@ -264,7 +264,7 @@ static double largest_of(int points, const double value[])
     return largest;
 }
 
-/* Returns the value; 0 if it is round-off relative to the largest one. */
+/* Returns the value, or 0 if it is a rounding error relative to the largest value. */
 static double without_noise(int points, const double value[], int at)
 {
     const double noise = 1e-13;
@@ -285,7 +285,7 @@ static void write_value(FILE *to, const quantity_result *r, int at)
         table_digits(to, COLUMN, value, DIGITS);
 }
 
-/* Prints the curves list[count] over the abscissae of the first one. */
+/* Prints the curves list[count] over the abscissae of the first curve. */
 static void write_block(FILE *to, const scene *s, const solve_result *r, int count,
                         const int list[])
 {
@@ -330,8 +330,8 @@ void table_curves_values(FILE *to, const scene *s, const solve_result *r)
     }
 }
 
-/* Returns 1 if the curve is the same on all meshes of all formulations, as for a prescribed
- * value. */
+/* Returns 1 if the curve is the same on all meshes of all formulations, as for a prescribed value.
+ * */
 static int is_given(const sweep *s, int quantity, int reference)
 {
     const series *other = &s->series[reference];
@@ -345,7 +345,7 @@ static int is_given(const sweep *s, int quantity, int reference)
     return 1;
 }
 
-/* Prints an error in percent, without a sign. */
+/* Prints the absolute value of an error in percent. */
 static void write_percent(FILE *to, double error)
 {
     char text[ROUNDING_TEXT];

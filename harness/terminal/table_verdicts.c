@@ -14,10 +14,11 @@ typedef struct verdicts_block {
     const sweep *s;
     const sweep_point *at;
     int count;
-    const verdict **verdict; /* [count] verdicts of the point, set to NULL after printing */
-    int name;                /* width of the column of names; a longer name has its own line */
+    /* [count] verdicts of the point, which are set to NULL after printing */
+    const verdict **verdict;
+    int name; /* width of the column of names; a longer name has a separate line */
     int rules;
-    const rule *rule[MOST_RULES]; /* rules to which the table refers, numbered from 1 */
+    const rule *rule[MOST_RULES]; /* rules to which the table refers, with numbers from 1 */
 } verdicts_block;
 
 static const series *series_of(const verdicts_block *b, const verdict *v)
@@ -39,7 +40,8 @@ static void print_other_model(const verdicts_block *b, const truth *other)
     paragraph_say(b->to, 0, 4, "another model: %s (%s, %s)", value, other->kind, other->source);
 }
 
-/* Prints a quantity and the reference value that applies to the verdict and to those below it. */
+/* Prints a quantity and the reference value that applies to this verdict and to the verdicts below.
+ * */
 static void print_quantity(const verdicts_block *b, const scene_quantity *q, const verdict *v)
 {
     const truth *row = v->truth;
@@ -71,7 +73,7 @@ static int number_of_rule(verdicts_block *b, const rule *r)
     return i + 1;
 }
 
-/* Adds the difference of the limit from a reference that does not determine the verdict. */
+/* Adds the difference of the limit from a reference value that does not determine the verdict. */
 static void add_difference(const verdict *v, char *text, size_t size)
 {
     const truth *other = v->model_truth;
@@ -121,7 +123,7 @@ static void print_verdict(verdicts_block *b, const verdict *v)
         paragraph_say(b->to, 0, 6, "%s", v->reason);
 }
 
-/* Prints the verdicts of a quantity, grouped by reference value. */
+/* Prints the verdicts on a quantity in groups with the same reference value. */
 static void print_judged(verdicts_block *b, int quantity)
 {
     const scene_quantity *q = &b->at->scene.quantity[quantity];
@@ -141,7 +143,7 @@ static void print_judged(verdicts_block *b, int quantity)
     }
 }
 
-/* Prints the series without a verdict, grouped by reason. */
+/* Prints the series without a verdict in groups with the same reason. */
 static void print_skipped(verdicts_block *b)
 {
     for (int i = 0; i < b->count; i++) {
@@ -166,7 +168,7 @@ static void print_skipped(verdicts_block *b)
     }
 }
 
-/* Prints the physics that series omit, grouped. */
+/* Prints the physics that series omit, in groups. */
 static void print_omissions(const verdicts_block *b)
 {
     const sweep *s = b->s;
@@ -247,15 +249,15 @@ static const char *const words_of[] = {[STEP_OPEN] = "not decided by pivots",
                                        [STEP_GROWS] = "unstable",
                                        [STEP_HELD] = "stable without damping"};
 
-/* Appends a word as far as it fits. */
+/* Appends a word, truncated to the capacity of the text. */
 static void add(char *text, const char *word)
 {
     const size_t used = strlen(text);
     snprintf(text + used, WORDS - used, "%s", word);
 }
 
-/* Describes steps `first` to `last` of a path, which have equal stability. end 1: they are the last
- * steps of the path. */
+/* Describes steps `first` to `last` of a path, which have the same stability. end 1: they are the
+ * last steps of the path. */
 static void add_run(const solve_result *r, int first, int last, int begin, int end, char *text)
 {
     const step_record *a = &r->step[first], *b = &r->step[last];
@@ -273,8 +275,8 @@ static void add_run(const solve_result *r, int first, int last, int begin, int e
     add(text, run);
 }
 
-/* Describes a path: "stable up to 1.35, unstable 1.4 to 1.6, stable from 1.65". The text is "" if
- * the path is stable everywhere or if its stability is unknown. */
+/* Describes a path, for example "stable up to 1.35, unstable 1.4 to 1.6, stable from 1.65". The
+ * text is "" if the whole path is stable or if its stability is unknown. */
 static void words_of_path(const solve_result *r, int analysis, char text[WORDS])
 {
     int begin = -1, last = -1, runs = 0, told = 0;

@@ -13,15 +13,15 @@ enum { PARAGRAPH_WIDTH = 100 /* columns */ };
 /* Returns the number of columns of a text. */
 int paragraph_columns(const char *text);
 /* Writes the text with line breaks at the last column, indents continuation lines, and ends the
- * last line. A word longer than a line is not divided. at: columns already used in the first
- * line. */
+ * last line. A word that is longer than a line is not divided. at: number of columns already used
+ * in the first line. */
 void paragraph_write(FILE *to, int at, int indent, const char *text);
 /* Like paragraph_write, with the format and arguments of printf. */
 void paragraph_say(FILE *to, int at, int indent, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* A paragraph that is written in pieces: between begin and end, write to the returned stream. If
- * memory is short, this stream is `to` itself, and lines are not wrapped. */
+/* A paragraph that is written in parts. Between begin and end, the caller writes to the returned
+ * stream. If memory is short, this stream is `to`, and lines are not wrapped. */
 typedef struct paragraph {
     FILE *to, *words;
     char *text;
@@ -30,7 +30,8 @@ typedef struct paragraph {
 FILE *paragraph_begin(paragraph *, FILE *to);
 /* Writes the paragraph as paragraph_write does. */
 void paragraph_end(paragraph *, int at, int indent);
-/* Like paragraph_end, for a command: all lines but the last end in " \", as a shell requires. */
+/* Like paragraph_end, for a command: all lines except the last end with " \", as a shell requires.
+ * */
 void paragraph_end_command(paragraph *, int at, int indent);
 
 /* Capabilities of a terminal: colour, and characters beyond ASCII. */
@@ -51,68 +52,69 @@ void screen_put(FILE *to, screen, screen_ink, const char *text);
 /* Prints a value with the conversion 'g', 'e' or 'f' of printf in a field of `width` columns; a
  * dash if the value is not finite. */
 void table_value(FILE *to, int width, int digits, char conversion, double value);
-/* The first function prints a line on members divided by loads and one on omitted physics; the
- * second prints the formulation's shear theory if shear and stability occur together. Lines that do
- * not apply are omitted. */
+/* table_omitted prints a line on members that loads divide and a line on omitted physics. The
+ * second function prints the shear theory of the formulation if shear and stability occur together.
+ * Lines that do not apply are omitted. */
 void table_omitted(FILE *to, const sweep_point *p);
 void table_theory(FILE *to, const scene *s, const element_type *type);
 /* Prints a line "case (parameters), formulation". */
 void table_series(FILE *to, const sweep *s, int index);
 
-/* Comparison of formulations: a table for each quantity, a column for each formulation. */
+/* Comparison of formulations, with a table for each quantity and a column for each formulation. */
 
-/* Prints the table for the single point of a sweep. Its rows are the meshes, then the limit, its
- * uncertainty and its order; the verdicts other than pass follow in words. Errors are shown if
+/* Prints the tables for the single point of a sweep. The rows are the meshes, the limit, its
+ * uncertainty and its order. Verdicts other than pass follow in words. The cells are errors if
  * there is a reference value, otherwise values. The width is 100 columns; formulations that do not
  * fit follow in further blocks. The last part lists the formulations that did not run. */
 void table_beside(FILE *to, const sweep *s, const truths *t);
 
-/* Series over their meshes as text, with their limits. */
+/* Prints series over their meshes as text, with their limits. */
 
 void table_convergence(FILE *to, const sweep *s, const truths *t);
 
-/* Modes followed over a parameter. */
+/* Modes that are followed over a parameter. */
 
-/* Prints a line for each requested value with a column for each mode [Hz], then the crossings and
- * veerings. */
+/* Prints a line for each requested value with a column for each mode [Hz], followed by the
+ * crossings and veerings. */
 void table_follow(FILE *to, const char *parameter, const follow_curves *);
 
 /* Overview of a run on one screen: a matrix with a mark for each case and formulation, and the
- * meaning of the marks. */
+ * meanings of the marks. */
 
-/* Prints lines of at most PARAGRAPH_WIDTH columns. If there are many cases, those that pass share
+/* Prints lines of at most PARAGRAPH_WIDTH columns. If there are many cases, passing cases share
  * lines. */
 void table_overview(FILE *to, screen, const overview *);
 
-/* Summary of a whole run, as text. */
+/* Summary of a whole run as text. */
 
-/* Prints what follows the long table: published values that are incompatible with limits, cells
+/* Prints the part after the long table: published values that are incompatible with limits, cells
  * without a solution, and the coverage of limits. */
 void table_run_details(FILE *to, const sweep *s, const judgement *j);
 /* Prints the counts. seconds: run time. */
 void table_run(FILE *to, const sweep *s, const judgement *j, double seconds);
-/* Prints the concluding sentence; nothing if there is none. */
+/* Prints the concluding sentence, or nothing if there is none. */
 void table_run_end(FILE *to, screen, const char *sentence);
 
-/* One cell as text: its quantities, matrices and load steps. */
+/* Prints a cell as text: its quantities, matrices and load steps. */
 
 void table_solution(FILE *to, const sweep *s, const truths *t);
 
 /* Times of a benchmark as text: error as a function of run time, and the lowest cost for an
  * error. */
 
-/* every_mesh 1: prints a row for each mesh, and the lowest cost for every quantity; 0: default
- * points and the first quantity only. */
+/* Prints the times. every_mesh 1: prints a row for each mesh, and the lowest cost for every
+ * quantity; 0: prints only default points and the first quantity. */
 void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh);
 
-/* Unexpected results of a run, in full, with commands that show them again. */
+/* Unexpected results of a run in full, with commands that show them again. */
 
-/* Prints nothing if everything is as expected. */
-/* Prints the formulations that violate the requirements of the interface; they come first. */
+/* Prints unexpected results, or nothing if all results are as expected. */
+/* Prints the formulations that violate the requirements of the interface. They precede all other
+ * results. */
 void table_breaches(FILE *to, screen, const judgement *j);
 void table_unexpected(FILE *to, screen, const sweep *s, const judgement *j, const truths *t);
 
-/* Verdicts of a run as text, with a block for each point. */
+/* Prints the verdicts of a run as text, with a block for each point. */
 
 void table_verdicts(FILE *to, const sweep *s, const judgement *j);
 

@@ -9,8 +9,8 @@
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"
 
-/* Prints a relative error in percent, in 12 columns with a leading blank; a dash if there is
- * none. */
+/* Prints a relative error in percent, in 12 columns with a leading blank, or a dash if there is no
+ * error. */
 void table_percent(FILE *to, double error);
 /* Prints a value with the digits that its uncertainty allows (harness/study/study.h). */
 void table_known(FILE *to, int width, double value, double uncertainty);
@@ -23,11 +23,11 @@ void table_point(FILE *to, const sweep_point *p);
 
 /* Curves as text: values, and differences between meshes and formulations. */
 
-/* Prints curves with a common abscissa in adjacent columns; a selection if there are many points.
- */
+/* Prints curves with a common abscissa in adjacent columns. If there are many points, prints a
+ * selection. */
 void table_curves_values(FILE *to, const scene *s, const solve_result *r);
-/* Table for one point: for each curve the largest error of each mesh, then the values of the
- * formulation with which the others are compared. */
+/* Prints a table for one point: for each curve the largest error of each mesh, then the values of
+ * the formulation with which the others are compared. */
 void table_curves_errors(FILE *to, const sweep *s);
 
 /* Summary of a motion: its steps, energies and momenta. */
@@ -36,21 +36,23 @@ void table_curves_errors(FILE *to, const sweep *s);
 
 /* Stability of the states of paths, as far as their tangents show it. */
 
-/* Returns the word for a step: "yes", "no", "held" (by gyroscopic forces), "?". */
+/* Returns the word for a step: "yes", "no", "held" (stable only because of gyroscopic forces), or
+ * "?" (unknown). */
 const char *table_stability_word(step_stability);
-/* Prints a line for each path that is not stable everywhere; returns the number of lines. */
+/* Prints a line for each path that is not stable everywhere. Returns the number of lines. */
 int table_stability_paths(FILE *to, const scene *s, const solve_result *r);
-/* Prints a paragraph for each formulation with unstable states: the meshes on which they occur, and
- * the meshes that failed. */
+/* Prints a paragraph for each formulation with unstable states. The paragraph lists the meshes with
+ * such states and the meshes that failed. */
 void table_stability_meshes(FILE *to, const sweep *s);
 
 /* table_path.c */
-/* Prints nothing if there is no motion. Reports loads that jump at the start of the motion. */
+/* Prints the summaries of motions, or nothing if there are none. Reports loads that jump at the
+ * start of a motion. */
 void table_motion(FILE *to, const scene *, const solve_result *);
 void table_path_steps(FILE *to, const solve_result *r);
-/* Critical points and branch jumps of continued paths. */
+/* Prints the critical points and branch jumps of continued paths. */
 void table_path_events(FILE *to, const solve_result *r);
-/* Prints the matrices of nodes at the last station reached. */
+/* Prints the matrices of nodes at the last station that was reached. */
 void table_path_matrices(FILE *to, const scene *s, const solve_result *r);
 
 #endif
