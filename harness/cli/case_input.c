@@ -9,7 +9,7 @@
 #include "harness/model/model.h"
 #include "harness/study/study.h"
 
-/* Tables are added to the packed reference values, which are all in one file. */
+/* Tables are added to the packed reference values, which are in a single file. */
 static status read_either(const verb_option *o, void *member, const char *value, fault *f)
 {
     static const verb_option table = {"truths", .traits = OPTION_REPEATS | OPTION_INPUT};
@@ -82,7 +82,7 @@ status own_tables_findings(const text_list *tables, const case_type *const run[]
     return STATUS_OK;
 }
 
-/* Prints all errors, one per line, or as JSON if that is the output format. */
+/* Prints all errors, in one line each, or as JSON if this is the output format. */
 static void tell_mistakes(const command_line *l, const mistakes *m, status outcome, const fault *f)
 {
     const char *format = given_value(l, "format");

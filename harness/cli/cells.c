@@ -36,7 +36,7 @@ static void add_quantity(digest *to, const quantity_result *q)
     add_numbers(to, q->curve.value, q->curve.points);
 }
 
-/* Adds values, their statuses and the counted work, without times. */
+/* Adds values, their statuses and the counted work, but no times. */
 static void add_cell(digest *to, const cell_result *cell)
 {
     const solve_result *r = &cell->solve;
@@ -138,17 +138,17 @@ void cells_keep(sweep *s, const char keep[])
     s->partial = s->unfinished > 0;
 }
 
-/* [s] estimated cost of a batch on the reference machine. If there is little work, the batches are
- * smaller, so every process receives some. */
+/* [s] Estimated cost of a batch on the reference machine. If there is little work, the batches are
+ * smaller, so that every process receives some. */
 static const double batch_most = 0.5, batch_least = 0.02, batch_share = 1.0 / 32;
 
-/* The sweep cut into batches. An item is a series that is run. */
+/* The sweep, divided into batches. An item is a series that is run. */
 typedef struct cut {
     const sweep_request *request;
-    truths *t; /* reference values, whose uncertainty decides whether scatter is measured */
+    truths *t; /* reference values, whose uncertainty decides if scatter is measured */
     sweep *s;
     int items;
-    int *begin; /* [items + 1] first series of each item; the last entry is the number of series */
+    int *begin;   /* [items + 1] first series of each item, followed by the number of series */
     double *each; /* [items] cost of each item */
     int *first;   /* [batches + 1] first item of each batch */
     double *cost; /* [batches] cost of each batch */
@@ -175,7 +175,8 @@ static status compute(void *context, int batch, FILE *to, digest *content, fault
     int range[2];
     series_of(c, batch, range);
     sweep part = *c->s;
-    sweep_request alone = *c->request; /* it runs in a separate process that ignores interrupts */
+    /* the batch runs in a separate process that ignores interrupts */
+    sweep_request alone = *c->request;
     alone.jobs = alone.together = 1;
     alone.interruptible = 0;
     alone.progress = NULL;

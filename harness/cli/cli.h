@@ -12,41 +12,43 @@
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 
-/* Verbs, their options, and command lines. A verb has an array of its own options, groups of
- * options shared with other verbs, and its own request struct. Each group is declared with its
- * topic (case_input, named, spread). */
+/* Verbs, their options, and command lines. A verb has an array of options, groups of options that
+ * other verbs share, and a request struct. Each group is declared with its topic (case_input,
+ * named, spread). */
 
-/* Largest number of arguments of a verb or of values of a repeated option, and of options in total.
- */
+/* Largest number of arguments of a verb or of values of a repeated option, and largest number of
+ * options in total. */
 enum { COMMAND_MOST_WORDS = 64, COMMAND_MOST_GIVEN = 512 };
 
 typedef struct verb_option verb_option;
-/* Stores the value in the member. REFUSED: the message says why the value is invalid and what is
- * expected. */
+/* Stores the value in the member. REFUSED: the message says why the value is invalid, and which
+ * values are expected. */
 typedef status option_reader(const verb_option *, void *member, const char *value, fault *f);
 
 enum {
-    OPTION_REPEATS = 1, /* may be repeated; for paths, each path once */
-    OPTION_INPUT = 2,   /* an input file, or exec:COMMAND */
+    OPTION_REPEATS = 1, /* the option may be repeated; each path may be given once */
+    OPTION_INPUT = 2,   /* the value is an input file, or exec:COMMAND */
     OPTION_OUTPUT = 4,  /* an output file */
-    OPTION_HDF5 = 8,    /* the output file is never a stream ... */
-    OPTION_FOLDER = 16, /* ... or the output is a new folder */
-    OPTION_ASIDE =
-        32, /* does not affect results, only their presentation or which process computes them */
+    OPTION_HDF5 = 8,    /* the output file is never a stream */
+    OPTION_FOLDER = 16, /* the output is a new folder */
+    OPTION_ASIDE = 32,  /* does not affect results, but only their presentation or the process that
+                           computes them */
     OPTION_VERDICT = 64 /* affects verdicts but not cells */
 };
 
 /* An option and the member that it sets: int for a switch (1) or a number, text_list for an option
- * that may be repeated, otherwise const char *. */
+ * that may be repeated, const char * for other options. */
 struct verb_option {
     const char *name;
     char letter;                 /* 0: no letter */
     const char *argument, *help; /* argument NULL: a switch; "[N]": the argument is optional */
-    size_t member;               /* offset in the group, or in the request of the verb */
+    size_t member; /* offset of the member in the group or in the request of the verb */
     unsigned traits;
-    long least, most;    /* range of an integer, or number of values; most 0: no range, and
-                            COMMAND_MOST_WORDS values */
-    option_reader *read; /* NULL: the default reader, described above */
+    /* range of an integer, or number of values; most 0: there is no range, and COMMAND_MOST_WORDS
+     * values are allowed */
+    long least, most;
+    /* reader of the value; NULL: the default reader, which is described above */
+    option_reader *read;
 };
 
 /* Headings of the help. */
@@ -60,22 +62,23 @@ typedef struct given_option {
     const char *value; /* NULL: a switch, or an option without its optional value */
 } given_option;
 
-/* A command line, with options in the order given. */
+/* A command line. The options are in the order in which they were given. */
 typedef struct command_line {
-    const verb *verb, *const *verbs; /* the verb, and all verbs, NULL-terminated, for messages about
-                                        options of other verbs */
+    /* the verb; all verbs (NULL-terminated), for messages about options of other verbs */
+    const verb *verb, *const *verbs;
     const char *argument[COMMAND_MOST_WORDS];
     int arguments;
-    given_option given[COMMAND_MOST_GIVEN + 1]; /* includes room for the --scene of an example */
+    /* includes one entry for the --scene of an example */
+    given_option given[COMMAND_MOST_GIVEN + 1];
     int givens;
 } command_line;
 
 /* Options that several verbs share. Function pointers may be NULL. */
 typedef struct option_group {
     const verb_option *options;                 /* ends with name NULL */
-    void (*begin)(void *group, command_line *); /* sets defaults that are not zero */
+    void (*begin)(void *group, command_line *); /* sets defaults that are not zero; NULL: none */
     status (*end)(void *group, command_line *,
-                  fault *f); /* called when all options have been read */
+                  fault *f); /* called when all options have been read; NULL: none */
     void (*close)(void *group);
 } option_group;
 
@@ -89,45 +92,46 @@ typedef struct verb_group {
 
 struct verb {
     const char *name;
-    const char *arguments;        /* such as "OLD [NEW]": at most two; "CASE...": any number */
-    const char *summary;          /* one line */
+    const char *arguments; /* for example "OLD [NEW]" (at most two) or "CASE..." (any number) */
+    const char *summary;   /* one line */
     const char *about, *examples; /* examples: one per line */
     const verb_group *shared;     /* ends with group NULL */
-    const verb_option *own;       /* ends with name NULL; NULL: no options */
+    const verb_option *own;       /* options, which end with name NULL; NULL: none */
     size_t request;
-    int place; /* position in the help: a heading, and a number below it */
+    int place; /* position in the help: a heading, and a number below the heading */
     int (*answer)(const command_line *,
-                  void *request);     /* returns the exit status; NULL: a heading */
+                  void *request); /* runs the verb and returns the exit status; NULL: a heading */
     void (*before)(char **arguments); /* called before options are read; NULL: none */
     const experiment_type
         *experiment; /* experiment whose records are written to the results file; NULL: none */
 };
 
-/* Returns option number i of a verb, in the order of its help; NULL after the last one. *at: offset
- * of its group in the request; at may be NULL. */
+/* Returns option number i of a verb, in the order of its help; NULL after the last option. *at:
+ * offset of the group in the request; may be NULL. */
 const verb_option *verb_option_at(const verb *, int i, size_t *at);
 /* Returns the name of an option in version 0.2; NULL if it has not changed. */
 const char *verb_former_name(const verb_option *);
-/* Finds the option in a word: "--name=VALUE" by its full name, a former name or a unique
- * abbreviation; "-xyVALUE" by the first letter that takes a value, otherwise by the last letter.
- * *value: the value in the word, or NULL. *begun: number of options that match. Returns NULL if
- * that number is not 1; after an unknown letter, *value points to this letter. */
+/* Finds the option in a word: "--name=VALUE" with its full name, a former name or a unique
+ * abbreviation; "-xyVALUE" with the first letter that takes a value, otherwise with the last
+ * letter. *value: the value in the word, or NULL. *begun: number of options that match. Returns
+ * NULL if this number is not 1. After an unknown letter, *value points to this letter. */
 const verb_option *verb_word(const verb *, const char *word, const char **value, int *begun);
 /* Returns 1 if the letter selects the option in this or an earlier version. */
 int verb_is_letter(const verb_option *, char letter);
 const verb_option *verb_letter(const verb *, char letter, size_t *at);
-/* help and usage; added to each verb */
+/* help and usage, which are added to each verb */
 extern const verb_option verb_help[];
-/* Returns 1 if the option's value is optional. */
+/* Returns 1 if the value of the option is optional. */
 int verb_optional(const verb_option *);
-/* Finds a verb by name; returns NULL if there is none. */
+/* Finds a verb by name; NULL: none. */
 const verb *verb_find(const verb *const *verbs, const char *name);
-/* Returns the largest number of arguments. */
+/* Returns the largest number of arguments for a description such as "OLD [NEW]". */
 int verb_most_arguments(const char *arguments);
 
-/* Returns the last value given for the option, "" for a switch; NULL: the option was not given. */
+/* Returns the last value given for the option, or "" for a switch; NULL: the option was not given.
+ * */
 const char *given_value(const command_line *, const char *name);
-/* Returns the next given option, from *i on, that has one of the traits, and advances *i. NULL:
+/* Returns the next given option with one of the traits, starting with *i, and increases *i; NULL:
  * none. */
 const given_option *given_next(const command_line *, unsigned traits, int *i);
 
@@ -137,20 +141,20 @@ typedef struct text_list {
     const char *text[COMMAND_MOST_WORDS];
 } text_list;
 
-/* Stores a value. value NULL: the option is a switch, or its optional value was omitted (the
- * largest number is stored). */
+/* Stores a value. value NULL: the option is a switch, or its optional value was omitted. The
+ * largest number is stored for an omitted value. */
 status option_take(const verb_option *, void *member, const char *value, fault *f);
-option_reader option_error; /* double; one relative error, "1%" or "0.01" */
-/* Reads relative errors between 0 and 1, "1%,0.1%" or "0.01", into level[most], and their number
- * into *count. */
+option_reader option_error; /* type double: one relative error, "1%" or "0.01" */
+/* Reads relative errors between 0 and 1, such as "1%,0.1%" or "0.01", into level[most], and their
+ * number into *count. */
 status errors_parse(const char *text, int most, double level[], int *count, fault *f);
 
-extern const option_group options_output;  /* const char *: -o FILE, text */
-extern const option_group options_results; /* const char *: -o FILE, text or HDF5 results */
-extern const option_group options_format;  /* const char *: text, json or csv */
-extern const option_group options_record;  /* const char *: text or json */
+extern const option_group options_output;  /* member const char *: -o FILE, text */
+extern const option_group options_results; /* member const char *: -o FILE, text or HDF5 results */
+extern const option_group options_format;  /* member const char *: text, json or csv */
+extern const option_group options_record;  /* member const char *: text or json */
 extern const option_group options_select;  /* const char * */
-extern const option_group options_jobs;    /* int, initially the number of processors */
+extern const option_group options_jobs;    /* member int, initially the number of processors */
 extern const option_group options_json;    /* const char * */
 
 typedef struct mesh_list {
@@ -159,44 +163,44 @@ typedef struct mesh_list {
 } mesh_list;
 extern const option_group options_meshes; /* mesh_list: -n */
 
-/* options_json followed by further reports */
+/* options_json, followed by further reports */
 typedef struct report_options {
     const char *json, *junit, *markdown, *propose;
 } report_options;
 extern const option_group options_reports;
 
-/* Options for the solution that do not change its results. */
+/* Options of the solution that do not change its results. */
 typedef struct solver_options {
     int keep_all;
-    int threads; /* number of threads of the loop over elements; 0: one */
+    int threads; /* threads for the loop over elements; 0: one thread */
 } solver_options;
 extern const option_group options_solver;
 
-/* Case of a run (built in or scene file), its parameters, and its reference values. */
+/* Case of a run (built-in case or scene file), its parameters, and its reference values. */
 
 typedef struct truths_options {
-    const char *packed; /* --truths FILE; NULL: not given */
+    const char *packed; /* file of --truths FILE; NULL: not given */
     text_list own;      /* --truths FILE.csv */
 } truths_options;
 extern const option_group options_truths;     /* --truths FILE */
 extern const option_group options_own_truths; /* also accepts FILE.csv */
 
-/* Returns the path of the packed reference values: --truths, or the default
+/* Returns the path of the packed reference values, from --truths or by default
  * (harness/study/study.h). */
 const char *own_tables_packed(const truths_options *);
-/* Adds the reference values of --truths FILE.csv; only: the case for which values are added; NULL:
- * all cases. run: the cases of the run, NULL-terminated. REFUSED: reports the first error as
+/* Adds the reference values of --truths FILE.csv. only: the case to which values are added; NULL:
+ * all cases. run: cases of the run, NULL-terminated. REFUSED: reports the first error as
  * file:line:column, and the number of errors. */
 status own_tables_truths(const truths_options *, const case_type *const run[],
                          const case_type *only, truths *t, fault *f);
-/* Adds the rules of tables. If a table is given, verdicts of new formulations affect the exit
+/* Adds the rules of tables. If a table is given, verdicts on new formulations affect the exit
  * status. */
 status own_tables_findings(const text_list *tables, const case_type *const run[], truths *t,
                            fault *f);
 
 typedef struct case_options {
     const char *name;                      /* name of the case; NULL: none */
-    const char *scene_path;                /* --scene, instead of a name */
+    const char *scene_path;                /* file of --scene, which replaces a name */
     text_list set;                         /* NAME=VALUE */
     double parameter[CASE_MAX_PARAMETERS]; /* ... set by case_input_find */
     scene_file *scene;                     /* contents of scene_path */
@@ -206,20 +210,21 @@ typedef struct case_options {
 extern const option_group options_case;  /* --scene, --set */
 extern const option_group options_scene; /* --scene alone */
 
-/* Treats the name as --scene with a file if it names a scene file (*.yaml) or, unless it is a
- * built-in case, an example (cases/examples/NAME.yaml). */
+/* Treats the name as --scene with a file if it is a scene file (*.yaml). Unless the name is that of
+ * a built-in case, treats it as --scene if it is an example (cases/examples/NAME.yaml). */
 void case_input_example(case_options *);
-/* Returns the case of the request with its parameters; NULL after an error message. */
+/* Returns the case of the request with its parameters; NULL: an error message has been printed. */
 const case_type *case_input_find(case_options *);
-/* Returns the case of --scene FILE; NULL after messages about all its errors. */
+/* Returns the case of --scene FILE; NULL: messages about all its errors have been printed. */
 const case_type *case_input_scene(case_options *);
-/* Reads one scene file; returns EXIT_AS_EXPECTED, or an exit status after error messages. */
+/* Reads a scene file. Returns EXIT_AS_EXPECTED, or another exit status after printing error
+ * messages. */
 int case_input_read(const command_line *, const char *path, scene_file **out);
-/* Reads the reference values of the run: the stored ones or, for a scene file, its own values at
- * the parameters of the request. */
+/* Reads the reference values of the run. They are the stored ones or, for a scene file, those of
+ * the file for the parameters of the request. */
 status case_input_truths(const case_options *, const truths_options *, truths *t, fault *f);
-/* Prints one line on stderr if the numbers of a scene file suggest other units. file NULL: does
- * nothing. */
+/* Prints one line on stderr if the numbers of a scene file suggest other units. Does nothing if
+ * `file` is NULL. */
 void case_input_tell_units(const scene_file *, const double parameter[]);
 /* Prints one line on stderr that names the default analysis if the scene file has none. */
 void case_input_tell_analysis(const case_options *, const scene *s);
@@ -228,29 +233,29 @@ enum { SCENES_MOST = 64 };
 
 typedef struct scenes_options {
     text_list scene; /* files, folders */
-    int built_in;    /* 1: built-in cases are also requested */
+    int built_in;    /* 1: built-in cases are requested as well */
     truths_options truths;
     text_list findings; /* tables to be added to the list of known deviations */
 } scenes_options;
 
 typedef struct scenes {
     int count;
-    char *path[SCENES_MOST]; /* [count] paths of all files, including those in folders */
+    char *path[SCENES_MOST]; /* [count] paths of all files, including files in folders */
     scene_file *file[SCENES_MOST];
-    const case_type
-        *type[2 * SCENES_MOST + 1]; /* types of the files, and of built-in cases if requested */
+    const case_type *type[2 * SCENES_MOST +
+                          1]; /* types of the files, and of built-in cases if these are requested */
 } scenes;
 
 /* Reads everything that --scene names: files, and every *.yaml in a folder in the order of names.
- * Returns EXIT_AS_EXPECTED, or an exit status after error messages; two cases with the same name
- * are an error. */
+ * Two cases with the same name are an error. Returns EXIT_AS_EXPECTED, or another exit status after
+ * printing error messages. */
 int scenes_read(const command_line *, const scenes_options *, scenes *out);
 void scenes_free(scenes *);
-/* Reads the built-in reference values if those cases are requested, the list of known deviations,
- * the reference values of each file, and user tables. */
+/* Reads the built-in reference values if built-in cases are requested, the list of known
+ * deviations, the reference values of each file, and user tables. */
 status scenes_truths(const scenes *, const scenes_options *, truths *t, fault *f);
 
-/* Reads and runs the command line of a verb; exit statuses. */
+/* Reads and runs the command line of a verb, and defines exit statuses. */
 
 enum {
     EXIT_AS_EXPECTED = 0,
@@ -258,11 +263,11 @@ enum {
     EXIT_REFUSED = 2,
     EXIT_NOTHING = 3,
     EXIT_FAULT = 4,
-    EXIT_INTERRUPTED = 5 /* also the exit status if parts are missing */
+    EXIT_INTERRUPTED = 5 /* interrupted, or parts are missing */
 };
 
-/* Parses a command line. request: verb->request bytes. Prints errors and ends the program with
- * EXIT_REFUSED. */
+/* Parses a command line. request: verb->request bytes. After an error, prints messages and ends the
+ * program with EXIT_REFUSED. */
 void command_parse(const verb *, const verb *const *verbs, int count, char **arguments,
                    command_line *line, void *request);
 /* Parses the command line, runs the verb and returns the exit status. arguments[0]: the verb. */
@@ -272,48 +277,49 @@ int command_run(const verb *, const verb *const *verbs, int count, char **argume
  * examples. */
 void help_write(FILE *to, const verb *v);
 
-/* Checks the files of a command line before the work begins. */
+/* Checks the files of a command line before the work starts. */
 
 /* Checks that every output can be written, and that all outputs and inputs are different files.
- * whole_file: -o is HDF5. truths_path: NULL if no reference values are read. */
+ * whole_file: the output of -o is HDF5. truths_path NULL: no reference values are read. */
 status files_check(const command_line *, int whole_file, const char *truths_path, fault *f);
-/* Like files_check. stored: -o is a results file, which may contain results of other
+/* Like files_check. stored: the output of -o is a results file, which may contain results of other
  * experiments. */
 status files_check_results(const command_line *, int stored, const char *truths_path, fault *f);
-/* Called for a file, for every *.yaml in a folder in the order of names, and for files named by
+/* Called for a file, for every *.yaml in a folder in the order of names, and for files in
  * exec:COMMAND. */
 typedef status file_visit(const void *context, const char *path, fault *f);
 status files_named(const char *input, file_visit *visit, const void *context, fault *f);
 
 /* Error messages of the program, and its exit status. */
 
-/* Must be called at the end of the program. Returns the exit status, or EXIT_FAULT if standard
- * output could not be written. */
+/* Completes the output at the end of the program. Returns the exit status, or EXIT_FAULT if
+ * standard output cannot be written. */
 int message_finish(int code);
-/* Prints one line on stderr and returns the exit status that corresponds to a status. */
+/* Prints one line on stderr, and returns the exit status for a status. */
 int message_fail(status s, const char *text);
 /* Prints one line on stderr and ends the program with EXIT_REFUSED. */
 _Noreturn void message_refuse(const char *text);
-/* Returns EXIT_AS_EXPECTED if the status is OK; otherwise prints the error and returns its exit
+/* Returns EXIT_AS_EXPECTED if the status is OK. Otherwise prints the error and returns its exit
  * status. */
 int message_exit(status s, const fault *f);
 
 /* Handles abnormal termination: signals, crashes, libraries that call exit(). */
-/* Protects against a formulation that is loaded into this process: if it crashes or exceeds
- * `seconds` (0: no limit), the program ends with one line that names it. Does nothing for built-in
- * formulations. */
+/* Protects against a formulation that is loaded into this process. If the formulation crashes or
+ * exceeds `seconds` (0: no limit), the program ends with one line that names it. Does nothing for
+ * built-in formulations. */
 void guard_formulation(const formulation *chosen, int seconds);
-/* Must be called once, before any file is opened. Closed standard streams are opened on /dev/null
- * without write permission, so no other file takes their place. Signals that end the program
- * (SIGTERM, SIGHUP, SIGINT) and crashes first delete unfinished output files. A crash, or a call of
- * exit() by a library or an element, is reported in one line. */
+/* Prepares for abnormal ends. Call this function once, before any file is opened. Closed standard
+ * streams are opened on /dev/null without write permission, so no other file takes their place.
+ * After signals that end the program (SIGTERM, SIGHUP, SIGINT) and after crashes, unfinished output
+ * files are deleted first. A crash, or a call of exit() by a library or an element, is reported in
+ * one line. */
 void ending_begin(void);
 
-/* Runs `beamwork VERB ...`, `beamwork help [VERB]`, --help and --version; returns the exit status.
- * arguments[0] is the name of the program. */
+/* Runs `beamwork VERB ...`, `beamwork help [VERB]`, --help and --version. Returns the exit status.
+ * arguments[0]: name of the program. */
 int verb_table_run(int count, char **arguments);
 
-/* Word that is being completed: `before` stays unchanged, `begun` is completed. */
+/* Word that is completed: `before` does not change, and `begun` is completed. */
 typedef struct offer {
     FILE *to;
     const char *before;
@@ -321,17 +327,17 @@ typedef struct offer {
     const char *begun;
 } offer;
 
-/* Prints "WORD<tab>SUMMARY" if the text begins with `begun`; WORD is `before` followed by the text.
- * Completion continues after a WORD that ends in '=' or ':'. The shell itself completes ":files"
+/* Prints "WORD<tab>SUMMARY" if the text starts with `begun`, where WORD is `before` followed by the
+ * text. Completion continues after a WORD that ends with '=' or ':'. The shell completes ":files"
  * and ":folders". */
 void offer_text(const offer *o, const char *text, const char *summary);
 
-/* Writes the completions. words: the words after the verb up to the cursor; the last one, which may
- * be empty, is completed. */
+/* Writes the completions. words: words after the verb up to the cursor. The last word, which may be
+ * empty, is completed. */
 void completion_write(FILE *to, const verb *v, int count, char *const *word);
 
-/* Formulations of a command line: those named by -f and those loaded by --element, which may come
- * after the -f that names them. */
+/* Formulations of a command line: those named by -f and those loaded by --element. The --element
+ * may follow the -f that names its formulation. */
 
 enum { COMMAND_MAX_FORMULATIONS = 64 };
 
@@ -339,22 +345,23 @@ typedef struct chosen_formulations {
     text_list element, named; /* values of --element and -f */
     formulation formulation[COMMAND_MAX_FORMULATIONS];
     int formulations;
-    int time_limit; /* [s] time limit of a cell, and of the first answer of a process; 0: no limit
-                     */
+    /* [s] time limit of a cell, and of the first answer of a process; 0: no limit */
+    int time_limit;
 } chosen_formulations;
 extern const option_group options_formulations; /* -f, --element */
 extern const option_group options_element;      /* --element alone */
 extern const option_group
-    options_time_limit; /* this group must follow one of the two above, in the same member */
+    options_time_limit; /* this group must follow one of the two groups above, in the same member */
 
-/* Returns 1 if every formulation was requested by name; 0 if all were requested, or none. */
+/* Returns 1 if every formulation was requested by name. Returns 0 if all were requested, or none.
+ * */
 int named_alone(const chosen_formulations *);
-/* Adds a formulation, or "all". An error ends the program. */
+/* Adds a formulation, or "all". After an error, ends the program. */
 void named_add(chosen_formulations *, const char *text);
 
 enum { DEFAULTS_NOTE = 2 * FAULT_TEXT + 200 };
 
-/* Request for one cell, in which -f and -n may be missing. */
+/* Request for a cell in which -f and -n may be missing. */
 typedef struct defaults {
     solution_request wanted;
     chosen_formulations *chosen;
@@ -362,14 +369,14 @@ typedef struct defaults {
     const truths_options *truths;
 } defaults;
 
-/* Chooses a missing -f and -n for one cell of the case at its parameters. note: one line for each
- * choice and its reason; "" if both were given. why: may be NULL; otherwise solution_choice_free
- * must be called in any case. REFUSED: no formulation supports what the case requires, or --error
- * is not a valid number. */
+/* Chooses a missing -f and -n for a cell of the case with its parameters. note: one line for each
+ * choice with its reason; "" if both were given. why: may be NULL; otherwise call
+ * solution_choice_free, even after a failure. REFUSED: no formulation supports everything that the
+ * case requires, or --error is not a valid number. */
 status defaults_fill(const defaults *, char note[DEFAULTS_NOTE], solution_choice *why, fault *f);
 /* Like defaults_fill, but chooses only a missing -f. */
 status defaults_formulation(const defaults *, char note[DEFAULTS_NOTE], fault *f);
-/* Returns the request with the first formulation and the first mesh given, if any. */
+/* Returns the request with the first given formulation and the first given mesh. */
 solution_request defaults_request(const defaults *);
 
 #endif

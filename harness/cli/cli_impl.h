@@ -11,19 +11,20 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Cells as the bytes of a batch, and the part of these bytes that must be equal when the cells are
+/* Cells in the form of bytes of a batch. A part of these bytes must be equal if the cells are
  * computed again. */
 
-/* Writes the cells of a series, and the scatter of its finest mesh and its times if they were
- * measured. The reproducible part is added to the digest. */
+/* Writes the cells of a series. Also writes the scatter of its finest mesh and its times, if they
+ * were measured. The reproducible part is added to the digest. */
 status cells_write(FILE *to, const sweep *s, int series, digest *content, fault *f);
 status cells_read(FILE *from, sweep *s, int series, fault *f);
 /* Resets the series to its planned state, without results. */
 void cells_forget(series *one);
-/* Removes the series without keep[seriess] = 1; the cells of these series count as unfinished. */
+/* Removes the series for which keep[seriess] is not 1. The cells of these series count as
+ * unfinished. */
 void cells_keep(sweep *s, const char keep[]);
 
-/* bench --against: alternates one cell with another formulation, or with the same cell in another
+/* bench --against: alternates a cell with another formulation, or with the same cell in another
  * program. */
 
 typedef struct bench_options {
@@ -34,9 +35,9 @@ typedef struct bench_options {
     solver_options solver;
     const char *select, *output, *format, *error, *against;
     int jobs;
-    int dense;    /* 1: also times the dense reference */
-    int slowdown; /* slowdown: percentage of its time that is added to every run of the other cell
-                   */
+    int dense; /* 1: the dense reference is timed as well */
+    /* slowdown: percentage of its time that is added to every run of the other cell */
+    int slowdown;
 } bench_options;
 
 /* Compares the two cells and returns the exit status. */
@@ -48,29 +49,29 @@ typedef struct contestant {
     char name[FORMULATION_KEY + 512];
     cell_request request;
     const char *program;                        /* NULL: in this process */
-    const char *argument[CONTESTANT_ARGUMENTS]; /* arguments for the program, NULL-terminated */
-    char elements[16];                          /* text of the argument of -n */
+    const char *argument[CONTESTANT_ARGUMENTS]; /* arguments of the program, NULL-terminated */
+    char elements[16];                          /* text for the argument of -n */
     int repeats;                                /* number of solutions in a lap */
-    double slowdown; /* fraction of the time of a lap that is added to it */
+    double slowdown; /* fraction of the time of a lap that is added to the lap */
     int counts;
     const schema_field
         *counted[SCHEMA_MOST_FIELDS]; /* fields for the size and the work of a cell */
     double count[SCHEMA_MOST_FIELDS];
 } contestant;
 
-/* Returns the request for defaults where -f or -n is missing. */
+/* Returns the request for the default choice of -f or -n. */
 defaults contestant_defaults(bench_options *r, const case_type *type);
-/* Prepares a cell of the scene; keeps a pointer to the scene. */
+/* Prepares a cell of the scene, and keeps a pointer to the scene. */
 void contestant_here(contestant *, const bench_options *r, const scene *s,
                      const formulation *chosen, int elements);
-/* Prepares the cell of the request for another program. The structure contains pointers to itself
- * and must not be copied. */
+/* Prepares the cell of the request for another program. The structure contains pointers to its
+ * members and must not be copied. */
 void contestant_elsewhere(contestant *, const bench_options *r, const char *program);
-/* Runs both cells in alternation on one processor for a few seconds, and compares their counts of
+/* Runs both cells alternately on one processor for a few seconds, and compares their counts of
  * work. */
 status contestant_compete(contestant *a, contestant *b, contest_clock *out, fault *f);
-/* Print both times, the faster one, and the difference of work; the second function returns them as
- * JSON, which the caller owns. */
+/* contestant_show prints both times, the faster cell, and the difference of work. The second
+ * function returns these data as JSON, which the caller owns. */
 void contestant_show(const contestant *a, const contestant *b, const contest_clock *v);
 json_t *contestant_json(const contestant *a, const contestant *b, const contest_clock *v);
 /* Prints a line for each cell whose times are not ranked, with the reason. */
@@ -88,19 +89,19 @@ typedef struct manual_program {
     const char *summary, *question; /* one line each */
     const verb *const *verbs;       /* all verbs, NULL-terminated */
     const manual_row *examples, *statuses;
-    const char *of_compare; /* exit statuses of `compare`, which are those of diff */
+    const char *of_compare; /* exit statuses of `compare`, which are the same as for diff */
 } manual_program;
 
-/* A table of a result file. */
+/* A table of a results file. */
 typedef struct results_record {
-    char place[64]; /* path before the name of the table */
+    char place[64]; /* path that precedes the name of the table */
     const record_type *type;
 } results_record;
 
-/* Returns table number i, including those of verbs; its type is NULL after the last one. */
+/* Returns table number i, including tables of verbs. Its type is NULL after the last table. */
 results_record results_record_at(const verb *const *verbs, int i);
 extern const char *const results_about[]; /* paragraphs, NULL-terminated */
-/* Type ("text *", "int", ...), displayed unit, and meaning including the possible words. */
+/* Type ("text *", "int", ...), displayed unit, and meaning with the possible words. */
 typedef struct results_field {
     const char *kind, *unit;
     char text[1000];
@@ -111,15 +112,16 @@ results_field results_field_of(const schema_field *f);
 void manual_write_program(FILE *to, const manual_program *p);
 /* Writes beamwork-VERB(1). */
 void manual_write_verb(FILE *to, const verb *v);
-/* Writes beamwork-scene-file(5), the keys of scene files. */
+/* Writes beamwork-scene-file(5), the page on the keys of scene files. */
 void manual_write_scene(FILE *to);
-/* Writes beamwork-results(5), the contents of result files. */
+/* Writes beamwork-results(5), the page on the contents of results files. */
 void manual_write_results(FILE *to, const verb *const *verbs);
 
-/* Pages in mdoc(7). The text is escaped so that no formatter interprets it. */
-/* Writes running text: lines with its words unchanged, so hyphens, quotes and '^' can be copied. */
+/* Pages in mdoc(7). The text is escaped, so that no formatter interprets it. */
+/* Writes running text in lines. The words are not changed, so that hyphens, quotation marks and '^'
+ * can be copied. */
 void roff_text(FILE *to, const char *text);
-/* Reference to other pages: names with their sections, as in "beamwork 1 beamwork-scene 5". */
+/* Reference to other pages: names with their sections, such as "beamwork 1 beamwork-scene 5". */
 typedef struct roff_reference {
     const char *name;
     int section;
@@ -130,24 +132,25 @@ void roff_see(FILE *to, const roff_reference list[], int count);
 
 /* Outcome of the work. */
 typedef struct spread_end {
-    int ended; /* 1: there are no results to evaluate, and ... */
-    int code;  /* ... code is the exit status */
+    int ended; /* 1: there are no results to evaluate */
+    int code;  /* exit status, if `ended` is 1 */
     int batches;
-    char *taken;         /* [batches] read by a merge; released by spread_free */
-    char processor[128]; /* processor on which the batches were computed; empty: not merged */
+    char *taken;         /* [batches] batches that a merge has read; spread_free frees this array */
+    char processor[128]; /* processor that computed the batches; empty: not merged */
 } spread_end;
 
 typedef struct shard_options {
     const command_line *line;
     int jobs;
-    const char *shard, *into; /* K/N of the work; folder for the batches */
-    text_list from;           /* folders with batches that are read instead of computing */
+    const char *shard, *into; /* K/N of the work, and folder for the batches */
+    text_list from;           /* folders with batches, which are read instead of computed */
     int partial;              /* 1: missing cells are omitted */
     int quiet;
 } shard_options;
 extern const option_group options_shards; /* all options except jobs and quiet */
 
-/* Returns 1 if --into, --shard or --from was given. REFUSED: an invalid combination. */
+/* Returns 1 if --into, --shard or --from was given. REFUSED: the combination of options is invalid.
+ * */
 status spread_asked(const shard_options *, int *asked, fault *f);
 /* Computes the shard and reports its outcome, or reads the batches. */
 status spread_work(const shard_options *, const shard_work *w, spread_end *out, fault *f);
@@ -157,24 +160,24 @@ enum { IDENTITY_TEXT = 2000 };
 
 typedef struct identity_texts {
     char build[400], request[IDENTITY_TEXT], plan[DIGEST_TEXT];
-    char *origin; /* origin as JSON, released by identity_free */
+    char *origin; /* origin as JSON, which identity_free frees */
 } identity_texts;
 
 /* Collects the version, commit and digest of the program, the command line as text, and a digest of
- * every file on which results depend; the plan is added to this digest later. FAULT: a file cannot
+ * every file on which results depend. The plan is added to this digest later. FAULT: a file cannot
  * be read. */
 status identity_make(const command_line *, identity_texts *out, digest *plan, fault *f);
 /* Adds the points, formulations and meshes of a sweep to the digest. */
 void identity_add_sweep(digest *plan, const sweep *s);
-/* Sets the identity of a work. The texts must outlive it, and nothing may be added to the plan
- * afterwards. */
+/* Sets the identity of a work. The texts must outlive the work, and nothing may be added to the
+ * plan afterwards. */
 void identity_set(identity_texts *texts, const digest *plan, shard_work *w);
 void identity_free(identity_texts *);
 
-/* Computes `verify` as a shard, or reads it from batches. */
+/* Computes `verify` as a shard, or reads its results from batches. */
 
-/* Computes a shard of a planned sweep, or reads the cells of --from; with --partial, missing cells
- * are removed and counted as unfinished. A batch contains consecutive series and the cells that
+/* Computes a shard of a planned sweep, or reads the cells of --from. With --partial, missing cells
+ * are removed and counted as unfinished. A batch contains consecutive series, and the cells that
  * measure their scatter. */
 status verification_work_run(const shard_options *, const sweep_request *, truths *, sweep *,
                              spread_end *, fault *);

@@ -7,10 +7,10 @@
 
 typedef struct compare_request {
     const char *output, *select, *threshold, *experiment;
-    int hash; /* 1: prints the hashes of stored runs */
+    int hash; /* 1: the hashes of stored runs are printed */
 } compare_request;
 
-/* Exit statuses, which are those of diff. */
+/* Exit statuses, which are the same as for diff. */
 enum { SAME = 0, DIFFERS = 1, TROUBLE = 2 };
 
 static int trouble(const fault *f)
@@ -132,7 +132,7 @@ static status read_runs(const command_line *l, const compare_request *r, compari
     return l->argument[1] == NULL ? write_table(r->output, before, f) : STATUS_OK;
 }
 
-/* Prints a line for each run and, for two runs, whether they are equal. */
+/* Prints a line for each run. For two runs, also prints if they are equal. */
 static int print_hashes(const command_line *l, const compare_request *r)
 {
     results_hash h[2] = {{.values = 0}};

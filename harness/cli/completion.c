@@ -1,5 +1,5 @@
-/* Completion of a command line for shells: fixed words, names known to the program, and values that
- * depend on the words before the cursor. */
+/* Completion of a command line for shells: fixed words, names that the program knows, and values
+ * that depend on the words before the cursor. */
 #include "harness/cli/cli.h"
 
 #include <string.h>
@@ -28,8 +28,8 @@ static void offer_choices(const offer *o, const char *choices)
     }
 }
 
-/* Returns the offer that starts after the last of the given characters in the word. If the word has
- * none of them, returns the same offer. */
+/* Returns the offer that starts after the last of the given characters in the word. If the word
+ * contains none of them, returns the same offer. */
 static offer offer_behind(const offer *o, const char *characters)
 {
     offer behind = *o;
@@ -66,8 +66,8 @@ static void offer_assignment(const offer *o, const parameter_type *p)
     }
 }
 
-/* Returns 1 if the option already occurs in the text before the cursor, such as
- * "name:mass=lumped,". */
+/* Returns 1 if the text before the cursor, such as "name:mass=lumped,", already contains the
+ * option. */
 static int is_given(const char *before, int length, const char *name)
 {
     const size_t size = strlen(name);
@@ -104,7 +104,7 @@ static void names_parameters(const offer *o, const case_type *type)
         offer_assignment(o, p);
 }
 
-/* Offers NAME= for numbers only. */
+/* Offers "NAME=" only for numbers. */
 static void names_numbers(const offer *o, const case_type *type)
 {
     const parameter_type *p;
@@ -113,7 +113,7 @@ static void names_numbers(const offer *o, const case_type *type)
             offer_assignment(o, p);
 }
 
-/* Offers the next word of a term that begins with the words already typed. */
+/* Offers the next word of a term that starts with the words that have been typed. */
 static void offer_term(const offer *o, const char *said, const char *term, const char *summary)
 {
     const size_t length = strlen(said);
@@ -134,8 +134,8 @@ static void offer_terms(const offer *o, const char *said, const glossary *g)
     }
 }
 
-/* Offers the terms of `beamwork explain`. said: the words before the cursor, joined; they may be
- * the beginning of a term that consists of several words. */
+/* Offers the terms of `beamwork explain`. said: words before the cursor, joined. They may be the
+ * start of a term that consists of several words. */
 static void names_words(const offer *o, const char *said)
 {
     const truths_options usual = {.packed = NULL};
@@ -162,7 +162,7 @@ typedef struct completion_reading {
     const verb *verb;
     const verb_option *open; /* option whose value is at the cursor; NULL: none */
     int only_arguments;      /* "--" was given */
-    const char *last;        /* last argument; NULL: there is none yet */
+    const char *last;        /* last argument; NULL: none yet */
     int arguments;           /* number of arguments */
     const char *scene;       /* value of --scene */
     char said[SAID];         /* arguments, each followed by a blank */
@@ -207,7 +207,7 @@ static void read_word(completion_reading *r, const char *word)
     }
 }
 
-/* Offers terms. A term of several words may be given as several arguments or as one. */
+/* Offers terms. A term of several words may be given in several arguments or in one. */
 static void offer_words(const offer *o, const completion_reading *r)
 {
     const offer word = offer_behind(o, " ");
@@ -217,8 +217,8 @@ static void offer_words(const offer *o, const completion_reading *r)
     names_words(&word, said);
 }
 
-/* Offers part of a description. Words in upper case name kinds of arguments; other words are
- * offered unchanged, "exec:COMMAND" only up to the colon. */
+/* Offers part of a description. Words in upper case are kinds of arguments. Other words are offered
+ * unchanged, and "exec:COMMAND" only up to the colon. */
 static void offer_part(const offer *o, const completion_reading *r, const char *part)
 {
     char word[40];
@@ -239,7 +239,7 @@ static void offer_part(const offer *o, const completion_reading *r, const char *
     }
 }
 
-/* Offers what a description allows, such as "[cases|formulations|CASE]", "FILE..." or
+/* Offers values according to a description such as "[cases|formulations|CASE]", "FILE..." or
  * "text|json|csv". */
 static void offer_kinds(const offer *o, const completion_reading *r, const char *kinds)
 {
@@ -261,7 +261,7 @@ static void offer_selection(const offer *o)
     offer_choices(&word, "and|or|not");
 }
 
-/* Offers the parameters of the case or scene file that the line names. */
+/* Offers the parameters of the case or scene file that the command line names. */
 static void offer_parameters(const offer *o, const completion_reading *r,
                              void names(const offer *, const case_type *))
 {
@@ -303,7 +303,7 @@ static void offer_options(const offer *o, const completion_reading *r)
     }
 }
 
-/* Handles "-hf" or "--formulation=", followed by the beginning of a value. */
+/* Handles "-hf" or "--formulation=", followed by the start of a value. */
 static void offer_begun_option(FILE *to, const completion_reading *r, const char *word)
 {
     const offer whole = {to, word, 0, word};

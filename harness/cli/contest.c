@@ -1,5 +1,5 @@
-/* bench --against: alternates one cell with another formulation, at equal error or with given
- * meshes, or with the same cell in another program. */
+/* bench --against: alternates a cell with another formulation, at equal error or with given meshes,
+ * or with the same cell in another program. */
 #include "harness/cli/cli_impl.h"
 
 #include <math.h>
@@ -16,14 +16,14 @@ enum { LEVELS = 8, LINE = 1000, NAMED = 2 * FORMULATION_KEY };
 
 /* Formulations A and B on all meshes of the case, and the requested errors. */
 typedef struct duel {
-    sweep s; /* has two series, A and B */
+    sweep s; /* sweep with two series, A and B */
     truths t;
     int levels, asked; /* number of levels; asked: number of levels given by --error */
     double level[LEVELS];
     char note[DEFAULTS_NOTE];
 } duel;
 
-/* A pair of meshes on which both are within an error, and their times. */
+/* A pair of meshes on which both formulations are within an error, and their times. */
 typedef struct bout {
     meeting at;
     int measured;
@@ -92,7 +92,7 @@ static void show_meeting(const duel *d, double level, const bout *m)
     paragraph_write(stdout, at, 4, line);
 }
 
-/* Lists the deviations that do not decrease with more elements. */
+/* Lists the deviations that more elements do not reduce. */
 static void show_defects(const duel *d)
 {
     for (int i = 0; i < 2; i++)
@@ -168,8 +168,8 @@ static void show_json(const duel *d, const bout m[])
     json_decref(root);
 }
 
-/* Chooses the requested levels, or the levels of reach_level that both meet, and returns their
- * number. */
+/* Chooses the requested levels, or the levels of reach_level that both formulations meet, and
+ * returns their number. */
 static int choose_levels(duel *d, bout m[LEVELS])
 {
     for (int i = 0; i < REACH_LEVELS && d->asked == 0; i++) {
@@ -214,7 +214,8 @@ static status compare(duel *d, const bench_options *r, fault *f)
     return STATUS_OK;
 }
 
-/* REFUSED: one of the two is a different model, so its errors are not due to its elements. */
+/* Checks the models. REFUSED: one of the formulations solves another model, so its errors are not
+ * due to its elements. */
 static status check_models(const sweep *s, fault *f)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -248,12 +249,12 @@ static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
     return compare(d, r, f);
 }
 
-/* For each error target, finds the smallest number of elements of each formulation at and above
- * which all requested quantities meet the target (study/study.h), then times these two cells in
- * alternation. Targets:
- * --error, or those of reach_level that both meet. Quantities: -k, or all with a reference value or
- * an agreement for both. REFUSED: one formulation does not run, there is no reference value, or no
- * target is met. */
+/* Compares two formulations at equal errors. For each error target, finds the smallest number of
+ * elements of each formulation for which all requested quantities meet the target on this and all
+ * finer meshes (study/study.h), then times these two cells alternately. The targets are those of
+ * --error, or those of reach_level that both meet. The quantities are those of -k, or all
+ * quantities with a reference value or an agreement for both. REFUSED: one formulation does not
+ * run, there is no reference value, or no target is met. */
 static status against_error(bench_options *r, const case_type *type, fault *f)
 {
     duel d = {.levels = 0};
@@ -278,8 +279,7 @@ static void show_pair(const bench_options *r, const sweep_point *p, const contes
     json_decref(root);
 }
 
-/* Returns the parameter point at which both are run. The caller frees the scene, which it has
- * built. */
+/* Returns the parameter point at which both are run. The caller frees the scene of the point. */
 static sweep_point point_of(const bench_options *r, const case_type *type, const scene *s)
 {
     sweep_point p = {.type = type, .scene = *s, .status = STATUS_OK};
@@ -287,8 +287,8 @@ static sweep_point point_of(const bench_options *r, const case_type *type, const
     return p;
 }
 
-/* Compares with another build at the same number of elements. Both are run as programs, so they
- * start in the same way. against_meshes frees the scene. */
+/* Compares with another build for the same number of elements. Both are run as programs, so they
+ * start in the same way. The caller, against_meshes, frees the scene. */
 static status against_program(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;

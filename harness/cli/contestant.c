@@ -104,7 +104,7 @@ static status lap(void *what, double *seconds, fault *f)
     return c->program != NULL ? lap_elsewhere(c, seconds, f) : lap_here(c, seconds, f);
 }
 
-/* Chooses the number of repetitions so that one lap is long enough for the clock. */
+/* Chooses the number of repetitions such that a lap is long enough for the clock. */
 static status set_repeats(contestant *a, contestant *b, fault *f)
 {
     double first = 0, second = 0;
@@ -174,7 +174,7 @@ status contestant_compete(contestant *a, contestant *b, contest_clock *out, faul
     return against_run(lap, a, b, budget_seconds, out, f);
 }
 
-/* Prints the name and the time. A long name has its own line. */
+/* Prints the name and the time. A long name has a separate line. */
 static void show_one(char letter, const contestant *c, double seconds)
 {
     int at = printf("%c  ", letter);
@@ -206,7 +206,7 @@ static void show_work(const contestant *a, const contestant *b)
     paragraph_end(&words, at, 2);
 }
 
-/* Returns the reason why the two are not ranked; "" if they are. */
+/* Returns the reason why the two cells are not ranked, or "" if they are. */
 static const char *unranked(const contestant *a, const contestant *b)
 {
     const char *why = reach_unranked(a->request.formulation);

@@ -45,7 +45,7 @@ static status converge(converge_request *r, const case_type *type, convergence *
     return experiment_run(&experiment_converge, &asked, &to, c, f);
 }
 
-/* Returns 1 if any cell has a solution. */
+/* Returns 1 if at least one cell has a solution. */
 static int has_solution(const sweep *s)
 {
     int found = 0;

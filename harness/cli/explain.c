@@ -1,4 +1,4 @@
-/* Verb explain: meaning of terms of the program and of structural mechanics. */
+/* Verb explain: the meaning of terms of the program and of structural mechanics. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -101,7 +101,7 @@ static int explain_inputs(const char *word)
     return 1;
 }
 
-/* Returns rule i or, if its cause is "the same", the last previous rule with its own cause. */
+/* Returns rule i. If its cause is "the same", returns the last previous rule with another cause. */
 static const rule *said_before(const truths *ledger, int i)
 {
     while (i > 0 && strncmp(ledger->rule[i].cause, "the same", 8) == 0)
@@ -137,7 +137,7 @@ static int explain_rule(const dictionary *d, const char *word)
     return 0;
 }
 
-/* Explains a quantity of one case. Returns 1 if the case has it. */
+/* Explains a quantity of a case. Returns 1 if the case has the quantity. */
 static int explain_quantity_of(const case_type *type, const char *word, int found)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -172,7 +172,7 @@ static int explain_quantity(const char *word)
     return found > 0;
 }
 
-/* All names that can be looked up, in lower case. */
+/* All names that can be looked up, in lowercase letters. */
 typedef struct name_list {
     int count, size;
     char (*name)[GLOSSARY_WORD];
@@ -208,7 +208,8 @@ static void add_names(const dictionary *d, name_list *l)
         add_name(l, d->ledger.rule[k].name);
 }
 
-/* Returns a name that differs from `word` in at most two letters (one for short words), or NULL. */
+/* Returns a name that differs from `word` in at most two letters (one letter for short words);
+ * NULL: none. */
 static const char *misspelt(const name_list *l, const char *word)
 {
     char a[GLOSSARY_WORD], b[GLOSSARY_WORD];
@@ -240,8 +241,8 @@ static int contains(const char *text, const char *word)
     return 0;
 }
 
-/* Appends to `line` the entries that contain `word` in their names (where = 0) or in their text
- * (where = 1). */
+/* Appends to `line` the entries that contain `word` in their names (where 0) or in their text
+ * (where 1). */
 static void add_related(const glossary *g, const char *word, int where, int *count, char *line,
                         size_t size)
 {
@@ -322,7 +323,7 @@ static int explain_word(const dictionary *d, const char *word)
     return found > 0 ? EXIT_AS_EXPECTED : refuse_word(d, word);
 }
 
-/* Joins all arguments, so a term needs no quotes. */
+/* Joins all arguments, so that a term needs no quotation marks. */
 static int explain_words(const command_line *l, const dictionary *d)
 {
     char word[LONGEST] = "";

@@ -38,7 +38,7 @@ static void name_request(const json_t *words, char out[IDENTITY_TEXT])
         snprintf(out + KEPT, IDENTITY_TEXT - KEPT, " ... %s", hash);
 }
 
-/* Forms in which file names are written: as given, absolute, or without the folder. */
+/* Forms in which file names are written: as given, as absolute paths, or without the folder. */
 typedef enum path_form { PATHS_GIVEN, PATHS_ABSOLUTE, PATHS_LEAVES } path_form;
 
 static void add_path(json_t *to, const char *path, path_form form)

@@ -14,8 +14,8 @@ static int as_json(const import_request *r)
     return strcmp(r->format, "json") == 0;
 }
 
-/* Prints all errors of a file, one per line, or as JSON if that is the output format. JSON is
- * printed for every file, even without errors. */
+/* Prints all errors of a file, in one line each, or as JSON if this is the output format. JSON is
+ * printed for every file, even if there are no errors. */
 static status print_mistakes(const import_request *r, const mistakes *m, fault *f)
 {
     if (as_json(r))
@@ -27,7 +27,7 @@ static status print_mistakes(const import_request *r, const mistakes *m, fault *
     return STATUS_OK;
 }
 
-/* Reads all files as one series with one map. */
+/* Reads all files as one series, with one map. */
 static status read_mapped(const command_line *l, const import_request *r, import_set *set, fault *f)
 {
     mistakes m = {.file = r->map};
@@ -38,7 +38,7 @@ static status read_mapped(const command_line *l, const import_request *r, import
     return outcome;
 }
 
-/* Reads every file, even after errors in earlier ones. */
+/* Reads every file, even after errors in earlier files. */
 static status read_files(const command_line *l, const import_request *r, import_set *set, fault *f)
 {
     status outcome = STATUS_OK;

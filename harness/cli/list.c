@@ -1,4 +1,4 @@
-/* Verb list: cases and formulations; for one formulation, its supported features, limitations and
+/* Verb list: cases and formulations. For a formulation, its supported features, limitations and
  * known deviations. */
 #include <float.h>
 #include <stdio.h>
@@ -24,8 +24,8 @@ static void hang(int indent, const char *text)
     paragraph_write(stdout, printf("%*s%.*s ", indent, "", word, text), indent + 2, text + word);
 }
 
-/* Reads a declared field of a formulation, as in result files. Returns its number and sets *out to
- * its text. */
+/* Reads a declared field of a formulation, as in results files. Returns its number, and sets *out
+ * to its text. */
 static long declared(const formulation *chosen, const char *name, field_value *out)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -98,7 +98,7 @@ static void show_options(const element_type *t)
         list_formulation_option(o);
 }
 
-/* Prints where the rule applies and the resulting verdicts. */
+/* Prints the cases to which the rule applies, and the resulting verdicts. */
 static void show_verdicts(const rule *r)
 {
     char line[LINE];
@@ -126,7 +126,7 @@ static void show_rules(const formulation *chosen, const rule *rules, int count)
         printf("known deviations: none\n");
 }
 
-/* Prints all entries of one kind with the same explanation as entry `first` as one group. */
+/* Prints all entries of one kind with the same explanation as entry `first` in one group. */
 static void show_alike(const runs_on all[], int count, int first, const char *head)
 {
     char line[LINE];
@@ -229,7 +229,7 @@ static void list_offer(const scene *s, const element_type *type)
         printf("runs\n");
 }
 
-/* Prints a description and a range: "what it is (range)". */
+/* Prints a description and a range: "description (range)". */
 static void list_parameter(const parameter_type *p)
 {
     char value[ASSIGNMENT_VALUE], text[400];
@@ -253,8 +253,7 @@ static void list_parameters(const case_type *type)
         list_parameter(p);
 }
 
-/* Prints the quantities of a case at its default parameters, and the formulations that can run it.
- */
+/* Prints the quantities of a case at its default parameters, and the formulations that run it. */
 static void list_scene(const scene *s)
 {
     printf("quantities (along a path: a curve)\n");

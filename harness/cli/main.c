@@ -8,7 +8,8 @@
 
 #include "harness/cli/cli.h"
 
-/* Not inlined, so it uses the stack only after the stack size has been checked. */
+/* The function is not inlined, so that its stack is used only after the stack size has been
+ * checked. */
 static __attribute__((noinline)) int run(int count, char **arguments)
 {
     return verb_table_run(count, arguments);
@@ -43,10 +44,10 @@ int main(int count, char **arguments)
         refuse_stack();
     ending_begin();
     gsl_set_error_handler_off();
-    /* beamwork closes all HDF5 objects itself; the exit handler of HDF5 crashes or prints many
-     * lines if memory has run out */
+    /* beamwork closes all HDF5 objects. The exit handler of HDF5 crashes or prints many lines if
+     * memory is exhausted. */
     H5dont_atexit();
-    /* exceeding the file size limit then becomes a write error, reported in one line */
+    /* Exceeding the file size limit then becomes a write error, which is reported in one line. */
     signal(SIGXFSZ, SIG_IGN);
     return message_finish(run(count, arguments));
 }

@@ -11,7 +11,7 @@
 
 enum { WIDTH = 78 };
 
-/* Writes text literally and escapes characters that formatters would change. Returns the number of
+/* Writes text literally, and escapes characters that formatters would change. Returns the number of
  * characters written. */
 static int write_escaped(FILE *to, const char *text, size_t length)
 {
@@ -27,7 +27,7 @@ static int write_escaped(FILE *to, const char *text, size_t length)
     return written;
 }
 
-/* Writes a word; "\&" before it prevents interpretation as a request. */
+/* Writes a word. A preceding "\&" prevents its interpretation as a request. */
 static int write_word(FILE *to, const char *word, size_t length)
 {
     const int guard = length > 0 && word[0] == '.';
@@ -52,7 +52,7 @@ void roff_text(FILE *to, const char *text)
     fputc('\n', to);
 }
 
-/* Writes one argument after a macro, with a blank before it, escaped. */
+/* Writes one escaped argument after a macro, with a preceding blank. */
 static void roff_argument(FILE *to, const char *text)
 {
     fputs(" \"\\&", to);
@@ -67,7 +67,7 @@ static void roff_literal(FILE *to, const char *line, size_t length)
     fputc('\n', to);
 }
 
-/* Converts "2026-11-21" to the form of mdoc(7): "November 21, 2026". */
+/* Converts "2026-11-21" to the form of mdoc(7), "November 21, 2026". */
 static void write_date(FILE *to, const char *released)
 {
     struct tm day = {0};
@@ -78,7 +78,8 @@ static void write_date(FILE *to, const char *released)
     fprintf(to, ".Dd %s\n", text);
 }
 
-/* Writes the header of a page, ".Dd" to ".Nd". name: such as "beamwork-solve"; about: one line. */
+/* Writes the header of a page, from ".Dd" to ".Nd". name: for example "beamwork-solve"; about: one
+ * line. */
 static void roff_page(FILE *to, const char *name, int chapter, const char *about)
 {
     const environment e = environment_now(1);
@@ -253,8 +254,8 @@ static void close_to(keys *k, int depth)
         fprintf(k->to, ".El\n");
 }
 
-/* Writes a key. Each depth has one list; the list of lower keys is inside the item of the key above
- * them. */
+/* Writes a key. Each depth has a list, and the list of subordinate keys is inside the item of the
+ * superior key. */
 static void write_key(void *context, int depth, const char *name, const char *form,
                       const char *text)
 {

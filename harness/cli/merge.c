@@ -1,5 +1,5 @@
-/* Merges the batches of shards: repeats the command of the verb that computed them, which then
- * reads the batches. */
+/* Merges the batches of shards. Repeats the command of the verb that computed the batches, which
+ * then reads them. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,11 +10,12 @@
 
 enum { MOST = 1024 }; /* largest number of arguments */
 
-/* The command line that computed the batches, repeated. */
+/* The command line that computed the batches, for repetition. */
 typedef struct again {
     int count;
-    char *argument[MOST + 1]; /* "beamwork", the verb, ..., NULL; their order may change */
-    char *owned[MOST + 1];    /* strings that this structure owns; again_free releases them */
+    /* "beamwork", the verb, and its arguments, NULL-terminated; their order may change */
+    char *argument[MOST + 1];
+    char *owned[MOST + 1]; /* strings that this structure owns, which again_free frees */
 } again;
 
 static status add(again *out, const char *text, fault *f)
@@ -76,9 +77,9 @@ static status add_all(const batch_label *label, const command_line *l, again *ou
     return add_outputs(l, out, f);
 }
 
-/* Reads the request from the first batch of the first folder, and adds --from for all folders and
- * the outputs of this request. REFUSED: there are no batches. FAULT: out of memory, or a file
- * cannot be read. again_free must be called even after a failure. */
+/* Reads the request from the first batch of the first folder. Adds --from for all folders, and the
+ * outputs of this request. REFUSED: there are no batches. FAULT: out of memory, or a file cannot be
+ * read. Call again_free even after a failure. */
 static status again_make(const command_line *l, again *out, fault *f)
 {
     batch_label label;

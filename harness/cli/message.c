@@ -49,7 +49,8 @@ void message_refuse(const char *text)
     exit(message_fail(STATUS_REFUSED, text));
 }
 
-static pid_t program; /* process to which the handlers apply; child processes end without them */
+/* process to which the handlers apply; child processes end without these handlers */
+static pid_t program;
 
 static void say(const char *text)
 {
@@ -58,7 +59,7 @@ static void say(const char *text)
     }
 }
 
-/* Ends with the same signal, so the parent process sees it. */
+/* Ends with the same signal, so that the parent process receives it. */
 static void end_by(int number)
 {
     signal(number, SIG_DFL);
@@ -95,8 +96,8 @@ static void ended(int code, void *unused)
     _exit(EXIT_FAULT);
 }
 
-/* Replaces only the default handler, because a sanitizer, or a parent process that ignores the
- * signal, may have set another one. */
+/* Replaces only the default handler. A sanitizer, or a parent process that ignores the signal, may
+ * have set another handler. */
 static void attend(int number, void (*handler)(int))
 {
     struct sigaction action, before;
@@ -120,7 +121,7 @@ void ending_begin(void)
 {
     static const int asking[] = {SIGTERM, SIGHUP, SIGINT},
                      crashing[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
-    static char stack[1 << 16]; /* also needed after a stack overflow */
+    static char stack[1 << 16]; /* needed after a stack overflow */
     const stack_t other = {.ss_sp = stack, .ss_size = sizeof stack};
     program = getpid();
     fill_streams();
@@ -156,7 +157,7 @@ static void tell(int which)
     _exit(EXIT_DIFFERS);
 }
 
-/* Uses a separate stack, so a stack overflow is handled too. */
+/* Uses a separate stack, so that a stack overflow is handled as well. */
 static void stand_on_another_stack(void)
 {
     static char stack[1 << 16];
@@ -236,8 +237,8 @@ static int others_take(const verb *const *verbs, const char *word)
     return 0;
 }
 
-/* REFUSED: the verb has no such option, although another verb may. begun: number of options that
- * match the abbreviation. */
+/* Returns REFUSED: the verb has no such option, although another verb may have it. begun: number of
+ * options that match the abbreviation. */
 static status refuse_word(const verb *v, const verb *const *verbs, const char *text, int begun,
                           fault *f)
 {
@@ -290,7 +291,7 @@ static status check_word(const verb *v, const verb *const *verbs, const char *wo
 }
 
 /* Checks the whole command line first. Unknown options and missing values are reported in one line,
- * together with the nearest name. */
+ * with the most similar name. */
 static status check_options(const verb *v, const verb *const *verbs, int count,
                             char *const argument[], fault *f)
 {
@@ -303,7 +304,7 @@ static status check_options(const verb *v, const verb *const *verbs, int count,
     return STATUS_OK;
 }
 
-/* Prints the usage as argp does, but reports an output that cannot be written. */
+/* Prints the usage in the same way as argp, but reports an output that cannot be written. */
 static void show_usage(const struct argp_state *state)
 {
     argp_state_help(state, stdout, ARGP_HELP_USAGE & ~(unsigned)ARGP_HELP_EXIT_ERR);
@@ -317,7 +318,7 @@ static void add_argument(command_line *l, const char *text)
     l->argument[l->arguments++] = text;
 }
 
-/* Adds an option. An option with a single value may be given only once; lists (-f, -n, --set) and
+/* Adds an option. An option with a single value may be given only once. Lists (-f, -n, --set) and
  * switches may be repeated. */
 static void add_given(command_line *l, const verb_option *o, const char *value)
 {

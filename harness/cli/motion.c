@@ -12,11 +12,11 @@ typedef struct motion_options {
     int jobs, verbose, conservation_only; /* conservation_only 1: no reference is computed */
     text_list vary;                       /* the parameter that varies */
     const char *integrators, *step_lengths, *tolerances; /* lists of values */
-    const char *expected; /* table of expected verdicts, given instead of a case */
+    const char *expected; /* table of expected verdicts, which replaces a case */
 } motion_options;
 
-/* Fills the request. REFUSED: without text if messages about a missing case have already been
- * printed. */
+/* Fills the request. REFUSED without text: messages about a missing case have already been printed.
+ * */
 static status ask(motion_options *r, motion_request *out, fault *f)
 {
     out->type = case_input_find(&r->of);
@@ -55,7 +55,7 @@ static status run(motion_options *r, motions *m, fault *f)
     return experiment_do(&experiment_motion, &asked, &to, m, f);
 }
 
-/* Returns 1 if any motion has reached its end time. */
+/* Returns 1 if at least one motion has reached its end time. */
 static int has_any(const pace *p)
 {
     int found = 0;

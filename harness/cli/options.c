@@ -11,8 +11,7 @@
 #include "harness/numerics/numerics.h"
 #include "harness/records/records.h"
 
-/* Letters of version 0.1. They are accepted until the next version, with a note on the new
- * names. */
+/* Letters of version 0.1. The next version will not accept them. A note gives the new names. */
 static const struct {
     char letter;
     const char *name;
@@ -34,7 +33,7 @@ static const struct {
               {'u', "integrator"}, {'a', "step"},           {'3', "conservation-only"},
               {'1', "expected"}};
 
-/* Names of version 0.2. They are accepted until the next version, with a note on the new names. */
+/* Names of version 0.2. The next version will not accept them. A note gives the new names. */
 static const struct {
     const char *was, *name;
 } renamed[] = {{"keep-all", "all-dofs"},           {"beside", "imported"},
@@ -48,7 +47,7 @@ const verb_option verb_help[] = {
     {"usage", 0, NULL, "a short list of the options", .traits = OPTION_ASIDE},
     {0}};
 
-/* Returns option i of an array. If i is too large, reduces it by the number of options and returns
+/* Returns option i of an array. If i is too large, reduces i by the number of options and returns
  * NULL. */
 static const verb_option *among(const verb_option *list, int *i)
 {
@@ -81,8 +80,8 @@ const char *verb_former_name(const verb_option *o)
     return NULL;
 }
 
-/* Returns 2 if `name` equals the text of this length, 1 if `name` begins with the text, otherwise
- * 0. */
+/* Returns 2 if `name` equals the text of this length, 1 if `name` starts with the text, and 0
+ * otherwise. */
 static int match_name(const char *name, const char *text, size_t length)
 {
     if (name == NULL || strncmp(name, text, length) != 0)
@@ -220,7 +219,7 @@ status option_take(const verb_option *o, void *member, const char *value, fault 
     return STATUS_OK;
 }
 
-/* Reads one entry of the list. Returns the position after it; NULL: the entry is invalid. */
+/* Reads one entry of the list. Returns the position after the entry; NULL: the entry is invalid. */
 static const char *parse_one(const char *at, double *out)
 {
     char *end;
@@ -388,7 +387,7 @@ static status check_pair(const named_place *a, const named_place *b, fault *f)
 
 static status find_scenes(const char *folder, glob_t *found, fault *f)
 {
-    /* escapes the folder's name, whose characters are not wildcards */
+    /* escapes the name of the folder, whose characters are not wildcards */
     char *pattern = malloc(2 * strlen(folder) + sizeof "/*.yaml"), *at = pattern;
     if (pattern == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for scene files");

@@ -23,7 +23,7 @@ typedef struct plot_request {
 enum { INSTANTS = 300, STATES = 20, COULD_NOT = 4 }; /* COULD_NOT: as in reports/graph.py */
 
 static const char python[] = "/usr/bin/python3";
-/* Starts the plotting program isolated from the environment, as for beamwork-report. */
+/* Starts the plotting program isolated from the environment, in the same way as beamwork-report. */
 static const char begin_program[] =
     "import runpy, sys; sys.path.insert(0, sys.argv.pop(1)); "
     "runpy.run_module('reports.graph', run_name='__main__', alter_sys=True)";
@@ -51,8 +51,8 @@ static status divide(scene_path *path, double begin, double end, int parts, int 
     return STATUS_OK;
 }
 
-/* Adds stations. Motions are read at many stations, which does not change their steps; a static
- * path with one station is given more stations. */
+/* Adds stations. Motions are read at many stations, which do not change their steps. A static path
+ * with one station gets more stations. */
 static status read_densely(scene *s, int analysis, fault *f)
 {
     scene_analysis *a = &s->analysis[analysis];
@@ -67,7 +67,7 @@ static status read_densely(scene *s, int analysis, fault *f)
                   path->value[path->stations - 1], INSTANTS, later, f);
 }
 
-/* Adds the phase of an amplitude, as in a Bode diagram, unless the scene already has it. */
+/* Adds the phase of an amplitude, as in a Bode diagram, unless the scene already has the phase. */
 static status add_phase(scene *s, int quantity, fault *f)
 {
     const scene_quantity *q = &s->quantity[quantity];
@@ -100,7 +100,7 @@ static int can_be_drawn(const scene *s, const scene_quantity *q)
            (scene_path_of(a) != NULL || (a->kind == SCENE_COMPLIANCE && a->follows != SCENE_NONE));
 }
 
-/* Makes the quantity a curve; returns 0 if this is impossible. */
+/* Makes the quantity a curve. Returns 0 if this is impossible. */
 static int make_curve(scene *s, scene_quantity *q)
 {
     fault no;
@@ -161,8 +161,8 @@ static status make_curves(scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Solves with one formulation and appends the solution. The caller, draw_from, frees *s and
- *why. */
+/* Solves with one formulation and appends the solution. The caller, draw_from, frees *s and `why`.
+ * */
 static status solve_one(const plot_request *r, const case_type *type, int index, sweep *s,
                         solution_choice *why, FILE *to, fault *f)
 {
@@ -183,7 +183,7 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
                               .meshes = &meshes,
                               .truths = &usual};
     TRY(defaults_fill(&missing, note, why, f));
-    solution_choice_free(why); /* it contains values, not curves */
+    solution_choice_free(why); /* it contains values and no curves */
     const solution_request what = defaults_request(&missing);
     TRY(solution_plan(&what, s, f));
     TRY(make_curves(&s->point[0].scene, f));
@@ -200,8 +200,8 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
     return json_write_solution(to, s, &none, f);
 }
 
-/* Solves with all formulations. If there are several, one that cannot be solved is reported and
- * skipped. */
+/* Solves with all formulations. If there are several, a formulation without a solution is reported
+ * and skipped. */
 static status solve_all(const plot_request *r, const case_type *type, FILE *to, fault *f)
 {
     status outcome = STATUS_OK;
@@ -225,7 +225,7 @@ static status solve_all(const plot_request *r, const case_type *type, FILE *to, 
                            "a temporary file cannot be written (is the disk full?)");
 }
 
-/* Becomes the plotting program in the child process. */
+/* Replaces the child process by the plotting program. */
 static void become(int from, int to, const char *folder, const char *form)
 {
     if (dup2(from, STDIN_FILENO) >= 0 && dup2(to, STDOUT_FILENO) >= 0)
@@ -233,7 +233,7 @@ static void become(int from, int to, const char *folder, const char *form)
     _exit(127);
 }
 
-/* Draws the solutions in the file. The plotting program prints its own messages. */
+/* Draws the solutions in the file. The plotting program prints its messages. */
 static status draw(FILE *solutions, const char *folder, const char *form, FILE *picture, fault *f)
 {
     int how = -1;

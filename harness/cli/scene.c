@@ -1,4 +1,4 @@
-/* Writes scene files from any case; describes their keys. */
+/* Writes scene files from any case, and describes their keys. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 
 typedef struct scene_request {
     case_options of;
-    const char *output, *format; /* format: that of error messages */
+    const char *output, *format; /* format: format of error messages */
     int schema, keys; /* 1: describe the keys of scene files, as JSON Schema or as a list */
 } scene_request;
 
@@ -22,7 +22,7 @@ static status describe(FILE *to, const scene_request *r, fault *f)
     return STATUS_OK;
 }
 
-/* Writes the scene. The caller, write_out, frees the scene. type NULL: writes a description of the
+/* Writes the scene, which the caller, write_out, frees. type NULL: writes a description of the
  * keys. */
 static status write_to(FILE *to, const scene_request *r, const case_type *type, scene *s, fault *f)
 {

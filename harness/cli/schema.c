@@ -1,4 +1,4 @@
-/* Verb schema: contents of result files, described by the tables that write them. */
+/* Verb schema: contents of results files, according to the tables with which they are written. */
 #include <stdio.h>
 #include <string.h>
 
@@ -31,7 +31,7 @@ const char *const results_about[] = {
     "columns.",
     NULL};
 
-/* Returns entry i of a NULL-terminated list. If i is beyond the end, decreases it by the length and
+/* Returns entry i of a NULL-terminated list. If i is beyond the end, reduces i by the length and
  * returns NULL. */
 static const record_type *take(const record_type *const *list, int *i)
 {

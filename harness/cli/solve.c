@@ -18,16 +18,16 @@ typedef struct solve_request {
     const char *select, *output, *format;
     double error; /* 0: no error was given */
     int steps;
-    int shapes;                 /* number of path states with stored shapes; 0: none */
-    const char *follow;         /* NAME=A..B/N: follow modes over this parameter */
-    const char *matrices;       /* folder for the matrices of all states */
-    int state_space;            /* 1: also writes linear models */
-    const char *reduce;         /* also writes reduced models */
-    const char *ends, *restart; /* files: output for the final states of motions; state from which
-                                   motions continue */
+    int shapes;           /* number of states of a path whose shapes are stored; 0: none */
+    const char *follow;   /* NAME=A..B/N: modes are followed over this parameter */
+    const char *matrices; /* folder for the matrices of all states */
+    int state_space;      /* 1: linear models are written as well */
+    const char *reduce;   /* also writes reduced models */
+    /* files: output for the final states of motions, and state from which motions continue */
+    const char *ends, *restart;
 } solve_request;
 
-/* The data of one solution, from the request to the result. */
+/* The data of a solution, from the request to the result. */
 typedef struct solve_work {
     solution_request what;
     solution_choice why;
@@ -63,7 +63,7 @@ static defaults defaults_of(solve_request *r, const case_type *type)
                       .truths = &r->truths};
 }
 
-/* Writes the results. note: explains what was chosen by default; it is printed before text
+/* Writes the results. note: explanation of the default choices, which is printed before text
  * output. */
 static status write_to(FILE *to, const solve_request *r, const char *note, const sweep *s,
                        const truths *t, fault *f)
@@ -88,13 +88,13 @@ static status write_out(const solve_request *r, const char *note, const sweep *s
         fputs(note, stdout);
         table_solution(stdout, s, t);
         TRY(store_write_solution(r->output, s, &e, f));
-        return output_flush(f); /* because the reader of the table may have ended */
+        return output_flush(f); /* the program that reads the table may have ended */
     }
     TRY(output_open(r->output, &file, f));
     return output_finish(&file, write_to(file.stream, r, note, s, t, f), f);
 }
 
-/* Reports what the state space of a harmonic analysis omits. */
+/* Reports what the state-space form of a harmonic analysis omits. */
 static void tell_apart(const scene *s, const state_matrices *m)
 {
     if (m->model.apart > 0)
@@ -153,8 +153,8 @@ static void tell_reduced(const scene *s, const system_matrices *all, const state
     fprintf(stderr, "\n");
 }
 
-/* Reports that only the state spaces of harmonic analyses include feedback. In other matrices the
- * loads with feedback are inputs. */
+/* Reports that only the state-space forms of harmonic analyses include feedback. In other matrices,
+ * the loads with feedback are inputs. */
 static void tell_loops(const scene *s, const system_matrices *of)
 {
     int closed = 0;
@@ -234,7 +234,7 @@ static status write_curves(const solve_request *r, const char *note, const char 
     return output_finish(&file, written, f);
 }
 
-/* Handles --follow: follows modes over a parameter instead of computing one solution. */
+/* Handles --follow: follows modes over a parameter instead of computing a solution. */
 static status follow_modes(solve_request *r, const case_type *type, fault *f)
 {
     char name[SCENE_NAME], note[DEFAULTS_NOTE];
@@ -261,8 +261,8 @@ static status follow_modes(solve_request *r, const case_type *type, fault *f)
     return written;
 }
 
-/* Reads the state from which a motion continues. The motion uses the formulation and the elements
- * of its first part. */
+/* Reads the state from which a motion continues. The motion uses the formulation and the number of
+ * elements of its first part. */
 static status take_restart(solve_request *r, restart *from, fault *f)
 {
     TRY(restart_read(r->restart, from, f));
@@ -283,7 +283,7 @@ static status prepare_ends(const solve_request *r, const restart *from, solution
     return r->restart != NULL ? restart_begin(from, what, s, f) : STATUS_OK;
 }
 
-/* Prepares the solution; the caller, answer, frees *w, even after a failure. */
+/* Prepares the solution. The caller, answer, frees *w, even after a failure. */
 static status prepare(solve_request *r, const case_type *type, solve_work *w, fault *f)
 {
     if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))
@@ -331,8 +331,8 @@ static status write_all(const solve_request *r, const solve_work *w, fault *f)
     return write_matrices(r, &w->s, f);
 }
 
-/* Reports a quantity without a value; the others are still computed. If the mesh has no such mode
- * or the path has no such point, the missing value counts as a result. */
+/* Reports a quantity without a value. Other quantities are still computed. If the mesh has no such
+ * mode or the path has no such point, the missing value counts as a result. */
 static int tell_missing(status solved, const cell_result *cell, const fault *f)
 {
     const int refused = cell_values(cell) > 0 && solved == STATUS_REFUSED;

@@ -7,7 +7,6 @@
 
 #include "elements/shared/choice.h"
 
-/* Options of the command line. */
 typedef struct sweep_options {
     case_options of;
     chosen_formulations chosen;
@@ -16,22 +15,22 @@ typedef struct sweep_options {
     shard_options shards;
     const char *select, *output, *format;
     double error;       /* 0: no error was given */
-    text_list vary;     /* parameters that vary, NAME=A..B/N ... */
+    text_list vary;     /* varied parameters in the form NAME=A..B/N, or another range */
     const char *design; /* design of the points; NULL: a grid */
     int points, seed;   /* for designs other than a grid */
-    int derive;         /* 1: computes reference values that are not stored */
+    int derive;         /* 1: reference values that are not stored are computed */
     int verbose;
 } sweep_options;
 
-/* A sweep and the data used while it runs. */
+/* A sweep, and the data that are used while it runs. */
 typedef struct sweeping {
     range_sweep_request asked;
     range_sweep sweep;
     char script[PATH_MAX]; /* script of --compute-references */
     identity_texts texts;
     const shard_options *shards;
-    int spread;     /* 1: computed as a shard, or read from batches */
-    spread_end end; /* outcome of the shard or of reading */
+    int spread;     /* 1: the sweep is computed as a shard, or read from batches */
+    spread_end end; /* outcome of the shard, or of reading */
 } sweeping;
 
 static status read_design(const sweep_options *r, ranges_request *q, fault *f)
@@ -141,7 +140,7 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
     return experiment_run(&experiment_sweep, &s->asked, &to, &s->sweep, f);
 }
 
-/* Reports missing points, which are computed if the command is repeated. */
+/* Reports missing points. They are computed if the command is repeated. */
 static int tell(const sweep_options *r, const sweeping *s)
 {
     if (s->spread)

@@ -17,8 +17,8 @@ typedef struct truth_request {
 
 enum { NAME = 28, INDENT = 6 };
 
-/* Writes the value with the smallest number of digits that represents it to within a thousandth of
- * its uncertainty. */
+/* Writes the value with the smallest number of digits whose error is within a thousandth of the
+ * uncertainty. */
 static void digits_of(double value, double uncertainty, char text[32])
 {
     for (int digits = 1; digits <= 17; digits++) {
@@ -28,7 +28,7 @@ static void digits_of(double value, double uncertainty, char text[32])
     }
 }
 
-/* Prints two lines, one with the value and one with its source. */
+/* Prints two lines: the value, and its source. */
 static void print_value(const char *quantity, double value, double uncertainty, const char *unit,
                         const char *kind, const char *whose, const char *source, const char *note)
 {
@@ -93,7 +93,7 @@ static status print_derived(const case_type *type, const double parameter[], fau
     return outcome;
 }
 
-/* Prints all parameters of the scene, because a line without them would apply to any values. */
+/* Prints all parameters of the scene. A line without parameters would apply to any values. */
 static void print_point(const case_type *type, const double parameter[])
 {
     const parameter_type *p;

@@ -16,7 +16,7 @@ static const verb compute = {.name = "compute", .place = VERB_COMPUTE};
 static const verb judge = {.name = "evaluate and compare", .place = VERB_JUDGE};
 static const verb exchange = {.name = "exchange", .place = VERB_EXCHANGE};
 #define VERB_OF(name) &verb_##name,
-/* verbs.h contains the identifier of each verb in cli/, in any order. */
+/* verbs.h contains the identifiers of all verbs in cli/, in any order. */
 static const verb *verbs[] = {&look, &compute, &judge, &exchange, VERB_TYPES(VERB_OF) NULL};
 enum { COUNT = sizeof verbs / sizeof verbs[0] - 1 };
 
@@ -111,7 +111,7 @@ static int help(void)
     return EXIT_AS_EXPECTED;
 }
 
-/* Handles `beamwork help VERB`. A different `write` prints a manual page. */
+/* Handles `beamwork help VERB`. The function `write` writes the help or a manual page. */
 static int help_of(const char *name, void write(FILE *, const verb *))
 {
     const verb *v = verb_find(verbs, name);
@@ -126,7 +126,7 @@ static void write_results(FILE *to)
     manual_write_results(to, verbs);
 }
 
-/* Returns the function that writes a page about a file format, or NULL. */
+/* Returns the function that writes a page about a file format; NULL: none. */
 static void (*file_page(const char *name))(FILE *)
 {
     if (strcmp(name, "beamwork-scene.5") == 0)
@@ -171,7 +171,7 @@ static void complete_verb(const char *begun, int others)
     }
 }
 
-/* Prints completions of the last word for shells. */
+/* Prints the completions of the last word for shells. */
 static int complete(int count, char **words)
 {
     const verb *v = verb_find(verbs, words[0]);

@@ -11,19 +11,20 @@ typedef struct verify_request {
     report_options reports;
     shard_options shards;
     const char *select, *output;
-    text_list imported;     /* stored imports: other programs for comparison */
-    int imported_must_pass; /* 1: verdicts of these programs affect the exit status */
+    text_list imported;     /* stored imports, which are results of other programs for comparison */
+    int imported_must_pass; /* 1: verdicts on these programs affect the exit status */
     int exit_zero;          /* 1: verdicts do not affect the exit status */
     double tolerance;       /* replaces the tolerances of the cases */
-    const char *former;     /* previous results; this run must not be worse */
-    int refine;             /* number of refinements beyond the finest mesh */
-    int shapes;             /* number of path states with stored shapes; 0: none */
-    int verbose; /* verbose: prints every limit; shards.quiet: prints only unexpected results */
+    const char *former; /* results of a previous run; the results of this run must not be worse */
+    int refine;         /* number of refinements of the finest mesh */
+    int shapes;         /* number of states of a path whose shapes are stored; 0: none */
+    /* verbose 1: every limit is printed; shards.quiet 1: only unexpected results are printed */
+    int verbose;
 } verify_request;
 
 enum { PICTURED_STATES = 5 };
 
-/* Prints details that the exit status does not show, and returns that status. */
+/* Prints details that the exit status does not show, and returns this status. */
 static int tell(const verify_request *r, const sweep *s, const judgement *j, const spread_end *e)
 {
     int first = 0;
@@ -48,7 +49,7 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
     return r->exit_zero ? EXIT_AS_EXPECTED : code;
 }
 
-/* Warns about scene files whose numbers suggest different units. */
+/* Warns about scene files whose numbers suggest other units. */
 static void tell_units(const scenes *own, const sweep *s)
 {
     for (int k = 0; k < own->count; k++)
@@ -61,7 +62,8 @@ static void tell_units(const scenes *own, const sweep *s)
         }
 }
 
-/* Runs the sweep here, or as batches of shards, which are evaluated once all exist. */
+/* Runs the sweep in this process, or as batches of shards, which are evaluated when all of them
+ * exist. */
 static status compute(const verify_request *r, const scenes *own, verification_request *asked,
                       verification *v, spread_end *end, fault *f)
 {
