@@ -14,19 +14,20 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Start and end of every library function. */
+/* Functions that every library function calls at its start and at its end. */
 
-/* Settings of the host, and the destination of error messages. */
+/* Settings of the host, and the place where error messages are stored. */
 typedef struct call {
     fault fault;
-    char *text; /* allocated with malloc; replaces the message of the fault; NULL: none */
+    char *text; /* message that replaces the one of the fault, allocated with malloc; NULL: none */
     char **why;
     locale_t locale;
     fenv_t arithmetic;
 } call;
 
-/* Until call_end, numbers are read, written and rounded as in a C program with the default
- * locale, with rounding to nearest and without traps. The library handles the errors of GSL. */
+/* Until call_end is called, numbers are read, written and rounded as in a C program with the
+ * default locale, with rounding to nearest and without traps. The library handles the errors of
+ * GSL. */
 void call_begin(call *, char **why);
 /* Restores the settings of the host, and sets *why. */
 bw_status call_end(call *, status outcome);
@@ -43,11 +44,12 @@ status known_read(const case_type *type, truths *out, fault *f);
 /* Reads the reference values of all cases. */
 status known_read_all(truths *out, fault *f);
 
-/* Locks HDF5 only. known_hold and known_let_go enclose the reading of shared reference values:
- * if two threads need the same ones, only one thread reads, and no process is forked meanwhile. */
+/* Locks HDF5 only. The reading of shared reference values is enclosed by known_hold and
+ * known_let_go. If two threads need the same reference values, only one thread reads them, and no
+ * process is forked during this time. */
 void known_hold(void);
 void known_let_go(void);
-/* Locks HDF5 for all other calls; known_unlock restores the host's error handling. */
+/* Locks HDF5 for all other calls. known_unlock restores the error handling of the host. */
 void known_lock(void);
 void known_unlock(void);
 
@@ -55,24 +57,25 @@ void known_unlock(void);
 
 typedef enum call_option_kind {
     OPTION_SWITCH, /* true or false, stored in an int */
-    OPTION_WHOLE,  /* in the range least .. most, stored in an int */
+    OPTION_WHOLE,  /* integer in the range least .. most, stored in an int */
     OPTION_FILE,   /* descriptor of an open file, stored in an int */
-    OPTION_SHARE,  /* between 0 and 1, stored in a double */
-    OPTION_WORDS   /* stored in a const char *; *kept owns the text */
+    OPTION_SHARE,  /* number between 0 and 1, stored in a double */
+    OPTION_WORDS   /* text, stored in a const char *; *kept owns the text */
 } call_option_kind;
 
 typedef struct call_option {
     const char *name; /* key; NULL ends the table */
     call_option_kind kind;
-    void *to; /* receives the value; unchanged if the key is missing */
+    void *to; /* receives the value; not changed if the key is missing */
     int least, most;
 } call_option;
 
-/* Reads options. json NULL: no options. *kept: to be released with json_decref. REFUSED: the
- * text is not a JSON object, a key is unknown, or a value is of the wrong type or out of range. */
+/* Reads options. json NULL: there are no options. *kept: the caller frees it with json_decref.
+ * REFUSED: the text is not a JSON object, a key is unknown, or a value has a wrong type or is out
+ * of range. */
 status options_read(const char *json, const call_option table[], json_t **kept, fault *f);
 
-/* Data that a bw_scene and its results share; they exist as long as one of these does. */
+/* Data that a bw_scene and its results share. They exist as long as one of these objects exists. */
 
 typedef struct source source;
 
@@ -81,8 +84,8 @@ struct bw_scene {
     double parameter[CASE_MAX_PARAMETERS];
 };
 
-/* Makes the source of a built-in case, or of a file. name: used in messages. Takes ownership of
- * file and name, even after a failure. */
+/* Makes the source of a built-in case or of a file. name: used in messages. Takes ownership of
+ * `file` and `name`, even after a failure. */
 status source_new(const case_type *type, scene_file *file, char *name, source **out, fault *f);
 void source_release(source *); /* NULL: does nothing */
 const case_type *source_case(const source *);
@@ -94,13 +97,13 @@ enum { RESULT_COLUMNS = 32 };
 
 struct bw_result {
     source *from;
-    sweep sweep;                    /* sweep with one point, series and mesh */
+    sweep sweep;                    /* sweep with one point, one series and one mesh */
     truths own;                     /* reference values in the scene file */
-    const truths *truths;           /* reference values used; NULL: none */
-    double *error;                  /* [quantities] NAN: no reference value */
+    const truths *truths;           /* reference values that apply; NULL: none */
+    double *error;                  /* [quantities] errors; NAN: there is no reference value */
     double *step[RESULT_COLUMNS];   /* [steps] columns of the steps, filled on request */
     double *motion[RESULT_COLUMNS]; /* [motions] columns of the motions, filled on request */
-    double *position;               /* [states x points x 3], filled on request */
+    double *position;               /* [states x points x 3] positions, filled on request */
 };
 
 static inline const solve_result *result_handle_solution(const struct bw_result *r)
@@ -122,7 +125,7 @@ typedef struct document_text {
 } document_text;
 
 status text_begin(document_text *, fault *f);
-/* Ends the text. *out: allocated with malloc; NULL if `written` is a failure or the stream had
+/* Completes the text. *out: allocated with malloc; NULL: `written` is a failure, or the stream had
  * an error. */
 status text_end(document_text *, status written, char **out, fault *f);
 

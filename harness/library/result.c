@@ -55,7 +55,7 @@ const char *bw_result_unit(const bw_result *r, int quantity)
     return q != NULL ? q->unit : NULL;
 }
 
-/* Returns the index of a quantity, or -1 if there is none of that name. */
+/* Returns the index of the quantity with this name; -1: none. */
 static int index_of(const bw_result *r, const char *name)
 {
     for (int i = 0; name != NULL && i < bw_result_quantities(r); i++)
@@ -64,7 +64,7 @@ static int index_of(const bw_result *r, const char *name)
     return -1;
 }
 
-/* Returns the result of a quantity, or NULL. */
+/* Returns the result of a quantity; NULL: none. */
 static const quantity_result *found_of(const bw_result *r, const char *name)
 {
     const int i = index_of(r, name);
@@ -141,7 +141,7 @@ static double *read_column(const bw_result *r, const record_type *type, const sc
     return out;
 }
 
-/* Returns a column of `rows` records of a type. kept[RESULT_COLUMNS]: columns that were
+/* Returns a column of `rows` records of a type. kept[RESULT_COLUMNS]: columns that have been
  * requested before. */
 static size_t column_of(const bw_result *r, const record_type *type, double *kept[], int rows,
                         const char *name, const double **values)

@@ -8,7 +8,8 @@
 #include "cases/format/format.h"
 #include "harness/experiments/experiments.h"
 
-/* Makes a scene at its defaults; takes ownership of the file and its name. */
+/* Makes a scene with the default values of its parameters. Takes ownership of the file and its
+ * name. */
 static status new_scene(const case_type *type, scene_file *file, char *name, bw_scene **out,
                         fault *f)
 {
@@ -51,7 +52,7 @@ static void tell(const mistakes *m, call *c)
         text_end(&t, mistakes_json(m, t.to, &f), &c->text, &f);
 }
 
-/* Reads a text of the given size or, if it is NULL, the file of that name. */
+/* Reads a text of the given size or, if it is NULL, the file with this name. */
 static status read_file(const char *bytes, size_t size, const char *name, scene_file **out,
                         mistakes *m, fault *f)
 {
@@ -219,8 +220,8 @@ status text_end(document_text *t, status written, char **out, fault *f)
     return STATUS_OK;
 }
 
-/* Reads names separated by blanks. Text NULL: no names, *count 0. *named (may be NULL): 1 if
- * none of the names is "all". */
+/* Reads names that are separated by blanks. Text NULL: there are no names, and *count is 0. *named
+ * (may be NULL): 1 if none of the names is "all". */
 static status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
                                 int *named, fault *f)
 {
@@ -243,14 +244,14 @@ static status contestants_parse(const char *names, formulation list[CONTESTANTS_
     return STATUS_OK;
 }
 
-/* returns the default number of processes */
+/* Returns the default number of processes. */
 static int contestants_jobs(void)
 {
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     return processors < 1 ? 1 : processors < WORKERS_MOST ? (int)processors : WORKERS_MOST;
 }
 
-/* Returns TIME_LIMIT if the caller stopped the run before all runs were finished. */
+/* Returns TIME_LIMIT if the caller stopped the work before all runs were complete. */
 static status contestants_finished(const sweep *s, fault *f)
 {
     return s->unfinished == 0 ? STATUS_OK
@@ -258,7 +259,7 @@ static status contestants_finished(const sweep *s, fault *f)
                                           s->unfinished);
 }
 
-/* Request and results; converge frees it. */
+/* Request and results. The function converge frees them. */
 typedef struct study {
     const bw_scene *scene;
     double level;
@@ -334,13 +335,13 @@ bw_status bw_converge(const bw_scene *from, const char *formulations, const char
 }
 
 enum {
-    TIME_LIMIT = 120 /* [s] default limit for a cell */,
+    TIME_LIMIT = 120 /* [s] default time limit of a cell */,
     LONGEST = 1000000,
     DOUBLINGS = 10,
     PICTURES = 5
 };
 
-/* Request and results; verify frees it. */
+/* Request and results. The function verify frees them. */
 typedef struct verify_trial {
     const bw_scene *scene;
     const char *results;
@@ -348,8 +349,9 @@ typedef struct verify_trial {
     const case_type *type[2];
     formulation formulation[CONTESTANTS_MOST];
     json_t *kept;
-    const char *former_path; /* path of previous results; the results of this run must not be worse;
-                                NULL: none */
+    /* path of the results of a previous run; the results of this run must not be worse; NULL: none
+     * */
+    const char *former_path;
     stored_results former;
     truths truths;
     sweep sweep;

@@ -14,8 +14,9 @@
 #include "harness/numerics/numerics.h"
 
 static source *source_hold(source *); /* adds a reference to the source */
-/* Sets *out to the reference values of a case; for a scene file only to the known deviations.
- * They are read at the first call. *out is NULL after FAULT. May be called by several threads. */
+/* Sets *out to the reference values of a case, or only to the known deviations for a scene file.
+ * They are read in the first call. *out is NULL after FAULT. Several threads may call this
+ * function. */
 static status source_known(source *, const truths **out, fault *f);
 
 enum { STEPS_MOST = 1000000 };
@@ -48,7 +49,7 @@ static status know(bw_result *r, const double parameter[], fault *f)
     return STATUS_OK;
 }
 
-/* Determines the formulation and the number of elements, given or chosen. */
+/* Determines the formulation and the number of elements, which are given or chosen. */
 static status choose(const bw_result *r, const char *name, solution_request *out,
                      solution_choice *why, fault *f)
 {
@@ -162,7 +163,7 @@ void bw_result_free(bw_result *r)
 _Static_assert((int)BW_FAULT == (int)STATUS_FAULT && (int)BW_NO_VALUE == (int)STATUS_NO_VALUE,
                "a bw_status is a status");
 
-/* GSL has one error handler for all threads: the first call disables it, and the last one
+/* GSL has one error handler for all threads. The first call disables the handler, and the last call
  * restores it. nested: number of nested calls of this thread. */
 static _Thread_local int nested;
 static struct {
@@ -172,8 +173,8 @@ static struct {
     locale_t plain;
 } state = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
-/* A forked process has none of the other threads. It must not wait for them or count the calls
- * that they have in progress. */
+/* A forked process has none of the other threads. It must not wait for them, nor count the calls
+ * that they had in progress. */
 static void before_fork(void)
 {
     known_hold();
@@ -233,7 +234,7 @@ void call_begin(call *c, char **why)
     fesetenv(FE_DFL_ENV);
 }
 
-/* Returns the number of bytes of the UTF-8 character that starts here; 0: invalid. */
+/* Returns the number of bytes of the UTF-8 character that starts at this address; 0: invalid. */
 static int character(const unsigned char *at)
 {
     const int more = (at[0] >= 0xc2) + (at[0] >= 0xe0) + (at[0] >= 0xf0);
@@ -245,7 +246,7 @@ static int character(const unsigned char *at)
     return 1 + more;
 }
 
-/* Returns one line of valid UTF-8 for any names. Invalid characters are replaced by '?'. */
+/* Returns the message as one line of valid UTF-8. Invalid characters are replaced by '?'. */
 static char *line_of(const fault *f)
 {
     char *out = strdup(f->text);
@@ -321,7 +322,7 @@ static void place_now(char path[PATH_MAX])
         data_place_truths(path);
 }
 
-/* As known_read, for a thread that holds the lock. */
+/* Like known_read, for a thread that holds the lock. */
 static status known_read_held(const case_type *type, truths *out, fault *f)
 {
     char path[PATH_MAX];

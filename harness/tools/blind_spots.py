@@ -32,8 +32,8 @@ SIZE = 1e-3  # size of the injected faults
 WANTED = 1e-3  # larger faults must not remain undetected without a reason
 LEAST = 1e-9  # smallest difference between two faults
 SURELY, KNOWN, MOVED = 3, 1e-9, 1e-5  # constants of study/verdict.c, of predictions, and of experiments/verification.c
-CHANGED = 1e-7  # smaller relative changes of a value are round-off or effects of the steps of a motion
-NEAR = 1e-2  # largest relative error, on coarse meshes, of values that predict the change of a limit well enough
+CHANGED = 1e-7  # smaller relative changes of a value are due to rounding or to the steps of a motion
+NEAR = 1e-2  # largest relative error of values on coarse meshes that predict the change of a limit sufficiently well
 SOUND = 1e-3  # tolerance of a limit, cases/scene/scene.h
 UNJUDGED = ("skip", "other model", "refused", "diverged")
 CLOSELY = ("pass", "biased, as predicted", "wrong limit, as predicted")
@@ -49,8 +49,7 @@ def key_of(verdict):
 
 
 def planted_values(program, folder, constant):
-    """Returns {(case, point, formulation, quantity): value} of a run with a fault in a constant (None: without a
-    fault)."""
+    """Returns {(case, point, formulation, quantity): value} of a run with a fault in a constant; None: no fault."""
     path = os.path.join(folder, "verify.json")
     environment = dict(os.environ, BEAMWORK_PLANT_MESHES="2")
     if constant is not None:
@@ -96,7 +95,7 @@ def band_of(v, rules):
 
 
 def moved_of(v):
-    """Returns the allowed difference of the limit from the committed limit; infinite if an exact reference value
+    """Returns the allowed difference of the limit from the committed limit, or infinity if an exact reference value
     checks the limit."""
     if v["point"] != "default" or v["limit"] is None or v["verdict"] in UNJUDGED:
         return math.inf
@@ -109,8 +108,8 @@ def moved_of(v):
 
 def relative(v, values):
     """Returns ({constant: derivative of the value with respect to the size of a fault}, error of the value) for a
-    verdict, from its coarse meshes. Both are relative to the value. Returns None if the coarse meshes have no
-    value."""
+    verdict, from its coarse meshes. Derivatives and error are relative to the value. Returns None if the coarse meshes
+    have no value."""
     key, size = key_of(v), max(abs(v["limit"]), scale_of(v))
     whole, changes = values[0].get(key), {}
     if whole is None or size == 0:
@@ -124,7 +123,7 @@ def relative(v, values):
 
 def derivatives(verdicts, values):
     """Returns [(verdict, {constant: |derivative| of the limit})] from the values on the coarse meshes. If these values
-    are missing or have large errors, those of the nearest formulation are used."""
+    are missing or have large errors, the values of the nearest formulation are used."""
     own, best = [(v, relative(v, values)) for v in verdicts], {}
     for v, known in own:
         if known is not None and known[1] < best.get(v["point"], ({}, math.inf))[1]:
@@ -140,7 +139,7 @@ def derivatives(verdicts, values):
 
 @dataclass(frozen=True)
 class Notice:
-    """The smallest fault in a constant that one of the two ways detects in a verdict; inf if it detects none."""
+    """The smallest fault in a constant that a verdict detects in one of the two ways; inf: it detects none."""
 
     size: float
     slope: float  # derivative of the limit with respect to the fault
@@ -163,7 +162,7 @@ def notices(v, slopes, rules):
 
 
 def weakest(found, formulations):
-    """Returns the formulation whose smallest detected fault is largest, with its best quantity, or None if no fault is
+    """Returns the formulation whose smallest detected fault is largest, and its best quantity, or None if no fault is
     detected."""
     best = {key: None for key in formulations}
     for one in found:
@@ -184,12 +183,12 @@ def digits(size):
 
 
 def passes(text):
-    """Returns whether a fault of 0.1 % remains undetected."""
+    """Returns True if a fault of 0.1 % remains undetected."""
     return not text or float(text) > WANTED
 
 
 def reason_of(verdicts, noticed):
-    """Returns the reason why a fault of 0.1 % in every constant remains undetected in one of the formulations."""
+    """Returns the reason why a fault of 0.1 % in every constant remains undetected for a formulation."""
     if noticed is not None:
         part = noticed.slope * WANTED / scale_of(noticed.verdict)
         return f"0.1 % of a constant changes it by {part:.0e} of itself at most ({noticed.constant})"

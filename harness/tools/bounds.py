@@ -54,7 +54,7 @@ def digits(verdicts):
 
 
 def line(rule, verdicts):
-    """Returns the line of an entry with its verdicts, errors and predictions, and whether its bound is correct."""
+    """Returns the line of an entry with its verdicts, errors and predictions, and True if its bound is correct."""
     derived, others = (
         max((departure(v) for v in verdicts if v["error"] is not None and (v["predicted"] is None) == free),
             default=None) for free in (False, True)
@@ -86,7 +86,7 @@ def lines(rules, verdicts):
 
 def covered(verdicts):
     """Returns (number of limits that agree with their predictions within both uncertainties, number of limits with a
-    prediction), for all verdicts. This justifies deciding agreement by the uncertainties alone."""
+    prediction) for all verdicts. These numbers justify that agreement is decided by the uncertainties alone."""
     told = [v for v in verdicts if v["predicted"] is not None and v["limit"] is not None]
     near = [
         abs(v["limit"] - v["predicted"]) <= SURELY *

@@ -25,11 +25,11 @@ MESHES = (8, 16, 32, 64, 128, 256)
 OF_MECHANISMS = {"spherical_joint": (4, 8, 16, 32, 64), "hexapod": (1, 2, 4, 8)}
 FEATURES = ("shear", "trapeze", "wagner", "warping")
 EXACT, EXACT_MESHES = "collocation:stages=8", (2, 4, 8, 16)
-SECONDS = 60  # time limit of one series
-LEFT = 0.1  # fraction of the error at or below which the error has vanished
-RIGHT = 1e-3  # largest relative error if there was no value before
+SECONDS = 60  # time limit [s] of a series
+LEFT = 0.1  # largest remaining fraction of an error that counts as vanished
+RIGHT = 1e-3  # largest relative error that counts as correct if there was no value before
 
-# (formulation, formulation, the only feature in which they differ); causes_test.py checks the code
+# (formulation, formulation, the only feature in which they differ). causes_test.py checks the code.
 SIBLINGS = (
     ("beamw", "beamw_first", "second-order terms of the modes (J Eq. 66)"),
     ("sheet_second", "sheet_second_consistent", "shear in the generalized strains (N Eq. 37)"),
@@ -51,7 +51,7 @@ OF_VIBRATION = (
 
 
 def siblings(formulation, vibrates):
-    """Returns [(other formulation, the only feature in which it differs)]; for a formulation with an option, this
+    """Returns [(other formulation, the only feature in which it differs)]. For a formulation with an option, the list
     includes the formulation without the option."""
     pairs = SIBLINGS + (OF_VIBRATION if vibrates else ())
     found = [(b, what) for a, b, what in pairs if a == formulation]
@@ -101,7 +101,7 @@ class Laboratory:
         return self.kept[what]
 
     def stand_in(self, case, parameters, quantity):
-        """Returns a limit of collocation with an uncertainty below 1e-6; otherwise NaN."""
+        """Returns a limit of collocation whose uncertainty is below 1e-6, otherwise NaN."""
         found, _ = self.series(case, EXACT, parameters, EXACT_MESHES)
         record = (found or {}).get(quantity)
         if not record or record["limit"] is None or record["limit_uncertainty"] is None:
@@ -110,8 +110,7 @@ class Laboratory:
         return record["limit"] if sure else math.nan
 
     def exact(self, case, parameters, quantity, record, known):
-        """Returns (value, source) with which a limit is compared; known: the reference value of the same scene, or
-        None."""
+        """Returns (value, source) with which a limit is compared. known: reference value of the same scene, or None."""
         if record["truth"] is not None:
             return record["truth"], "truth"
         if known is not None:
@@ -119,7 +118,7 @@ class Laboratory:
         return self.stand_in(case, parameters, quantity), EXACT
 
     def limit(self, case, formulation, parameters, quantity, known):
-        """Returns the limit of a series and its error, or the reason why there is none."""
+        """Returns the limit of a series and its error, or the reason why there is no limit."""
         meshes = OF_MECHANISMS.get(case, MESHES)
         out = {"formulation": formulation, "parameters": ";".join(parameters), "meshes": meshes}
         found, why = self.series(case, formulation, parameters, meshes)
@@ -153,7 +152,7 @@ def worst_of(verdicts):
 
 
 def rounds(found):
-    """Returns the verdicts sorted so that the first case of every entry comes before the second cases. Every entry is
+    """Returns the verdicts, sorted such that the first cases of all entries precede the second cases. Every entry is
     then examined within the time limit."""
     of_rule = {}
     for rule, case in sorted(found, key=lambda key: -abs(found[key]["error"] or 0)):
@@ -170,7 +169,7 @@ def switches(program, case, given):
 
 
 def experiments(laboratory, v):
-    """Returns [(change, result)] for one verdict; the first change is only finer meshes."""
+    """Returns [(change, result)] for a verdict. The first change is only a refinement of the meshes."""
     case, quantity, key = v["case"], v["quantity"], v["formulation"]
     given = tuple(p for p in v["parameters"].split(";") if p)
     vibrates = v["unit"] == "Hz" or "omega" in v["parameters"]
@@ -189,13 +188,13 @@ def experiments(laboratory, v):
 
 
 def is_gone(error, before):
-    """Returns whether the error has vanished or, without a previous value (before: None), whether the value is
-    right."""
+    """Returns True if the error has vanished or, if there was no previous value (before: None), if the value is
+    correct."""
     return error is not None and abs(error) <= (RIGHT if before is None else LEFT * abs(before))
 
 
 def study(laboratory, v):
-    """Returns the record of a verdict with its experiments, each with the remaining error."""
+    """Returns the record of a verdict with its experiments and their remaining errors."""
     done = experiments(laboratory, v)
     before = done[0]["error"] if done[0]["error"] is not None else v["error"]
     for e in done:

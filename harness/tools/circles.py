@@ -28,7 +28,8 @@ def symbols(objects):
 
 
 def circles(calls):
-    """Returns the strongly connected groups of two or more files (Tarjan's algorithm), each in alphabetical order."""
+    """Returns the strongly connected groups of two or more files (Tarjan's algorithm). The files of a group are in
+    alphabetical order."""
     index, low, stack, found = {}, {}, [], []
 
     def visit(node):
@@ -68,13 +69,13 @@ FOLDER = re.compile(r"(?:.*/)?((?:elements|cases/format|cases|harness/\w+)/)(?:.
 
 def folder(path):
     """Returns the folder of a source or an object: build/harness/time/step.o belongs to harness/time. The elements
-    count as one folder, and so do the cases except their format."""
+    count as one folder, and so do the cases, except their format."""
     found = FOLDER.match(path)
     return found[1] if found else str(pathlib.Path(path).parent)
 
 
 def includes_of(objects):
-    """Returns {(file, file): ""} of the sources and headers next to those of the objects."""
+    """Returns {(file, file): ""} of the sources and headers next to the sources of the objects."""
     matches = map(FOLDER.match, objects)
     places = {found[0][found.start(1):] for found in matches if found}
     return {(str(path), other): {""} for place in places for path in pathlib.Path(place).glob("*.[ch]")

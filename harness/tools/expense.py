@@ -16,13 +16,13 @@ import numpy as np
 import yaml
 from scipy.optimize import nnls
 
-# Kinds of work, as counted by harness/study/study_impl.h.
+# Kinds of work, with the names of harness/study/study_impl.h.
 WORK = ("cell", "linear", "buckling", "loaded_buckling", "modal", "load_step", "compliance",
         "continuation", "rotation_step", "rotation_station", "alpha_step", "conserving_step",
         "radau_step", "explicit_step")
 FOLDS = 5
 ROUNDS = 15
-DEAR = 0.75  # relative errors are weighted by cost^0.25, so expensive runs have more weight, but cheap runs still
+DEAR = 0.75  # relative errors are weighted by cost^0.25, so expensive runs have more weight, but cheap runs also contribute
              # matter
 LARGE = 0.3  # error of the logarithm above which errors have less weight
 
@@ -36,7 +36,7 @@ def stations_of(analyses, body):
 
 
 def motion_steps(body):
-    """Returns the number of steps of a motion as harness/study/expense.c counts them."""
+    """Returns the number of steps of a motion, with the same rule as harness/study/expense.c."""
     tolerance, integrator = body.get("tolerance", 0), body["integrator"]
     if tolerance > 0 and integrator != "explicit":
         steps, power = (40, 0.3) if integrator == "radau" else (80, 0.45)
@@ -68,7 +68,7 @@ def work_of(scene):
 
 
 def read(path):
-    """Returns [{case, name, times, elements, cost, seconds}] of all runs that were solved or failed."""
+    """Returns [{case, name, times, elements, cost, seconds}] of all runs, both solved and failed."""
     out = []
     with h5py.File(path) as file:
         for case, group in file["cases"].items():
@@ -92,7 +92,7 @@ def columns_of(cells):
 
 
 def predict(cells, prices, factors):
-    """Returns costs [s]; `prices`: cost coefficients [kinds, 2], factors {name: (once, element)}."""
+    """Returns costs [s]. `prices`: cost coefficients [kinds, 2]; factors: {name: (once, element)}."""
     times, elements, names = columns_of(cells)
     factor = np.array([factors.get(name, (1.0, 1.0)) for name in names])
     return times @ prices[:, 0] * factor[:, 0] + times @ prices[:, 1] * elements * factor[:, 1]
@@ -116,14 +116,14 @@ def fit(cells):
             factors[name] = tuple(map(float, pair))
         off = np.abs(np.log(np.maximum(predict(cells, prices, factors), 1e-12) / cost))
         weight = base / np.sqrt(np.maximum(1, off / LARGE))
-    # The mean of the factors is one, the value of a formulation without a row.
+    # The mean of the factors is one, which is the value of a formulation without a row.
     mean = np.mean(list(factors.values()), axis=0)
     return prices * mean, {name: (o / mean[0], e / mean[1]) for name, (o, e) in factors.items()}
 
 
 def spread(predicted, cost):
-    """Returns the factors between prediction and cost, the median and that for nine of ten runs, without the common
-    factor."""
+    """Returns two factors between prediction and cost, without the common factor: the median, and the factor that nine
+    of ten runs do not exceed."""
     off = np.log(np.maximum(predicted, 1e-12) / cost)
     off = np.abs(off - np.median(off))
     return math.exp(np.quantile(off, 0.5)), math.exp(np.quantile(off, 0.9))
@@ -141,7 +141,7 @@ def validate(cells):
 
 
 def write(path, cells):
-    """Writes the table, with its accuracy in the header."""
+    """Writes the table. Its header states the accuracy."""
     prices, factors = fit(cells)
     cost = np.array([c["cost"] for c in cells])
     said = [(name, *spread(predicted, against)) for name, predicted, against in (

@@ -86,8 +86,7 @@ def library():
 
 
 def imports():
-    """Yields the number of a form followed by its text: CSV files of two programs, and the map and columns of
-    others."""
+    """Yields the number of a form, followed by its text: CSV files of two programs, and the map and columns of others."""
     head = ("# beamwork-import: 1\n# program: other 1.0\n# case: sheet_cantilever; warping=0\n"
             "# axes: x=-y y=x z=z\n# convention: spatial\n")
     rows = ("quantity, unit, elements, unknowns, seconds, x, value, uncertainty\n"

@@ -52,8 +52,8 @@ COST = re.compile(r"[+\-*\d][^=]* (\d+)$")
 
 
 class Profile:
-    """A callgrind profile. own: {(file, function): instructions}; calls: {(caller, callee): instructions of the
-    callee, including its calls}."""
+    """A callgrind profile. own: {(file, function): instructions}. calls: {(caller, callee): instructions of the callee,
+    including its calls}."""
 
     def __init__(self, path):
         self.own, self.calls = collections.Counter(), collections.Counter()
@@ -62,7 +62,7 @@ class Profile:
             self.read(lines)
 
     def name(self, kind, number, text):
-        """Returns a name. A name is written once, with a number that replaces it afterwards."""
+        """Returns a name. The file contains a name only once, with a number that replaces it afterwards."""
         if number is None:
             return text
         if text:
@@ -99,7 +99,8 @@ class Profile:
 
 
 def place(function):
-    """Returns the path of the file of a function inside the project. Builds elsewhere write the full path."""
+    """Returns the path of the file of a function relative to the project. Builds in other folders contain the full
+    path."""
     found = re.search(r"(?:^|/)((?:harness|elements|cases)/.*)", function[0] or "")
     return found[1] if found else ""
 
@@ -112,8 +113,8 @@ def part_of(function):
 
 
 def frames(profile):
-    """Returns the functions that are reached without passing through a part. Only their callees are counted, so no
-    instruction is counted twice."""
+    """Returns the functions that are reached without passing through a part. Only the functions that they call are
+    counted, so no instruction is counted twice."""
     callees = collections.defaultdict(set)
     for caller, callee in profile.calls:
         callees[caller].add(callee)
@@ -129,7 +130,7 @@ def frames(profile):
 
 
 def parts_of(profile):
-    """Returns {part: instructions}, whose sum is that of the profile."""
+    """Returns {part: instructions}. Their sum is that of the profile."""
     out, outside = collections.Counter(), frames(profile)
     for (caller, callee), cost in profile.calls.items():
         part = part_of(callee)
@@ -169,7 +170,7 @@ def arithmetic(program):
 
 
 def operations(path, program, numbers):
-    """Returns the number of operations on doubles in the program itself, from a profile with addresses."""
+    """Returns the number of operations on doubles in the program, without libraries, from a profile with addresses."""
     total = at = 0
     called = inside = False
     objects = {}
@@ -202,7 +203,7 @@ def as_they_stand(program, cell, profile, numbers):
 
 
 def least(counts, form):
-    """Returns {part: operations} common to all formulations, for the whole run."""
+    """Returns {part: operations} that all formulations have in common, for the whole run."""
     m, n = form["strains"], 7 * form["nodes"]
     triangle = n * (n + 1) // 2
     return {"J^T C J": counts["strain_evaluations"] * m * n * (2 * m + n + 1),

@@ -24,7 +24,7 @@ FORMULATION = "geometrically_exact"
 HOW = ("integrator", "step", "tolerance")
 COLUMNS = ("case,parameters,time,quantity,unit,kind,truth,truth_uncertainty,elements,finest,limit,"
            "limit_uncertainty,off,within").split(",")
-# Meshes, and the tolerance relative to the motion; for some cases, also parameters.
+# Meshes, and the tolerance relative to the motion. For some cases, also parameters.
 CASES = {
     "rigid_body": {"": ((1, 2, 4), 1e-11)},
     "spin_up": {"": ((2, 4, 8), 1e-8)},
@@ -73,8 +73,8 @@ def _run(program, *words):
 
 
 def asked_at(scene, times):
-    """Returns the scene with quantities NAME_0, NAME_1, ... at each of the times, in place of those at a single time.
-    Other quantities do not change."""
+    """Returns the scene with quantities NAME_0, NAME_1, ... at each of the times. They replace the quantities at a
+    single time. Other quantities do not change."""
     motions = [name for name, a in scene["analyses"].items() if "motion" in a]
     scene["analyses"][motions[0]]["motion"]["stations"] = times
     quantities = {}
@@ -90,7 +90,7 @@ def asked_at(scene, times):
 
 
 def limits(program, case, structure, times, meshes, tolerance):
-    """Returns {name: (finest value, limit, uncertainty)}."""
+    """Returns {name: (value on the finest mesh, limit, uncertainty)}."""
     words = [word for item in structure.split(";") if item for word in ("--set", item)]
     text = _run(program, "scene", case, *words, "--set", f"time={times[-1]}", "--set",
                 f"tolerance={tolerance}")
@@ -138,7 +138,7 @@ def table(program, case, chosen=None):
 
 
 def tables(program, cases, chosen):
-    """Runs several cases at a time. The last cases, which take longest, start first."""
+    """Runs several cases at a time. The last cases, which take the longest time, start first."""
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as some:
         asked = [some.submit(lambda one: list(table(program, one, chosen)), case)
                  for case in reversed(cases)]
@@ -146,7 +146,7 @@ def tables(program, cases, chosen):
 
 
 def is_loose(row, rows):
-    """Returns whether the error of the meshes exceeds a hundredth of the largest value with the same unit."""
+    """Returns True if the error of the meshes exceeds a hundredth of the largest value with the same unit."""
     size = max(abs(float(other["truth"])) for other in rows if other["unit"] == row["unit"])
     return row["limit_uncertainty"] is not None and row["limit_uncertainty"] > LOOSE * size
 

@@ -39,7 +39,7 @@ NO_TYPES = {"return", "else", "case", "goto", "sizeof", "do"}
 NO_CALLS = NO_TYPES | {"if", "for", "while", "switch"}
 # Calls with a memory size, and assertions.
 UNSEEN = re.compile(r"(\w*alloc|sizeof|assert|_Static_assert|memset|memcpy|memmove)$")
-# Calls that release memory or give hints; only sanitizers detect if such a call is missing.
+# Calls that release memory or give hints. Only sanitizers detect that such a call is missing.
 RELEASED = re.compile(r"(\w*(free|alloc|close|end)|assert|_Static_assert)$")
 
 
@@ -58,7 +58,7 @@ def tokens(source):
 
 
 def constant(text, index):
-    """Returns a different constant, or None if there is no useful one."""
+    """Returns another constant, or None if there is no useful one."""
     value = re.sub(r"[uUlLfF]+$", "", text)
     if value.isdigit():
         other = int(value) - 1 if index and int(value) > 0 else int(value) + 1
@@ -75,7 +75,7 @@ class Reader:
         self.lines = source.split("\n")
         self.tokens = list(tokens(source))
         self.edits = []
-        self.open = []  # enclosing brackets, each with a flag for whether edits inside it are listed
+        self.open = []  # enclosing brackets, each with a flag: edits inside the bracket are listed
         self.statement = 0  # first token of the statement
         self.begin = 0  # number of open brackets at the start of the statement
         self.name = ""  # name of the function or table
@@ -95,7 +95,7 @@ class Reader:
         return self.tokens[at][1] if 0 <= at < len(self.tokens) else ""
 
     def ends(self, at):
-        """Returns whether a statement starts after a token."""
+        """Returns True if a statement starts after a token."""
         text = self.word(at)
         if not self.open or text == ";":
             return not (self.open and self.open[-1][0] == "(")
@@ -104,7 +104,7 @@ class Reader:
         return self.word(at + 1) not in (",", ";", "}", ")")
 
     def declares(self):
-        """Returns whether the statement starts with a type and a name."""
+        """Returns True if the statement starts with a type and a name."""
         first = self.statement
         while self.word(first) in ("static", "const", "struct", "unsigned"):
             first += 1
@@ -115,7 +115,7 @@ class Reader:
             self.tokens[first][0] == self.tokens[after][0] == "word"
 
     def is_size(self, at):
-        """Returns whether a bracket contains the size of a declared array."""
+        """Returns True if a bracket contains the size of a declared array."""
         if len(self.open) != self.begin or not self.declares():
             return False
         depth = 0
@@ -130,7 +130,7 @@ class Reader:
         return True
 
     def inside(self, at):
-        """Returns whether edits inside the bracket at a token are listed."""
+        """Returns True if edits inside the bracket at a token are listed."""
         text, before = self.word(at), self.word(at - 1)
         if not self.open:  # bodies of functions, values of tables
             return text == "{" and before in (")", "=")
@@ -141,7 +141,7 @@ class Reader:
         return not (text == "[" and self.is_size(at))
 
     def operand(self, at):
-        """Returns whether an operand ends at a token."""
+        """Returns True if an operand ends at a token."""
         kind, text = self.tokens[at][:2]
         return kind in ("number", "text") or (kind == "word" and text not in NO_TYPES) or \
             text in (")", "]")
@@ -178,7 +178,8 @@ class Reader:
         kind, text, line, column = self.tokens[at]
         index = self.open[-1][0] == "["
         alone = index and self.word(at - 1) == "[" and self.word(at + 1) == "]"
-        # In the layout of the sources, blanks surround the star of a product, but do not follow the star of a pointer.
+        # In the layout of the sources, blanks surround the star of a product, but no blank follows the star of a
+        # pointer.
         spaced = self.lines[line - 1][column + len(text):][:1] in (" ", "")
         if kind == "number" and (alone or not index):
             if new := constant(text, index):
@@ -289,7 +290,7 @@ NEAR = {
     "cases/format": "cases/format/test/",
 }
 CALLERS = 8
-# Tests that take half a minute or more; they run after all others.
+# Tests that take half a minute or more. They run after all others.
 SLOW = tuple(f"{name}_test.c" for name in ("invariants", "consistent_mesh", "inputs",
                                            "condensation"))
 JUDGED = "verify:" + " or ".join(f"{case}/default" for case in (
@@ -307,8 +308,8 @@ def tests():
 
 
 def checks(file, texts):
-    """Returns the checks that should detect a fault of a file: tests of its folder, tests of other folders that call
-    its functions, runs with verdicts, and Python tests that use it."""
+    """Returns the checks that should detect a fault in a file: tests of its folder, tests of other folders that call
+    its functions, runs with verdicts, and Python tests that use the file."""
     room = file.split("/")
     near = re.compile(NEAR.get("/".join(room[:2])) or NEAR.get(room[0]) or
                       f"{room[0]}/{room[1]}/test/")

@@ -34,7 +34,7 @@ HISTORIES = tuple(  # case, parameters, formulation and mesh, first steps
 
 
 def solve(program, case, parameters, formulation, n, steps):
-    """Returns the solution read from JSON; exits with an error if the program fails."""
+    """Returns the solution as read from JSON. Exits with an error if the program fails."""
     sets = [word for p in parameters.split(";") if p for word in ("--set", p)]
     command = [program, "solve", case, "-f", formulation, "-n", n, "--format", "json", *sets,
                *(["--steps", str(steps)] if steps else [])]

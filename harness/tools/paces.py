@@ -25,7 +25,7 @@ LEVEL = 1e-4  # error level of the printed lines
 
 
 def motion(program, row, *more):
-    """Returns the record of `beamwork motion` for one row."""
+    """Returns the record of `beamwork motion` for a row."""
     sets = [word for p in row["parameters"].split(";") if p for word in ("--set", p)]
     command = [program, "motion", row["case"], "-n", row["elements"], *sets, "--format", "json",
                *more]
@@ -57,7 +57,7 @@ def ladder(program, row):
 
 
 def checked(program, row):
-    """Returns the difference between the reference and `explicit` at the same instants."""
+    """Returns the difference between the reference and `explicit` at the same times."""
     found = motion(program, row, "-f", row["check"], "--time-limit", CHECK, "--integrator",
                    "explicit", "--tolerance", EXPLICIT)
     coarse, fine = found["runs"]
@@ -77,8 +77,8 @@ def word_of(check):
 
 
 def soonest(tables):
-    """Returns text such as `radau 7, alpha 2`: the numbers of formulations for which each scheme has the lowest cost
-    within LEVEL."""
+    """Returns text such as `radau 7, alpha 2`: for each scheme, the number of formulations for which it has the lowest
+    cost within LEVEL."""
     count = {}
     for name in {r["formulation"] for r in tables["runs"]}:
         ways = [w for w in tables["reached"]

@@ -22,7 +22,8 @@ static int count_of(const document_node *n)
     return count;
 }
 
-/* Assigns the next positions to the entries of the current node, then to their entries. */
+/* Assigns the next positions to the entries of the current node, then to the entries of these
+ * entries. */
 static void place(packing *p)
 {
     for (int i = 0; i < p->nodes; i++) {

@@ -48,8 +48,8 @@ static void scale_shear(section *c, int at, double by)
     scale(c->F, 3, at, 1 / by);
 }
 
-/* Return the section with changed stiffness or with changed mass. Neither change affects the other
- * property. */
+/* stiff returns the section with a changed stiffness. The second function returns the section with
+ * a changed mass. Neither change affects the other property. */
 static section stiff(const section *given)
 {
     /* in the order of the rows of a section given by matrices: N, Qy, Qz, Mx, My, Mz */
@@ -89,8 +89,8 @@ static section heavy(const section *given)
     return c;
 }
 
-/* Room for the data of an element. The data of the same element with the fault in its mass
- * follow. */
+/* Size of the data of an element. They are followed by the data of the same element with the fault
+ * in its mass. */
 enum { ROOM = 1 << 16 };
 
 typedef struct second {
@@ -146,7 +146,7 @@ status __wrap_adapters_complete(const element_type *given, const double options[
     return STATUS_OK;
 }
 
-/* Changes masses that are lumped at nodes. The masses of elements are changed in `prepare`. */
+/* Changes masses that are lumped at nodes. `prepare` changes the masses of elements. */
 lumped_mass __wrap_lumped_of(const section *given, unsigned features, double length)
 {
     const section c = heavy(given);

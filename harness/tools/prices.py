@@ -17,7 +17,8 @@ import h5py
 import numpy as np
 from scipy.optimize import nnls
 
-# General coefficients, then coefficients for each formulation. They multiply products of columns of the table `cells`.
+# General coefficients, followed by coefficients for each formulation. They are multiplied by products of columns of the
+# table `cells`.
 SHARED = ("one", "free", "load_steps", "load_steps*elements_total", "factorisations*free",
           "factor_flops", "solutions", "solutions*free", "solutions*factor_entries",
           "dense_operations")
@@ -25,14 +26,14 @@ OWN = ("element_kinds", "elements_total", "strain_evaluations", "stress_evaluati
        "inertia_evaluations", "geometric_evaluations")
 ANY = OWN + ("strain_evaluations*strains", "stress_evaluations*strains",
              "geometric_evaluations*strains")
-# Options that change the work of an element; any other option leaves the coefficients of a formulation unchanged.
+# Options that change the work of an element. Other options do not change the coefficients of a formulation.
 OPTIONS = ("torsion", "stages", "nodes", "inside")
 VARIANTS = ("collocation:stages=3", "collocation:stages=4", "collocation:stages=6",
             "collocation:stages=7", "collocation:stages=8", "geometrically_exact:nodes=2",
             "geometrically_exact:nodes=3", "beamw_consistent:torsion=hyperbolic",
             "beamw_consistent:inside=linear")
 FOLDS = 5
-NEAR = 3  # runs of a case are compared if their times are within this factor
+NEAR = 3  # runs of a case are compared if the ratio of their times is within this factor
 STEP = 1.05  # factor between the ratios at which the fraction of correct orders is determined
 
 
@@ -44,7 +45,7 @@ def name_of(key):
 
 
 def measure(program, folder, runs, selection):
-    """Returns the files of `runs` runs of the selection, with all formulations and variants alternating."""
+    """Returns the files of `runs` runs of the selection, in which all formulations and variants alternate."""
     variants = [a for v in VARIANTS for a in ("-f", v)]
     for i in range(runs):
         for kind, chosen in (("all", []), ("variants", variants)):
@@ -92,7 +93,7 @@ def columns_of(cells, names):
 
 
 def fit(cells, names, fixed=None):
-    """Returns {(formulation, count): seconds}; `fixed` coefficients do not change."""
+    """Returns {(formulation, count): seconds}. Coefficients in `fixed` do not change."""
     found = columns_of(cells, names)
     fixed = fixed or {}
     known = sum((price * found.pop(k) for k, price in fixed.items() if k in found),
@@ -119,8 +120,8 @@ def quantile(values, part):
 
 
 def pairs(cells, predicted):
-    """Returns the logarithms of the (predicted, measured) ratios of the times of two formulations in a case; the
-    predicted ones are not below 0."""
+    """Returns the logarithms of the (predicted, measured) ratios of the times of two formulations in a case. The
+    predicted logarithms are not negative."""
     groups, out = collections.defaultdict(list), []
     for i, cell in enumerate(cells):
         groups[cell["case"]].append(i)
@@ -146,7 +147,7 @@ def noise_of(predicted, measured):
 
 
 def validate(cells, names):
-    """Returns predictions of every run from cost coefficients that were fitted without its case, first with and then
+    """Returns predictions of every run from cost coefficients that were fitted without its case: first with, then
     without the coefficients of its formulation."""
     cases = sorted({c["case"] for c in cells})
     own, generic = np.zeros(len(cells)), np.zeros(len(cells))
@@ -164,7 +165,7 @@ def validate(cells, names):
 
 
 def write(path, cells, names, runs):
-    """Writes the table; its header describes the data of the fit and the accuracy."""
+    """Writes the table. Its header describes the data of the fit and the accuracy."""
     own, generic = validate(cells, names)
     seconds = np.array([c["seconds"] for c in cells])
     cost, time = pairs(cells, own)

@@ -78,8 +78,8 @@ C_TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n]
 
 
 def c_texts(text):
-    """Yields (kind, [(line, text)]) of strings and comments in C. Adjacent strings and adjacent line comments are
-    joined."""
+    """Yields (kind, [(line, text)]) of strings and comments in C. Adjacent strings are joined, and so are adjacent line
+    comments."""
     parts, end = [], 0
     for match in C_TOKEN.finditer(text):
         token = match.group()
@@ -122,7 +122,7 @@ def python_texts(text):
 
 
 def hash_texts(kind):
-    """Returns a reader for lines of scripts that yields only comments. For the Makefile and scene files, `kind` is
+    """Returns a reader for lines of scripts that yields only comments. For the Makefile and for scene files, `kind` is
     "shown"."""
     def texts(text):
         for number, line in enumerate(text.split("\n"), 1):
@@ -136,7 +136,7 @@ def hash_texts(kind):
 
 
 def line_texts(kind):
-    """Returns a reader for all lines, without code and file names. Of code in templates, only the strings are read."""
+    """Returns a reader for all lines, without code and file names. From code in templates, only the strings are read."""
     code = re.compile(r'`[^`]*`|^ *also called:.*|<code>.*?</code>|\b(href|id|class|name)="[^"]*"')
     strings = re.compile(r'"[^"]*\s[^"]*"')
 
@@ -161,7 +161,7 @@ READERS = {".c": c_texts, ".h": c_texts, ".py": python_texts, ".md": line_texts(
 
 
 def hits(name, text):
-    """Yields (kind, pattern, line, word, context, remedy) of every hit in a text. name: its file name."""
+    """Yields (kind, pattern, line, word, context, remedy) of every hit in a text. name: name of its file."""
     reader = READERS.get(pathlib.PurePath(name).suffix)
     if reader is None:
         return

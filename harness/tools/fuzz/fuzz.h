@@ -1,5 +1,5 @@
-/* Functions shared by the fuzzing programs. Each program defines LLVMFuzzerTestOneInput of
- * libFuzzer and is run by harness/tools/fuzz.sh. */
+/* Functions for all fuzzing programs. Each program defines LLVMFuzzerTestOneInput of libFuzzer, and
+ * harness/tools/fuzz.sh runs it. */
 #ifndef BEAMWORK_FUZZ_H
 #define BEAMWORK_FUZZ_H
 
@@ -18,8 +18,8 @@ static inline void fuzz_must(int holds, const char *what)
     }
 }
 
-/* Returns the bytes up to the first zero as text. It is allocated by malloc, so reads past its end
- * are detected. */
+/* Returns the bytes up to the first zero as text. malloc allocates the text, so that reads beyond
+ * its end are detected. */
 static inline char *fuzz_text(const uint8_t *data, size_t size)
 {
     char *text = malloc(size + 1);
@@ -29,7 +29,7 @@ static inline char *fuzz_text(const uint8_t *data, size_t size)
     return text;
 }
 
-/* Returns a stream that reads the bytes; never NULL. */
+/* Returns a stream that reads the bytes. The stream is never NULL. */
 static inline FILE *fuzz_stream(const uint8_t *data, size_t size)
 {
     FILE *from =

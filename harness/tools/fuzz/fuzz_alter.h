@@ -1,7 +1,7 @@
-/* Alters a valid HDF5 file as the input bytes specify: deletes or renames links and attributes,
+/* Alters a valid HDF5 file according to the input bytes: deletes or renames links and attributes,
  * replaces them by objects of another kind, type or shape, or makes cycles. The result is a
- * well-formed file with a valid checksum and unexpected contents. (Damaged files are rejected by
- * their checksum.) */
+ * well-formed file with a valid checksum and unexpected contents. Damaged files would be rejected
+ * because of their checksum. */
 #ifndef BEAMWORK_FUZZ_ALTER_H
 #define BEAMWORK_FUZZ_ALTER_H
 
@@ -162,7 +162,8 @@ static void alter_step(hid_t file, const alter_list *list, const uint8_t step[AL
     }
 }
 
-/* Returns the path of the altered copy of the file named by the environment variable FUZZ_BASE. */
+/* Returns the path of the altered copy of the file that the environment variable FUZZ_BASE names.
+ * */
 static const char *alter_file(const uint8_t *data, size_t size)
 {
     static char all[ALTER_BYTES];

@@ -1,5 +1,5 @@
-/* Uses the input as a command line, one argument per line: it must be parsed, or rejected with one
- * line and the documented exit status. */
+/* Uses the input as a command line, with one argument per line. The command line must be parsed, or
+ * rejected with one line and the documented exit status. */
 #include <argp.h>
 #include <setjmp.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "harness/cli/cli.h"
 #include "harness/tools/fuzz/fuzz.h"
 
-/* Replaces exit() (linked with --wrap): an exit of the program ends only the present execution. */
+/* Replaces exit() (linked with --wrap). An exit of the program ends only the present execution. */
 void __wrap_exit(int code);
 void __real_exit(int code);
 error_t __wrap_argp_parse(const struct argp *parser, int count, char **arguments, unsigned flags,
@@ -50,7 +50,7 @@ static int code_of_run, running;
 void __wrap_exit(int code)
 {
     if (!running)
-        __real_exit(code); /* exit of the fuzzing program itself */
+        __real_exit(code); /* exit of the fuzzing program */
     code_of_run = code;
     longjmp(end_of_run, 1);
 }

@@ -14,7 +14,7 @@ static inline void fuzz_unlink(void)
     unlink(fuzz_path);
 }
 
-/* Writes the bytes and returns the path of the file. The next call overwrites the file, which is
+/* Writes the bytes and returns the path of the file. The next call overwrites the file. The file is
  * removed when the program ends. */
 static inline const char *fuzz_file(const uint8_t *data, size_t size)
 {

@@ -1,6 +1,6 @@
-/* Uses the input as a formula of time, and as pieces of a function, one per line. A rejection must
- * have a position. An accepted formula must give the same bits in parentheses, and zero derivatives
- * if it does not contain t. */
+/* Uses the input as a formula of time, and as pieces of a function, in one line each. A rejection
+ * must have a position. An accepted formula must give the same bits in parentheses, and its
+ * derivatives must be zero if it does not contain t. */
 #include <math.h>
 
 #include "cases/scene/scene.h"
@@ -24,7 +24,7 @@ static void check_read(const char *text, const formula *f)
     expression_mistake mistake;
     fuzz_must(wrapped != NULL, "there is memory");
     sprintf(wrapped, "(%s)", text);
-    /* the additional parentheses may exceed the limit */
+    /* The additional parentheses may exceed the limit. */
     if (formula_parse(wrapped, &again, &mistake) == STATUS_OK)
         for (int i = 0; i < INSTANTS; i++) {
             double one[3], two[3];

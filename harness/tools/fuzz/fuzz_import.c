@@ -1,6 +1,6 @@
 /* Uses the input as results of another program: a CSV with a header (first byte 0), a map of
- * columns (1), or columns read with a valid map (2). Accepted results must be a series of finite,
- * ascending values; an error must have a position. */
+ * columns (1), or columns that are read with a valid map (2). Accepted results must be a series of
+ * finite values in ascending order. An error must have a position. */
 #include <math.h>
 
 #include "harness/exchange/exchange.h"

@@ -1,6 +1,6 @@
-/* Uses the input as strings passed to the library: the number of the call, then one or two strings
+/* Uses the input as strings for a library call: the number of the call, then one or two strings
  * separated by a line. A rejection must have a one-line reason or a list of errors in JSON. A
- * result must be JSON or a scene that can be read back. Both must be UTF-8. */
+ * result must be JSON, or a scene that can be read again. Both must be UTF-8. */
 #include <jansson.h>
 
 #include "harness/formulations/formulations.h"
@@ -17,7 +17,7 @@ static const char leaf[] =
 
 static int is_utf8(const char *text)
 {
-    json_t *one = json_string(text); /* NULL if it is not valid UTF-8 */
+    json_t *one = json_string(text); /* NULL if the text is not valid UTF-8 */
     json_decref(one);
     return one != NULL;
 }
@@ -30,7 +30,7 @@ static int is_json(const char *text)
     return root != NULL;
 }
 
-/* Checks the outcome of a call; made: the object that it should have returned. */
+/* Checks the outcome of a call. made: object that the call should have returned. */
 static void must_tell(bw_status got, const void *made, char *why)
 {
     fuzz_must((got == BW_OK) == (why == NULL), "only a failure has a reason");
@@ -55,7 +55,7 @@ static bw_scene *own_scene(void)
     return s;
 }
 
-/* Solves the scene with any formulation and options, since it is small and linear. */
+/* Solves the scene with any formulation and options, because the scene is small and linear. */
 static void try_solve(const char *formulation_name, const char *options)
 {
     char *why = NULL, *json = NULL;

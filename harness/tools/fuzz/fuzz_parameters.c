@@ -1,6 +1,6 @@
 /* Uses the input as parameters of a reference value or of --set: "CASE NUMBER", then
- * "name=value;...". An accepted point must read back from its text, and its scene must be built or
- * rejected. */
+ * "name=value;...". Reading the text of an accepted point must give the same point, and its scene
+ * must be built or rejected. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* Uses the input as a scene file. An accepted scene must be written as a scene that reads back and
- * is written again with the same text. An error must have a position. */
+/* Uses the input as a scene file. An accepted scene is written and read again. Writing this scene
+ * must give the same text. An error must have a position. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,8 @@
 #include "harness/study/study.h"
 #include "harness/tools/fuzz/fuzz.h"
 
-/* Returns the scene at its defaults as text, allocated by malloc; NULL if it cannot be written. */
+/* Returns the scene at its default values as text, allocated with malloc; NULL: the scene cannot be
+ * written. */
 static char *written(const scene_file *file, size_t *size)
 {
     const case_type *type = scene_file_case(file);

@@ -1,5 +1,5 @@
-/* Uses the input as command-line words with a grammar: formulations with options, selections,
- * thresholds. */
+/* Uses the input as words of a command line that have a grammar: formulations with options,
+ * selections, thresholds. */
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"

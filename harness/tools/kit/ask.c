@@ -16,8 +16,8 @@ int ask_offered(const scene *s, const element_type *type)
     return !missing_words(s, type, words, sizeof words);
 }
 
-/* Returns the outcome of a question. Whether the physics is supported follows from the declaration
- * of the type, not from a rejection. */
+/* Returns the outcome of a question. The declaration of the type decides if the physics is
+ * supported. A rejection does not. */
 static ask_outcome outcome_of(const scene *s, const element_type *type, status outcome, int all)
 {
     if (!ask_offered(s, type))
@@ -27,7 +27,7 @@ static ask_outcome outcome_of(const scene *s, const element_type *type, status o
     return outcome == STATUS_OK && all ? ASK_ANSWERED : ASK_FAILED;
 }
 
-/* Copies a curve, except that of a continuation, which chooses its points. */
+/* Copies a curve, unless it belongs to a continuation, which chooses its points. */
 static void copy_curve(const scene *s, const curve *c, answer *out, int i)
 {
     const int continued = s->analysis[s->quantity[i].analysis].kind == SCENE_CONTINUATION;
@@ -37,8 +37,8 @@ static void copy_curve(const scene *s, const curve *c, answer *out, int i)
         out->curve[i][k] = c->value[k];
 }
 
-/* Returns 1 if each quantity has a value or cannot have a value (such as a frequency that the mesh
- * does not have). */
+/* Returns 1 if each quantity has a value or cannot have one, such as a frequency that the mesh does
+ * not have. */
 static int copy_values(const scene *s, const solve_result *r, answer *out)
 {
     int all = 1;
@@ -69,7 +69,7 @@ static void settle(const scene *s, const element_type *type, const solve_result 
                  s->name, type->name, status_name(outcome));
 }
 
-/* Returns 1 if the edit of the question is defined for the case at these parameters. */
+/* Returns 1 if the edit of the question is defined for the case with these parameters. */
 static int is_posed(const question *q, const double parameter[])
 {
     scene s;

@@ -1,5 +1,5 @@
-/* Questions to formulations and their outcomes, for tests over all formulations. A question is a
- * case or a scene on a mesh. Its answer states whether the formulation supports the physics of the
+/* Questions to formulations and their outcomes, for tests with all formulations. A question is a
+ * case or a scene on a mesh. Its answer states if the formulation supports the physics of the
  * scene. A tally of the answers fails a test that would otherwise have checked nothing. */
 #ifndef BEAMWORK_TEST_ASK_H
 #define BEAMWORK_TEST_ASK_H
@@ -14,10 +14,10 @@ typedef enum ask_outcome {
     ASK_ANSWERED,    /* solved */
     ASK_NOT_OFFERED, /* the scene requires features that the type does not declare (missing_words)
                       */
-    ASK_NOT_POSED,   /* the edit of the question is not defined for this scene, whatever the
-                      * formulation */
-    ASK_REFUSED,     /* supported according to the declaration, but rejected */
-    ASK_FAILED,      /* supported, but without a value */
+    /* the edit of the question is not defined for this scene, regardless of the formulation */
+    ASK_NOT_POSED,
+    ASK_REFUSED, /* supported according to the declaration, but rejected */
+    ASK_FAILED,  /* supported, but without a value */
     ASK_OUTCOMES
 } ask_outcome;
 
@@ -28,10 +28,11 @@ typedef struct answer {
     status status;
     int count, members;
     int values;                   /* number of existing values */
-    double value[ASK_QUANTITIES]; /* SI; NAN if the mesh has none */
-    double scale[ASK_QUANTITIES]; /* magnitude below which a value counts as zero; 0: never */
-    int points[ASK_QUANTITIES];   /* number of points of a curve over stations, at most ASK_POINTS;
-                                     otherwise 0 */
+    double value[ASK_QUANTITIES]; /* values in SI units; NAN: the mesh has no value */
+    /* magnitude below which a value counts as zero; 0: no value counts as zero */
+    double scale[ASK_QUANTITIES];
+    /* number of points of a curve over stations, at most ASK_POINTS; otherwise 0 */
+    int points[ASK_QUANTITIES];
     double curve[ASK_QUANTITIES][ASK_POINTS];
     char name[ASK_QUANTITIES][SCENE_NAME];
     char why[ASK_QUANTITIES][FAULT_TEXT]; /* reason why there is no value */
@@ -47,16 +48,17 @@ typedef struct question {
     scene_edit edit;
 } question;
 
-/* Returns 1 if the type declares everything that the scene requires, so it must not reject it. */
+/* Returns 1 if the type declares everything that the scene requires. The type must not reject such
+ * a scene. */
 int ask_offered(const scene *, const element_type *);
-/* Asks with the default options of the formulation. */
+/* Asks a question with the default options of the formulation. */
 void ask(const question *, answer *);
-/* Asks with a scene of the test and given options (NULL: the defaults). */
+/* Asks a question with a scene of the test and given options (NULL: the defaults). */
 void ask_scene(const scene *, const element_type *, const double option[], int elements, answer *);
-/* Returns the value of a quantity, or NAN if there is no quantity of this name. */
+/* Returns the value of a quantity; NAN: there is no quantity with this name. */
 double answer_of(const answer *, const char *quantity);
 
-/* Outcomes of the questions of one test for one formulation. */
+/* Outcomes of the questions of a test for a formulation. */
 typedef struct ask_tally {
     int count[ASK_OUTCOMES];
     int values;               /* number of values in all answers */
@@ -65,8 +67,8 @@ typedef struct ask_tally {
     char refusal[FAULT_TEXT]; /* last rejection, with its question */
 } ask_tally;
 
-/* Counts the answer. Returns 1 if the question was answered, otherwise 0. what (a printf format):
- * name of the question in failures. */
+/* Counts the answer. Returns 1 if the question was answered, otherwise 0. what: name of the
+ * question in failures (a printf format). */
 int ask_count(ask_tally *, const answer *, const char *what, ...)
     __attribute__((format(printf, 3, 4)));
 /* Prints the counts. Fails the test if an answer failed, if more answers were rejected than

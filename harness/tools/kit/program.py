@@ -11,7 +11,7 @@ import unittest
 
 PROGRAM = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
 TRUTHS = os.path.abspath(os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5"))
-if "BEAMWORK_TRUTHS" in os.environ:  # absolute, for programs that run in another folder
+if "BEAMWORK_TRUTHS" in os.environ:  # absolute path, for programs that run in another folder
     os.environ["BEAMWORK_TRUTHS"] = TRUTHS
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
@@ -20,8 +20,8 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def run(*arguments, program=PROGRAM, **options):
-    """Returns the finished process with its output as text. options: those of subprocess.run. A nonzero status does
-    not raise an exception."""
+    """Returns the finished process with its output as text. options: those of subprocess.run. A nonzero status does not
+    raise an exception."""
     return subprocess.run([program, *map(str, arguments)], text=True, check=False,
                           **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
 
@@ -32,13 +32,13 @@ def environment(**changes):
 
 
 def report(results, folder, *options):
-    """Writes the report of results into the folder, as `make report` does."""
+    """Writes the report of results to the folder, in the same way as `make report`."""
     return run("-B", "-m", "reports", results, TRUTHS, *options, "-o", folder,
                program=sys.executable, cwd=ROOT)
 
 
 def drawn(folder, *selection, options=()):
-    """Returns the report of a run of verify, written with these options. The results of the run are in
+    """Returns the report of a run of verify, which is written with these options. The results of the run are in
     folder/results.h5."""
     results, site = folder / "results.h5", folder / "site"
     run("verify", *selection, "-o", results)
@@ -58,12 +58,12 @@ def read_json(path):
 
 
 def values(record):
-    """Returns {quantity: value as written}, so values can be compared bit for bit."""
+    """Returns {quantity: value as written}, so that values can be compared bit for bit."""
     return {q["quantity"]: q["value"] for q in record["quantities"]}
 
 
 class ProgramTest(unittest.TestCase):
-    """A test with a temporary folder, which is empty before the test and removed after it."""
+    """A test with a temporary folder, which is empty before the test and is removed after the test."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -94,7 +94,7 @@ class ProgramTest(unittest.TestCase):
         return values(self.record("solve", "--scene", path, *options))
 
     def refused(self, code, words, *arguments, silent=True, **options):
-        """Checks that a command fails with the given status, without computation and with a one-line error that
+        """Checks that a command fails with the given status, without computing anything, and with a one-line error that
         contains all the words."""
         done = run(*arguments, **options)
         self.assertEqual(done.returncode, code, (arguments, done))

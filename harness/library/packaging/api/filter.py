@@ -19,13 +19,13 @@ def escaped(text):
 
 
 def is_behind(source, start):
-    """Returns True if the comment follows code on its line, or continues such a comment."""
+    """Returns True if code precedes the comment on its line, or if the comment continues such a comment."""
     return bool(source[source.rfind("\n", 0, start) + 1:start].strip())
 
 
 def comments(source):
-    """Makes each comment document the following declaration or, if the comment follows a declaration on its line,
-    that declaration."""
+    """Makes each comment document the following declaration or, if a declaration precedes the comment on its line, this
+    declaration."""
     seen = []
 
     def one(found):
@@ -46,7 +46,7 @@ def features(source):
 
 
 def is_alone(code):
-    """Returns True if the following declaration has no comment of its own."""
+    """Returns True if no separate comment belongs to the following declaration."""
     declaration = code[:code.find(";") + 1]
     behind = code[len(declaration):].split("\n", 1)[0]
     return "/*" not in declaration + behind
@@ -77,7 +77,7 @@ def groups(source):
 
 
 def apart(source):
-    """Separates members that are declared together, so each has the comment that follows them."""
+    """Separates members that are declared together, so that the comment after them applies to each member."""
     return re.sub(r"^( +[\w ]+?)((?: \w+(?:\[\w*\])?,)+)( \w+(?:\[\w*\])?; +)(/\*.*?\*/)",
                   lambda found: found[1] + found[2].replace(",", f" {found[4]},") + found[3]
                   + found[4], source, flags=re.MULTILINE | re.DOTALL)

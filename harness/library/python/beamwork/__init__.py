@@ -50,18 +50,19 @@ def cases():
 
 
 def formulations():
-    """Returns records of the formulations, built-in and loaded: formulation, summary, source, ..."""
+    """Returns records of the formulations, both built-in and loaded: formulation, summary, source, ..."""
     return _listed(b"formulations")
 
 
 def load(element):
-    """Loads your formulation, "./mine.so" or "exec:python3 my_beam.py", and returns its name. It stays loaded for the
-    life of the process. A shared object runs inside the process: if it crashes in solve, Python crashes too."""
+    """Loads your formulation, "./mine.so" or "exec:python3 my_beam.py", and returns its name. The formulation remains
+    loaded until the process ends. A shared object runs inside the process. If it crashes in solve, Python crashes as
+    well."""
     return _text_of("formulation_load", _required(element, "element"))
 
 
 def truths(path):
-    """Uses the reference values of the built-in cases in that file (truths.h5) from now on."""
+    """Sets the file (truths.h5) from which the reference values of the built-in cases are read from now on."""
     _call("truths", _required(path, "path"))
 
 

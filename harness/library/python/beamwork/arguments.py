@@ -1,4 +1,4 @@
-"""Converts the user's arguments for the library; invalid ones raise a one-line error."""
+"""Converts the user's arguments for the library. Invalid arguments raise a one-line error."""
 import json
 import operator
 import os
@@ -7,7 +7,7 @@ from .errors import Refused
 
 
 def utf8(value, what):
-    """Returns the bytes of a text or path; None if it is None."""
+    """Returns the bytes of a text or path, or None for None."""
     if value is None:
         return None
     if isinstance(value, os.PathLike):
@@ -28,7 +28,7 @@ def required(value, what):
 
 
 def names(values, what):
-    """Returns the names of formulations, separated by blanks; None if there are none."""
+    """Returns the names of formulations, separated by blanks, or None if there are none."""
     return b" ".join(required(v, what) for v in values) if values else None
 
 
@@ -44,7 +44,7 @@ def whole(value, what):
 
 
 def whole_list(values, what):
-    """Returns whole numbers, separated by commas; None if the argument is None."""
+    """Returns whole numbers, separated by commas, or None if the argument is None."""
     if values is None:
         return None
     try:
@@ -57,7 +57,7 @@ def whole_list(values, what):
 
 
 def options(values):
-    """Returns the options as JSON; None if there are none."""
+    """Returns the options as JSON, or None if there are none."""
     try:
         return json.dumps(values, allow_nan=False,
                           default=lambda v: v.item()).encode() if values else None

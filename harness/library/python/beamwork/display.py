@@ -1,4 +1,4 @@
-"""Display in notebooks: small HTML tables, with escaped text and numbers with as many digits as are known."""
+"""Display in notebooks: small HTML tables with escaped text. Numbers have as many digits as are known."""
 import html
 import math
 
@@ -10,14 +10,15 @@ def escape(value):
 
 
 def significant(value, digits):
-    """Returns a number with the given number of digits; an empty string if it is None or not finite."""
+    """Returns a number with the given number of digits, or an empty string if it is None or not finite."""
     if value is None or not math.isfinite(value):
         return ""
     return f"{value:.{max(1, digits)}g}"
 
 
 def known(value, uncertainty):
-    """Returns a value with the digits that its uncertainty allows, from 2 to 12; 7 if the uncertainty is unknown."""
+    """Returns a value with the digits that its uncertainty allows, from 2 to 12, or with 7 digits if the uncertainty is
+    unknown."""
     if value is None or not math.isfinite(value):
         return ""
     if value == 0 or uncertainty is None or not math.isfinite(uncertainty):
@@ -36,7 +37,7 @@ def percent(error):
 
 
 def of_unit(unit):
-    """Returns the unit for display; an empty string for plain numbers."""
+    """Returns the unit for display, or an empty string for plain numbers."""
     return "" if unit == "1" else unit
 
 
@@ -47,8 +48,8 @@ def plain(value):
 
 
 def table(head, rows, title=""):
-    """Returns an HTML table from a title, names of columns and rows of strings. It shows at most 40 rows and counts
-    the others."""
+    """Returns an HTML table for a title, names of columns and rows of strings. The table shows at most 40 rows and the
+    number of the other rows."""
     rows = list(rows)
     parts = ["<table>"]
     if title:
@@ -66,7 +67,7 @@ def folded(title, content):
 
 
 def scene(about, text):
-    """Returns the HTML of a scene: summary and parameters; the quantities and the file can be unfolded."""
+    """Returns the HTML of a scene: summary and parameters, and the quantities and the file, which can be unfolded."""
     parameters = [(p["name"], plain(p["value"]), of_unit(p["unit"]), p["summary"])
                   for p in about["parameters"]]
     quantities = [(q["name"], of_unit(q["unit"]), q["meaning"]) for q in about["quantities"]]

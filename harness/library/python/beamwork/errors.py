@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Mistake:
-    """One error of a scene: its position (line and column start at 1; 0: none) and its text."""
+    """An error of a scene: its position (line and column start at 1; 0: none) and its text."""
     file: str
     line: int
     column: int
@@ -22,7 +22,7 @@ class Error(Exception):
     result = None
     partial = None  # partial result in memory of the library
 
-    def __reduce__(self):  # a result is not transferred to another process
+    def __reduce__(self):  # a result cannot be transferred to another process
         state = {k: v for k, v in vars(self).items() if k not in ("result", "partial")}
         return type(self), self.args, state
 
@@ -41,7 +41,7 @@ class Singular(Error):
 
 
 class Fault(Error):
-    """An error of a file, the disk or memory, or a process that ended unexpectedly."""
+    """A file or disk error, insufficient memory, or a process that ended unexpectedly."""
 
 
 class TimeLimit(Error):
@@ -56,8 +56,8 @@ _OF_STATUS = {1: NotConverged, 2: Singular, 3: Refused, 4: Fault, 5: TimeLimit, 
 
 
 def of_status(status, why, entries=()):
-    """Returns the exception for a status of the library. why: its line, or the JSON of all errors of a scene; entries:
-    for each line of the scene's text, the entry that wrote it."""
+    """Returns the exception for a status of the library. why: its line, or the JSON of all errors of a scene. entries:
+    for each line of the scene's text, the entry that wrote the line."""
     try:
         document = json.loads(why)
     except ValueError:

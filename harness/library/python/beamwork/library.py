@@ -25,7 +25,7 @@ def places():
     if program:
         folder = pathlib.Path(program).resolve().parent
         found += [folder / FILE, folder.parent / "lib" / FILE]
-    return found + [pathlib.Path(FILE)]  # where the system looks
+    return found + [pathlib.Path(FILE)]  # where the system searches
 
 
 def _load():
@@ -103,7 +103,7 @@ version = _functions["version"]().decode()
 
 
 class Owned:
-    """A pointer allocated by the library, which is freed with this object. lock: allows one thread at a time."""
+    """A pointer that the library allocated and that is freed with this object. lock: allows one thread at a time."""
     __slots__ = ("pointer", "lock", "_free", "__weakref__")
 
     def __init__(self, kind):
@@ -120,7 +120,7 @@ class Owned:
 
 
 def call(name, *arguments, entries=()):
-    """Calls bw_NAME; raises the exception that belongs to its status. entries: see errors.of_status."""
+    """Calls bw_NAME, and raises the exception for its status. entries: see errors.of_status."""
     why = Owned("text")
     status = _functions[name](*arguments, ctypes.byref(why.pointer))
     if status != 0:
@@ -146,12 +146,12 @@ def owned_by(kind, name, *arguments, entries=()):
 
 
 def stoppable(work, options):
-    """Returns the result of work(options), run in another thread. Ctrl-C makes a descriptor, passed as the option
-    stop, readable; this ends the library's processes, after which the interrupt is raised here. If stop is given,
-    or in another thread, which receives no Ctrl-C, work(options) runs directly."""
+    """Returns the result of work(options), which runs in another thread. Ctrl-C makes a descriptor readable, which is
+    passed as the option stop. This ends the library's processes, and the interrupt is then raised in this thread. If
+    stop is given, or in another thread, which receives no Ctrl-C, work(options) runs directly."""
     if "stop" in options or threading.current_thread() is not threading.main_thread():
         return work(options)
-    outcome, done = [], threading.Event()  # Thread.join takes an interrupted thread for one that has ended
+    outcome, done = [], threading.Event()  # Thread.join treats an interrupted thread as one that has ended
     readable, writable = os.pipe()
 
     def run():
@@ -166,7 +166,7 @@ def stoppable(work, options):
     try:
         done.wait()
     finally:
-        os.write(writable, b"x")  # forked processes have it open, so closing it would not be noticed
+        os.write(writable, b"x")  # forked processes have the descriptor open, so closing it would not be noticed
         while not done.is_set():
             try:
                 done.wait()

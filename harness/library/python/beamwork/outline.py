@@ -23,7 +23,7 @@ def _integral(mesh, f):
 
 
 def _meshed(shape, parts):
-    """Returns a section of sectionproperties with its mesh; parts: minimum number of triangles."""
+    """Returns a section of sectionproperties with its mesh. parts: minimum number of triangles."""
     from sectionproperties.analysis import Section  # pylint: disable=import-outside-toplevel
     from sectionproperties.pre import Geometry  # pylint: disable=import-outside-toplevel
     geometry = Geometry(shape)

@@ -8,7 +8,8 @@ class Records(list):
     """A list of records (dicts with the same keys), with columns as arrays and a data frame."""
 
     def column(self, key):
-        """Returns the array [records] of one key: floats if all values are numbers (None: NaN), otherwise objects."""
+        """Returns the array [records] of a key. The array contains floats if all values are numbers (NaN for None),
+        otherwise objects."""
         values = [record.get(key) for record in self]
         if not any(key in record for record in self):
             known = ", ".join(self[0]) if self else "there are no records"
@@ -18,11 +19,11 @@ class Records(list):
         return numpy.array(values, dtype=object)
 
     def where(self, **wanted):
-        """Returns the records whose keys have these values, as in where(formulation="beamw", elements=2)."""
+        """Returns the records whose keys have these values, for example where(formulation="beamw", elements=2)."""
         return Records(r for r in self if all(r.get(k) == v for k, v in wanted.items()))
 
     def frame(self):
-        """Returns the records as a pandas.DataFrame; raises ImportError if pandas is not installed."""
+        """Returns the records as a pandas.DataFrame. Raises ImportError if pandas is not installed."""
         try:
             import pandas
         except ImportError:

@@ -34,7 +34,7 @@ MOTION = ("time", "step", "iterations", "rejected", "error", "kinetic", "strain"
 
 
 class _Memory:
-    """Memory of a result for numpy; an array made from it keeps the result alive."""
+    """Memory of a result for numpy. An array that uses it keeps the result alive."""
 
     def __init__(self, owner, array, *shape):
         self.owner = owner
@@ -98,7 +98,7 @@ class Result:
         return KeyError(f"no quantity {name!r}: {hint}")
 
     def __getitem__(self, name):
-        """Returns a value [its unit in SI]; raises KeyError for an unknown name or the name of a curve."""
+        """Returns a value in its SI unit. Raises KeyError for an unknown name or the name of a curve."""
         if name in self.curves:
             raise KeyError(f"{name!r} is a curve: result.curve({name!r})")
         try:
@@ -116,7 +116,7 @@ class Result:
         return name in self.values
 
     def curve(self, name):
-        """Returns Curve(x, y) of a quantity along its path: read-only views of the result's own arrays."""
+        """Returns Curve(x, y) of a quantity along its path. The arrays are read-only views of the result's memory."""
         if name not in self.curves:
             raise self._missing(name, list(self.curves))
         with self._open().lock:
@@ -142,7 +142,7 @@ class Result:
 
     @functools.cached_property
     def document(self):
-        """Returns all data of the run, as `beamwork solve --format json` writes them."""
+        """Returns all data of the run, in the same form as `beamwork solve --format json`."""
         with self._open().lock:
             return json.loads(text_of("result_json", self._handle.pointer))
 
@@ -162,10 +162,10 @@ class Result:
 
     @property
     def motion(self):
-        """Returns {column: [steps + 1] array} of a motion in time: the start and the end of each step:
-        time and step [s], iterations, rejected, error, kinetic, strain, work, dissipated and drift
-        [J] (drift: energy-balance error), px to pz [kg m/s], lx to lz [kg m^2/s]. {} without a motion.
-        Read-only views of the result's own arrays."""
+        """Returns {column: [steps + 1] array} of a motion, for the start and the end of each step: time and step [s],
+        iterations, rejected, error, kinetic, strain, work, dissipated and drift [J] (drift: energy-balance error), px
+        to pz [kg m/s], lx to lz [kg m^2/s]. Returns {} if there is no motion. The arrays are read-only views of the
+        result's memory."""
         found = {}
         with self._open().lock:
             for name in MOTION:
@@ -183,8 +183,8 @@ class Result:
 
     @property
     def matrices(self):
-        """Returns for each state of compliance analyses: dicts of node, path, moments, and compliance and
-        stiffness, [6, 6] arrays in ux, uy, uz, rx, ry, rz (None: there is none)."""
+        """Returns a dict for each state of compliance analyses: node, path, moments, and compliance and stiffness,
+        which are [6, 6] arrays in the order ux, uy, uz, rx, ry, rz (None: there is none)."""
         def array(value):
             return None if value is None else numpy.array(value, dtype=float)
 
@@ -192,7 +192,7 @@ class Result:
                 for m in self.document.get("matrices", [])]
 
     def close(self):
-        """Releases the library's memory; arrays of curves keep theirs."""
+        """Releases the memory of the library. Arrays of curves keep their memory."""
         self._handle = None
 
     def __enter__(self):

@@ -15,7 +15,7 @@ from .writing import ENTRIES, HEAD, LISTS, number, scene_text
 
 
 def verified(scene, formulations, select, results, options, lines=()):
-    """Returns the verdicts that the library computes. scene: its pointer, or None for all built-in cases."""
+    """Returns the verdicts that the library computes. scene: pointer to the scene; None: all built-in cases."""
     chosen, words = arguments.names(formulations, "formulation"), utf8(select, "select")
     into = utf8(results, "results")
     return Verdicts(json.loads(stoppable(
@@ -49,7 +49,7 @@ class Scene:
 
     def __init__(self, name="scene", *, summary="", source="", plane=""):
         self._name, self.summary, self.source, self.plane = name, summary, source, plane
-        self._make = None  # for scenes not built from dicts: the function that creates the handle
+        self._make = None  # for scenes that are not built from dicts: the function that creates the handle
         self._entries = {key: [] if key in LISTS else {} for key in ENTRIES}
         self._values, self._written, self._handle, self._lines = {}, None, None, ()
         self._lock = threading.RLock()
@@ -75,7 +75,7 @@ class Scene:
 
     @classmethod
     def text(cls, text, name="scene"):
-        """Reads the text of a scene file; name: its name in error messages."""
+        """Reads the text of a scene file. name: its name in error messages."""
         content, label = required(text, "text"), required(name, "name")
         return cls._made(name,
                          lambda: owned_by("scene", "scene_read", content, len(content), label))
@@ -121,7 +121,7 @@ class Scene:
         return self._handle
 
     def set(self, **values):
-        """Sets parameter values, as in set(thickness=0.5e-3, kind="wide"): all of them or, if one is rejected, none.
+        """Sets parameter values, for example set(thickness=0.5e-3, kind="wide"). If a value is rejected, none is set.
         Returns the scene."""
         assignments = {}
         for key, value in values.items():
@@ -153,8 +153,8 @@ class Scene:
         return {k: Records(v) if isinstance(v, list) else v for k, v in told.items()}
 
     def write(self, path=None):
-        """Returns the text of the scene as a file, with loops and expressions expanded and 17 digits; with path, also
-        writes that file."""
+        """Returns the text of the scene as a file, with expanded loops and expressions and 17 digits. If `path` is
+        given, writes this file as well."""
         with self._lock:
             text = text_of("scene_write", self._ready().pointer, entries=self._lines)
         if path is not None:
@@ -199,7 +199,7 @@ class Scene:
                                       arguments.options(given), entries=self._lines), options)))
 
     def verify(self, *formulations, select=None, results=None, **options):
-        """Returns the Verdicts of formulations on this scene from its reference values; see beamwork.verify."""
+        """Returns the Verdicts on formulations for this scene, from its reference values (see beamwork.verify)."""
         with self._lock:
             return verified(self._ready().pointer, formulations, select, results, options,
                             self._lines)

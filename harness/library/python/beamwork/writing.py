@@ -1,11 +1,11 @@
-"""Writes a scene of dicts and lists as the text of a scene file, with all bits of its numbers."""
+"""Writes a scene of dicts and lists as the text of a scene file. All bits of its numbers are preserved."""
 import math
 import re
 from collections.abc import Mapping
 
 from .errors import Refused
 
-# First keys of a scene file, in this order; then come the lists of entries, with each entry on a line.
+# First keys of a scene file, in this order. The lists of entries follow, with each entry on a separate line.
 HEAD = ("name", "summary", "source", "plane")
 ENTRIES = ("parameters", "let", "sections", "nodes", "members", "springs", "constraints", "imperfections", "motions", "loads",
            "analyses", "quantities", "truths", "omit", "shear_theory", "needs", "meshes", "parts", "instances")
@@ -16,7 +16,7 @@ _DEEPEST = 40
 
 
 def number(value, where):
-    """Returns a float or an integer with the fewest digits that give the same bits when they are read."""
+    """Returns a float or an integer with the smallest number of digits that give the same bits when they are read."""
     if not math.isfinite(value):
         raise Refused(f"{where} is {value}: a finite number is expected")
     return repr(value)
@@ -59,16 +59,16 @@ def written(value, where, depth=0):
 
 
 def name(key, where):
-    """Returns a key as it is written; from_, for_ and is_, which are Python keywords without the _, lose the _."""
+    """Returns a key in the form in which it is written. from_, for_ and is_, which are Python keywords without the _,
+    lose the _."""
     if not isinstance(key, str) or not key:
         raise Refused(f"{where}: the key {key!r} is not a name")
     return quoted(key[:-1] if key in ("from_", "for_", "is_") else key, where)
 
 
 def scene_text(head, entries):
-    """Returns the text of a scene file and, for each of its lines, the entry that wrote it ('': none).
-
-    head: {key of HEAD: text}; entries: {key of ENTRIES: dict of entries, or a list}."""
+    """Returns the text of a scene file and, for each of its lines, the entry that wrote the line ('': none). head: {key
+    of HEAD: text}; entries: {key of ENTRIES: dict of entries, or a list}."""
     lines, owners = ["beamwork: 1"], [""]
 
     def add(line, owner):
