@@ -8,7 +8,6 @@ from harness.tools.kit.program import PROGRAM
 class Pages(unittest.TestCase):
 
     def test_commands(self):
-        """Every command on every page prints the output shown below it."""
         count = 0
         for page in commands.pages():
             text = page.read_text(encoding="utf-8")
@@ -30,7 +29,6 @@ class Pages(unittest.TestCase):
 
 
     def test_readme_counts_the_examples(self):
-        """The README states the number of scenes in cases/examples."""
         there = len(list((commands.ROOT / "cases" / "examples").glob("*.yaml")))
         self.assertIn(f" {there} example structures ", (commands.ROOT / "README.md").read_text(encoding="utf-8"))
 
@@ -38,7 +36,7 @@ class Pages(unittest.TestCase):
 class Marks(unittest.TestCase):
 
     def test_difference_is_noticed(self):
-        """A digit, a missing line and an additional line are differences; text matched by `...` is not."""
+        """A digit, a missing line and an additional line are differences. Text matched by `...` is not."""
         for shown, printed, same in (("a 1.5 s", "a 1.5 s", True), ("a 1.5 s", "a 1.6 s", False),
                                      ("a ... s", "a 1.6 s", True), ("a ... s", "b 1.6 s", False),
                                      ("a\n...\nd", "a\nb\nc\nd", True), ("a\n...\nd", "a\nb", False),
@@ -47,7 +45,6 @@ class Marks(unittest.TestCase):
                 self.assertEqual(commands.match(shown.split("\n"), printed.split("\n")), same)
 
     def test_page_fails(self):
-        """A page with a number that differs from the output of its command is detected."""
         page = "```{code-block} text\n:caption: a.txt\n\n17\n```\n\n```console\n$ cat a.txt\n18\n```\n"
         self.assertEqual(commands.differences(page, PROGRAM), [("cat a.txt", ["18"], ["17"])])
         self.assertEqual(commands.differences(page.replace("18", "17"), PROGRAM), [])

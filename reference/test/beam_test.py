@@ -1,5 +1,5 @@
-"""Compares the boundary-value solver of the deriving programs with an adaptive Runge-Kutta method, with closed forms,
-and with its results on finer grids."""
+"""Compares the boundary-value solver of the deriving programs with an adaptive Runge-Kutta method, with closed forms, and
+with its results on finer grids."""
 import math
 import pathlib
 import sys
@@ -37,7 +37,6 @@ class Sheet(unittest.TestCase):
     given = {"wagner": 1, "tip_phi_x": 0.15}
 
     def twisted(self, intervals, nodes):
-
         def conditions(level, x, R, force, moment, numbers):
             return np.array([
                 x[1] - 0.15 * level, R[1, 0] - math.sin(0.15 * level),
@@ -73,7 +72,7 @@ class Sheet(unittest.TestCase):
         self.assertLess(np.max(np.abs(C - D) / np.sqrt(np.outer(np.diag(D), np.diag(D)))), 1e-12)
 
     def test_compliance_is_the_derivative_of_the_equilibrium(self):
-        """The compliance predicts the displacements of the deformed sheet due to small dead loads with moments about
+        """The compliance must predict the displacements of the deformed sheet due to small dead loads with moments about
         fixed axes."""
         net, tip, _ = self.twisted(6, 12)
         C = net.response(1.0, tip, {tip: free})

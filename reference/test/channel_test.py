@@ -1,4 +1,4 @@
-"""Compares buckling loads of the geometrically exact beam with eccentric shear centre and coupled shear with closed
+"""Buckling loads of the geometrically exact beam with eccentric shear centre and coupled shear, compared with closed
 forms according to Haringx."""
 import pathlib
 import sys
@@ -19,9 +19,7 @@ class Buckling(unittest.TestCase):
 
     def determinant(self, force, moment, shear, wagner):
         """Returns the scaled determinant of the tangent of the column on fork supports, which vanishes at the buckling
-        load.
-
-        The column is so stiff axially and in the strong plane that the state before buckling is straight.
+        load. The column is so stiff axially and in the strong plane that the state before buckling is straight.
         """
         s = column.channel_data()
         E, G = float(s.E), float(s.G)
@@ -60,7 +58,7 @@ class Buckling(unittest.TestCase):
             delta=1e-7)
 
     def test_end_moments(self):
-        """The determinant vanishes at the critical end moments, with and without shear, and with -2 ys or b_z - 2 ys
+        """The determinant must vanish at the critical end moments, with and without shear, and with -2 ys or b_z - 2 ys
         of the Wagner moments."""
         for shear in (0, 1):
             for wagner in (False, True):

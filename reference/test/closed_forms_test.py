@@ -14,7 +14,7 @@ from reference.derive.section import section  # noqa: E402
 class Sections(unittest.TestCase):
 
     def test_channel_of_table_1(self):
-        """J Table 1 and the shear rigidities follow from closed forms (in m)."""
+        """Closed forms, in m, for J Table 1 and the shear rigidities."""
         s = column.channel_data()
         for got, value in ((s.A, "0.054"), (s.Iy, "3.78e-3"), (s.Iz, "2.16e-3"), (s.It, "1.62e-5"),
                            (s.ys, mpf(16) / 35), (s.Iw, mpf(243) / 175 * mpf("1e-4"))):
@@ -26,7 +26,6 @@ class Sections(unittest.TestCase):
         self.assertLess(abs(d[0, 1]) + abs(d[0, 2]), mpf(10) ** -30)
 
     def test_axes_do_not_depend_on_the_drawing(self):
-        """A rotated and displaced section with unequal legs has the same constants."""
         walls = [(0, 1, "0.02"), (1, 2, "0.01"), (2, 3, "0.03")]
         points = np.array([(0, -0.3), (0.5, -0.3), (0.5, 0.3), (0.2, 0.3)])
         c, n = np.cos(0.7), np.sin(0.7)
@@ -44,7 +43,7 @@ class Sections(unittest.TestCase):
 class Torsion(unittest.TestCase):
 
     def test_rectangles(self):
-        """The constant agrees with the series in which tanh x = 1 - 2/(exp 2x + 1): the sum of the ones is 31/32
+        """The constant must agree with the series in which tanh x = 1 - 2/(exp 2x + 1). The sum of the ones is 31/32
         zeta(5), and the other terms decrease rapidly."""
         for w, t in ((1, 1), (2, 1), (mpf("0.05"), mpf("0.0005"))):
             rest = sum(mpf(2) / n ** 5 / (exp(n * pi * w / t) + 1) for n in range(1, 40, 2))
@@ -60,7 +59,7 @@ class Buckling(unittest.TestCase):
                         mpf(10) ** -25)
 
     def test_warping_vanishes(self):
-        """For K -> inf, the load approaches that of the narrow strip from above like 1/sqrt(K)."""
+        """For K -> inf, the load must approach that of the narrow strip from above in proportion to 1/sqrt(K)."""
         limit = linear_buckling.lateral_load("tip", 0, "4.0")
         near = [linear_buckling.lateral_load("tip", K, g) for K, g in ((100, "5.0"), (400, "4.45"))]
         self.assertTrue(0.4 < (near[1] - limit) / (near[0] - limit) < 0.5)
@@ -89,7 +88,7 @@ class Buckling(unittest.TestCase):
 class Rotating(unittest.TestCase):
 
     def test_slender_limit_by_power_series(self):
-        """The slender limit agrees with the power series of w'''' - Omega^2 (T w')' = omega^2 w with T = R (1 - X) +
+        """The slender limit must agree with the power series of w'''' - Omega^2 (T w')' = omega^2 w with T = R (1 - X) +
         (1 - X^2)/2, w(0) = w'(0) = 0, w''(1) = w'''(1) = 0."""
 
         def determinant(omega, Omega, R):
@@ -112,7 +111,7 @@ class Rotating(unittest.TestCase):
                     1e-10)
 
     def test_symmetric_shaft(self):
-        """In the rotating frame, the whirling frequencies are omega_j +- Omega, also beyond the critical speed."""
+        """In the rotating frame, the whirling frequencies are omega_j +- Omega, even beyond the critical speed."""
         rest = rotating.bending(3)
         for Omega in (2, 5):
             frequencies, growth = rotating.whirl(Omega, 1, 3)
@@ -123,7 +122,6 @@ class Rotating(unittest.TestCase):
                 self.assertLess(abs(found / value - 1), 1e-20)
 
     def test_channel_at_rest(self):
-        """Without rotation, the program for the rotating channel agrees with the program for the channel at rest."""
         force, lateral = channel_rotating.path((0.1, ), 0)[0]
         other, aside = channel_cantilever.path((0.1, ))[0]
         self.assertLess(abs(force / other - 1), 1e-8)
@@ -138,8 +136,8 @@ class Rotating(unittest.TestCase):
                         (rotating.flap(Omega, 1e6) ** 2 - Omega ** 2) - 1)), 1e-7)
 
     def test_body_at_the_end(self):
-        """At rest, the frequencies satisfy the characteristic equation. Without a body, they are those of the beam
-        alone. For a point mass, the lag frequencies follow from the flap frequencies."""
+        """At rest, the frequencies satisfy the characteristic equation. Without a body, they are those of the beam alone.
+        For a point mass, the flap frequencies determine the lag frequencies."""
         for m, c, g in ((1.0, 0.2, 0.3), (0.1, -0.5, 0.3), (10.0, 0.0, 0.0)):
             rest = np.array([float(w) for w in tip_body.at_rest(m, c, g)])
             self.assertLess(np.max(np.abs(tip_body.flap(0, m, c, g) / rest - 1)), 1e-11)

@@ -1,5 +1,5 @@
-"""Proofs of the errata (reference/ERRATA.md) that need no element: each corrected form is correct, and the printed
-form is not."""
+"""Proofs of the errata (reference/ERRATA.md) that need no element: each corrected form is correct, and the printed form
+is not."""
 import math
 import pathlib
 import sys
@@ -38,7 +38,7 @@ def shapes(Phi):
 
 
 class Modes(unittest.TestCase):
-    """J Eqs. 7 and 13, 60."""
+    """J Eqs. 7, 13 and 60."""
     l0 = 1.3
 
     def modes(self, r, Rp, Rq):
@@ -112,8 +112,8 @@ class Interpolation(unittest.TestCase):
     Phi = 0.7
 
     def test_torsion_functions(self):
-        """phi(0) = 0, and the warping shear, which is due to the change of the bimoment, is constant: g_w = q (e2 -
-        (e7 + e8)/2)/l0^2."""
+        """phi(0) = 0. The warping shear, which is due to the change of the bimoment, is constant: g_w = q (e2 - (e7 +
+        e8)/2)/l0^2."""
         N, q = shapes(self.Phi), self.Phi / (1 + self.Phi)
         for e2, e7, e8 in ((1, 0, 0), (0, 1, 0), (0, 0, 1)):
             phi = lambda x: N["13"](x) * e2 + N["12"](x) * e7 - N["14"](x) * e8  # noqa: E731
@@ -133,7 +133,7 @@ class Interpolation(unittest.TestCase):
             self.assertGreater(np.max(np.abs(slope(v) - phi_z)), 0.5)
 
     def test_coupling_of_shear_and_warping(self):
-        """S24 = d2/de2 de4 of int G D_zw g_z g_w dx = G D_zw q_w q_z/(2 l0^2), but is printed with 2/l0."""
+        """The correct S24 is d2/de2 de4 of int G D_zw g_z g_w dx = G D_zw q_w q_z/(2 l0^2). It is printed with 2/l0."""
         l0, G, D, qz, qw = 1.7, 2.0, -0.3, 0.4, 0.2
         energy = lambda e2, e4: G * D * l0 * (qz * e4 /
                                               (2 * l0)) * (qw * e2 / l0 ** 2)  # noqa: E731
@@ -167,13 +167,13 @@ class Modified(unittest.TestCase):
         self.assertAlmostEqual(integral(slope(phi) ** 2) / 2, printed, delta=1e-9)
 
     def elongation(self, e, Phi, ys):
-        """Returns int (v_c'^2 + w_c'^2)/2 dx with l0 = 1, where e[3], e[4] refer to the shear centre, v_c = v_s and
-        w_c = w_s - ys phi."""
+        """Returns int (v_c'^2 + w_c'^2)/2 dx for l0 = 1, where e[3], e[4] refer to the shear centre, v_c = v_s and w_c =
+        w_s - ys phi."""
         N = shapes(Phi)
         e3, e4 = e[3] - ys * e[2], e[4] + ys * e[2]
         w = lambda x: N["12"](x) * e3 + N["14"](x) * e4 - ys * (N["13"](x) * e[2] + N["12"](x) * e[
             7] - N["14"](x) * e[8]) + ys * e[2] * x  # noqa: E731
-        # The chord passes through the centroids, so that w_s(1) = ys phi(1), which is the last term.
+        # the chord passes through the centroids, so w_s(1) = ys phi(1), which is the last term
         return integral(slope(w) ** 2) / 2
 
     def test_shear_and_eccentricity_are_missing(self):
@@ -193,7 +193,7 @@ class Modified(unittest.TestCase):
         return (2 * e3 ** 2 + e3 * e4 + 2 * e4 ** 2) / 30
 
     def test_eccentric_shear_centre(self):
-        """The exact integral has a closed form for any shear and twist; J Eq. 66 includes neither."""
+        """The exact integral has a closed form for any shear and twist. J Eq. 66 includes neither."""
         ys, e = 0.7, {2: 0.6, 3: 0.8, 4: -0.5, 7: 0.4, 8: -0.3}
         for Phi in (0.0, 2.0):
             tw = (e[2] - (e[7] + e[8]) / 2) / (1 + Phi)
@@ -207,8 +207,8 @@ class Modified(unittest.TestCase):
                     ys ** 2 * e[2] ** 2 / 10), 0.01)
 
     def test_term_of_an_eccentric_shear_centre(self):
-        """For uniform twist without shear, there is no term in strains of the shear centre. In J's e, there is a
-        product of twist and bending, which equals the printed square if there is no bending."""
+        """For uniform twist without shear, there is no term in strains of the shear centre. In e of J, there is a product
+        of twist and bending, which equals the printed square if there is no bending."""
         ys, e2 = 0.7, 0.6
         for e3, e4, alone in ((0.8, -0.5, False), (ys * e2, -ys * e2, True)):
             exact = self.elongation({2: e2, 3: e3, 4: e4, 7: e2, 8: e2}, 0.0, ys)
@@ -222,8 +222,8 @@ class Modified(unittest.TestCase):
             self.assertEqual(abs(exact - printed) > 0.01, not alone)
 
     def test_twist_of_an_eccentric_beam(self):
-        """Without shear, e2bar - e2 of the corrected modes (second_order.py) is e4s e5s - e3s e6s, but is printed with
-        J's e."""
+        """Without shear, e2bar - e2 of the corrected modes (second_order.py) is e4s e5s - e3s e6s, but it is printed with
+        e of J."""
         length, (ys, zs) = second_order.L, (Fraction(2, 7), Fraction(-5, 9))
         e = [Fraction(k, 11) for k in (0, 3, -4, 7, 2, 5, 3, 3)]  # uniform twist
         shift = [0, 0, -ys, ys, -zs, zs, 0, 0]
@@ -235,7 +235,7 @@ class Modified(unittest.TestCase):
         self.assertNotEqual(right, (e[3] * e[4] - e[2] * e[5]) / length)
 
     def test_table_1(self):
-        """D is indefinite with the printed D_w = 3.65e6 mm^4, but positive definite with 3.65e9 mm^4 and if computed
+        """D is indefinite with the printed D_w = 3.65e6 mm^4. It is positive definite with 3.65e9 mm^4 and if computed
         from the shear flow."""
         for Dw, good in ((3.65e6, False), (3.65e9, True)):
             self.assertEqual(1.58e4 * Dw - 3.7e6 ** 2 > 0, good)
@@ -270,13 +270,13 @@ class ThirdOrder(unittest.TestCase):
         """Along a plane arc with total rotation psi, N Eq. 37 gives an elongation, but N Eq. 52 contains no initial
         elongation."""
         for psi in (0.05, 0.2, math.pi / 4):
-            u, zp, zq = 2 * math.sin(psi / 2) / psi - 1, -psi / 2, psi / 2  # per L
+            u, zp, zq = 2 * math.sin(psi / 2) / psi - 1, -psi / 2, psi / 2  # divided by L
             elongation = u + (2 * zp ** 2 - zp * zq + 2 * zq ** 2) / 30
             self.assertAlmostEqual(elongation / (psi ** 4 / 1920), 1, delta=psi ** 2 / 100)
         self.assertAlmostEqual(elongation, 2.0e-4, delta=0.05e-4)
 
     def test_sign_of_the_shear_strain(self):
-        """g_z = +(u_z' + phi_y) in N Eqs. 16, 20 and 25; Eq. 11 has the opposite sign."""
+        """g_z = +(u_z' + phi_y) in N Eqs. 16, 20 and 25, whereas Eq. 11 has the opposite sign."""
         Phi, yp, yq = 0.8, 0.3, 0.5
         u = lambda x: yp * (-x + 2 * x ** 2 - x ** 3) + yq * (x ** 2 - x ** 3) + Phi * (yp + yq) * (
             x - 3 * x ** 2 + 2 * x ** 3) / (2 + 2 * Phi)  # noqa: E731

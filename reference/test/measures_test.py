@@ -1,4 +1,4 @@
-"""Compares the strain measures to which printed elements converge with those of short elements."""
+"""The strain measures to which printed elements converge, compared with those of short elements."""
 import functools
 import math
 import pathlib
@@ -96,7 +96,7 @@ def local_coordinates(h):
 
 
 def nijenhuis_modes(h, sheared):
-    """Returns e1 .. e8 of N, from Eq. 7 over the linear solution (for Phi = 0, Eq. 37), with Wp = Wq = px/h."""
+    """Returns e1 .. e8 of N, from Eq. 7 over the linear solution, with Wp = Wq = px/h. For Phi = 0, this is Eq. 37."""
     u, px, yp, yq, zp, zq = local_coordinates(h)
     duy, phz, dphz = bending_fields(h, zp, zq, IZ, sheared)
     minus_duz, phy, dphy = bending_fields(h, yp, yq, IY, sheared)
@@ -119,7 +119,7 @@ def measured(e, h, centre):
 
 
 def torsion_of_appendix_a(h, i, q):
-    """Returns the rows and columns e2, e7, e8 of S. i = 1/(1 + Phi_w), q = Phi_w/(1 + Phi_w)."""
+    """Returns the rows and columns e2, e7, e8 of S, where i = 1/(1 + Phi_w) and q = Phi_w/(1 + Phi_w)."""
     f = 5 * q * (i + q / 2)
     same = np.array([[36 * i * i + 30 * q * (2 * i + q), -3 * i * i, -3 * i * i],
                      [-3 * i * i, 4 * i * i + f, -i * i - f],
@@ -170,7 +170,7 @@ class Measures(unittest.TestCase):
             self.assert_limit(modes, limit, (0, 0), 0.1, 1e-5)
 
     def test_energy_of_a_short_element(self):
-        """The energy e^T S e/(2 h) with the printed stiffness is that of the measures."""
+        """The energy e^T S e/(2 h) with the printed stiffness must be that of the measures."""
         def energy(h):
             e, at_centre = eq66(jonker_modes(h), h), np.eye(8)
             at_centre[2:6, 1] = np.array([-YS, YS, -ZS, ZS]) / h
@@ -190,7 +190,6 @@ class Measures(unittest.TestCase):
                 self.assertAlmostEqual(one.value[0], other.value[0], delta=1e-14)
 
     def test_derivatives(self):
-        """The gradient and the Hessian of every measure agree with finite differences."""
         point, step = np.array([*GAMMA, *KAPPA, A]), 1e-5
 
         def jets(measures, shift):

@@ -1,4 +1,4 @@
-"""Tests scenes solved as networks, and values of tables at new points."""
+"""Scenes solved as networks, and values of tables at new points."""
 import csv
 import math
 import pathlib
@@ -10,8 +10,8 @@ from reference.derive import at, of_scene, scene_text
 from reference.derive.scene_text import Refused
 
 
-# Compares scenes solved as networks with stored reference values of cases, closed forms, and equivalent descriptions;
-# messages name unsupported entries.
+# Scenes solved as networks are compared with stored reference values of cases, closed forms, and equivalent
+# descriptions.
 TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 BAR = """beamwork: 1
 sections:
@@ -98,7 +98,6 @@ class Scenes(unittest.TestCase):
             self.close(found[mine], truth[theirs], 11)
 
     def test_weight_of_a_body(self):
-        """The weight of a body is equivalent to a force at its centre of mass."""
         asked, body = {"w": tip("uy"), "t": tip("rz")}, ", mass: 0.3, centre: [0.1, -0.2, 0]"
         weight = values(bar("gravity: [0, -9.81, 2], on: tip", asked, tip=body))
         force = values(
@@ -115,7 +114,6 @@ class Scenes(unittest.TestCase):
         self.close(values(driven)["f"], 3.0)
 
     def test_unknown_motion(self):
-        """The unknown motion of the root is determined by the prescribed position of the tip."""
         text = bar(
             "force: [0, 0, 0], on: tip", {"a": "motion: {analysis: path, motion: turn}, unit: rad"},
             motions=
@@ -127,7 +125,7 @@ class Scenes(unittest.TestCase):
         self.close(values(text)["a"], math.asin(0.6))
 
     def test_line_load(self):
-        """The deflection is q L^4/(8 EI) in linear theory, also for a small follower load."""
+        """The deflection is q L^4/(8 EI) in linear theory, and for a small follower load."""
         linear = bar("distributed: [0, 2, 0], on: beam", {"w": tip("uy"), "t": tip("rz")},
                      path="linear: {}")
         found = values(linear)
@@ -150,8 +148,6 @@ class Scenes(unittest.TestCase):
         self.assertNotAlmostEqual(one["w"][0], other["w"][0], delta=1e-3)
 
     def test_loads_on_parts(self):
-        """The tip displacements due to a force, a moment, and uniform and linear loads from a to b agree with closed
-        forms of linear theory."""
         asked = {"w": tip("uy"), "M": "internal: {analysis: path, member: beam, end: from, resultant: Mz}, unit: N m",
                  "Q": "internal: {analysis: path, member: beam, end: to, resultant: Qy}, unit: N"}
         for load, deflection, moment in (
@@ -164,7 +160,7 @@ class Scenes(unittest.TestCase):
                 ("distributed: [0, 0, 0], on: beam, to: 0.5, to_value: [0, 6, 0]", 12 * (0.5 ** 4 / 8 - 0.5 ** 5 / 30),
                  12 * 0.5 ** 3 / 3),
                 ("distributed_moment: [0, 0, 1], on: beam, from: 0.5, to_value: [0, 0, 3]",
-                 # int m(x) (x - x^2/2) dx, m = 4 x - 1
+                 # int m(x) (x - x^2/2) dx for m = 4 x - 1
                  4 * (1 - 0.5 ** 3) / 3 - (1 - 0.5 ** 2) / 2 - (1 - 0.5 ** 4) / 2 + (1 - 0.5 ** 3) / 6, 1.0)):
             found = values(bar(load, asked, path="linear: {}"))
             self.close(found["w"], deflection)
@@ -196,7 +192,6 @@ class Scenes(unittest.TestCase):
             self.assertGreater(abs(found["w"][0]), 0.3)
 
     def test_parts_beyond(self):
-        """Messages name unsupported entries."""
         asked = {"w": tip("uy")}
         for load, beam, words in (
                 ("force: [0, 3, 0], on: beam, where: 0.4", ", curvature: [0, 0, 0.1]", "beam: a load on a part of a curved member"),
@@ -207,7 +202,7 @@ class Scenes(unittest.TestCase):
             values(bar("force: [0, 3, 0], on: tip", {"R": "reaction: {analysis: path, node: root, component: uy}, unit: N"}, path="linear: {}"))
 
     def test_resultants(self):
-        """The resultants at the root of a cantilever are the tip load and its moment; at the free end of a cantilever
+        """The resultants at the root of a cantilever are the tip load and its moment. At the free end of a cantilever
         with a line load, they are zero."""
 
         def at(end, what):
@@ -230,8 +225,8 @@ class Scenes(unittest.TestCase):
         self.close(found["M"], 3 * (1 + found["u"][0]))
 
     def test_releases(self):
-        """Checks a bar that rotates at a hinge, a bar that slides, a cantilever propped by a hinge and by a ball
-        joint, and a universal joint, whose second axis rotates with the first."""
+        """A bar that rotates at a hinge, a bar that slides, a cantilever propped by a hinge and by a ball joint, and a
+        universal joint, whose second axis rotates with the first."""
         motion = "motions:\n  push: {path: [0, 1], value: [0, 0.6]}\n"
         found = values(
             bar("force: [0, 0, 0], on: tip", {"u": tip("ux"), "t": tip("rz")},
@@ -277,8 +272,7 @@ class Scenes(unittest.TestCase):
             self.close(found[name], scale * value)
 
     def test_frequencies(self):
-        """The frequencies of a cantilever without rotary inertia agree with closed forms: bending in both planes,
-        twist, and with a point mass at its tip."""
+        """The closed forms are those of bending in both planes and twist, also with a point mass at the tip."""
         asked = {f"f{i}": f"frequency: {{analysis: path, which: {i}}}, unit: Hz" for i in range(4)}
         text = bar("force: [0, 0, 1], on: tip", asked, path="modal: {}").replace(
             "shear_modulus: 1}", "shear_modulus: 1, density: 1e-8}").replace("It: 1", "It: 0.36")
@@ -351,7 +345,7 @@ class Refusals(unittest.TestCase):
         self.refused("version", "beamwork: 2\n")
 
     def test_path_dependent_turn(self):
-        """A node with one rotation component fixed as an increment, which rotates about the other two axes, is
+        """A node with one rotation component fixed as an increment, which rotates about the other two axes, must be
         rejected."""
         self.refused(
             "'rx' means depend",
@@ -359,7 +353,6 @@ class Refusals(unittest.TestCase):
                 "Iy: 1", "Iy: 2"))
 
 
-# The programs reproduce the values of the tables at the stored points and reject points that they do not support.
 AT_TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 CHEAP = {
     "c_column": 3, "moment_buckling": 8, "unsymmetric_column": 3, "shear_column": 12,

@@ -1,4 +1,4 @@
-"""Tests the packing of reference values: round trip, hash, and every rejection."""
+"""Packing of reference values: round trip, hash, and every rejection."""
 import csv
 import pathlib
 import re

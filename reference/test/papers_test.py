@@ -1,4 +1,4 @@
-"""Tests the tables of papers and their equations, and the programs that derive values."""
+"""Tables of papers and their equations, and the programs that derive values."""
 import ast
 import csv
 import fnmatch
@@ -11,7 +11,6 @@ from reference import pack
 from reference.derive import rederive
 
 
-# The tables of the papers: every item has a row, and every equation has a file and a test, or a reason.
 REFERENCE = pathlib.Path(__file__).resolve().parents[1]
 ROOT = REFERENCE.parent
 STATUSES = ("reproduced", "partly", "not reproducible", "contradicted", "open")
@@ -22,7 +21,7 @@ ITEMS = {
          "|Sec. 4.1|Sec. 4.2|Sec. 5|App. A|App. B"
 }
 FIGURES = {"J": 13, "N": 10}
-# Numbers of the equations as printed; the equations of J App. A have no numbers.
+# Numbers of the equations as printed. The equations of J App. A have no numbers.
 EQUATIONS = {
     "J": {*map(str, range(1, 77)), "App. A"},
     "N": {*map(str, range(1, 71)), "A1", "B2"}
@@ -38,7 +37,7 @@ def rows(name="papers.csv"):
 
 
 def numbers(text):
-    """Returns the numbers of equations such as '1-3,7' as a list of strings."""
+    """Returns the numbers of equations such as '1-3,7' in the form of a list of strings."""
     out = []
     for part in (p.strip() for p in re.sub(r"^(Figs?\.|Eqs\.) ", "", text).split(",")):
         first, _, last = part.partition("-")
@@ -47,7 +46,7 @@ def numbers(text):
 
 
 def defines(path, name):
-    """Returns whether a file defines a function, given in C by its name at the start of a line, in Python by its class
+    """Returns True if a file defines a function, given in C by its name at the start of a line, in Python by its class
     and name."""
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".py":
@@ -62,6 +61,7 @@ def defines(path, name):
 
 
 class Papers(unittest.TestCase):
+
     def test_every_item(self):
         for paper, items in ITEMS.items():
             self.assertEqual({r["item"] for r in rows() if r["paper"] == paper}, set(items.split("|")))
@@ -99,6 +99,7 @@ class Papers(unittest.TestCase):
 
 
 class Equations(unittest.TestCase):
+
     def test_every_equation_once_a_set_or_a_reason(self):
         for paper, printed in EQUATIONS.items():
             of = [r for r in rows("equations.csv") if r["paper"] == paper]
@@ -138,12 +139,12 @@ class Equations(unittest.TestCase):
         self.assertFalse(defines(REFERENCE / "test/papers_test.py", "Papers.test_files_and_functions"))
 
 
-# `make truths` runs exactly the programs that derive exact rows, and every row is stored.
+# `make truths` must run exactly the programs that derive exact rows, and every row must be stored.
 class Programs(unittest.TestCase):
 
     def test_each_takes_no_more_than_whether_all_are_wanted(self):
-        """Every function rows() has the expected parameters; another function of this name would be run as one of
-        these programs."""
+        """Every function rows() must have the expected parameters, because a function with this name is run as a deriving
+        program."""
         for name in rederive.programs([]):
             module = rederive.importlib.import_module(f"reference.derive.{name}")
             wanted = ["everything"] if rederive.is_solid(name) else []

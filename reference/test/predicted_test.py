@@ -1,4 +1,4 @@
-"""Tests derived limits of printed elements: compares the beam model with exact values, and closed forms with the beam
+"""Derived limits of printed elements: the beam model compared with exact values, and closed forms compared with the beam
 model."""
 import copy
 import pathlib
@@ -33,7 +33,6 @@ def planar(name, GA):
 class Machinery(unittest.TestCase):
 
     def test_exact_strains_give_the_exact_beam(self):
-        """With the measures of the Simo-Reissner beam, every exact value of three points is reproduced."""
         form = lambda beam: Printed(beam, predicted_beam.simo_reissner)  # noqa: E731
         exact = predicted_rows.exact_values()
         rows = [
@@ -46,7 +45,7 @@ class Machinery(unittest.TestCase):
         self.assertGreater(len(rows), 60)
 
     def test_other_intervals_and_nodes(self):
-        """Other intervals and nodes agree within the stated uncertainty of the rows."""
+        """Results with other intervals and nodes must agree within the stated uncertainty of the rows."""
 
         def finer(*arguments, intervals=4, **options):
             return Network(*arguments, **{**options, "intervals": intervals + 3, "nodes": 17})
@@ -63,14 +62,13 @@ class Machinery(unittest.TestCase):
                 self.assertLess(abs(one[3] / two[3] - 1), one[5], one[:3])
 
     def test_amplitude_between_the_nodes(self):
-        """If the twist rate equals the amplitude, both give the same value; with J Eq. 66, the two differ."""
+        """If the twist rate equals the amplitude, both give the same value. With J Eq. 66, the two differ."""
         for name, least, most in (("beamw_first", 0, 1e-10), ("beamw", 2e-7, 3e-7)):
             form = predicted.as_printed(name)
             nodes, between = (equilibrium.sheet_frequencies(3, {}, form, one)[2] for one in (0, 1))
             self.assertTrue(least <= abs(between / nodes - 1) < most, (name, nodes, between))
 
     def test_stored_rows(self):
-        """The stored rows agree with all closed forms and with the beam model at some points."""
         stored = predicted_rows.stored_rows(predicted.CASES)
         self.assertEqual({row["kind"] for row in stored.values()}, {"predicted"})
         (force, lateral), = channel_cantilever.path((0.25, ), form=predicted.as_printed("beamw"))
@@ -89,8 +87,6 @@ class Machinery(unittest.TestCase):
                               row)
 
     def test_end_of_the_path(self):
-        """In shear_elastica with GA = 10, the beams of J lose equilibrium at the load stated in
-        reference/ERRATA.md."""
         for name, end in (("beamw", 0.45130), ("beamw_first", 0.41987)):
             net, at, step = planar(name, 10), 0.0, 0.1
             while step > 8e-6:
@@ -104,7 +100,8 @@ class Machinery(unittest.TestCase):
 
 
 def cantilever_column(beam, level):
-    """Returns the critical dead compression [N], near `level`, of a cantilever: half a column on fork supports."""
+    """Returns the critical dead compression [N], near `level`, of a cantilever, which is half of a column on fork
+    supports."""
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=4, nodes=12)
     root = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0)))
     tip = net.body((beam.length, 0, 0), lambda level, x, R, force, moment, numbers: np.concatenate(

@@ -1,4 +1,4 @@
-"""Compares published numbers with exact values: reference/ERRATA.md lists exactly the contradictions."""
+"""Compares published numbers with exact values. reference/ERRATA.md must list exactly the contradictions."""
 import csv
 import math
 import pathlib
@@ -42,7 +42,6 @@ def contradictions():
 
 
 def listed():
-    """Returns {(case, parameters, quantity): (published value, exact value)} as listed in reference/ERRATA.md."""
     section = (
         (REFERENCE / "ERRATA.md").read_text(encoding="utf-8").split(HEADING)[1].split("\n## ")[0]
     )
@@ -55,6 +54,7 @@ def listed():
 
 
 class Published(unittest.TestCase):
+
     def test_there_are_some(self):
         exact = {place(row) for row in rows_of("exact")}
         self.assertGreaterEqual(sum(place(row) in exact for row in rows_of("published")), 16)
@@ -96,7 +96,7 @@ class DeepBeam(unittest.TestCase):
         return [found[f"frequency_{i}"] for i in modes]
 
     def test_torsion_is_that_of_20_linear_elements(self):
-        """The published torsion values are those of n elements with consistent mass, k h = (2 i - 1) pi/(2 n)."""
+        """The published torsion values are those of n elements with consistent mass, where k h = (2 i - 1) pi/(2 n)."""
         elements, exact = 20, deep_beam.frequencies(False, 1, 1)[2]
         for i, value in zip((1, 2), self.published(3, 7)):
             kh = (2 * i - 1) * math.pi / (2 * elements)
@@ -104,7 +104,8 @@ class DeepBeam(unittest.TestCase):
             self.assertLess(abs(float(exact) * discrete / value - 1), 2e-5)
 
     def test_bending_asks_for_another_shear_factor_and_a_mesh(self):
-        """The shear factor that would reproduce each value increases with the mode, so that no single factor does."""
+        """The shear factor that would reproduce each value increases with the mode, so no single factor reproduces all
+        values."""
         needed = []
         for half_waves, value in zip((1, 2, 3), self.published(1, 5, 8)):
             low, high = 0.8, 0.9

@@ -1,4 +1,4 @@
-"""Compares the derived modified modes exactly, in fractions (reference/derive/second_order.py)."""
+"""The derived modified modes are compared exactly, in fractions (reference/derive/second_order.py)."""
 import pathlib
 import sys
 import unittest

@@ -30,6 +30,7 @@ def volume(grid):
 
 
 class Meshes(unittest.TestCase):
+
     def test_a_channel_has_its_area(self):
         area = (
             2 * channel.WIDTH * channel.FLANGE + (channel.HEIGHT - 2 * channel.FLANGE) * channel.WEB
@@ -53,6 +54,7 @@ class Meshes(unittest.TestCase):
 
 
 class Rows(unittest.TestCase):
+
     def test_every_row_of_a_solid_has_its_program(self):
         found = 0
         for path in TABLES.glob("*.csv"):
@@ -76,6 +78,7 @@ class Rows(unittest.TestCase):
 
 @needs_ccx
 class Sheet(unittest.TestCase):
+
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.sheet = sheet.Sheet(4, 1, self.folder.name)
@@ -97,10 +100,8 @@ class Sheet(unittest.TestCase):
             self.assertLess(np.max(np.abs(slope - K[:, i]) / (scale * scale[i])), 1e-3, i)
 
     def test_at_rest(self):
-        """In the undeformed state, there is no force, and the stiffness is symmetric. Along the sheet, it is E A/L or
-        up to nu^2/(1 - nu^2) higher.
-
-        The ends of the sheet cannot contract.
+        """In the undeformed state, there is no force, and the stiffness is symmetric. Because the ends of the sheet
+        cannot contract, the stiffness along the sheet is up to nu^2/(1 - nu^2) higher than E A/L.
         """
         force, moment, K = self.sheet.state(np.zeros(6))
         self.assertLess(np.max(np.abs(np.concatenate([force, moment]))), 1e-6)
@@ -114,10 +115,9 @@ class Sheet(unittest.TestCase):
             self.assertAlmostEqual(deviation, 0.078, delta=0.007)
 
 
-# Compares beams on fork supports in their bent state with linear prestress and with the exact beam of network.py.
 def fork(place, along):
-    """Returns the conditions of a fork at a fixed position (if free along x, without a force): the web R ez is normal
-    to ey, the normal of the guides, and the only moment is that of the guides."""
+    """Returns the conditions of a fork at a fixed position (if free along x, without a force). The web R ez is normal to
+    ey, the normal of the guides, and the only moment is that of the guides."""
 
     def conditions(level, x, R, force, moment, numbers):
         held = [force[0] if along else x[0] - place[0], x[1] - place[1], x[2] - place[2]]
@@ -142,7 +142,7 @@ def network_load(bracket, ratio, K):
 class Forks(unittest.TestCase):
 
     def test_a_stiff_beam_stays_straight(self):
-        """Linear prestress is the limit of large EIy/EIz; the difference is of order EIz/EIy."""
+        """Linear prestress is the limit of large EIy/EIz. The difference is of order EIz/EIy."""
         for distributed, K, load, guess in ((False, 0, "mid", "16.9"), (True, 0, "mid_distributed",
                                                                         "28.3"),
                                             (True, 4, "mid_distributed", "52.7")):

@@ -1,5 +1,5 @@
-"""Compares frequencies from transfer matrices with those of the Ritz method, which misses no frequency, and with
-closed forms."""
+"""Compares frequencies from transfer matrices with those of the Ritz method, which misses no frequency, and with closed
+forms."""
 import pathlib
 import sys
 import unittest
@@ -15,7 +15,7 @@ from reference.derive.vibrating_beam import bending, zeros  # noqa: E402
 
 
 def fields(held, length, count=14):
-    """Returns (values, first and second derivatives) [count, points] of polynomials divisible by x^held, the same at
+    """Returns (values, first and second derivatives) [count, points] of polynomials divisible by x^held, their values at
     the end [count, 3], and quadrature weights."""
     points, weights = legendre.leggauss(3 * count)
     x, found = np.append((points + 1) / 2, 1.0), []
@@ -45,14 +45,15 @@ class Scenes(unittest.TestCase):
         by_others = {row["source"] for row in stored.values()}
         programs = {f"reference/derive/{name}.py" for name in rederive.programs([])
                     if rederive.folder_of(name) == scenes.FOLDER}
-        self.assertLessEqual(by_others, programs)  # `make truths` derives them
+        self.assertLessEqual(by_others, programs)  # `make truths` derives these values
         self.assertFalse(by_others & {f"reference/derive/{name}.py" for name, _ in quick})
 
 
 class DoubleCross(unittest.TestCase):
 
     def ritz(self, conditions):
-        """Returns the frequencies of an arm below 60 Hz. conditions: rows that multiply (w, t, u) at the hub."""
+        """Returns the frequencies of an arm below 60 Hz. `conditions` contains the rows that multiply (w, t, u) at the
+        hub."""
         E, rho, A, I = (float(v)
                         for v in (double_cross.E, double_cross.RHO, double_cross.A, double_cross.I))
         value, end, weight = fields(1, 5.0)
@@ -79,7 +80,6 @@ class DoubleCross(unittest.TestCase):
                 self.assertLess(abs(float(one) / value - 1), 1e-8)
 
     def test_closed_form(self):
-        """With both ends pinned, the frequencies are n^2 pi^2 sqrt(EI/(rho A))/L^2."""
         first = pi / 2 * sqrt(double_cross.E * double_cross.I /
                               (double_cross.RHO * double_cross.A)) / double_cross.LENGTH ** 2
         found = double_cross.frequencies()
@@ -122,7 +122,7 @@ class OffCentreMasses(unittest.TestCase):
 class TransferMatrices(unittest.TestCase):
 
     def test_cantilever_with_a_mass(self):
-        """The frequencies of an Euler-Bernoulli cantilever with a mass satisfy the determinant of tip_body.py."""
+        """The frequencies of an Euler-Bernoulli cantilever with a mass must satisfy the determinant of tip_body.py."""
 
         def end(f):
             t, o = bending(mpf(1), f, mpf(1), mpf(1)), f
@@ -133,13 +133,13 @@ class TransferMatrices(unittest.TestCase):
             self.assertLess(abs(got / value - 1), 1e-25)
 
     def test_pinned_timoshenko_beam(self):
-        """For k = pi/L, the frequencies satisfy (rho I o^2 - S - EI k^2)(rho A o^2 - S k^2) = S^2 k^2, here with rho A
-        = rho I = EI = S = L = 1."""
+        """For k = pi/L, the frequencies satisfy (rho I o^2 - S - EI k^2)(rho A o^2 - S k^2) = S^2 k^2, here with rho A =
+        rho I = EI = S = L = 1."""
         k2 = pi ** 2
         b = 1 + 2 * k2
         values = [sqrt((b - s * sqrt(b ** 2 - 4 * k2 ** 2)) / 2) for s in (1, -1)]
 
-        def end(o):  # w = M = 0 at both ends: columns t, Q
+        def end(o):  # w = M = 0 at both ends; the columns are t and Q
             t = bending(mpf(1), o, mpf(1), mpf(1), mpf(1), mpf(1))
             return t[0, 1] * t[2, 3] - t[0, 3] * t[2, 1]
 

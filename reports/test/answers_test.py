@@ -1,4 +1,4 @@
-"""Tests the selection of the best formulations, and its page."""
+"""Selection of the best formulations, and its page."""
 import csv
 import html
 import json
@@ -14,9 +14,9 @@ from reports.test.browser_test import CHROMIUM, chromium
 from reports.test.results import Site, verdict
 
 
-# Selection of the best formulation: the coarsest mesh from which all errors are within a level, ranked by counted
-# work. Formulations that do not pass are never the cheapest. Costs that differ by less than the uncertainty of the
-# cost coefficients tie. Measured times have no influence.
+# The best formulation has the coarsest mesh from which all errors are within a level, ranked by counted work.
+# Formulations that do not pass are never the cheapest. Costs that differ by less than the uncertainty of the cost
+# coefficients tie. Measured times have no influence.
 def clock(*rounds):
     return data.Clock(0, min(rounds), min(rounds), max(rounds), 5 if len(rounds) > 1 else 1, rounds)
 
@@ -137,7 +137,6 @@ class Defects(unittest.TestCase):
         self.assertEqual((told(found.best), found.unjudged), ([("one", 1)], ["two"]))
 
 
-# The page of answers and its tables, for the tolerance of the reader and by the rule of the evaluation.
 SELECTION = "elastica/default or warping_torsion/default"
 LEVELS = (0.1, 0.03, 0.01, 0.004, 1e-3, 2e-4, 1e-4, 1e-6)
 
@@ -168,7 +167,6 @@ class Page(ProgramTest):
         self.assertGreater(seen, 20)
 
     def test_points_say_what_the_answers_say(self):
-        """The data of the page give the same answers as the evaluation at any tolerance."""
         for one, case in zip(self.points["cases"], self.cases):
             for quantity, found in one["asked"]:
                 for level in LEVELS:
@@ -237,7 +235,6 @@ class Page(ProgramTest):
         self.assertIn(f"<td>{html.escape(words)}</td>", self.page)
 
     def asked(self, *said):
-        """Returns the document of the page after these values were entered in its fields."""
         script = "".join(f"field({name!r}, {value!r});" for name, value in said)
         (self.site / "ask.js").write_text(
             "const field = (name, value) => { const at = document.getElementById(name);"

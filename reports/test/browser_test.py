@@ -1,5 +1,5 @@
-"""Tests the report in a headless browser: there is no console message, every image is decoded, and the printable
-report can be printed. Skipped if there is no Chromium."""
+"""The report in a headless browser: there must be no console message, every image must be decoded, and the printable
+report must be printable. Skipped if there is no Chromium."""
 import html
 import re
 import shutil
@@ -26,7 +26,7 @@ addEventListener("load", () => {{
 
 
 def chromium(folder, *arguments, software=False):
-    """Runs Chromium. software: WebGL is rendered by the processor."""
+    """Runs Chromium. If `software` is True, the processor renders WebGL."""
     graphics = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"
                 ] if software else ["--disable-gpu"]
     return subprocess.run([

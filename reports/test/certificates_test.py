@@ -1,4 +1,4 @@
-"""Tests certificates of formulations, and formulations whose times are not ranked."""
+"""Certificates of formulations, and formulations whose times are not ranked."""
 import json
 import math
 import re
@@ -16,7 +16,6 @@ from reference.pack import seal
 from reports import answers, answers_table, certificates, data, experiments, problems
 
 
-# The page of certificates: drawn and omitted parts, and names from files.
 class Site:
     """The parts of a site that the page uses."""
 
@@ -92,7 +91,7 @@ class Page(ProgramTest):
         self.assertIn('href="certificates.html#beamw"', self.formulation)
 
 
-# Formulations whose costs are not ranked, and new formulations, are shown and marked everywhere but never first.
+# Formulations whose costs are not ranked, and new formulations, are shown and marked everywhere but are never first.
 EXAMPLES = ROOT / "elements" / "examples"
 NAMES = {"timoshenko": "by differences", "timoshenko_py": "in another process"}
 
@@ -161,7 +160,6 @@ class Drawn(ProgramTest):
         return (self.site / name).read_text(encoding="utf-8")
 
     def test_marks(self):
-        """The marks follow the names in tables and legends."""
         for name, why in NAMES.items():
             words = f"({why})"
             for page in ("index.html", "tapered_cantilever.html", "formulations.html"):

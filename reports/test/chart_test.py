@@ -1,4 +1,4 @@
-"""Tests charts, figures and pictures."""
+"""Charts, figures and pictures."""
 import json
 import pathlib
 import re
@@ -20,7 +20,6 @@ from reports.site import ASSETS, Site
 from reports.style import Styles, plt
 
 
-# Charts written directly as SVG: positions, ticks, legends, and data of markers.
 def site():
     """Returns the parts of a site that a chart uses."""
     found = types.SimpleNamespace(said=[], styles=Styles([]), paper=paper.Paper("", []))
@@ -52,7 +51,6 @@ class Axes(unittest.TestCase):
             self.assertGreater(len(chart.whole_ticks(low, high)), 0)
 
     def test_nothing_to_scale(self):
-        """An axis exists even for one value or no value."""
         for values in ([3.0], []):
             one = chart.Axis(log=True, whole=True)
             one.take(values)
@@ -76,7 +74,6 @@ class Charts(unittest.TestCase):
         return picture.image(place, "some")
 
     def test_valid(self):
-        """The separate file is well-formed and defines all markers that it uses."""
         text = figures.alone(self.drawn().markup)
         xml.etree.ElementTree.fromstring(text.encode())
         self.assertEqual(set(re.findall(r"url\(#(\w+)\)", text)),
@@ -85,7 +82,6 @@ class Charts(unittest.TestCase):
         self.assertIn("&lt;theirs&gt;", text)
 
     def test_points(self):
-        """Both panels refer to the same data of points, and the curve passes through its values."""
         image = self.drawn()
         self.assertEqual(image.markup.count('data-f="beamw" data-p="0"'), 2)
         said = json.loads(image.points)
@@ -118,7 +114,6 @@ class Papers(unittest.TestCase):
         return drawn
 
     def written(self, formats, style=None, name="elastica_time", only=None):
-        """Returns the names and contents of the files of one chart."""
         one = site()
         one.paper = paper.Paper(self.folder.name, ["elastica", "elastica_motion"], formats, style, only)
         self.chart().image(one, name)
@@ -163,7 +158,7 @@ class Papers(unittest.TestCase):
             self.written(["svg"], "nowhere")
 
     def test_pgf(self):
-        """PGF figures require LaTeX; without it, the message names the packages."""
+        """PGF figures require LaTeX. Without LaTeX, the message must name the packages."""
         try:
             found = self.written(["pgf"])
         except paper.Impossible as why:
@@ -171,8 +166,6 @@ class Papers(unittest.TestCase):
         else:
             self.assertIn(b"pgfpicture", found["elastica_time.pgf"])
 
-# Figures in pages: unique identifiers, preserved text, colours that change with the page, and curves assigned to their
-# formulations.
 def drawn(name, said=(), gid=None):
     figure, axes = plt.subplots(figsize=(3, 2))
     look = Styles.of("beamw:mass=lumped")
@@ -185,14 +178,12 @@ def drawn(name, said=(), gid=None):
 class Figures(unittest.TestCase):
 
     def test_identifiers(self):
-        """The identifiers of two figures differ, and all identifiers that are used exist."""
         one, two = (set(re.findall(r' id="([^"]+)"', drawn(name).markup)) for name in ("a", "b"))
         self.assertGreater(len(one), 2)
         self.assertFalse(one & two)
         self.assertEqual(set(re.findall(r'[("]#(\w+)', drawn("a").markup)), one)
 
     def test_colours(self):
-        """Black and grey have the colour of the text; the colour of a formulation is a variable."""
         markup = drawn("a").markup
         self.assertNotIn("#000000", markup)
         self.assertIn('fill="currentColor" stroke="currentColor"', markup)
@@ -206,8 +197,6 @@ class Figures(unittest.TestCase):
         self.assertIn('aria-label="x &#34;y&#34; &lt;z&gt;"', markup)
 
     def test_whose(self):
-        """The curve, the handle and the label in the legend belong to the formulation; the markers of a curve are in
-        the order of their data."""
         self.assertEqual(drawn("a").markup.count('data-f="beamw:mass=lumped"'), 1)
         self.assertEqual(drawn("a").markup.count('data-l="beamw:mass=lumped"'), 2)
         image = drawn("a", [{}, {"f": "beamw", "t": "", "c": ["a", "b"],
@@ -224,7 +213,7 @@ class Figures(unittest.TestCase):
 class Looks(unittest.TestCase):
 
     def test_for_ever(self):
-        """The style of a formulation depends only on its name; options change only the line."""
+        """The style of a formulation depends only on its name. Options change only the line."""
         for keys in (["beamw"], ["another", "beamw"]):
             self.assertEqual(Styles(keys).of("beamw")["color"], "#0072b2")
         self.assertEqual(Styles.of("mine"), Styles.of("mine"))
@@ -234,13 +223,11 @@ class Looks(unittest.TestCase):
         self.assertNotEqual(one["linestyle"], other["linestyle"])
 
     def test_table(self):
-        """No two formulations have the same style."""
         looks = list(style.TABLE.values())
         for column in zip(*looks):
             self.assertEqual(len(set(column)), len(looks))
 
     def test_classes(self):
-        """Attributes that several curves share occur once in a page; different curves do not share attributes."""
         curve = '<polyline points="{}" stroke="red" stroke-dasharray="1 2" style="{}:url(#k1)"/>'
         page = "<head></head>" + "".join(curve.format(*one) for one in (
             ("0,0", "marker"), ("1,1", "marker"), ("2,2", "marker-mid")))
@@ -252,7 +239,6 @@ class Looks(unittest.TestCase):
         self.assertEqual(figures.with_classes("<head></head>"), "<head></head>")
 
 
-# Pictures of scenes: the geometry of the drawing, and the pictures in a report with shapes.
 class Geometry(unittest.TestCase):
 
     def test_axes(self):
@@ -272,8 +258,8 @@ class Geometry(unittest.TestCase):
         self.assertEqual(len(shapes.hull(corners)), 12)
 
     def test_chosen(self):
-        """On an even path, whose middle is slightly less than half as far, the end is shown. On a path that returns,
-        both extremes are shown."""
+        """On an even path, whose middle is slightly less than half as far, the end is shown. On a path that returns, both
+        extremes are shown."""
         for moved, wanted in (([0, 0.75, 1.499, 2.25,
                                 3], [0, 2, 4]), ([0, 0.6, 1.2, 1.8, 2.4,
                                                   3], [0, 3, 5]), ([0, -3, -1.5, 0, 1.5,
@@ -290,15 +276,14 @@ class Geometry(unittest.TestCase):
         self.assertEqual([list(g) for g in shapes.clusters(points)], [[0, 1], [2, 3]])
 
     def test_hinges(self):
-        """Hinges are points at the ends of members that release a component."""
         ends = types.SimpleNamespace(first=np.array([0, 13, 26, 39]),
                                      released=np.array([[0, 32], [1, 0], [0, 0]]))
         self.assertEqual(list(pictures.hinges(ends)), [12, 13])
 
 
     def test_view_of_a_plane(self):
-        """A motion in the xy plane is viewed from above, x to the right; a motion in space or along z, however small,
-        is not."""
+        """A motion in the xy plane is viewed from above, with x to the right. A motion in space or along z, even a small
+        one, is not."""
         flat = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 1, 0]]], float)
         lifted = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [1, 0, 0.01]]], float)
         for points, wanted in ((flat, (-90, 74)), (flat[..., [0, 2, 1]], (-58, 24)),
@@ -325,15 +310,12 @@ class Report(ProgramTest):
             self.assertIn('data-shape="spherical_joint"', text)
 
     def test_absent(self):
-        """Without shapes in the results, there is no page, and the page on the environment states the command that
-        adds it."""
         site = self.site()
         self.assertFalse((site / "pictures.html").exists())
         about = (site / "environment.html").read_text(encoding="utf-8")
         self.assertIn("verify --shapes", about)
 
 
-# The page of stationary rotation from a small run: its figures exist, and its curves end at the exact values.
 class Campbell(ProgramTest):
 
     @classmethod
@@ -385,7 +367,6 @@ class Sizes(ProgramTest):
             self.assertLess(page.stat().st_size, PAGE, page.name)
 
     def test_figures(self):
-        """Figures, including the largest one with the data of its markers, are within the limit."""
         seen = 0
         for page in self.site.glob("*.html"):
             for figure in re.findall(r'<svg id=.*?</svg>(?:<script type.*?</script>)?',
@@ -395,7 +376,6 @@ class Sizes(ProgramTest):
         self.assertGreater(seen, 10)
 
     def test_once(self):
-        """Common files are next to the pages, and a marker is defined once in a page."""
         for page in self.site.glob("*.html"):
             text = page.read_text(encoding="utf-8")
             self.assertIn('<link rel="stylesheet" href="style.css">', text)
@@ -403,7 +383,7 @@ class Sizes(ProgramTest):
             self.assertEqual(len(markers), len(set(markers)), page.name)
 
     def test_verdicts(self):
-        """Verdicts occur once, in short rows, on the pages of cases; the pages of formulations only count them."""
+        """Verdicts occur once, in short rows, on the pages of cases. The pages of formulations only count them."""
         rows = 0
         for page in self.site.glob("*.html"):
             text = page.read_text(encoding="utf-8")
@@ -416,7 +396,6 @@ class Sizes(ProgramTest):
         self.assertGreater(rows, 200)
 
     def test_data(self):
-        """The data of the explorer are limited by the number of values and errors in the results."""
         _, cases = data.read_results(str(self.site.parent / "results.h5"))
         for case in cases:
             number = sum(len(found) for p in case.points for s in p.series for m in s.meshes
@@ -433,8 +412,6 @@ class Sizes(ProgramTest):
         self.assertLess((self.site / "style.css").stat().st_size, SHEET)
 
 
-# The page of equilibrium paths: curves together with points of the solids, conclusions with numbers, and critical
-# points of the snapping frames.
 class Paths(ProgramTest):
 
     @classmethod

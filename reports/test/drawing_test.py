@@ -1,4 +1,4 @@
-"""Tests drawings of scenes: an arrow for each load, a symbol for each support, and labels that avoid each other."""
+"""Drawings of scenes: an arrow for each load, a symbol for each support, and labels that avoid each other."""
 import itertools
 import pathlib
 import tempfile
@@ -38,6 +38,7 @@ class Arrows(Canvas):
 
 
 class Drawings(unittest.TestCase):
+
     @classmethod
     def setUpClass(cls):
         cls.scenes = {name: scene.read(text) for name, text in written().items()}
@@ -46,7 +47,6 @@ class Drawings(unittest.TestCase):
         self.assertGreaterEqual(len(self.scenes), 49)
 
     def test_motions_in_time(self):
-        """Motions in time are drawn and described as such; a motion that the analysis determines remains unknown."""
         one = self.scenes["spin_up"]
         self.assertEqual(one.motions, {"turn": ()})
         self.assertEqual(loads.motion_words(one, "turn", True), "turn, in time")
@@ -68,8 +68,7 @@ class Drawings(unittest.TestCase):
             plt.close(figure)
 
     def test_loads_on_parts_of_members(self):
-        """Arrows are only on the loaded part and are longer where the load is larger. A load at a position has one
-        arrow."""
+        """Arrows are only on the loaded part and are longer where the load is larger. A load at a position has one arrow."""
         one = scene.read(run("scene", "--scene", str(LOADED)).stdout)
         self.assertEqual(len(one.loads), 19)
         figure = draw.draw(one)
@@ -108,7 +107,6 @@ class Drawings(unittest.TestCase):
                 self.assertLess(boxes_overlap(a, b), 12, f"{name}: {a} {b}")
 
     def test_sections(self):
-        """Every shape of a section has a figure; sections given by constants have none."""
         for name, one in self.scenes.items():
             figure = draw.draw_sections(one)
             shapes = [s for s in one.sections.values() if geometry.outline(s)]
@@ -116,7 +114,6 @@ class Drawings(unittest.TestCase):
             plt.close(figure)
 
     def test_words(self):
-        """Every load, spring and section is described, for any number of them."""
         for name, one in self.scenes.items():
             said = dict(describe.describe(one))
             for heading, own in (("Loads", one.loads), ("Springs", one.springs),
@@ -126,8 +123,8 @@ class Drawings(unittest.TestCase):
 
 
 class Geometry(unittest.TestCase):
+
     def test_arc(self):
-        """An arc between the ends of a quarter of a circle of radius 2 is drawn correctly."""
         one = scene.read("""
 name: arc
 sections: {s: {rectangle: {width: 0.1, thickness: 0.1}}}
@@ -175,8 +172,6 @@ analyses: {a: {rotation: {omega: [0, 0, 2], centre: [%d, 0, 0], stations: [0, 1]
             plt.close(figure)
 
     def test_warping(self):
-        """A bar at each end shows whether warping is restrained or free. The text lists nodes, or members if their
-        ends at a node differ. Without warping, there is no list."""
         text = """
 name: warps
 sections: {s: {SECTION}}
@@ -208,7 +203,6 @@ analyses: {run: {linear: {}}}
             plt.close(figure)
 
     def test_titles_of_load_cases(self):
-        """The picture of a linear solution names the active loads."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "r.h5"
             run("solve", "--scene", str(ROOT / "cases/examples/continuous_beam.yaml"), "-f", "collocation", "-n", "1",

@@ -1,5 +1,4 @@
-"""Tests motions in the viewer and as films: frames equal those of the file, keyboard control, reduced motion on
-request, and no external files."""
+"""Motions in the viewer and in films."""
 import base64
 import contextlib
 import io
@@ -63,7 +62,6 @@ class Film(ProgramTest):
         return whole.reshape(len(self.shape["states"]), -1, width)
 
     def test_frames_are_those_of_the_file(self):
-        """Every frame has the time and, to a unit of the stored digits, the positions of the file."""
         s = shapes.read_file(self.results, CASE)
         at, _ = shapes.kept(s, film.MOST)
         self.assertEqual(self.shape["times"][1:], TIMES.tolist())
@@ -82,7 +80,6 @@ class Film(ProgramTest):
         np.testing.assert_allclose(s.axes[-1], s.axes[1] @ turn.T, atol=1e-12)
 
     def test_thinned(self):
-        """If there is less room, frames are omitted evenly, but never the first or the last frame."""
         s = shapes.read_file(self.results, CASE)
         states = shapes.drawn_states(s, shapes.LEAST * len(s.members) * 6)
         self.assertEqual([states[0], states[1], states[-1]], [0, 1, len(TIMES)])
@@ -92,7 +89,6 @@ class Film(ProgramTest):
         self.assertEqual(shapes.drawn_states(s), list(range(len(TIMES) + 1)))
 
     def test_alone(self):
-        """A film is one file below 2 MB that loads no external files."""
         self.assertLess(len(self.text), 2_000_000)
         page = self.text.replace(self.shape["at"], "")
         self.assertNotRegex(page, r'<(?:script|link|img)[^>]*(?:src|href)="(?!data:)')
@@ -115,7 +111,6 @@ class Film(ProgramTest):
         self.assertEqual(self.results.read_bytes(), before)
 
     def test_as_a_report(self):
-        """The report with `--film` instead of a folder writes the same file."""
         target = self.folder / "same.html"
         done = run("-B", "-m", "reports", self.results, TRUTHS, "--film", target, "-k", CASE,
                    program=sys.executable, cwd=ROOT)
@@ -123,7 +118,6 @@ class Film(ProgramTest):
         self.assertEqual(target.read_text(encoding="utf-8"), self.text)
 
     def done(self, action, *options):
-        """Returns the text that the action wrote into `out`."""
         copy = self.folder / "acted.html"
         text = self.text.replace("<main>", CLOCK + "<main>")
         copy.write_text(text.replace("</body>", ACTION.format(action=action) + "</body>"),
@@ -137,8 +131,6 @@ class Film(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_plays(self):
-        """The film starts by itself, plays, restarts from the beginning, and indicates this. The test controls the
-        clock at 40 pictures per second."""
         out = self.done("""
             out.label = q("button").textContent; out.live = q("output").getAttribute("aria-live");
             q("button").click(); out.paused = q("button").textContent;
@@ -164,8 +156,6 @@ class Film(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_keyboard(self):
-        """Keys control pause, single frames, start and end, and speed. The ends of the slider are those of the
-        motion."""
         out = self.done("""
             key(" "); out.paused = q("button").textContent;
             key("Home"); out.home = time(); key("."); out.next = time();
@@ -188,7 +178,6 @@ class Film(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_less_motion(self):
-        """With reduced motion, the film does not start by itself but can be played."""
         out = self.done("""
             out.asked = window.due !== null; out.label = q("button").textContent; out.time = time();
             key(" "); out.then = q("button").textContent;""", "--force-prefers-reduced-motion")
@@ -196,7 +185,6 @@ class Film(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_without_graphics(self):
-        """Without graphics, the still picture remains."""
         ran = chromium(self.folder, "--disable-3d-apis", "--virtual-time-budget=3000",
                        "--dump-dom", self.film.as_uri())
         self.assertNotIn("<canvas", ran.stdout)
@@ -204,10 +192,8 @@ class Film(ProgramTest):
 
 
 class Genuine(ProgramTest):
-    """Films of motions that are solved here."""
 
     def test_examples(self):
-        """Frames cover the motion from the first to the last instant, and the structure moves."""
         for name in ("slider_crank", "released_guide", "robot_arm"):
             results, target = self.folder / f"{name}.h5", self.folder / f"{name}.html"
             self.answered("solve", "--scene", ROOT / "cases" / "examples" / f"{name}.yaml", "-f",

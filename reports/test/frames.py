@@ -34,7 +34,7 @@ def add(path, case, times, rate=1.0):
 
 
 def only(path, case, times, rate=1.0):
-    """Like `add`, but keeps only the undeformed state and the frames."""
+    """Adds frames as `add` does, but keeps only the undeformed state and the frames."""
     with h5py.File(path, "r+") as file:
         g = file[f"cases/{case}/shapes/default"]
         for name in ("kind", "analysis", "value", "position", "orientation", "nodes"):

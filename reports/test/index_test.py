@@ -1,4 +1,4 @@
-"""Tests the first page, the bar of links, and pages of formulations."""
+"""The first page, the bar of links, and pages of formulations."""
 import re
 import sys
 import tempfile
@@ -14,7 +14,6 @@ from reports.test.results import case, series
 from reports.verdicts import UNJUDGED
 
 
-# The first page: the contents of its lists, and no empty parts if there are few results.
 SCENE = """beamwork: 1
 nodes:
   node_0: {at: [0, 0, 0], hold: all}
@@ -75,7 +74,6 @@ class Agreed(unittest.TestCase):
 class Small(ProgramTest):
 
     def whole(self, page):
-        """Checks that a page has no empty tables, lists or figures."""
         self.assertEqual(re.findall(r"<(table|ul|figure)[^>]*>\s*</\1>", page), [])
         return page
 
@@ -92,7 +90,6 @@ class Small(ProgramTest):
             (site / "profiles.html").read_text(encoding="utf-8")))
 
     def test_one_mesh(self):
-        """Results on one mesh have no known limit or order, but the site is still complete."""
         scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
         scene.write_text(LEAF + "meshes: [4]\n", encoding="utf-8")
         run("verify", "--scene", scene, "-f", "collocation", "-f", "beamw", "-o", results)
@@ -101,7 +98,6 @@ class Small(ProgramTest):
         self.assertIn("not known how well", (site / "mine.html").read_text(encoding="utf-8"))
 
     def test_of_one_solution(self):
-        """Results of a single solution contain no verdicts and no outcome."""
         results, site = self.folder / "one.h5", self.folder / "site"
         run("solve", "elastica", "-f", "collocation", "-n", "2", "--shapes", "-o", results)
         done = report(results, site)
@@ -109,7 +105,6 @@ class Small(ProgramTest):
         self.assertNotIn("Outcome.", (site / "index.html").read_text(encoding="utf-8"))
 
     def test_whole_or_none(self):
-        """If a page fails, the previous site does not change, and no other files remain next to it."""
         site = drawn(self.folder, "-k", "warping_torsion/default", "-f", "collocation")
         before = {file.name: file.read_bytes() for file in site.iterdir()}
         code = ("import sys\nfrom reports import glossary, pages\n"
@@ -141,7 +136,6 @@ class Small(ProgramTest):
         self.assertEqual(len({len(line.split(",")) for line in table}), 1)
 
 
-# The bar and the terms: pages are in their groups; terms are links if the glossary contains them.
 PAGES = [("index.html", "beamwork"), ("deviations.html", "deviations"), ("claims.html", "claims"),
          ("errata.html", "errata"), ("cases.html", "all cases"),
          ("environment.html", "environment"), ("a_new_page.html", "new")]
@@ -159,7 +153,6 @@ class Bar(unittest.TestCase):
                          (("claims.html", "claims"), ("errata.html", "errata")))
 
     def test_a_page_of_no_group(self):
-        """A page in no group is listed with the last group."""
         self.assertIn(("a_new_page.html", "new"), self.groups[-1].pages)
 
     def test_where_a_page_is(self):
@@ -169,7 +162,7 @@ class Bar(unittest.TestCase):
 
         self.assertEqual(title("errata.html"), "Papers & errata")
         self.assertEqual(title("elastica.html"), "Cases")
-        self.assertIsNone(title("formulation_beamw.html"))  # there is no page that lists formulations
+        self.assertIsNone(title("formulation_beamw.html"))  # no page lists formulations
 
 
 class Words(unittest.TestCase):
@@ -204,8 +197,6 @@ class Words(unittest.TestCase):
                          [("verdicts", 1), ("new", 2)])
 
 
-# Pages of formulations: their statements about cases agree with the verdicts.
-
 # The text recommends a formulation for cases with these verdicts at worst.
 RIGHT = ("pass", "low order", "undecided", "biased", "biased, as predicted")
 
@@ -217,7 +208,7 @@ def texts():
 
 
 def claims(text):
-    """Returns [(whether recommended, named cases)] from the list on when to choose a formulation."""
+    """Returns [(True if recommended, named cases)] from the list on when to choose a formulation."""
     said = dict(formulation.sections(text))[formulation.CHOICE]
     bullets = re.findall(r"^\* \*\*(For|Not for)\*\* (.*)$", said, flags=re.M)
     return [(kind == "For", re.findall(r"`(\w+)`", words)) for kind, words in bullets]
@@ -268,8 +259,6 @@ class Pages(ProgramTest):
                      for key in cls.site.styles.order}
 
     def test_texts_agree_with_the_verdicts(self):
-        """A formulation has good verdicts in the cases for which its text recommends it, and is wrong or not run in
-        the other named cases."""
         for name, text in texts().items():
             found = {c.name: s for c, _, s in formulation.defaults(self.site.cases, name)}
             self.assertGreater(len(claims(text)), 0, name)
@@ -281,7 +270,6 @@ class Pages(ProgramTest):
                     self.assertEqual(right, is_for, f"{name}, {case}: {worst}")
 
     def test_who_offers_all(self):
-        """A text states that the formulation supports all physics if and only if it does."""
         offers = {key: set(row["offers"].split(", ")) for key, row in self.known.declared.items()}
         everything = set().union(*offers.values())
         for name, text in texts().items():
@@ -306,7 +294,6 @@ class Pages(ProgramTest):
                 self.assertNotIn(left, page, key)
 
     def test_what_is_measured_of_the_choice(self):
-        """The listed cases in which a formulation is the cheapest or wrong come from the data."""
         self.assertRegex(self.pages["beamw_first"],
                          r'however many elements[^\n]*>c_column</a> \(buckling_load, \+32 %\)')
         self.assertNotIn("however many elements, at the", self.pages["collocation"])
@@ -320,7 +307,6 @@ class Pages(ProgramTest):
         self.assertIn("<h2>Theory</h2>", self.pages["beamw:mass=lumped"])
 
     def test_verdicts(self):
-        """The numbers of verdicts on the page are those of the formulation."""
         for key, page in self.pages.items():
             number = sum(r.formulation == key and r.standing != "alias"
                          and r.verdict.verdict not in UNJUDGED for r in self.known.rows)

@@ -1,4 +1,4 @@
-"""Tests the page of integrators: lowest costs, orders, maps with letters, and text against data."""
+"""The page of integrators: lowest costs, orders, maps with letters, and text against data."""
 import json
 import re
 import unittest
@@ -21,13 +21,12 @@ class Answers(unittest.TestCase):
         self.one = self.every[0]
 
     def test_judged(self):
-        """Groups without a reference are not counted."""
         self.assertEqual(len(self.every), 4)
         self.assertEqual(len(problems()), 4 * len(motions.STIFFENINGS))
         self.assertEqual({p.stiffening for p in self.every}, {1})
 
     def test_best(self):
-        """Errors are C step^p and costs c/step, so that the lowest cost is known."""
+        """Errors are C step^p and costs are c/step, so the lowest cost is known."""
         for level in integrators.LEVELS:
             found = integrators.answer(self.one, level)
             costs = {}
@@ -44,7 +43,6 @@ class Answers(unittest.TestCase):
         self.assertEqual(integrators.answer(self.one, 1e-2, noise=1.01).ties, ())
 
     def test_series(self):
-        """Runs are sorted from coarse to fine; runs with a tolerance are separate."""
         rows = [motions.run("radau", 0.1, tolerance=x) for x in (1e-6, 1e-3)]
         self.one.runs += [integrators.run_of(r) for r in rows]
         equal, by_tolerance = integrators.series(self.one, "radau")
@@ -59,7 +57,6 @@ class Answers(unittest.TestCase):
         self.assertIn("reference", integrators.doubt(self.one, way))
 
     def test_profile(self):
-        """Shares increase with the factor and end with the share reached at any cost."""
         for level in integrators.LEVELS:
             curves = integrators.profile(self.every, level)
             self.assertEqual(set(curves), set(motions.CONSTANTS))
@@ -69,8 +66,6 @@ class Answers(unittest.TestCase):
         self.assertEqual(integrators.profile(self.every, 1e-6)["alpha"][-1], 0)
 
     def test_summary(self):
-        """The summary of a case counts how often a scheme has the lowest cost and states the costs of schemes that
-        conserve energy."""
         for own in integrators.by_case(self.every).values():
             self.assertEqual(len(own), 2)
             for level in integrators.LEVELS:
@@ -92,14 +87,12 @@ class Answers(unittest.TestCase):
                          {"alpha": 0, "conserving": 0, "radau": 4})
 
     def test_iterations(self):
-        """Iterations are listed at each stiffness, for the same step."""
         rows, stiffenings = integrators.iterations(problems())
         self.assertEqual(stiffenings, list(motions.STIFFENINGS))
         self.assertEqual(rows[self.one.name, "alpha", 0.4], {1: 3.0, 1e3: 3.0, 1e6: 3.0})
         self.assertNotIn((self.one.name, "radau", 0.2), rows)
 
     def test_without_a_reference(self):
-        """A problem without a reference is reported but not counted."""
         found = motions.record()
         found["references"][0]["reason"] = "no result after 120 s"
         every = problems(found)
@@ -108,7 +101,6 @@ class Answers(unittest.TestCase):
                          ["no result after 120 s"])
 
     def test_structures(self):
-        """All stiffenings of a mesh are grouped under the name without the stiffening."""
         found = integrators.structures(problems())
         self.assertEqual(len(found), 4)
         self.assertEqual({p.stiffening for own in found.values() for p in own},
@@ -122,7 +114,6 @@ class Answers(unittest.TestCase):
 class Words(unittest.TestCase):
 
     def test_first(self):
-        """The counts in the sentence are those of the answers."""
         every = problems()
         text = integrators_page.first(every, 1.0)
         for level in integrators.LEVELS:
@@ -134,14 +125,12 @@ class Words(unittest.TestCase):
         self.assertIn("12 answers are verified", text)
 
     def test_one_problem(self):
-        """For a single problem, the sentence contains the step."""
         one = problems()[:1]
         best = integrators.answer(one[0], 1e-2).best
         self.assertIn(f"within 1 % {best.scheme} with step {best.run.step:g} s",
                       integrators_page.first(one, 1.0))
 
     def test_doubt(self):
-        """The sentence warns of a scheme with the lowest cost whose error decreases more slowly than it should."""
         found = motions.record(cases=("pendulum",), formulations=("collocation",))
         for row in found["orders"]:
             if row["integrator"] == "radau":
@@ -162,7 +151,6 @@ class Words(unittest.TestCase):
         self.assertIn("trapezoidal grows or stops from a step of 0.05 s on", text)
 
     def test_iterations(self):
-        """The largest increase of iterations is that counted by hand."""
         rows = {"a": {1: 3.0, 1e6: 3.25}, "b": {1: 4.0, 1e3: 9.0, 1e6: 4.5}}
         self.assertIn("at most 0.5 iterations more, of 2", integrators_page.iterations(rows))
         self.assertEqual(integrators_page.iterations({}), "")
@@ -179,7 +167,6 @@ class Map(unittest.TestCase):
         self.problems = next(iter(integrators.structures(problems()).values()))
 
     def test_letters(self):
-        """Each field of a map has the letter of its outcome and a description."""
         markup = integrators_page.draw_map(self.problems, legend=False).markup
         fields = re.findall(r"<title>(.*?)</title>.*?<text[^>]*>(\w)</text>", markup)
         wanted = integrators_page.fates(self.problems)
@@ -210,7 +197,6 @@ class Page(ProgramTest):
         cls.text = (cls.site / "integrators.html").read_text(encoding="utf-8")
 
     def test_figures(self):
-        """There is a diagram for each case, a map for each problem, and a curve for each scheme."""
         self.assertEqual(len(re.findall(r'<svg id="integrators_(?!profile)', self.text)), 2)
         self.assertEqual(len(re.findall(r'<svg id="map_', self.text)), 4)
         for scheme in motions.CONSTANTS:
@@ -218,8 +204,6 @@ class Page(ProgramTest):
         self.assertIn("step 3 does not converge", self.text)
 
     def test_every_case(self):
-        """If all cases were run, they are compared, and the reference is checked against another integrator. Verdicts
-        and maps are still those of the results."""
         folder = self.folder
         motions.leave(folder / "results.h5", motions.record())
         motions.write(folder / "paces.json", motions.paces())
@@ -236,7 +220,6 @@ class Page(ProgramTest):
         self.assertRegex(text, r"conserves energy to round-off: conserving, at [\d.]+ times the cost")
 
     def test_an_old_paces(self):
-        """If the file has another format or is truncated, a one-line message states the command to run."""
         motions.leave(self.folder / "results.h5", motions.record())
         for text in ('{"cases": []}', "[1", "[]"):
             (self.folder / "paces.json").write_text(text, encoding="utf-8")
@@ -247,18 +230,15 @@ class Page(ProgramTest):
         self.assertNotRegex(self.text, r'(src|href)="https?:')
 
     def test_absent(self):
-        """Without its file, there is no page."""
         self.assertFalse(integrators_page.present(type("Site", (), {
             "results": str(self.folder / "results.h5")})))
 
     def test_commit(self):
-        """The commit is that of the run, which differs from that of the verdicts."""
         self.assertRegex(self.text, r"beamwork motion</code>, version 0\.1\.0, commit made up, "
                                     r"2026-01-01T00:00:00Z; <span class=\"unexpected\">")
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_browser(self):
-        """Markers show the selected run, and there is no console message."""
         copy = self.site / "marks.html"
         action = """<pre id="out"></pre><script>addEventListener("load", () => {
           const frame = document.querySelector(".scroll ~ details [data-p]").closest("div.figure");

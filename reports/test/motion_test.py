@@ -36,7 +36,6 @@ class Words(unittest.TestCase):
             self.assertEqual(motion_page.scheme(how), wanted)
 
     def test_sentence(self):
-        """The numbers in the sentence are those of the rows."""
         text = motion_page.sentence(motion(), {"integrator": "radau", "tolerance": "1e-06"})
         self.assertIn("Radau with a tolerance of 1e-06 per step takes 400 steps of 0.005 s to 2 s",
                       text)
@@ -74,7 +73,6 @@ class Curves(unittest.TestCase):
         self.assertEqual(motion_page.thinned(np.arange(3)).tolist(), [0, 1, 2])
 
     def test_units(self):
-        """Numbers of an axis are short; units without prefixes have a power of ten."""
         for values, unit, wanted in (([0, -2e-3], "m", (1e-3, "mm")), ([0.5, 3], "J", (1, "J")),
                                      ([0.02], "m", (1, "m")), ([5e-6], "N m", (1e-6, "µN m")),
                                      ([2e4], "J", (1e3, "kJ")), ([2e4], "m", (1e3, "10³ m")),
@@ -84,7 +82,6 @@ class Curves(unittest.TestCase):
             self.assertEqual(motion_page.fitting(values, unit), wanted)
 
     def test_scale(self):
-        """Drifts are relative to the largest energy or work."""
         found = motion()
         self.assertAlmostEqual(found.scale, 3)
         found.columns["work"][5] = -9
@@ -107,14 +104,12 @@ class Page(ProgramTest):
         cls.text = (cls.site / "motion_elastica.html").read_text(encoding="utf-8")
 
     def test_finest_meshes(self):
-        """The finest mesh of each formulation is used, and its first row is the start."""
         found = motion_page.motions_of(self.results, "elastica")
         self.assertEqual([(m.formulation, m.elements, len(m.steps)) for m in found],
                          [("beamw", 4, 400), ("collocation", 4, 99)])
         self.assertEqual(motion_page.motions_of(self.results, "roll_up"), [])
 
     def test_list(self):
-        """Cases with a motion are listed, each with its sentence."""
         text = (self.site / "motions.html").read_text(encoding="utf-8")
         self.assertIn('<a href="motion_elastica.html">elastica</a>', text)
         self.assertNotIn("motion_roll_up.html", text)
@@ -122,7 +117,6 @@ class Page(ProgramTest):
         self.assertFalse((self.site / "motion_roll_up.html").exists())
 
     def test_energies_are_those_of_the_file(self):
-        """The curve of the kinetic energy passes through the stored values, in the scale of the figure."""
         figure = re.search(r'<svg id="motion_elastica_energies".*?</svg>', self.text, re.S)[0]
         line = re.search(r'data-f="kinetic".*?points="([^"]+)"', figure)[1]
         points = np.array([[float(x) for x in p.split(",")] for p in line.split()])
@@ -137,14 +131,12 @@ class Page(ProgramTest):
         self.assertIn('data-f="strain"', self.text)
 
     def test_case_leads_to_it(self):
-        """The page of a case has a link only if the case has a motion; the first page links to all."""
         for page, name, there in (("elastica", "motion_elastica", True), ("index", "motions", True),
                                   ("roll_up", "motion_", False)):
             text = (self.site / f"{page}.html").read_text(encoding="utf-8")
             self.assertEqual(f'href="{name}' in text.partition("<main")[2], there, page)
 
     def test_it_can_be_seen(self):
-        """The viewer with its frames is on the page, and the page is in the bar."""
         self.assertIn('data-shape="elastica"', self.text)
         self.assertIn('"times":', (self.site / "shape_elastica.js").read_text(encoding="utf-8"))
         bar = re.search('<nav class="bar" [^>]*>(.*?)</nav>', self.text, re.S)[1]
@@ -186,14 +178,13 @@ class Truths(ProgramTest):
             g["value"] = np.arange(6.0)
 
     def test_of_all_instants(self):
-        """Only reference values of the quantity at the default parameters, at any time, are used; those of other
-        models are not."""
+        """Only reference values of the quantity at the default parameters, at any time, are used. Those of other models
+        are not used."""
         found = motion_page.truths_of(self.path, "swing", "x", 9.0)
         self.assertEqual([(t.time, t.value) for t in found], [(1, 0), (2, 1), (9, 2)])
         self.assertEqual(motion_page.truths_of(self.path, "nothing", "x", 9.0), [])
 
     def test_values_at_points(self):
-        """A case whose points differ only in time gives values over time."""
         def point(said, value):
             mesh = types.SimpleNamespace(n=4, values={"x": value}, curves={})
             return types.SimpleNamespace(parameters=said, series=[
@@ -206,7 +197,6 @@ class Truths(ProgramTest):
         self.assertEqual((x.tolist(), y.tolist(), n, whole), ([3, 9], [4, 5], 4, False))
 
     def test_one_instant(self):
-        """A value computed at one instant is not a curve, for any number of reference values."""
         mesh = types.SimpleNamespace(n=4, values={"tip_x": 1.0}, curves={})
         series = types.SimpleNamespace(key="beamw", meshes=[mesh])
         case = types.SimpleNamespace(
@@ -223,7 +213,6 @@ class Truths(ProgramTest):
                                               "motion, plus 1"), "displacement of a along x, plus 1")
 
     def test_stored_truths_are_read(self):
-        """Every case of the packed reference values can be read."""
         with h5py.File(TRUTHS) as file:
             names = list(file["truths"])
         self.assertGreater(len(names), 10)

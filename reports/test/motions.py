@@ -3,15 +3,15 @@ import json
 
 from harness.records.test.stored import put_experiment
 
-CONSTANTS = {"alpha": (2, 30), "conserving": (2, 20), "radau": (5, 300)}  # order, error at step 1
-COSTS = {"alpha": 1e-3, "conserving": 4e-3, "radau": 6e-3}  # [s] per unit of time with step 1
+CONSTANTS = {"alpha": (2, 30), "conserving": (2, 20), "radau": (5, 300)}  # order, and error at step 1
+COSTS = {"alpha": 1e-3, "conserving": 4e-3, "radau": 6e-3}  # cost per unit of time with step 1 [s]
 STEPS = [0.1 / 2**i for i in range(6)]
 LEVELS = (1e-2, 1e-4, 1e-6)
 FATE_STEPS, STIFFENINGS = (0.05, 0.1, 0.2, 0.4), (1, 1e3, 1e6)
 
 
 def run(integrator, step, worse=1.0, **more):
-    """Returns a run whose error follows from its order and its step."""
+    """Returns a run whose error is determined by its order and its step."""
     order, error = CONSTANTS.get(integrator, (2, 30))
     cost = worse * COSTS.get(integrator, 1e-3) / step
     return {"integrator": integrator, "step": step, "tolerance": 0, "status": "ok", "reason": "",
@@ -23,8 +23,8 @@ def run(integrator, step, worse=1.0, **more):
 
 
 def fate(integrator, step, stiffening):
-    """Returns the outcome: energy is conserved by `conserving`; with the trapezoidal rule, it grows, and the run stops
-    if step and stiffness are large."""
+    """Returns the outcome. `conserving` conserves the energy. With the trapezoidal rule, the energy grows, and the run
+    stops if step and stiffness are large."""
     if integrator == "conserving":
         return "exact"
     if integrator == "alpha":
@@ -95,7 +95,7 @@ def record(cases=("pendulum", "free_flight_space"),
 
 
 def paces():
-    """Returns records for three cases in the form that `make lab L=paces` writes; one check was possible, and one was
+    """Returns records for three cases in the form that `make lab L=paces` writes. One check was possible, and one was
     not."""
     check = {"case": "elbow", "parameters": "time=3", "formulation": "collocation", "elements": 8,
              "distances": [3e-9, 4e-10], "uncertainty": 1e-10, "steps": 50, "reason": ""}

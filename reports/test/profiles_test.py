@@ -1,4 +1,4 @@
-"""Tests profiles of problems whose results are known by hand, and their description on the first page."""
+"""Profiles of problems whose results are known by hand, and their description on the first page."""
 import math
 import unittest
 
@@ -10,7 +10,7 @@ LEVEL = 0.01
 
 
 def tried(key, quantities, cost=1.0, missing=""):
-    """Returns a formulation with one mesh; quantities: {name: (verdict, error, reaches the level)}."""
+    """Returns a formulation with one mesh. `quantities` is {name: (verdict, error, reaches the level)}."""
     found = series(key, [
         data.Verdict(name, kind, truth=1.0, truth_kind="exact", error=error, truth_uncertainty=1e-9,
                      reach={LEVEL: 1} if reached else {})
@@ -31,8 +31,8 @@ GOOD, POOR = ("pass", 0.0, True), ("pass", 0.0, False)
 
 
 def two():
-    """Returns two cases with two formulations: a costs half as much as b, but solves only one of two problems in the
-    second case."""
+    """Returns two cases with two formulations. Formulation a costs half as much as b, but solves only one of two problems
+    in the second case."""
     first = case("first", [tried("a", {"u": GOOD}, 1), tried("b", {"u": GOOD}, 2)])
     second = case("second", [tried("a", {"u": GOOD, "v": POOR}, 1),
                              tried("b", {"u": GOOD, "v": GOOD}, 4)])
@@ -141,7 +141,7 @@ class Weights(unittest.TestCase):
         self.assertEqual([compared.profile(question, True)[k][-1] for k in "ab"], [1, 1])
 
     def test_second_names_and_other_truths(self):
-        """A second name is not a separate problem, nor is a quantity whose reference value is not exact."""
+        """A second name is not a separate problem. A quantity whose reference value is not exact is not a problem either."""
         names = [tried(k, {"C_xx": GOOD, "C_ux_Fx": GOOD, "f": GOOD}) for k in "ab"]
         for one in names:
             one.meshes[0].values = {"C_xx": 2.0, "C_ux_Fx": 2.0, "f": 3.0}
@@ -180,15 +180,12 @@ class Contestants(unittest.TestCase):
         self.assertEqual(found, ["beamw:mass=lumped"])
 
     def test_eight_curves(self):
-        """There are at most as many curves as in other figures, but formulations without a curve are still
-        compared."""
         keys = [f"f{i}" for i in range(10)]
         compared = profiles.Compared([case("one", [tried(k, {"u": GOOD}) for k in keys])])
         self.assertEqual(len(compared.curves), 8)
         self.assertEqual(sorted(compared.profile(Question(LEVEL))), keys)
 
     def test_without_counted_work(self):
-        """Results of an older program have no costs."""
         tries = [tried(k, {"u": GOOD}, math.nan) for k in "ab"]
         compared = profiles.Compared([case("one", tries)])
         row, _ = problems.trust_table([case("one", tries)], compared.problems, compared.keys)

@@ -1,4 +1,4 @@
-"""Tests reports as a whole, the report of a scene, and pages of cases."""
+"""Reports as a whole, the report of a scene, and pages of cases."""
 import html
 import html.parser
 import json
@@ -14,8 +14,6 @@ from reports.plots import MOST_CURVES, OPEN
 from reports.style import Styles
 from reports.test import results
 
-
-# The report of a small run: every page exists, every link and image resolves, and files of other kinds are rejected.
 
 # Files that other commands leave next to the results, with some data for every page.
 MESHES = {"parameters": "shear=0", "meshes": [8, 256]}
@@ -139,7 +137,6 @@ class Report(ProgramTest):
                                   f"{page.name}: {link}")
 
     def test_nothing_is_announced(self):
-        """A page whose data are missing does not exist, and no other page links to it."""
         for name in ("stability.html", "newton.html", "rotation.html", "mechanisms.html"):
             self.assertFalse((self.site / name).exists(), name)
         for page in self.site.glob("*.html"):
@@ -151,7 +148,6 @@ class Report(ProgramTest):
         self.assertNotIn("<code>make lab L=causes</code>", about)  # the command has left its file
 
     def test_bar(self):
-        """The bar is short and shows the current page, also on pages of cases and formulations."""
         for page, title in (("deviations.html", "Deviations"), ("warping_torsion.html", "Cases"),
                             ("formulation_beamw.html", "Formulations"), ("index.html", "beamwork")):
             text = (self.site / page).read_text(encoding="utf-8")
@@ -165,7 +161,6 @@ class Report(ProgramTest):
             self.assertLess(page.stat().st_size, 500_000, page.name)
 
     def test_figures_are_drawn(self):
-        """Figures are embedded in the pages; the printable sheets have them as files."""
         page = (self.site / "roll_up.html").read_text(encoding="utf-8")
         self.assertGreater(page.count("<polyline"), 8)
         files = list(self.site.glob("*.svg"))
@@ -180,7 +175,7 @@ class Report(ProgramTest):
         self.assertEqual(len(done.stderr.strip().splitlines()), 1)
 
 
-# The report of the scene of a user without reference values: its picture, and limits instead of verdicts.
+# The report of a user-defined scene without reference values: its picture, and limits instead of verdicts.
 SWINGS = LEAF.replace("young: 210e9", "density: 7800, young: 210e9") + """
 analyses:
   swing: {motion: {stations: [0.005, 0.01], step: 1e-3}}
@@ -211,7 +206,6 @@ class SceneReport(ProgramTest):
         self.assertIn("<details open><summary>Limits of quantities without a reference value", page)
 
     def test_what_is_assumed(self):
-        """Assumptions about constants of a section are on the page, with the text that is printed on the terminal."""
         scene, results, site = (self.folder / name for name in ("bar.yaml", "bar.h5", "site"))
         text = re.sub("rectangle: {[^}]*}", "constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8, Iw: 0}",
                       LEAF, count=1)
@@ -226,7 +220,6 @@ class SceneReport(ProgramTest):
                       " to be zero.</p>", page)
 
     def test_motion_without_summary(self):
-        """If the file has only the required contents, pages and film omit the optional parts."""
         scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
         scene.write_text(SWINGS, encoding="utf-8")
         done = run("verify", "--shapes", "--scene", scene, "-f", "beamw", "-o", results)
@@ -289,6 +282,7 @@ def point(*found):
 
 
 class Figures(unittest.TestCase):
+
     def test_below_the_digits(self):
         """If the reference value is known to 1e-6, two of four markers are hollow and on this line, and the legend
         explains them."""
@@ -309,7 +303,6 @@ class Figures(unittest.TestCase):
         self.assertNotIn(OPEN, html.unescape(image.markup))
 
     def test_eight_at_most(self):
-        """Misprints and options are omitted first, but an option on the front is drawn."""
         names = [f"f{i}" for i in range(7)]
         own = point(*[series(key, (1e-2, 1e-4)) for key in names],
                     series("sheet_third_printed", (1e-2, 1e-5)),
@@ -317,8 +310,7 @@ class Figures(unittest.TestCase):
         shown, further = plots.leading(own, "u")
         self.assertEqual([s.key for s in shown], [*names, "f0:mass=lumped"])
         self.assertEqual([s.key for s in further], ["sheet_third_printed", "f1:mass=lumped"])
-        # f0 is on the front with its first mesh, f11 with its last mesh. Of the other series, the most accurate are
-        # drawn.
+        # f0 is on the front with its first mesh, f11 with its last mesh; of the other series, the most accurate are drawn
         many = point(*[series(f"f{i}", (1e-2, 10.0**-i)) for i in range(12)])
         shown, further = plots.leading(many, "u")
         self.assertEqual(len(shown), MOST_CURVES)
@@ -331,6 +323,7 @@ class Figures(unittest.TestCase):
 
 
 class Truths(unittest.TestCase):
+
     def test_digits(self):
         self.assertEqual(case.digits_of(2.0, 2e-6), 6)
         self.assertEqual(case.digits_of(2.0, 0), case.MOST_DIGITS)
@@ -362,6 +355,7 @@ class Truths(unittest.TestCase):
 
 
 class Pages(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()
@@ -400,7 +394,6 @@ class Pages(ProgramTest):
                 self.assertLessEqual(len(keys), MOST_CURVES, name)
 
     def test_neighbours(self):
-        """The links to the next and previous cases lead through all cases."""
         names = [c.name for c in self.cases]
         for name, following in zip(names, names[1:]):
             self.assertIn(f'<a href="{following}.html">{following} →</a>', self.pages[name])
@@ -413,7 +406,6 @@ class Pages(ProgramTest):
             self.assertIn(f'id="{one.name}"', self.pages["elastica"])
 
     def test_results_without_scenes(self):
-        """Without scenes there is no drawing, and quantities have no explanations."""
         old = data.Case("c", "", "", [point(series("a", [1e-3]))])
         old.points[0].meanings = {}
         self.assertIsNone(case.drawing(None, old))

@@ -1,4 +1,4 @@
-"""Tests the pages of stability and of Newton's method, the table of predictions, and results of other programs."""
+"""The pages of stability and of Newton's method, the table of predictions, and results of other programs."""
 import json
 import math
 import random
@@ -15,7 +15,6 @@ from reports.site import Site
 from reports.test import results
 
 
-# The page of stability shows the results of a sweep of extremes; without one there is no page.
 class Stability(ProgramTest):
 
     def setUp(self):
@@ -28,7 +27,6 @@ class Stability(ProgramTest):
         return (self.folder / "site" / "stability.html").read_text(encoding="utf-8")
 
     def test_without_a_sweep(self):
-        """Without a sweep, there is no page, and the page on the environment states the command that makes it."""
         site = Site(self.folder / "results.h5", TRUTHS, self.folder / "site")
         self.assertFalse(stability.present(site))
         self.assertIn("stress", [command for command, _ in checks.more(site)])
@@ -48,8 +46,6 @@ class Stability(ProgramTest):
                 self.assertIn(o["proof"].split("'")[0], page)
 
     def test_a_formulation_that_is_skipped_at_some_values(self):
-        """The physics required by an extreme can depend on its value."""
-
         def outcome(x, kind):
             return {
                 "extreme": "thin", "formulation": "beamw", "x": x, "outcome": kind, "error": 1e-9,
@@ -78,7 +74,6 @@ class Stability(ProgramTest):
         self.assertIn("of the other pages are of commit", page)
 
     def test_findings_that_are_alike(self):
-        """Findings with the same extreme, outcome, values and proof are in one row."""
         def outcome(formulation, x, proof):
             return {"extreme": "thin", "formulation": formulation, "x": x, "outcome": "wrong",
                     "proof": proof, "reason": ""}
@@ -91,7 +86,6 @@ class Stability(ProgramTest):
                                  ("thin", ["d"], "wrong", "1", "q")])
 
     def test_bands_of_the_map(self):
-        """Many extremes are arranged in bands, each with its names and all formulations."""
         many = [{"name": f"extreme_{i}", "values": [1.0]} for i in range(stability.MOST + 1)]
         cell = stability.Cell([{"outcome": "value", "error": 0.1, "condition": 1, "iterations": 1,
                                 "reason": "", "as_expected": True}])
@@ -104,7 +98,6 @@ class Stability(ProgramTest):
         self.assertTrue(all(float(x) < width for x in re.findall(r"M([\d.]+) ", markup)))
 
 
-# The page on Newton's method: the definition of the largest step, and a page without data.
 STEP = {
     "path": 1.0, "increment": 1.0, "iterations": 3, "rejected": 0, "corrections": [0.1, 0.01, 1e-4],
     "residuals": [1.0, None, 1e-6]
@@ -143,7 +136,6 @@ class NewtonSite(results.Site):
 class Newton(ProgramTest):
 
     def test_what_is_written_is_what_is_drawn(self):
-        """The steps of a real solution contain all data that the page uses."""
         solved = tool.solve(PROGRAM, "elastica", "", "beamw", "2", 0)
         steps = tool.steps_of(solved)
         self.assertGreater(len(steps), 0)
@@ -169,8 +161,8 @@ class Newton(ProgramTest):
         self.assertEqual(len(page["histories"][0][2]), 2)
 
 
-# The table of analytic predictions: errors are relative to the reference value of the point, and there are none
-# without a reference value.
+# Errors of analytic predictions are relative to the reference value of the point. There are none without a reference
+# value.
 def point(prediction):
     mesh = data.Mesh(1,
                      "ok",
@@ -210,7 +202,6 @@ class Predictions(unittest.TestCase):
         self.assertEqual(predictions.section(None, data.Case("other", "", "", [point({})])), [])
 
 
-# Results of other programs are stored separately, drawn hollow, and have escaped names.
 HEAD = """# beamwork-import: 1
 # program: {}
 # case: elastica
@@ -238,7 +229,6 @@ class Beside(ProgramTest):
         return data.read_case(self.place / name, "elastica").points[0]
 
     def test_ours_stay_ours(self):
-        """Counts of formulations exclude other programs."""
         point = self.point("both.h5")
         self.assertEqual([s.key for s in point.series], ["beamw"])
         self.assertEqual([s.key for s in point.others], [EVIL.replace("/", "|")])
@@ -265,12 +255,11 @@ class Beside(ProgramTest):
         self.assertGreaterEqual(seen, 2, "the page of the case and its figure")
 
     def test_look(self):
-        """Markers of other programs are hollow and do not have the colour of a formulation."""
         self.assertEqual(data.style_beside(3)["color"], "currentColor")
         self.assertTrue(data.style_beside(3)["hollow"])
 
 
-# Two runs of verify give the same best formulations, with the same n and ties, although their times differ.
+# Two runs of verify must give the same best formulations, with the same n and ties, although their times differ.
 SELECTION = ("elastica/default or c_column/default or spherical_joint/default or "
              "warping_torsion/default or rotating_cantilever/default")
 LEVELS = (*data.REACH, 3e-3, 2e-5)

@@ -1,4 +1,4 @@
-"""Tests pages of sweeps: their parts, the maps that the reader selects, and the page of a real sweep."""
+"""Pages of sweeps: their parts, the maps that the reader selects, and the page of a real sweep."""
 import html
 import json
 import re
@@ -14,13 +14,12 @@ from reports.test.browser_test import CHROMIUM, chromium, console
 from reports.test.sweep_test import ANGLE, SHAPE, WIDTH
 
 
-# The page of a sweep: its first statements, maps, best formulations, worst points, reference values, and failures.
 PAGE = 2_000_000  # bytes, for any number of points
 KEYS = ("beamw", "collocation", "sheet_third")
 
 
 def errors(key):
-    """Returns errors: beamw is within the tolerance for small values on the first axis, collocation everywhere with 2
+    """Returns errors. beamw is within the tolerance for small values on the first axis, collocation everywhere with 2
     elements, and sheet_third nowhere."""
     level = {"beamw": lambda at, n: np.where(at[:, 0] < 0.55, 0.001, 0.5) / n**0.1,
              "collocation": lambda at, n: np.full(len(at), 0.03 / n**2),
@@ -60,7 +59,6 @@ class Pages(ProgramTest):
         self.assertLess(said.index("collocation with 2"), said.index("beamw with 1"))
 
     def test_maps(self):
-        """There is a map with a description for each formulation, and all maps use the same signs."""
         page = self.page((WIDTH, ANGLE))
         maps = re.findall(r'<svg id="sweep_map_\d".*?</svg>', page, re.S)
         self.assertEqual(len(maps), 3)
@@ -76,7 +74,7 @@ class Pages(ProgramTest):
         self.assertIn('id="sweep_errors"', page)
         drawn = re.search(r'<svg id="sweep_map".*?</svg>', page, re.S).group()
         names = re.findall(r">([a-z_]+)</text>", drawn)
-        self.assertEqual(names[:3], ["sheet_third", "beamw", "collocation"])  # the best on top
+        self.assertEqual(names[:3], ["sheet_third", "beamw", "collocation"])  # the best formulation is on top
         self.assertIn("beamw with 1 element is within 1 % where width ≤ 5 m", text_of(page))
 
     def test_three_axes(self):
@@ -85,7 +83,6 @@ class Pages(ProgramTest):
         self.assertIn(">shape is strip</text>", page)
 
     def test_scattered(self):
-        """A few points are drawn individually, many points as fields."""
         axes = [("width", "m", "halton", "linear"), ("angle", "rad", "halton", "linear")]
         few = self.page(axes, sweeps.scattered(100, (1, 10), (0, 0.9)))
         self.assertEqual(few.count("<circle cx=") - 1, 300)  # one circle belongs to a hatch pattern
@@ -118,7 +115,6 @@ class Pages(ProgramTest):
         self.assertNotIn("<i>", page)
 
     def test_many_points(self):
-        """A page of 300 000 cells is no longer than a page of a few cells."""
         axes = [(name, "m", "sobol", "linear") for name in ("width", "length", "load")]
         page = self.page(axes, sweeps.scattered(25_000, *[(1, 10)] * 3))
         self.assertIn("300 000 cells", text_of(page))
@@ -141,13 +137,11 @@ class Pages(ProgramTest):
             found(said, text_of(self.page(axes, kind=kind)))
 
     def test_one_point(self):
-        """The page also works with one point, one formulation and one mesh."""
         axes = (("width", "m", "list", (2.5,)), ("shape", "1", "words", ("C",)))
         said = text_of(self.page(axes, keys=("collocation",), meshes=(2,)))
         self.assertIn("collocation with 2 elements", said)
 
     def test_without_costs(self):
-        """Formulations that are not ranked are reported but never win."""
         path = sweeps.store(self.folder / "c.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE),
                             {key: errors(key) for key in KEYS})
         with sweeps.h5py.File(path, "r+") as file:
@@ -158,7 +152,6 @@ class Pages(ProgramTest):
         self.assertIn("not ranked: beamw.", said)
 
     def test_beside_results(self):
-        """A sweep has its own page, in the bar, and a sentence on the first page."""
         path = sweeps.store(self.folder / "leaf-sizes.h5", (WIDTH, ANGLE),
                             sweeps.grid(WIDTH, ANGLE), {key: errors(key) for key in KEYS})
         site = drawn(self.folder, "-k", "warping_torsion/default", "-f", "collocation",
@@ -173,7 +166,6 @@ class Pages(ProgramTest):
         self.assertIn('aria-current="page">Sweeps</a>', page)
 
     def test_several(self):
-        """Several sweeps are shown, even with the same file name; the first replaces the results."""
         paths = []
         for folder in ("a", "b", "c"):
             (self.folder / folder).mkdir()
@@ -196,7 +188,6 @@ class Pages(ProgramTest):
             self.assertIn(words, done.stderr)
 
     def test_many_that_say_the_same(self):
-        """Equal answers are in one sentence, with the counts of the worst answer."""
         def nearly(bad):
             return lambda at, n: np.where(at[:, 0] + at[:, 1] > 2.01 - 0.05 * bad, 0.02, 0.001)
         axes = (WIDTH, ANGLE)
@@ -209,7 +200,6 @@ class Pages(ProgramTest):
                       "angle = 0.9 rad (2 %).", said)
 
 
-# Maps of a sweep over axes that the reader selects, in a browser; skipped if there is none.
 CHOOSE = """<pre id="out"></pre><script>addEventListener("load", () => {{
   const form = document.getElementById("choice"), drawn = document.getElementById("drawn");
   const all = (what, of) => [...drawn.querySelectorAll(what)].map(of);
@@ -235,7 +225,6 @@ CHOOSE = """<pre id="out"></pre><script>addEventListener("load", () => {{
 
 @unittest.skipUnless(CHROMIUM, "needs chromium")
 class Chosen(ProgramTest):
-    """Maps over axes that the reader selects."""
 
     @classmethod
     def setUpClass(cls):
@@ -264,7 +253,6 @@ class Chosen(ProgramTest):
         return json.loads(html.unescape(found.group(1)))
 
     def test_the_same_drawn_twice(self):
-        """The script draws the same maps as the page for the same selection."""
         found = self.chosen("")
         self.assertFalse(found["hidden"])
         self.assertEqual(found["after"][:2], found["before"][:2])
@@ -311,7 +299,6 @@ class Chosen(ProgramTest):
         self.assertEqual(found, {})
 
     def test_on_a_phone(self):
-        """No part of the page is wider than the window."""
         found = self.chosen("document.body.style.width = '366px';")
         self.assertLessEqual(found["wide"], 390)
 
@@ -320,9 +307,7 @@ class Chosen(ProgramTest):
         self.assertEqual(found["told"], "Choose axes that differ.")
 
 
-# A sweep made by the program, stored and drawn.
 class Genuine(ProgramTest):
-    """The counts of a stored sweep agree with those of the program."""
 
     def test_a_grid(self):
         path, site = self.folder / "loads.h5", self.folder / "site"

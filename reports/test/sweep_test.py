@@ -1,4 +1,4 @@
-"""Tests the values that reports compute from a sweep: counts, fields and boxes."""
+"""Values that reports compute from a sweep: counts, fields and boxes."""
 import itertools
 import unittest
 
@@ -11,12 +11,11 @@ from reports.test import sweeps
 from reports.test.sweeps import ANGLE, SHAPE, WIDTH
 
 
-# Counts of the points of sweeps, and statements on their pages.
 QUANTITIES = (("u", "m"), ("v", "m"))
 
 
 class Counts(ProgramTest):
-    """Every count agrees with that of a loop over the tables of the file."""
+    """Every count must agree with that of a loop over the tables of the file."""
 
     def made(self, points=None, axes=(WIDTH, ANGLE), **more):
         draw = np.random.default_rng(7)
@@ -76,7 +75,7 @@ class Counts(ProgramTest):
         self.assertEqual(self.check(self.made()).shape, (10, 10))
 
     def test_costs_that_tie(self):
-        """The work of the second formulation is twice that of the first; that of the third is three times."""
+        """The work of the second formulation is twice that of the first, and that of the third is three times."""
         alone = self.check(self.made()).wins.sum(axis=0)
         tied = self.check(self.made(noise=2.5)).wins.sum(axis=0)
         self.assertGreater(tied[1], alone[1])
@@ -91,14 +90,12 @@ class Counts(ProgramTest):
         self.assertLess(ratios.max(), 1.2 * ratios.min())
 
     def test_many_values_of_a_grid(self):
-        """Values of a grid are grouped, and each bound is a value that was run."""
         axes = (("width", "m", "log", np.geomspace(1, 100, 60)), SHAPE)
         found = self.check(self.made(axes=axes))
         self.assertEqual(found.shape, (gather.MOST, 3))
         self.assertTrue(np.isin(found.parts[0].high, axes[0][3]).all())
 
     def test_in_pieces(self):
-        """Pieces of any size give the same result."""
         sweep = self.made()
         whole = gather.of_sweep(sweep)
         self.addCleanup(setattr, stored, "PIECE", stored.PIECE)
@@ -109,7 +106,6 @@ class Counts(ProgramTest):
             np.testing.assert_array_equal(getattr(parts, name), getattr(whole, name), name)
 
     def test_of_another_theory(self):
-        """A value without an error is not compared, even if there is a reference value."""
         path = sweeps.store(self.folder / "t.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE), {
             "beamw": lambda at, n: np.full(len(at), np.nan),
             "collocation": lambda at, n: np.full(len(at), 1e-3)})
@@ -123,8 +119,8 @@ class Counts(ProgramTest):
         self.assertIsNone(second.first)
 
     def test_a_quantity_that_nothing_measures(self):
-        """If the second quantity of a point has no reference value, the result for both quantities is unknown, unless
-        the first quantity is outside the tolerance."""
+        """If the second quantity of a point has no reference value, the result for both quantities is unknown, unless the
+        first quantity is outside the tolerance."""
         def errors(at, n):
             both = np.stack([np.full(len(at), 1e-3), np.full(len(at), np.nan)], 1)
             both[at[:, 0] > 0.8, 0] = 0.5
@@ -150,7 +146,6 @@ class Counts(ProgramTest):
         self.assertEqual((one.whole, one.asked), (100, 100))
 
     def test_judged_at_few_points(self):
-        """The text does not state "everywhere" if only a few points have a reference value."""
         def errors(at, n):
             return np.where(at[:, 0] < 0.5, 1e-3, np.nan)
         path = sweeps.store(self.folder / "f.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE),
@@ -186,7 +181,7 @@ class Counts(ProgramTest):
             self.assertTrue(inside[outlier.point] and not good[outlier.point])
 
     def test_the_quantity_that_decides(self):
-        """The deciding quantity needs more elements than the other; if neither is within the tolerance, no quantity
+        """The deciding quantity needs more elements than the other. If neither is within the tolerance, no quantity
         decides."""
         def made(errors):
             sweep = stored.read(sweeps.store(self.folder / "d.h5", (WIDTH, ANGLE),
@@ -225,7 +220,6 @@ class Refused(ProgramTest):
             stored.read(path)
 
 
-# The largest boxes of points within the tolerance, and their descriptions.
 def lattice_of(*axes):
     """Returns the lattice of a grid with a few values."""
     out = []
@@ -276,7 +270,7 @@ class Boxes(unittest.TestCase):
         self.assertLessEqual(box.bad, boxes.ALLOWED * box.points)
 
     def test_simple_before_large(self):
-        """An additional bound is not justified by two more lines of ten points, but by eight more lines."""
+        """An additional bound is not justified by two more lines of ten points, but is justified by eight more lines."""
         def with_more(lines):
             return lambda i, j: i >= 5 or (i >= 4 and j < lines)
         self.assertEqual(self.largest((WIDTH, ANGLE), with_more(2))[1], "where width ≥ 6 m")
@@ -296,7 +290,6 @@ class Boxes(unittest.TestCase):
         self.assertEqual(said, "where a ≤ 1 and aa ≤ 2 and aaa ≥ 1 and aaaaa ≤ 2")
 
     def test_no_box_is_better(self):
-        """For random points, no box of two axes is better than the one found."""
         draw = np.random.default_rng(3)
         for _ in range(20):
             table = draw.random((5, 6)) < np.add.outer(np.arange(5), np.arange(6)) / 6
@@ -313,13 +306,10 @@ class Boxes(unittest.TestCase):
             self.assertEqual(found, best)
 
 
-# Fields of maps, classes of errors, and numbers in text.
 class Fields(unittest.TestCase):
-    """Tests the state that a map shows for a field of several points."""
 
     def state(self, *reached, points=None):
-        """Returns the state of points given by the first mesh within the tolerance: 0, 1, 2, none or without a
-        solution."""
+        """Returns the state of points given by the first mesh within the tolerance: 0, 1, 2, none or without a solution."""
         look = maps.Look((1, 2, 4))
         reach = np.bincount(reached, minlength=5)
         found = int(maps.states(reach, np.array(points or len(reached)), look))
@@ -337,7 +327,6 @@ class Fields(unittest.TestCase):
         self.assertEqual(maps.runs(row), [(0, 2, 1), (3, 3, 2), (6, 1, 1)])
 
     def test_signs_differ(self):
-        """All signs differ, so that maps can be read without colours."""
         look = maps.Look((1, 2, 4, 8, 16, 32))
         self.assertEqual(len(set(look.sign.values())), len(look.sign))
         self.assertEqual(len(set(look.fill.values())), len(look.fill))

@@ -1,4 +1,4 @@
-"""Sweeps of artificial errors, stored like those of `beamwork sweep`, for tests of their page."""
+"""Sweeps of artificial errors, stored in the form of `beamwork sweep`, for tests of their page."""
 import itertools
 
 import h5py
@@ -21,26 +21,26 @@ STEP = 20_000  # number of points that are written at once
 
 
 def grid(*axes):
-    """Returns the points of a grid: axes are (name, unit, kind, values or words)."""
+    """Returns the points of a grid. The axes are (name, unit, kind, values or words)."""
     values = [range(len(a[3])) if a[2] == "words" else a[3] for a in axes]
     return np.array(list(itertools.product(*values)), float)
 
 
 def scattered(count, *limits, seed=1):
-    """Returns points between limits, (low, high) of each axis."""
+    """Returns points between the limits (low, high) of each axis."""
     low, high = np.array(limits, float).T
     return low + (high - low) * np.random.default_rng(seed).random((count, len(limits)))
 
 
 def series(key):
-    """Returns artificial errors of a formulation, which decrease with the square of the number of elements and grow
-    along each axis by a different factor."""
+    """Returns artificial errors of a formulation, which decrease with the square of the number of elements and grow along
+    each axis by a different factor."""
     factor = 1 + sum(map(ord, key)) % 7
     return lambda at, n: 0.02 * factor * (0.1 + at.sum(axis=1)) / n**2
 
 
 def least_of(error, meshes, tolerance):
-    """Returns, like the program, the number of elements from which all meshes are within the tolerance."""
+    """Returns the number of elements from which all meshes are within the tolerance, as the program computes it."""
     within = np.flip(np.logical_and.accumulate(np.flip(np.abs(error) <= tolerance, 2), axis=2), 2)
     first = np.argmax(within, axis=2)
     return np.where(within.any(axis=2), np.asarray(meshes)[first], 0)
@@ -56,11 +56,13 @@ def store(path, axes, points, errors, meshes=(1, 2, 4, 8), quantities=(("u", "m"
           tolerance=0.01, status=None, kind=None, doubt=1e-9, worst=(), noise=1.0):
     """Writes a sweep.
 
-    axes: [(name, unit, kind, values, words or, if scattered, "log" or "linear")];
-    points: [P, A]; errors: {formulation: function of points [p, A], taken to 0..1 along each axis,
-    and of elements to [p] or [p, Q]}; status: function of points, formulation index and mesh index
-    to numbers [p]; kind: of points to numbers [p];
-    worst: rows of WORST; noise: costs whose ratio is below it tie."""
+      axes    [(name, unit, kind, values, words or, if scattered, "log" or "linear")]
+      points  [P, A]
+      errors  {formulation: function of points [p, A], scaled to 0..1 along each axis, and of elements to [p] or [p, Q]}
+      status  function of points, formulation index and mesh index to numbers [p]
+      kind    function of points to numbers [p]
+      worst   rows of WORST
+      noise   ratio of costs below which costs tie"""
     points = np.asarray(points, float)
     low = points.min(axis=0)
     span = np.where(points.max(axis=0) > low, points.max(axis=0) - low, 1)

@@ -1,4 +1,4 @@
-"""Tests verdicts and their presentation in reports: causes, checks, the list of known deviations and mechanisms."""
+"""Verdicts and their presentation in reports: causes, checks, the list of known deviations and mechanisms."""
 import json
 import re
 import unittest
@@ -10,13 +10,13 @@ from reports.site import ROOT
 from reports.test.results import Site, case, series, verdict
 
 
-# Descriptions of verdicts: all kinds that the evaluation assigns, and their remarks.
 def told():
     """Returns the part of the schema that describes verdicts and the following tables."""
     return run("schema").stdout.split("/cases/CASE/verdicts:")[1]
 
 
 class Kinds(unittest.TestCase):
+
     def test_every_kind_of_the_judge_has_words(self):
         table = told()
         names = re.search(r"  verdict +enum +verdict \((.*)\)\n", table).group(1)
@@ -35,6 +35,7 @@ class Kinds(unittest.TestCase):
 
 
 class Remarks(unittest.TestCase):
+
     def test_biased_has_its_size(self):
         found = verdict(
             "load", "biased", truth=2.0, limit=2.001, error=5e-4, limit_uncertainty=1e-6
@@ -63,7 +64,6 @@ class Remarks(unittest.TestCase):
         self.assertEqual(verdicts.remarks(verdict("f", "diverged")), [])
 
     def test_the_mark_is_that_of_the_worst(self):
-        """The mark of a way for all quantities is that of the worst verdict, in any order."""
         good = verdict("a", "pass", truth=1.0, error=0.0)
         biased, more = (verdict("b", "biased", truth=1.0, error=e) for e in (1e-4, -3e-4))
         wrong = verdict("c", "wrong limit", truth=1.0, error=0.1)
@@ -79,7 +79,6 @@ class Remarks(unittest.TestCase):
         self.assertIs(answers.way(series, ["a", "b", "c"], 0.1).worst, wrong)
 
 
-# The page of experiments: without experiments, and conclusions from some experiments.
 def experiment(kind, gone, what="shear", formulation="beam"):
     return {"kind": kind, "gone": gone, "what": what, "formulation": formulation}
 
@@ -111,8 +110,6 @@ class Causes(ProgramTest):
                                                                                  ("b", 2)])
 
 
-# The page of checks: counts from the results, tables that other make targets write next to the results, and missing
-# tables.
 def row(formulation, left_out, number, covered):
     return {
         "formulation": formulation,
@@ -123,6 +120,7 @@ def row(formulation, left_out, number, covered):
 
 
 class Checks(ProgramTest):
+
     def context(self, *cases):
         site = Site(str(self.folder / "results.h5"), cases=cases)
         checks.write(site)
@@ -157,7 +155,7 @@ class Checks(ProgramTest):
             self.assertEqual(list(of), found["constants"])
 
     def test_coverages(self):
-        """Coverages are sums over cases; formulations with biased limits are counted separately."""
+        """Coverages are sums over cases. Formulations with biased limits are counted separately."""
         rows = [row("collocation", 0, 4, 4), row("collocation", 1, 3, 2), row("beamw", 0, 5, 1)]
         one = data.Case("one", "", "", [], rows)
         two = data.Case("two", "", "", [], [row("collocation", 0, 6, 5)])
@@ -171,7 +169,6 @@ class Checks(ProgramTest):
         self.assertEqual(by_case, [("one", [(4, 4), (2, 3)]), ("two", [(5, 6)])])
 
 
-# The page of the list of known deviations: counted verdicts, repeated verdicts, and confirmed derived limits.
 RULE = {
     "rule": "shear",
     "formulations": "sheet_third",
@@ -253,8 +250,8 @@ class Deviations(unittest.TestCase):
         self.assertIsNone(found["farthest"])
 
     def test_what_is_left_open(self):
-        """The unexplained part of a limit is its distance from the derived limit or, if there is none, from the
-        reference value, relative to the reference value."""
+        """The unexplained part of a limit is its distance from the derived limit or, if there is none, from the reference
+        value, relative to the reference value."""
         there = {"limit": 2.02, "truth": 2.0, "error": 0.01}
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", predicted=2.03, **there)), 0.005)
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", **there)), 0.01)
@@ -276,8 +273,7 @@ class Deviations(unittest.TestCase):
             self.assertIn(f'id="{link.partition("#")[2]}"', site.pages["errata.html"]["body"])
 
     def test_every_table_of_the_errata_is_one(self):
-        """All tables of the errata are rendered as tables; one without an empty line above it would be rendered as
-        text."""
+        """A table without an empty line above it would be rendered as text."""
         text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
         site = Site()
         deviations.write_errata(site)
@@ -295,7 +291,6 @@ class Deviations(unittest.TestCase):
         self.assertEqual(set(RULE), set(pack.FINDING_COLUMNS))
 
 
-# The page of the mechanisms: published and measured rows, with and without times.
 class Page(ProgramTest):
 
     def page(self):
@@ -310,14 +305,13 @@ class Page(ProgramTest):
         self.assertIn("make lab L=bench-mechanisms", about)
 
     def test_with_times(self):
-        """The page contains the time of the dense baseline and the parts of an iteration."""
         done = self.answered("bench", "spherical_joint", "-f", "sheet_third", "-n", "1", "--dense",
                              "-o", self.folder / "mechanisms_joint.h5")
         parts = re.search(
             r"\[us\] in an iteration.*\n +sheet_third +1(?: +-?[\d.]+){5}\n"
             r" +dense ([\d.]+) ms \(243 unknowns\): ([\d.]+) times", done.stdout)
         self.assertIsNotNone(parts, done.stdout)
-        # Only benchmarks check the values: on a busy machine, differences may be negative.
+        # only benchmarks check the values, because on a busy machine differences may be negative
         self.assertTrue(all(float(part) > 0 for part in parts.groups()), done.stdout)
         page = self.page()
         self.assertIn("time here", page)

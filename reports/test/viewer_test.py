@@ -1,4 +1,4 @@
-"""Tests pages with scripts: the viewer, the explorer and the behaviour of pages."""
+"""Pages with scripts: the viewer, the explorer and the behaviour of pages."""
 import base64
 import json
 import math
@@ -12,9 +12,6 @@ from harness.tools.kit.program import ProgramTest, drawn
 from reports import data, shapes
 from reports.test.browser_test import CHROMIUM, chromium, console
 
-
-# Shapes that can be rotated: their stored data, and the drawing in a browser, which is skipped if there is no
-# Chromium.
 
 # Script that waits for the viewer in a copy of a page and counts the drawn items in three of its states.
 ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {
@@ -66,14 +63,12 @@ class Stored(ProgramTest):
             self.assertLess(np.ptp(off, axis=0).max(), 1.01 * half / shapes.WHOLE)
 
     def test_axes(self):
-        """The stored quaternions rotate the space axes into those of the section."""
         w, x, y, z = np.moveaxis(self.numbers("at", 7)[0][:, 3:], -1, 0)
         second = np.stack([2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)], axis=1)
         at, _ = shapes.kept(self.shapes)
         np.testing.assert_allclose(second, self.shapes.axes[0][at, 1], atol=2e-4)
 
     def test_members(self):
-        """Every member has its points and a profile, and a body contains only existing nodes."""
         self.assertEqual(len(self.found["members"]), len(self.shapes.members))
         self.assertEqual(self.found["members"][-1][1], self.found["count"])
         self.assertTrue(all(self.found["profiles"][p]["strips"] for _, _, p in self.found["members"]))
@@ -81,7 +76,7 @@ class Stored(ProgramTest):
         self.assertLess(max(nodes | set(self.found["held"])), self.found["ends"])
 
     def test_a_path_has_one_exaggeration(self):
-        """A state near the start of a path is not exaggerated more than its end."""
+        """A state near the start of a path must not be exaggerated more than its end."""
         move = np.array([0, 1e-12, 1e-3])
         s = types.SimpleNamespace(kind=["undeformed", "path", "path"], sections=[np.zeros((1, 4, 2))],
                                   position=np.array([[[0, 0, 0], [1, m, 0]] for m in move], float),
@@ -90,7 +85,6 @@ class Stored(ProgramTest):
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_browser(self):
-        """A picture is drawn, and the slider and an arrow key change it. Without WebGL, the still picture remains."""
         copy = self.site / "turned.html"
         text = (self.site / "pictures.html").read_text(encoding="utf-8")
         copy.write_text(text.replace("</body>", ACTION + "</body>"), encoding="utf-8")
@@ -107,9 +101,6 @@ class Stored(ProgramTest):
         self.assertNotIn("<canvas", without.stdout)
         self.assertIn('<img src="picture_spherical_joint.svg"', without.stdout)
 
-
-# The explorer: its numbers are those of the results, and in a browser it draws the selection, which is skipped if
-# there is no Chromium.
 
 # Script that makes selections in a copy of the page and records the text and drawings before and after.
 EXPLORER_ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {
@@ -138,7 +129,6 @@ class Explorer(ProgramTest):
         return json.loads(re.fullmatch(r'beamwork_data\("\w+", (.*)\);\n', text)[1])
 
     def test_numbers(self):
-        """Every value of the results is present, to the stored digits."""
         case = data.read_case(str(self.place / "results.h5"), "elastica")
         stored = self.stored("elastica")
         points = stored["points"]
@@ -147,7 +137,7 @@ class Explorer(ProgramTest):
             return stored["w"][text] if isinstance(text, int) else text
 
         def values(columns):
-            """Returns the values; those of quantities with a reference value follow from the errors."""
+            """Returns the values. Those of quantities with a reference value are computed from the errors."""
             errors, _, truth, *plain = map(told, columns)
             if plain:
                 return plain[0].split()
@@ -188,8 +178,6 @@ class Explorer(ProgramTest):
         self.assertTrue(out["third"]["words"].startswith("warping_torsion"))
 
 
-# Behaviour of a page in a browser: tooltips at markers, formulations that are switched off, folded parts on paper, and
-# no page wider than a phone. Skipped if there is no Chromium.
 BEHAVIOUR_ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{
   const out = {{}}, q = (what, where = document) => where.querySelector(what), frame = q("[data-p]").closest("div.figure"), svg = q("svg", frame);
   const key = name => frame.dispatchEvent(new KeyboardEvent("keydown", {{ key: name, bubbles: true, cancelable: true }}));
@@ -223,7 +211,7 @@ class Behaviour(ProgramTest):
         return json.loads(found.group(1).replace("&gt;", ">").replace("&lt;", "<"))
 
     def test_keyboard(self):
-        """Arrow keys move from marker to marker and from curve to curve; Escape ends this."""
+        """Arrow keys move from marker to marker and from curve to curve. Escape leaves the markers."""
         out = self.done(
             "elastica.html", """
             key("ArrowRight"); out.first = q("#said").innerText;
@@ -240,7 +228,6 @@ class Behaviour(ProgramTest):
         self.assertTrue(out["gone"])
 
     def test_pointer(self):
-        """On a marker, a tooltip describes it; far from all markers, there is no tooltip."""
         out = self.done(
             "elastica.html", """
             key("ArrowRight"); const ring = q("circle", svg).getBoundingClientRect();
@@ -252,8 +239,6 @@ class Behaviour(ProgramTest):
         self.assertEqual(out, {"on": False, "off": True})
 
     def test_legend(self):
-        """A click in one legend switches a formulation off in all figures of the page; another click switches it on
-        again."""
         out = self.done(
             "elastica.html", """
             const entry = q('[data-l="collocation"][role]', svg);
@@ -266,7 +251,6 @@ class Behaviour(ProgramTest):
         self.assertEqual(set(out["again"]), {False})
 
     def test_at_most_eight(self):
-        """Of ten drawn formulations, eight are shown until the button is pressed."""
         out = self.done(
             "explorer.html", """
             const shown = () => new Set([...svg.querySelectorAll("[data-f]")].filter(g => g.style.display != "none").map(g => g.dataset.f)).size;
@@ -274,7 +258,6 @@ class Behaviour(ProgramTest):
         self.assertEqual(out, {"first": 8, "then": 10, "last": 8})
 
     def test_paper(self):
-        """Folded parts are open on paper and folded again afterwards."""
         out = self.done(
             "elastica.html", """
             const open = () => document.querySelectorAll("details:not([open])").length;
@@ -284,7 +267,6 @@ class Behaviour(ProgramTest):
         self.assertEqual((out["on"], out["after"]), (0, out["before"]))
 
     def test_phone(self):
-        """No page is wider than a phone, because tables and figures scroll separately."""
         frames = "".join(f'<iframe width="390" height="800" src="{p.name}"></iframe>'
                          for p in sorted(self.site.glob("*.html")))
         driver = self.site / "phone.html"

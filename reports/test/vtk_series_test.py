@@ -1,4 +1,4 @@
-"""Tests series of VTK files: every state equals that of /VTKHDF, read by VTK where it is installed."""
+"""Series of VTK files: every state must equal that of /VTKHDF, read by VTK if VTK is installed."""
 import base64
 import contextlib
 import io
@@ -52,7 +52,6 @@ class Series(ProgramTest):
             run("solve", case, "-f", "sheet_third", "-n", 2, "--shapes", "-o", cls.results[name])
 
     def test_states(self):
-        """The list contains all times; every state contains the points, cells and fields of the results file."""
         for name, results in self.results.items():
             target = self.folder / f"{name}.pvd"
             status, words = written(results, target)
@@ -100,7 +99,6 @@ class Series(ProgramTest):
         self.assertEqual(after, len(list(ElementTree.parse(target).iter("DataSet"))))
 
     def test_errors(self):
-        """Each message names the file and the remedy; nothing is written or removed."""
         plain, other = self.folder / "plain.h5", self.folder / "kept"
         with h5py.File(self.results["moving"]) as source, h5py.File(plain, "w") as file:
             for key in source:
