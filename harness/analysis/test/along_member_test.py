@@ -6,19 +6,19 @@ import unittest
 from harness.tools.kit.program import ProgramTest, run
 
 
-# Loads along a member with one element and linear theory, for every formulation: they are as exact
-# as forces and moments at the nodes. The closed forms are those of the Timoshenko beam (J.S.
-# Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5 and 10).
+# Loads along a member with one element and linear theory must be as accurate as forces and moments at the nodes. The
+# closed forms are those of the Timoshenko beam (J.S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5
+# and 10).
 L, q, m = 0.7, 3.0, 2.0
 E, G, A, Iy, Iz, It = 70e3, 27e3, 0.04, 3e-4, 2e-4, 4e-4
 HELD = {"clamped": ("all", "all"), "cantilever": ("all", "[]"), "propped": ("all", "[ux, uy, uz, rx]"),
         "hinged": ("[ux, uy, uz, rx]", "[ux, uy, uz]"), "guided": ("all", "[ux, rx, ry, rz]")}
-#: Rigid in shear along y, by its theory or in both directions.
+# directions in which a formulation is rigid in shear
 RIGID = {"beamw_vlasov": "yz", "sheet_second": "y", "sheet_third": "y", "sheet_third_printed": "y"}
 
 
 def flexibility(formulation, along):
-    """Returns 1/(k G A) [1/N] of the formulation; zero if it is rigid in shear."""
+    """Returns 1/(k G A) [1/N] of the formulation, or zero if the formulation is rigid in shear."""
     return 0 if along in RIGID.get(formulation, "") else 12 / (G * A)
 
 
@@ -103,6 +103,7 @@ def formulations():
 
 
 class AlongMembers(ProgramTest):
+
     def check(self, formulation, support, kind):
         loads, closed = LOADS[kind]
         path = self.folder / "beam.yaml"
@@ -124,13 +125,12 @@ class AlongMembers(ProgramTest):
                         self.check(formulation, support, kind)
 
 
-# Loads that begin, end or act within a member add nodes to the mesh. The resultants on both sides
-# of a jump follow statics and agree with those of members that end there, in either order of the
-# member's nodes. The orders of convergence are the same as without such loads.
+# Loads that begin, end or act within a member add nodes to the mesh. The resultants on both sides of a jump follow from
+# statics. The orders of convergence are the same as without such loads.
 SECTION = """sections: {s: {constants: {A: 0.04, Iy: 3e-4, Iz: 2e-4, It: 4e-4,
                F: [0.001, 0, 0, 0, 0.001, 0, 0, 0, 0]}, young: 70e3, shear_modulus: 27e3}}
 """
-# Hinged, length 1: load 1 at 0.3, and a load from 2 at 0.5 to 4 at 0.8; reaction at the first end.
+# Reaction at the first end of a hinged beam of length 1 under a load 1 at 0.3 and a load from 2 at 0.5 to 4 at 0.8.
 ROOT = -(0.7 + 2 * 0.3 * 0.35 + 2 * 0.15 * 0.3)
 HINGED = "beamwork: 1\n" + SECTION + """nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]},
         b: {at: [1, 0, 0], hold: [ux, uy, uz]}%s}
@@ -170,6 +170,7 @@ def internal(name, member, where, resultant, side="to", sign=1):
 
 
 class DividedMember(ProgramTest):
+
     def solve(self, text, formulation, elements):
         path = self.folder / "scene.yaml"
         path.write_text(text, encoding="utf-8")
@@ -214,7 +215,7 @@ class DividedMember(ProgramTest):
                 step = [values[i + 1][name] - values[i][name] for i in range(3)]
                 for i in range(2):
                     if abs(step[i + 1]) < 1e-11 * abs(values[0][name]):
-                        continue  # rounding only: collocation includes loads in its equilibrium
+                        continue  # only rounding, because collocation includes loads in its equilibrium
                     order = math.log2(abs(step[i] / step[i + 1]))
                     self.assertGreater(order, 3.6, f"{formulation}, {name}")
 
@@ -246,8 +247,8 @@ class DividedMember(ProgramTest):
         self.assertIn("'beam' is a member; a tension acts between two nodes; name a node", done.stderr)
 
 
-# Artefacts of the mesh, such as a stiffness that is indefinite at rest or a critical load that
-# grows with the square of the number of elements, are not reported as results.
+# Artefacts of the mesh must not be reported as results: a stiffness that is indefinite at rest, or a critical load that
+# grows with the square of the number of elements.
 RING = """beamwork: 1
 sections: {leaf: {rectangle: {width: 20e-3, thickness: %(t)s}, young: 200e9, shear_modulus: 80e9}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0.1, 0.1, 0]}}
@@ -270,7 +271,7 @@ quantities:
   tension: {critical_factor: {analysis: b, which: 0, sign: negative}}
   compression: {critical_factor: {analysis: b, which: 0}}
 """
-# Clamped, under tension N, with a transverse force at its tip.
+# A clamped wire under tension N, with a transverse force at its tip.
 WIRE = """beamwork: 1
 sections: {s: {constants: {A: 1e-2, Iy: 1e-9, Iz: 1e-9, It: 2e-9, Iw: 0, wagner_torque: 0%(more)s}, young: 2e11,
                shear_modulus: 8e10, density: 7800}}
@@ -298,6 +299,7 @@ omit: [trapeze, rotary_inertia]
 
 
 class Discretised(ProgramTest):
+
     def solve(self, scene, formulation, n):
         path = self.folder / "scene.yaml"
         path.write_text(scene)
@@ -308,8 +310,8 @@ class Discretised(ProgramTest):
         return done.returncode, values, said
 
     def test_arcs(self):
-        """Whether an arc is accepted depends only on EA l^4 k^2/EI of one element, which is 64 rise^2 with the rise in
-        radii of gyration. The limit is a rise of 2 radii of gyration."""
+        """An arc is accepted if EA l^4 k^2/EI of one element, which is 64 rise^2 with the rise in radii of gyration, is
+        below the limit for a rise of 2 radii of gyration."""
         for n in (1, 2, 4, 8):
             turn = math.pi / 2 / n
             for side in (0.25, 0.98, 1.02, 30):
@@ -341,7 +343,7 @@ class Discretised(ProgramTest):
                 self.assertGreater(values["compression"], 0, (formulation, n))
 
     def test_tension_of_states(self):
-        """The limits of N l^2/EI for one element are 12, 60 and 30 + sqrt(1620). Beyond the limit the tip displacement
+        """The limits of N l^2/EI for one element are 12, 60 and 30 + sqrt(1620). Beyond the limit, the tip displacement
         may have either sign."""
         for formulation, most in (("geometrically_exact:nodes=2", 12), ("geometrically_exact", 60),
                                   ("sheet_third", 30 + math.sqrt(1620)), ("sheet_third_printed", 30 + math.sqrt(1620))):
@@ -372,7 +374,7 @@ class Discretised(ProgramTest):
         self.assertNotIn("so long that its axial force", " ".join(run("list", "collocation").stdout.split()))
 
     def test_tension_with_shear(self):
-        """In elements with three nodes, bending does not replace the shear; in elements with two nodes, it acts in
+        """In elements with three nodes, bending does not replace the shear. In elements with two nodes, it acts in
         addition to the shear."""
         shear = ", F: [%r, 0, 0, 0, %r, 0, 0, 0, 0]" % (8e10 * 1e-4, 8e10 * 1e-4)  # 1/GA = 1e-4
         for formulation, N, status in (("geometrically_exact", 9000.0, 0), ("geometrically_exact:nodes=2", 1900.0, 0),

@@ -1,4 +1,4 @@
-/* A square bar, and its critical loads computed by every formulation. */
+/* Critical loads of a square bar for every formulation. */
 #ifndef BEAMWORK_TEST_BAR_H
 #define BEAMWORK_TEST_BAR_H
 
@@ -11,7 +11,7 @@
 
 enum { WANTED = 4, ELEMENTS = 16 };
 
-/* A square bar: E = 2e11 Pa, so slender that shear affects only the sixth digit. */
+/* A square bar with E = 2e11 Pa, so slender that shear affects only the sixth digit. */
 static const double young = 2e11, side = 1e-3, length = 1;
 
 static inline double bar_rigidity(void)
@@ -31,7 +31,7 @@ static inline int bar_section(scene *s)
     return scene_add_section(s, &spec);
 }
 
-/* Critical loads of one scene; value[sign][order], NAN: there is none. */
+/* Critical loads of one scene; value[sign][order] is NAN if there is no such load. */
 typedef struct loads {
     char why[2][WANTED][FAULT_TEXT];
     double value[2][WANTED];
@@ -59,7 +59,7 @@ static inline int bar_find_signs(const element_type *e, ask_tally *tally, build 
     scene s;
     memset(out, 0, sizeof *out);
     scene_init(&s, "bar");
-    scene_omit(&s, SCENE_OMITTABLE); /* Euler's beam */
+    scene_omit(&s, SCENE_OMITTABLE); /* Euler-Bernoulli beam */
     make(&s, direction);
     bar_ask(&s, signs);
     ask_scene(&s, e, NULL, n, &a);

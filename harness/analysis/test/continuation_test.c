@@ -1,4 +1,4 @@
-/* Continuation: limit points, bifurcations and branch jumps, compared with closed forms and with
+/* Limit points, bifurcations and branch jumps of continuations, compared with closed forms and with
  * each other. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -55,14 +55,14 @@ static void limit_points(void)
     }
 }
 
-/* A perfect cantilever column with its smallest stiffness about z. Its bifurcations are at P (1 -
- * P/EA) = (2 k - 1)^2 pi^2 EI/(4 L^2). */
+/* Builds a perfect cantilever column with its smallest stiffness about z. Its bifurcations are at P
+ * (1 - P/EA) = (2 k - 1)^2 pi^2 EI/(4 L^2). */
 static status build_column(const double value[], scene *s, fault *f)
 {
     (void)f;
     const section_spec spec = sections_of(100, 40, 1, 40);
     scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE);
-    /* along x, or rotated so that its load does work on every coordinate */
+    /* along x, or rotated so that the load does work on every coordinate */
     const double along[2][3] = {{1, 0, 0}, {0.48, 0.6, 0.64}},
                  across[2][3] = {{0, 1, 0}, {0.8, 0, -0.6}};
     const double *const t = along[value[1] != 0];
@@ -183,9 +183,9 @@ static status build_long_arcs(const double value[], scene *s, fault *f)
     return outcome;
 }
 
-/* Steps in which the path rotates too far are repeated in smaller steps. Most of them lead to the
- * same branch without a jump. Arcs of 0.5 meet another branch, on which the loaded point has swayed
- * by 35 m instead of 94 m at the same deflection. */
+/* Steps in which the path rotates too far are repeated in smaller steps, which usually lead to the
+ * same branch. Arcs of 0.5 meet another branch, on which the loaded point has swayed by 35 m
+ * instead of 94 m at the same deflection. */
 static void long_arcs(void)
 {
     static const char *const step[] = {"step=0.02", "step=0.05", "step=0.15", "step=0.2"};
@@ -263,19 +263,19 @@ static double value_of(const char *case_name, const char *chosen, int n,
     return value;
 }
 
-/* Strong-axis bending 1e6 times as stiff as weak-axis bending: the critical load is that of linear
- * prestress, 4.012599344, plus a first-order term in 1/ratio. */
+/* Strong-axis bending is 1e6 times as stiff as weak-axis bending. The critical load is that of
+ * linear prestress, 4.012599344, plus a first-order term in 1/ratio. */
 static void stiff_before_buckling(void)
 {
     const char *const included[] = {"prebuckling=included", "ratio=1e6", NULL};
     const double linear = 4.012599344,
-                 of_1e4 = 4.013057842318; /* derive/linear_buckling.py, derive/equilibrium.py */
+                 of_1e4 = 4.013057842318; /* reference/derive/linear_buckling.py, equilibrium.py */
     gsl_test_rel(value_of("lateral_buckling", "collocation", 4, included, "load_factor"),
                  linear + (of_1e4 - linear) / 100, 1e-8,
                  "critical load, hardly any deflection before it");
 }
 
-/* The critical load is exact: derive/equilibrium.py. */
+/* The expected critical load is that of derive/equilibrium.py. */
 static void deflected_before_buckling(void)
 {
     static const struct {
@@ -369,10 +369,7 @@ static void equilibrium_tests(void)
     refused();
 }
 
-/* Mechanisms and unstable states: large rotations in one step, number of iterations, inertia of the
- * tangent, both directions of elements. */
-
-/* Solves a case with n elements; assignments end with NULL. The caller frees the result. */
+/* Solves a case with n elements. The assignments end with NULL. The caller frees the result. */
 static status run(const char *case_name, const char *key, int n, const char *const assignment[],
                   cell_result *out)
 {
@@ -429,8 +426,8 @@ static void few_iterations(void)
     }
 }
 
-/* Predicting the next state saves iterations but changes no result: the result does not depend on
- * the number of steps between stations. */
+/* Predicting the next state saves iterations but must not change results: they do not depend on the
+ * number of steps between stations. */
 static void guesses_change_nothing(void)
 {
     const char *const defaults[] = {NULL};
@@ -450,8 +447,8 @@ static void guesses_change_nothing(void)
     cell_result_free(&halved);
 }
 
-/* Formulations that treat both ends alike do not depend on the direction of the elements; the
- * others depend on the direction by a discretisation error. */
+/* Formulations that treat both ends in the same way do not depend on the direction of the elements.
+ * The others depend on it by a discretisation error. */
 static void directions(void)
 {
     static const struct {
@@ -477,8 +474,8 @@ static void directions(void)
     }
 }
 
-/* The largest stiffnesses with one element per sheet agree with those of an independent prototype:
- * 9.37, 9.720, 9.92 x 10^5 N/m. */
+/* The largest stiffnesses with one element per sheet must agree with those of an independent
+ * prototype: 9.37, 9.720, 9.92 x 10^5 N/m. */
 static void fold_warping(void)
 {
     static const char *const choice[3] = {"fold_warping=fixed", "fold_warping=shared",
@@ -545,7 +542,7 @@ static void inertia_counts_critical_loads(void)
     }
 }
 
-/* Sums have a fixed order: several threads give the same bits and the same work, even with
+/* Sums have a fixed order, so several threads must give the same bits and the same work, even with
  * incomplete blocks and with more blocks than are stored at a time. */
 static void threads_change_no_bit(void)
 {

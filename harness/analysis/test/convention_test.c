@@ -112,7 +112,7 @@ static void reciprocity(void)
     }
 }
 
-/* In the last step, each correction is about the square of the previous one. */
+/* In the last step, each correction must be about the square of the previous one. */
 static void quadratic(void)
 {
     const char *const none[] = {NULL};
@@ -154,8 +154,8 @@ static void turn_vector(const double q[4], double v[3])
     rotation_apply(q, v, v);
 }
 
-/* Builds the cross-flexure hinge under a force at an offset that tilts its arm, optionally with the
- * whole scene in other axes. */
+/* Builds the cross-flexure hinge under a force at an offset that tilts its arm, optionally in
+ * rotated axes. */
 static status tilted_hinge(const double value[], scene *s, fault *f)
 {
     double q[4];
@@ -260,7 +260,6 @@ static void partly_free_turns(void)
             }
 }
 
-/* The plane, which is different at every angle, is found to round-off. */
 static void at_every_angle(void)
 {
     for (int i = -20; i <= 20; i++) {
@@ -290,8 +289,8 @@ static void convention_tests(void)
     quadratic();
 }
 
-/* The closed-form solution of a clamped-free sheet is compared with one third-order element, which
- * is based on the same potential. */
+/* Compares the closed-form solution of a clamped-free sheet with one third-order element, which is
+ * based on the same potential. */
 
 static void prediction_solve(const char *const assignment[], cell_result *out)
 {
@@ -301,8 +300,8 @@ static void prediction_solve(const char *const assignment[], cell_result *out)
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "solved: %s", f.text);
 }
 
-/* In the plane the element's inverse of N Eq. 37 is accurate enough for all digits to agree. Out of
- * the plane the two differ by fourth-order terms; `apart` is the size of these for C_zz. */
+/* In the plane, the inverse of N Eq. 37 in the element is accurate enough for all digits to agree.
+ * Out of the plane, the two differ by fourth-order terms, whose size for C_zz is `apart`. */
 static void beside_the_element(const char *const assignment[], double in_plane, double apart)
 {
     cell_result r;
@@ -353,8 +352,8 @@ static void prediction_tests(void)
     beside_the_element(rigid, 1e-11, 1.5e-2);
 }
 
-/* Work along a path: a step reuses the work of earlier steps, and the values are the same as
- * without this reuse. */
+/* Steps along a path reuse the work of earlier steps. The values must be the same as without this
+ * reuse. */
 
 enum { STATIONS = 15 };
 
@@ -395,7 +394,7 @@ static void compliances(void)
     cell_result_free(&own);
 }
 
-/* The axis of the joint's tilt makes one revolution, so that each of its components has two
+/* The axis of the tilt of the joint makes one revolution, so each of its components has two
  * extrema. */
 static void turning_back(void)
 {
@@ -426,7 +425,6 @@ static void shorter_first_steps(void)
     cell_result_free(&shorter);
 }
 
-/* One step to a large deflection gives the same result as forty steps. */
 static void large_deflection(void)
 {
     cell_result r[2];
@@ -446,7 +444,6 @@ static void large_deflection(void)
     cell_result_free(&r[1]);
 }
 
-/* The first iteration of each step uses the last tangent of the previous step. */
 static void continuations(void)
 {
     cell_result r;

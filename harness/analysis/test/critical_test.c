@@ -38,8 +38,8 @@ static void half_and_half(scene *s, const double direction[3])
     bar_push(s, b, direction, 1);
 }
 
-/* A bar with the force on a rigid arm that has the bar's length and points outwards or inwards from
- * the tip. */
+/* A bar with the force on a rigid arm that has the length of the bar and points outwards or inwards
+ * from the tip. */
 static void with_arm(scene *s, const double direction[3], double arm)
 {
     const int tip = bar_cantilever(s, direction);
@@ -59,7 +59,7 @@ static void arm_before(scene *s, const double direction[3])
     with_arm(s, direction, -length / 2);
 }
 
-/* Solves tan(kL) = 1/(k a): kL in (0, pi/2) for a > 0, in (pi/2, pi) for a < 0. */
+/* Solves tan(kL) = 1/(k a) for kL in (0, pi/2) if a > 0, and in (pi/2, pi) if a < 0. */
 static double load_with_arm(double arm)
 {
     double low = (arm > 0 ? 1e-9 : 0.5 + 1e-9) * PI / length,
@@ -133,9 +133,6 @@ static void critical_tests(void)
     }
 }
 
-/* Structures without a critical load, or almost without one, for every formulation: rounding is not
- * reported as a load, and loads of one sign do not depend on those of the other. */
-
 /* States in which one element, or none, can buckle. A critical load that is reported must not be
  * due to rounding. */
 static void bent_between_forks(scene *s, const double direction[3], int component)
@@ -164,7 +161,7 @@ static void pushed_across(scene *s, const double direction[3])
     bar_push(s, bar_cantilever(s, direction), across, 1);
 }
 
-/* Displaced ends without a load: no stress depends on a load factor. */
+/* Displaced ends without a load, for which no stress depends on a load factor. */
 static void bent_in_a_frame(scene *s, const double direction[3])
 {
     const int tip = bar_cantilever(s, direction), low = bar_end(s, direction, length / 2);
@@ -209,7 +206,7 @@ static void angle_compressed(scene *s, const double direction[3])
     bar_push(s, head, direction, -1);
 }
 
-/* The loads of one sign do not depend on whether those of the other sign are requested or found.
+/* The loads of one sign must not depend on whether those of the other sign are requested or found.
  * Some formulations have one spurious load of the other sign per element. */
 static void one_side_alone(const element_type *e, ask_tally *tally)
 {
@@ -230,7 +227,7 @@ static void one_side_alone(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A critical load of this bar on this mesh is at most n^2 times Euler's load, with a margin; loads
+/* A critical load of this bar on this mesh is at most n^2 times Euler's load, with a margin. Loads
  * due to rounding are of the order of 1e16. */
 static void no_rounding(const element_type *e, ask_tally *tally)
 {

@@ -54,7 +54,7 @@ def shift(arm):
 
 
 def beam_end(release):
-    """Returns the stiffness [6 x 6] of the end of the clamped beam, in the scene's axes."""
+    """Returns the stiffness [6 x 6] of the end of the clamped beam, in the axes of the scene."""
     along = numpy.array([1, 0.15, 0.12])
     length = numpy.linalg.norm(along)
     x = along / length
@@ -85,6 +85,7 @@ def matrices(release):
 
 
 class CrossTerms(ProgramTest):
+
     def values(self, release, analyses, quantities, formulation="collocation", time=""):
         text = SCENE.replace("RELEASE", ", release: {to: [ry]}" if release else "").replace("ANALYSES", analyses).replace("QUANTITIES", quantities).replace("TIME", time)
         for name, matrix in SPRINGS.items():
@@ -95,7 +96,6 @@ class CrossTerms(ProgramTest):
         self.assertLess(abs(found - wanted), within * size, f"{words}: {found} instead of {wanted}")
 
     def test_linear(self):
-        """Displacements and compliances of the node itself, and of a node on an arm, agree with the matrices."""
         for release in (False, True):
             K, _, _, G = matrices(release)
             load = (G["b"].T @ [3, 2, -4, 0.3, -0.2, 0.1] + G["p"].T @ [1, 2, 3, 0, 0, 0] + G["c"].T @ [2, 0, 5, 0, 0, 0])
@@ -114,7 +114,6 @@ class CrossTerms(ProgramTest):
                     self.near(found[name], value, abs(value), f"{formulation}, release {release}: {name}")
 
     def test_vibration(self):
-        """Damped modes and responses agree with the matrices."""
         for release in (False, True):
             K, C, M, G = matrices(release)
             A = numpy.block([[numpy.zeros((13, 13)), numpy.eye(13)], [-numpy.linalg.solve(M, K), -numpy.linalg.solve(M, C)]])
@@ -136,7 +135,6 @@ class CrossTerms(ProgramTest):
                 self.near(complex(found[f"real{k}"], found[f"imaginary{k}"]), H, abs(H), f"response {sees[k]}, release {release}")
 
     def test_motion(self):
-        """Small motions from rest under the loads agree with the matrices."""
         for release, how in ((False, "radau, step: 2e-4"), (True, "alpha, step: 2e-5")):
             K, C, M, G = matrices(release)
             until = 0.05

@@ -1,8 +1,7 @@
-/* An element is stress-free along any arc of constant torsion and curvature, including initial
- * elongation and shear: for every formulation that supports initial curvature, with every choice of
- * its options. About such an arc, the stress is still the derivative of the energy. The geometric
- * stiffness is the derivative of the tangent wherever it is for a straight element; the other
- * formulations neglect the contribution of the strains in the prestressed state. */
+/* An element must be stress-free along any arc of constant torsion and curvature, including initial
+ * elongation and shear. About such an arc, the stress must be the derivative of the energy. The
+ * geometric stiffness must be the derivative of the tangent if it is for a straight element; other
+ * formulations neglect the strains of the prestressed state. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -133,7 +132,7 @@ static double stress_of_arc(element_subject *s, const double motion[6])
 }
 
 /* Returns the largest difference between the derivative of the energy and the stress about the arc,
- * relative to that stress. */
+ * relative to the stress. */
 static double error_of_stress(element_subject *s)
 {
     const double h = 1e-5 * s->length;
@@ -154,8 +153,8 @@ static double error_of_stress(element_subject *s)
     return worst / largest;
 }
 
-/* Returns the same difference between the derivative of the tangent along the strain due to the
- * prestress and the geometric stiffness. */
+/* Returns the largest difference between the derivative of the tangent along the strain due to the
+ * prestress and the geometric stiffness, relative to the latter. */
 static double error_of_geometric(element_subject *s)
 {
     const int n = s->strains;
@@ -232,10 +231,6 @@ static void curved_element_tests(void)
     gsl_test(offered == 0, "%d formulations offer initial curvature", offered);
 }
 
-/* Loads along members within the equilibrium of `collocation`: orders of convergence of
- * displacements and of the moment inside members, at large rotations, for curved members, and of
- * critical loads about a state. */
-
 extern const element_type element_collocation;
 
 enum { ROOT, TIP, VALUES = 4 };
@@ -250,7 +245,7 @@ static void member_of(form shape, scene *s)
     const section_spec spec = sections_of(shape == ARC ? 1e10 : 1e4, 2, 1, 0.7);
     scene_init(s, "along");
     scene_add_node(s, 0, 0, 0);
-    /* length 1: the chord of an arc of 1 rad */
+    /* the chord of an arc of 1 rad and length 1 */
     scene_add_node(s, shape == ARC ? sin(1) : 1, shape == ARC ? 1 - cos(1) : 0, 0);
     scene_add_member(s, ROOT, TIP, scene_add_section(s, &spec), y_axis);
     scene_hold_all(s, ROOT);
@@ -313,12 +308,12 @@ static void large_rotations(void)
         const char *name;
         form shape;
         acting what;
-        double least[2], error[2]; /* with 3 and 4 stages, n = 4 */
+        double least[2], error[2]; /* values for 3 and 4 stages, n = 4 */
     } scenes[] = {
         {"a uniform load", STRAIGHT, UNIFORM, {5.7, 7.5}, {1e-5, 2e-7}},
         {"a linear one", STRAIGHT, LINEAR, {5.7, 7.5}, {1e-5, 2e-7}},
         {"one along a curved member", CURVED, LINEAR, {5.5, 7}, {1e-5, 2e-7}},
-        /* with the displacement field that all types share */
+        /* loads with the displacement field that all types share */
         {"one that follows", STRAIGHT, FOLLOWER, {3.6, 3.6}, {1e-2, 1e-2}},
         {"a moment along", STRAIGHT, MOMENT, {3.6, 3.6}, {1e-2, 1e-2}},
     };
@@ -333,9 +328,9 @@ static void large_rotations(void)
     }
 }
 
-/* Castigliano's theorem for an arc of 1 rad with EI = 1, R = 1 and a downward load of 1 per length:
- * the moment at t is due to the load beyond t, and the tip's displacement is int M m, without axial
- * strain. */
+/* Castigliano's theorem for an arc of 1 rad with EI = 1, R = 1 and a downward load of 1 per length.
+ * The moment at t is due to the load beyond t, and the displacement of the tip is int M m, without
+ * axial strain. */
 static void arc_by_castigliano(void)
 {
     enum { POINTS = 20 };

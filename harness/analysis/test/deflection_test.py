@@ -6,7 +6,7 @@ from harness.tools.kit.program import ProgramTest, run
 
 FORMULATIONS = ("collocation", "geometrically_exact", "beamw", "beamw_consistent", "beamw_first", "beamw_vlasov",
                 "sheet_second", "sheet_second_consistent", "sheet_third", "sheet_third_printed")
-# One element between supports; one element that bends freely due to temperature.
+# One element between supports, and one element that bends freely due to temperature.
 BEAM = """beamwork: 1
 let: {L: 2, q: 10}
 sections:
@@ -36,8 +36,7 @@ quantities:
   along:   {deflection: {analysis: sta, member: cd, where: 0.4, component: ux}}
 omit: [shear, trapeze, wagner_moments, wagner_torque]
 """
-# Large displacements compared with the node of an identical member that is divided there: on a
-# path, in a continuation, a rotation and a motion; also for a curved member.
+# Large displacements compared with the node of an identical member that is divided at the node.
 FAR = """beamwork: 1
 sections:
   s: {rectangle: {width: 0.02, thickness: 0.002}, young: 210e9, shear_modulus: 81e9, density: 7800}
@@ -66,7 +65,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 PAIRS = [(a, c, t) for a in ("sta", "con", "rot", "mo") for c in ("ux", "uy", "rz") for t in ("last", "max", "curve")]
 LINES = "\n".join(f"  w_{a}_{c}_{t}: {{deflection: {{analysis: {a}, member: ab, where: 0.3, component: {c}, take: {t}}}}}\n"
                   f"  n_{a}_{c}_{t}: {{displacement: {{analysis: {a}, node: m, component: {c}, take: {t}}}}}" for a, c, t in PAIRS)
-# A pendulum on a hinge whose support is rotated; a slider; a ball joint.
+# A pendulum on a hinge whose support is rotated, a slider, and a ball joint.
 HINGED = """beamwork: 1
 sections:
   s: {rectangle: {width: 0.02, thickness: 0.01}, young: 210e9, shear_modulus: 81e9, density: 7800}
@@ -108,7 +107,7 @@ class Deflections(ProgramTest):
                 {c["quantity"]: c["curve_value"] for c in record["curves"]})
 
     def test_beam(self):
-        """One element of any formulation is exact between its ends if it is exact at them."""
+        """If one element of a formulation is exact at its ends, it must be exact between them."""
         bending = 210e9*0.02*0.01**3/12
         curvature = 0.01
         exact = {"mid": -5*10*2**4/(384*bending), "little": -5*10*2**4/(384*bending),
@@ -123,7 +122,6 @@ class Deflections(ProgramTest):
                 self.assertLess(abs(got[name]["value"]/value - 1), within, (formulation, name))
 
     def test_far(self):
-        """The result agrees with that of a node at this position, in all analyses that follow a state."""
         for formulation, n, within in (("collocation", 8, 4e-3), ("geometrically_exact", 12, 4e-3), ("beamw", 12, 1e-2)):
             got, curves = self.solved(FAR % LINES, formulation, n)
             for a, c, t in PAIRS:

@@ -1,16 +1,15 @@
-"""Frequencies: equal frequencies, and their order."""
+"""Equal frequencies, and the order of frequencies."""
 import math
 import unittest
 
 from harness.tools.kit.program import ProgramTest
 
 
-# Frequencies of degenerate structures: equal frequencies, motions without stiffness or mass, and
-# ends that transmit no force. They are compared with closed forms, or with an equivalent
-# description of the structure, for all formulations.
+# Frequencies of degenerate structures: equal frequencies, motions without stiffness or mass, and ends that transmit no
+# force. They are compared with closed forms, or with an equivalent description of the structure.
 YOUNG, SHEAR, DENSITY, AREA, INERTIA, TWIST = 2e11, 8e10, 8000.0, 1e-4, 1e-9, 1.4e-9
 LINE = DENSITY * AREA
-WAVE = math.sqrt(YOUNG * INERTIA / LINE) / (2 * math.pi)  # Hz of factor 1, length 1
+WAVE = math.sqrt(YOUNG * INERTIA / LINE) / (2 * math.pi)  # Hz for the factor 1 and the length 1
 SCENE = """beamwork: 1
 sections:
   s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1.4e-9, Iw: 0}, young: 2e11, shear_modulus: 8e10, density: 8000}
@@ -52,7 +51,6 @@ def turned(v):
 class Degenerate(ProgramTest):
 
     def each(self):
-        """Returns all formulations, and the variants with a different mass or different nodes."""
         return [f["formulation"] for f in self.record("list", "formulations")["formulations"]] + [
             "geometrically_exact:nodes=2", "beamw:mass=lumped"]
 
@@ -62,7 +60,7 @@ class Degenerate(ProgramTest):
         return path
 
     def found(self, formulation, nodes, members, more="", wanted=8, n=4):
-        """Returns the frequencies [Hz], ascending; None: the mesh has no further mode."""
+        """Returns the frequencies [Hz] in ascending order. None means that the mesh has no further mode."""
         path = self.scene(nodes, members, more, wanted)
         return [q["value"] for q in self.record("solve", "--scene", path, "-f", formulation, "-n", n)["quantities"]]
 
@@ -75,8 +73,8 @@ class Degenerate(ProgramTest):
                                      (found, right, *what))
 
     def test_two_of_each(self):
-        """If a section has equal stiffness in all directions, the frequencies occur in pairs, for a clamped and for a
-        free bar; those of the free bar follow six zeros."""
+        """If a section has equal stiffness in all directions, the frequencies occur in pairs. Those of a free bar follow
+        six zeros."""
         for formulation in self.each():
             within = 3e-2 if formulation.endswith("lumped") else 1e-3 if "exact" in formulation else 2e-4
             found = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=4, n=8)
@@ -93,7 +91,6 @@ class Degenerate(ProgramTest):
                          "solve", "--scene", self.scene(f"{nodes}, {tip()}", bar("light")))
 
     def test_nothing_resists(self):
-        """A motion with neither stiffness nor mass has no frequency, and the message names it."""
         alone = "some coordinate has neither stiffness nor mass"
         spring = "springs: {k: {to: b, stiffness: [100, 200, 300, 0, 0, 0]}}"
         other = "m: {from: a, to: z, section: light, y: [1, 0, 0]}"
@@ -105,8 +102,8 @@ class Degenerate(ProgramTest):
             self.refused(1, words, "solve", "--scene", self.scene(*scene), "-f", "collocation", "-n", 2, silent=False)
 
     def test_zeros(self):
-        """There are as many zero frequencies as there are motions that the supports allow: in space, in a plane, for
-        two separate bars, for a hinge."""
+        """There are as many zero frequencies as there are motions that the supports allow: in space, in a plane, for two
+        separate bars, for a hinge."""
         apart = f"{FREE}, {tip()}, c: {{at: [0, 3, 0]}}, d: {{at: [1, 3, 0]}}"
         two = f"{bar()}, n: {{from: c, to: d, section: s, y: [0, 1, 0]}}"
         hinge = f"{bar()}, {BEYOND % ('s', ', release: {from: [rz]}')}"
@@ -122,7 +119,7 @@ class Degenerate(ProgramTest):
                                  (formulation, scene, found))
 
     def test_one_member_has_mass(self):
-        """A massless arm beyond the end of a cantilever changes nothing; a massless bar is exact with one element,
+        """A massless arm beyond the end of a cantilever changes nothing. A massless bar is exact with one element,
         whatever the mesh of the heavy bar after it."""
         end = "c: {at: [1, 0, 0.5]}"
         arm = "arm: {from: b, to: c, section: light, y: [0, 1, 0]}"
@@ -135,8 +132,8 @@ class Degenerate(ProgramTest):
             self.same(one, many, 1e-8, formulation)
 
     def test_light_member_between_masses(self):
-        """A held bar has the frequency sqrt(3 EI/m L^3), and no modes other than those of the mass. A free bar acts as
-        a spring between two bodies."""
+        """A held bar has the frequency sqrt(3 EI/m L^3), and no modes other than those of the mass. A free bar acts as a
+        spring between two bodies."""
         stretch, twist, bend = YOUNG * AREA, SHEAR * TWIST, YOUNG * INERTIA
         for formulation in self.each():
             found = self.found(formulation, f"{HELD}, {tip(', mass: 2')}", bar("light"), wanted=5, n=2)
@@ -150,7 +147,6 @@ class Degenerate(ProgramTest):
             self.same(found[7:11:2], found[8:11:2], 1e-8, formulation)
 
     def test_bodies(self):
-        """A body may be held by springs alone; a body without mass has no mode."""
         spring = "springs: {k: {to: b, stiffness: [100, 200, 300, 40, 50, 60]}}"
         mass, about = (100, 200, 300), (40, 50, 60)
         right = sorted(math.sqrt(k / m) / 2 / math.pi for m, all_of in ((2, mass), (3, about)) for k in all_of)
@@ -163,8 +159,8 @@ class Degenerate(ProgramTest):
             self.assertEqual(bare, none, formulation)
 
     def test_released_at_both_ends(self):
-        """A bar with hinges in both directions at both ends has pi^2 and 4 pi^2, each twice, like one whose nodes
-        rotate."""
+        """A bar with hinges in both directions at both ends has the factors pi^2 and 4 pi^2 twice, as a bar whose nodes
+        rotate has."""
         ends = f"{HELD}, {tip(', hold: all')}"
         hinged = bar(more=", release: {from: [ry, rz], to: [ry, rz]}")
         turning = "a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, b: {at: [1, 0, 0], hold: [ux, uy, uz, rx]}"
@@ -175,7 +171,7 @@ class Degenerate(ProgramTest):
             self.same(found, self.found(formulation, turning, bar(), wanted=4, n=8), 1e-8, formulation)
 
     def test_equal_legs(self):
-        """A frame has the frequencies of its mirror image, and two separate equal legs have each frequency twice."""
+        """A frame has the frequencies of its mirror image. Two separate equal legs have each frequency twice."""
         nodes = ("{0}: {{at: [0, 0, 0], hold: all}}, p: {{at: [0, 0, 1]}}, q: {{at: [0.7, 0, 1]}}, "
                  "{1}: {{at: [0.7, 0, 0], hold: all}}")
         leg = "{0}l: {{from: {0}, to: {1}, section: flat, y: [0, 1, 0]}}"
@@ -204,8 +200,8 @@ class Degenerate(ProgramTest):
             self.same(found, right, 1e-3, formulation)
 
     def test_offsets(self):
-        """A node at the end of a rigid arm is equivalent, as a support, to the clamped end and, as a body, to its mass
-        at that place."""
+        """A node at the end of a rigid arm is equivalent, as a support, to the clamped end and, as a body, to its mass at
+        the end of the arm."""
         for formulation in self.each():
             plain = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=6)
             beside = "z: {at: [0, 0.3, 0.2], hold: all}, a: {at: [0, 0, 0], part_of: z}"
@@ -216,7 +212,6 @@ class Degenerate(ProgramTest):
             self.same(heavy, carried, 1e-9, formulation)
 
     def test_turned(self):
-        """The frequencies depend neither on the direction in space nor on the order of the nodes."""
         for formulation in self.each():
             right = self.found(formulation, f"{HELD}, {tip()}", bar("flat"), wanted=6)
             x, y = turned((1, 0, 0)), turned((0, 1, 0))
@@ -226,8 +221,8 @@ class Degenerate(ProgramTest):
                 self.same(self.found(formulation, nodes, member % (ends, *y), wanted=6), right, 1e-8, formulation)
 
 
-# Frequencies of straight unstressed members compared with closed forms: bending with shear and
-# rotary inertia, axial vibration, torsion, restrained warping, with bodies and springs at the ends.
+# Closed forms for straight unstressed members: bending with shear and rotary inertia, axial vibration, torsion,
+# restrained warping, with bodies and springs at the ends.
 E, NU, RHO, LENGTH = 2e11, 0.25, 8000.0, 1.0
 G = E / 2 / (1 + NU)
 ALL = ("collocation", "beamw", "beamw_vlasov", "beamw_first", "beamw_consistent", "sheet_second",
@@ -270,8 +265,8 @@ def root(function, low, high):
 
 
 def timoshenko(section, wave, upper=False):
-    """Returns the frequency [Hz] of a hinged beam, whose deflection and rotation are a sine and a cosine of wave x (2
-    x 2 problem)."""
+    """Returns the frequency [Hz] of a hinged beam, whose deflection and rotation are a sine and a cosine of wave x (2 x 2
+    problem)."""
     area, inertia, shear = section["A"], section["Iz"], G / section["F"][0]
     k11, k12, k22 = shear * wave**2, -shear * wave, shear + E * inertia * wave**2
     m1, m2 = RHO * area, RHO * inertia
@@ -305,8 +300,9 @@ def warped(section):
 
 
 class FrequencyOrder(ProgramTest):
+
     def near(self, exact, formulation, n, constants=None, omit=NO_SHEAR, a="", b="", more=""):
-        """Returns the relative error of the frequency nearest to exact [Hz]."""
+        """Returns the relative error of the frequency nearest to `exact` [Hz]."""
         words = ", ".join(f"{k}: {v!r}" for k, v in (constants or SECTION).items())
         file = self.folder / "scene.yaml"
         file.write_text(FREQUENCY_ORDER_SCENE % {"constants": words, "young": E, "shear": G, "density": RHO, "a": a,
@@ -324,11 +320,11 @@ class FrequencyOrder(ProgramTest):
                     self.assertGreater(math.log2(coarse / fine), least)
 
     def bending(self, factor):
-        """Returns the frequency [Hz] of the slender beam, omega = factor sqrt(EI/rho A)/L^2."""
+        """Returns the frequency [Hz] of the slender beam, where omega = factor sqrt(EI/rho A)/L^2."""
         return factor * math.sqrt(E * SECTION["Iz"] / (RHO * SECTION["A"])) / (2 * math.pi)
 
     def test_slender_bending(self):
-        """The factors are 3.51602 and 22.0345 for a cantilever, 22.3733 for the free bar, and higher modes follow."""
+        """The factors are 3.51602 and 22.0345 for a cantilever, and 22.3733 for the free bar."""
         for formulation in ALL:
             for factor, held in ((3.5160152685, ", hold: all"), (22.034491565, ", hold: all"),
                                  (22.373285448, "")):
@@ -341,7 +337,7 @@ class FrequencyOrder(ProgramTest):
                     a=", hold: all")
 
     def test_shear(self):
-        """Hinged beams with shear and rotary inertia are correct with elements as short as 3 radii of gyration."""
+        """The elements are as short as 3 radii of gyration."""
         section = {**SECTION, "Iz": 4e-6, "Iy": 9e-6, "It": 1.3e-5,
                    "F": [1.2 / 4e-4, 0, 0, 0, 1.2 / 4e-4, 0, 0, 0, 0]}
         held = {"a": ", hold: [ux, uy, uz, rx]", "b": ", hold: [uy, uz]"}
@@ -350,7 +346,6 @@ class FrequencyOrder(ProgramTest):
                         omit=WITH_SHEAR, **held)
 
     def test_stretch_and_twist(self):
-        """Axial and torsional frequencies are correct with fixed and with free ends."""
         for mode in (1, 3):
             speeds = (math.sqrt(E / RHO),
                       math.sqrt(G * SECTION["It"] / RHO / (SECTION["Iy"] + SECTION["Iz"])))
@@ -358,7 +353,6 @@ class FrequencyOrder(ProgramTest):
                 self.fourth(ALL, mode * speed / 4, a=", hold: all")
 
     def test_bodies_and_springs(self):
-        """Axial and bending modes with a mass at the tip, and axial modes with a spring at the end, are correct."""
         speed, line = math.sqrt(E / RHO), RHO * SECTION["A"]
         x = root(lambda b: b * math.tan(b) - 1, 0.1, 1.5)
         self.fourth(ALL, x * speed / (2 * math.pi), a=", hold: all", b=f", mass: {line!r}")
@@ -373,7 +367,7 @@ class FrequencyOrder(ProgramTest):
                     more=f"springs:\n  s: {{to: b, stiffness: [{stiffness!r}, 0, 0, 0, 0, 0]}}\n")
 
     def test_warping(self):
-        """Torsional frequencies with warping restrained at the root are correct for decay lengths from 0.3 to 0.03."""
+        """The decay lengths are from 0.3 to 0.03."""
         for decay in (3, 30):
             section = {**SECTION, "Iw": G * SECTION["It"] / E / decay**2}
             self.fourth(WARPING, warped(section), constants=section, least=3.4, meshes=(16, 32),

@@ -1,6 +1,6 @@
-/* Resultants inside members compared with statics, the elastica and Vlasov torsion, for every
- * formulation; values inside members converge like those at the ends. Also resultants and stresses
- * inside members that twist far, rotate steadily, or have an eccentric shear centre. */
+/* Resultants inside members compared with statics, the elastica and Vlasov torsion. Values inside
+ * members must converge as those at the ends do. Resultants and stresses are also checked inside
+ * members that twist far, rotate steadily, or have an eccentric shear centre. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -37,7 +37,7 @@ static void statics(const element_type *e, ask_tally *tally, int elements)
 
 static double slope(double u, void *top)
 {
-    /* d s/d u at sin theta = top - u^2, for F/EI = 1: ds = d theta/sqrt(2 (top - sin theta)) */
+    /* d s/d u at sin theta = top - u^2 for F/EI = 1: ds = d theta/sqrt(2 (top - sin theta)) */
     const double sine = *(double *)top - u * u;
     return sqrt(2) / sqrt(1 - sine * sine);
 }
@@ -121,9 +121,9 @@ static void twists(const element_type *e, ask_tally *tally)
                  coarse[i], fine[i]);
 }
 
-/* A flat bar that is free to warp, under tension, bending and torsion at its tip: the stress at the
- * root is M/W, and Saint-Venant shear stress acts everywhere. Also the stress due to the bimoment
- * in a flanged beam with restrained warping. */
+/* A flat bar that is free to warp, under tension, bending and torsion at its tip. The stress at the
+ * root is M/W, and Saint-Venant shear stress acts everywhere. In a flanged beam with restrained
+ * warping, the bimoment causes a further stress. */
 static void flat_bar(const element_type *e, ask_tally *tally)
 {
     const double w = 0.05, h = 0.004, l = 0.3;
@@ -161,7 +161,7 @@ static void flanged(const element_type *e, ask_tally *tally)
              a.value[0]);
 }
 
-/* A rotating bar and one at rest, in either order: each quantity belongs to its own analysis. */
+/* A rotating bar and a bar at rest, in either order: each quantity must belong to its analysis. */
 static void turns_beside_rest(const element_type *e, ask_tally *tally, int turning_first)
 {
     const double tension = 2; /* rho A Omega^2 l^2/2 */
@@ -176,7 +176,7 @@ static void turns_beside_rest(const element_type *e, ask_tally *tally, int turni
                  turning_first);
 }
 
-/* A strip that is free to shorten and to warp, twisted by 0.6 rad: the twist rate kappa is uniform,
+/* A strip that is free to shorten and to warp, twisted by 0.6 rad. The twist rate kappa is uniform,
  * M = G J kappa + 4 E c kappa^3, and the edges are in tension. */
 static void strip(const element_type *e, ask_tally *tally)
 {
@@ -213,8 +213,8 @@ static void blade(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[1], root_stress, 1e-4, "%s: stress at the root", e->name);
 }
 
-/* A channel under a force at its centroid, clamped at the root: torque F e about the shear centre,
- * B = F e/lambda tanh(lambda l). */
+/* A channel under a force at its centroid, clamped at the root. The torque about the shear centre
+ * is F e, and B = F e/lambda tanh(lambda l). */
 static void channel(const element_type *e, ask_tally *tally)
 {
     static answer a;
@@ -228,8 +228,8 @@ static void channel(const element_type *e, ask_tally *tally)
         return;
     const double l = 1.5, F = 40, k = sqrt(80e9 * c.It / (200e9 * c.Iw)),
                  B = F * fabs(c.ys) / k * tanh(k * l);
-    /* At the outer corner of a flange and the web. web: distance of the shear centre of a thin C
-     * from the web. */
+    /* at the outer corner of a flange and the web; web: distance of the shear centre of a thin C
+     * from the web */
     const double f = 0.05, h = 0.1, t = 3e-3, web = 3 * f * f / (h + 6 * f),
                  corner = h / 2 * (web + t / 2) + t / 2 * (web - t / 2),
                  most = F * l * (h + t) / 2 / c.Iy + B * corner / c.Iw;
@@ -256,8 +256,8 @@ static void tapered(const element_type *e, ask_tally *tally, int elements)
                      a.name[i], elements);
 }
 
-/* An angle section whose legs change along the member, so that its principal axes rotate: forces at
- * its ends refer to the axes of the end sections, not to those of the element. */
+/* An angle section whose legs change along the member, so its principal axes rotate. Forces at its
+ * ends must refer to the axes of the end sections, not to those of the element. */
 static void turning_axes(const element_type *e, ask_tally *tally, int elements)
 {
     const double F[3] = {0, 30, 50};
@@ -317,7 +317,7 @@ static void everything(scene *s, int whole)
     }
 }
 
-/* The result does not change if the member is reversed, divided into two, or described in
+/* The result must not change if the member is reversed, divided into two, or described in
  * millimetres. */
 static void in_other_words(const element_type *e, ask_tally *tally)
 {

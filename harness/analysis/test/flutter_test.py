@@ -1,12 +1,12 @@
-"""Frequencies, growth and critical loads, by flutter or divergence, under loads without a potential, compared with
-closed forms."""
+"""Frequencies, growth and critical loads, by flutter or divergence, under loads without a potential, compared with closed
+forms."""
 import json
 import math
 import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# Clamped column of length 1, EI = 1, mass 1; P/EA = 2e-6 is its shortening.
+# Clamped column of length 1, EI = 1, mass 1. Its shortening is P/EA = 2e-6.
 COLUMN = """beamwork: 1
 sections: {s: {constants: {A: 1e7, Iy: %(Iy)r, Iz: 1, It: 1, Ip: 2e-6}, young: 1, shear_modulus: 1e3%(density)s}}
 nodes: {base: {at: [0, 0, 0], hold: all}, tip: {at: %(at)s%(tip)s}}
@@ -23,8 +23,7 @@ MOTIONS = """  f0: {frequency: {analysis: v, which: 0}}
   g: {growth: {analysis: v}}"""
 DEFAULT = {"Iy": 3.0, "density": ", density: 1e-7", "at": "[1, 0, 0]", "tip": "", "member": "", "more": "", "quantities": CRITICAL}
 FORMULATIONS = ("geometrically_exact", "beamw_consistent", "beamw")
-# Hinged arch of 120 degrees under a follower pressure, in one plane: the critical pressure is 8
-# EI/R^3.
+# Hinged arch of 120 degrees under a follower pressure, in one plane. The critical pressure is 8 EI/R^3.
 ARCH = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: 1, Iz: 1, It: 1}, young: 1, shear_modulus: 1e3%s}}
 nodes: {%s}
@@ -35,8 +34,8 @@ quantities: {P: {critical_factor: {analysis: b}}}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia, warping]
 """
 
-# Ziegler's double pendulum with almost rigid bars, springs of 1 N m and masses of 2 and 1 kg: the
-# critical load is 7/2 - sqrt 2.
+# Ziegler's double pendulum with almost rigid bars, springs of 1 N m and masses of 2 and 1 kg. The critical load is 7/2
+# - sqrt 2.
 ZIEGLER = """beamwork: 1
 plane: xy
 sections: {s: {constants: {A: 1e7, Iy: %(EI)r, Iz: %(EI)r, It: 1e5}, young: 1, shear_modulus: 1}}
@@ -65,7 +64,7 @@ def arch(n, pressure, density=""):
         ", ".join(f"m{i}: {{from: n{i}, to: n{i + 1}, section: s, y: [0, 1, 0]}}" for i in range(n)),
         ", ".join(f"p{i}: {{distributed: [0, {-pressure!r}, 0], on: m{i}, axes: member, follower: true}}" for i in range(n)))
 
-# Both ends free to rotate about the transverse axes; the far end is twisted, then the ends are pressed together.
+# Both ends are free to rotate about the transverse axes. The far end is twisted, then the ends are pressed together.
 WOUND = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: 1, Iz: 1, It: 1}, young: 1, shear_modulus: 1%s}}
 nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, b: {at: [1, 0, 0], hold: [uy, uz], drive: {rx: wind}}}
@@ -79,6 +78,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 
 
 class Flutter(ProgramTest):
+
     def values(self, text, elements=16, formulation="geometrically_exact", status=0):
         path = self.folder / "scene.yaml"
         path.write_text(text)
@@ -103,13 +103,12 @@ class Flutter(ProgramTest):
             self.assertLess(abs(7*found/40.0537 - 1), 1e-5, formulation)
 
     def test_any_load(self):
-        """The critical load does not depend on the load about which it is computed, from a thousandth of it to a
-        thousand times it."""
+        """The critical load must not depend on the load about which it is computed, from a thousandth of the critical
+        load to a thousand times it."""
         for size in (0.02, 19, 21, 20000):
             self.assertLess(abs(size*self.critical(tip_force(size))/20.05132 - 1), 1e-6, size)
 
     def test_round(self):
-        """Flutter in two planes at the same load, or almost the same, is found."""
         single = self.critical(tip_force(20))
         for Iy in (1.0, 1 + 1e-9, 1.0001):
             self.assertLess(abs(self.critical(tip_force(20), Iy=Iy)/single - 1), 1e-6, Iy)
@@ -137,14 +136,14 @@ class Flutter(ProgramTest):
         self.assertRegex(said, "no critical load from path 0 to .* no divergence, and flutter needs mass: add a density to a section")
 
     def test_of_the_mesh(self):
-        """Without mass, Beck's column has no critical load; on a coarse mesh only its elements diverge."""
+        """Without mass, Beck's column has no critical load. On a coarse mesh, only its elements diverge."""
         for formulation in ("collocation", "beamw", "geometrically_exact"):
             _, said = self.values(COLUMN % {**DEFAULT, "load": tip_force(1), "density": ""}, 4, formulation, status=1)
             self.assertRegex(said, "is an artefact of the mesh|no critical load from path 0 to", formulation)
 
     def test_wound(self):
-        """Greenhill's shaft, twisted by less or more than half a turn and then compressed, with and without mass, has
-        a double point at M^2/4 + P = pi^2; above a torque of 2 pi it buckles by the torque alone."""
+        """Greenhill's shaft, twisted by less or more than half a revolution and then compressed, has a double point at
+        M^2/4 + P = pi^2, with and without mass. Above a torque of 2 pi it buckles due to the torque alone."""
         for density in ("", ", density: 1e-9"):
             for angle in (0, 1e-9, 1, 3, 3.5, 5, 10):
                 found = self.values(WOUND % (density, angle), 8, "collocation")[0][0]
@@ -152,8 +151,6 @@ class Flutter(ProgramTest):
                 self.assertLess(abs(found/exact - 1), 1e-5, (density, angle))
 
     def test_with_damping_or_without(self):
-        """Frequencies about symmetric states are undamped, and this is reported; frequencies about other states
-        include damping."""
         one = self.folder / "scene.yaml"
         said, found = {}, {}
         for follows in ("", ", follower: true"):
@@ -181,7 +178,7 @@ class Flutter(ProgramTest):
             self.assertLess(abs(now/plain - 1), 1e-9)
 
     def test_dashpot_under_a_follower_load(self):
-        """A dashpot, however weak, affects growth but not the frequencies."""
+        """Even a weak dashpot affects growth, but not the frequencies."""
         for size in (10.0, 21.0):
             scene = COLUMN % {**DEFAULT, "load": tip_force(size), "quantities": MOTIONS}
             plain = self.values(scene)[0]
@@ -205,7 +202,6 @@ class Flutter(ProgramTest):
         self.assertLess(max(slope) - min(slope), 0.02*abs(slope[0]))
 
     def test_zero(self):
-        """A follower load of zero changes no digit."""
         dead = {"load": "force: [-1, 0, 0], on: tip", "quantities": CRITICAL + "\n" + MOTIONS}
         plain = self.values(COLUMN % {**DEFAULT, **dead})[0]
         self.assertEqual(plain[3], 0)

@@ -1,4 +1,4 @@
-"""Temperature, pretension, unstressed lengths and free curvatures compared with closed forms, for all formulations."""
+"""Temperature, pretension, unstressed lengths and free curvatures compared with closed forms."""
 import json
 import math
 import unittest
@@ -47,7 +47,6 @@ quantities:
 
 
 def solved(text, formulation, elements=4):
-    """Returns the values of the quantities."""
     done = run("solve", "--scene", "/dev/stdin", "-f", formulation, "-n", elements, "--format", "json", input=HEAD + text)
     assert done.returncode == 0, done.stderr + done.stdout
     return {q["quantity"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
@@ -61,8 +60,9 @@ loads: {{{loads}}}
 
 
 class FreeStrains(ProgramTest):
+
     def test_cantilever(self):
-        """A free member expands and bends to an exact arc without stress; in linear analyses, to first order."""
+        """A free member expands and bends to an exact arc without stress. In linear analyses, it does so to first order."""
         kappa, warm = -ALPHA * 50e3, ALPHA * 100
         text = beam("[]", loads="t: {temperature: 100, gradient: [50e3, 0], on: m}", more="""
 analyses: {li: {linear: {}}, st: {static: {stations: [0.5, 1]}}}
@@ -81,7 +81,6 @@ quantities:
                     self.assertAlmostEqual(got[name], exact.get(name, 0), delta=1e-9 if name in exact else 1e-6)
 
     def test_failed_base(self):
-        """Analyses of a structure under the loads of a failed analysis have no value, only its failure."""
         text = """nodes: {a: {at: [0, 0, 0], hold: all}, n: {at: [1, 0, 0], hold: [rx, ry, rz], mass: 2}, b: {at: [2, 0, 0], hold: all}}
 members:
   l: {from: a, to: n, section: s, y: [0, 1, 0]%s, release: {from: [ry, rz], to: [ry, rz]}}
@@ -108,8 +107,8 @@ quantities:
                     self.assertIn("can move along", quantity["reason"])
 
     def test_prestressed_mechanism(self):
-        """Ties that only pretension or cold make stiff: forces, deflections, frequencies. Linear statics and buckling
-        refuse them and name the static path."""
+        """Ties that only pretension or cooling makes stiff: forces, deflections, frequencies. Linear statics and buckling
+        must reject them and name the static path."""
         for pretension, heat in ((8000, 0), (8000, -20), (0, -20)):
             text = TIES % (f", pretension: {pretension}" * (pretension > 0), heat)
             u, forces, frequency = self.ties(pretension, heat)
@@ -143,7 +142,7 @@ quantities:
         return u, forces(u), math.sqrt(numpy.linalg.eigvalsh((K + K.T) / 2)[0] / 20) / (2 * math.pi)
 
     def test_where_the_path_begins(self):
-        """At station 0 pretension and constant loads act, also in analyses that follow this state."""
+        """At station 0, pretension and constant loads act, even in analyses that follow this state."""
         for keys, loads, force in ((", pretension: 10000", "", 10000),
                                    (f", unstressed_length: {L * (1 - 1e-4)}", "", E * A * 1e-4),
                                    ("", "t: {temperature: -50, on: m, path: [0], factor: [1]}", E * A * ALPHA * 50)):
@@ -180,7 +179,7 @@ quantities:
             self.assertIn(words, solve.stderr)
 
     def test_clamped(self):
-        """A member held at both ends carries -EA alpha T and EI alpha g, about both axes, without moving."""
+        """A member held at both ends has N = -EA alpha T and M = EI alpha g, about both axes, without moving."""
         text = beam("all", loads="t: {temperature: 20, gradient: [300, 500], on: m}", more="""
 analyses: {li: {linear: {}}, st: {static: {stations: [1]}}}
 quantities:
@@ -197,8 +196,8 @@ quantities:
                     self.assertAlmostEqual(got[name], size, delta=tolerance * abs(size))
 
     def test_length(self):
-        """A member that is too short is in tension. A pretensioned member has its pretension, or half of it if an
-        equal member is in series."""
+        """A member that is too short is in tension. A pretensioned member has its pretension, or half of it if an equal
+        member is in series."""
         for keys, force in ((", pretension: 500", 500), (f", unstressed_length: {L * (1 - 1e-5)}", E * A * 1e-5),
                             (", strain: [-1e-5, 0, 0]", E * A * 1e-5)):
             text = f"""nodes: {{a: {{at: [0, 0, 0], hold: all}}, b: {{at: [{L}, 0, 0], hold: [uy, uz, rx, ry, rz]}},
@@ -216,7 +215,7 @@ quantities: {{li: {{internal: {{analysis: li, member: n, end: to, resultant: N}}
 
     def test_bent(self):
         """A straight blank mounted along an arc between two clamps has the moment -EI k, and a bent blank mounted
-        straight has EI k; if one end is released, both take their stress-free shape."""
+        straight has EI k. If one end is released, both take their stress-free shape."""
         k = 0.5
         for formulation in ("collocation", "geometrically_exact", "sheet_second_consistent"):
             for own, free in ((k, -k), (0, k)):
@@ -237,8 +236,7 @@ quantities:
                     self.assertAlmostEqual(loose["rz"], free * length, delta=1e-6)
 
     def test_stability_and_frequencies(self):
-        """A pinned member that is heated buckles at alpha T = pi^2 I/(A L^2), also on a path, and has f = f_0 sqrt(1 +
-        N/N_E). A string in tension is also checked."""
+        """A pinned member that is heated buckles at alpha T = pi^2 I/(A L^2) and has f = f_0 sqrt(1 + N/N_E)."""
         text = beam("[ux, uy, uz, rx]", loads="t: {temperature: 1, on: m}", more="""
 analyses: {cold: {modal: {}}, lin: {buckling: {}}, st: {static: {stations: [2, 4]}}, on: {buckling: {about: st}},
            warm: {modal: {about: st}}}
@@ -260,8 +258,8 @@ omit: [rotary_inertia, trapeze]
                 self.assertAlmostEqual(got["f"] / square, math.sqrt(1 - 4 / critical), delta=rough)
 
     def test_in_time(self):
-        """A member that is heated slowly between walls develops the static force with each integrator, and its energy
-        is the work of the heating."""
+        """A member that is heated slowly between walls develops the static force with each integrator, and its energy is
+        the work of the heating."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent", "sheet_second"):
             for integrator in ("alpha", "radau"):
                 text = beam("[uy, uz, rx, ry, rz]", loads="t: {temperature: 10, gradient: [100, 0], on: m, time: t^2}",
@@ -284,8 +282,7 @@ quantities:
                     self.assertAlmostEqual(got["drift"] / work, 0, delta=2e-4)
 
     def test_part(self):
-        """A third of the member, starting at a fifth, is heated: the member elongates accordingly, and the tip rotates
-        if the heated part bends."""
+        """A third of the member, starting at a fifth, is heated."""
         text = beam("[]", loads=f"t: {{temperature: 90, gradient: [900, 0], on: m, from: 0.2, to: {0.2 + 1 / 3}}}", more="""
 analyses: {li: {linear: {}}}
 quantities:
@@ -299,7 +296,7 @@ quantities:
                 self.assertAlmostEqual(got["uy"], -ALPHA * 300 * (0.8 - 1 / 6) * L**2, delta=1e-12)
 
     def test_refused(self):
-        """An element that returns forces without strains is rejected for inputs that change strains."""
+        """An element that returns forces without strains must be rejected for inputs that change strains."""
         element = compile_shared(EXAMPLES / "corotational.c", self.folder / "corotational.so")
         for text, who in ((beam("[]", loads="t: {temperature: 90, on: m}"), "load t"),
                           (beam("[]", keys=", pretension: 9"), "member m")):

@@ -1,5 +1,5 @@
-/* Known frequencies, for every formulation with inertia: the equal frequencies of a square bar, the
- * axial ones between them, rigid-body modes, and a bar in tension or compression. */
+/* Known frequencies for every formulation with inertia: the equal frequencies of a square bar, the
+ * axial frequencies between them, rigid-body modes, and a bar in tension or compression. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@ static const double young = 2e11, density = 7800, side = 0.01, length = 1;
 static const double direction[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3}, y_axis[3] = {0.1, 1, 0.05};
 
 typedef struct request {
-    int held;            /* 1: held at one end, 0: free */
+    int held;            /* 1: held at one end; 0: free */
     double force;        /* force at the free end, along the bar ... */
     double arm;          /* ... or on a rigid arm beyond it [m] */
     scene_family family; /* family of all requested modes */
@@ -51,12 +51,11 @@ static void make(scene *s, const request *what)
     }
 }
 
-/* Solves the request. Returns 1 if the formulation answered. */
 static int find(const element_type *e, const request *what, ask_tally *tally, answer *out)
 {
     scene s;
     scene_init(&s, "bar");
-    scene_omit(&s, FEATURE_SHEAR | FEATURE_ROTARY_INERTIA); /* Euler's beam */
+    scene_omit(&s, FEATURE_SHEAR | FEATURE_ROTARY_INERTIA); /* Euler-Bernoulli beam */
     make(&s, what);
     ask_scene(&s, e, NULL, ELEMENTS, out);
     scene_free(&s);
@@ -73,8 +72,8 @@ static const double clamped[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.99
                                  14.137168391};
 static const double loose[] = {4.7300407449, 7.8532046241};
 
-/* Bending frequencies occur in pairs. The axial frequency c/(4 L) and the torsional one lie between
- * them and are counted only if requested. */
+/* Bending frequencies occur in pairs. The axial frequency c/(4 L) and the torsional frequency lie
+ * between them and are counted only if requested. */
 static void cantilever(const element_type *e, ask_tally *tally)
 {
     static answer any, axial, across;
@@ -116,9 +115,9 @@ static void nothing_held(const element_type *e, ask_tally *tally)
                      "%s: frequency %d of the free bar", e->name, i + 1 - RIGID);
 }
 
-/* Returns the determinant of a bar in tension, with t = T/(EI): w = A (cosh ax - cos bx) + B (sinh
- * ax/a - sin bx/b), a^2 - b^2 = t, a^2 b^2 = k^4; at the free end there is no moment, and no force
- * across the bar's initial direction. The determinant is zero where k^2 sqrt(EI/(rho A)) is a
+/* Returns the determinant of a bar in tension with t = T/(EI): w = A (cosh ax - cos bx) + B (sinh
+ * ax/a - sin bx/b), a^2 - b^2 = t, a^2 b^2 = k^4. At the free end there is no moment, and no force
+ * across the initial direction of the bar. The determinant is zero where k^2 sqrt(EI/(rho A)) is a
  * circular frequency. */
 static double determinant(double t, double k)
 {
@@ -144,7 +143,7 @@ static double first_root(double t)
     return low;
 }
 
-/* Compression close to Euler's load and at half of it; tension at half of Euler's load and at
+/* Compression close to Euler's load and at half of it. Tension at half of Euler's load and at
  * twenty times this load. */
 static void loaded(const element_type *e, ask_tally *tally)
 {
@@ -165,7 +164,7 @@ static void loaded(const element_type *e, ask_tally *tally)
 }
 
 /* If the load acts on an arm as long as the bar, the critical load is k^2 EI with k tan k = 1. The
- * frequency vanishes at this load only. */
+ * frequency vanishes only at this load. */
 static void loaded_on_arm(const element_type *e, ask_tally *tally)
 {
     const double critical = 0.86033358901937976 * 0.86033358901937976 * young * pow(side, 4) / 12;

@@ -1,5 +1,5 @@
-"""Critical loads above the first one, about static paths: single, double, triple and almost equal loads, and loads near which
-round-off hinders Newton's method."""
+"""Critical loads above the first one, about static paths: single, double, triple and almost equal loads, and loads near
+which round-off hinders Newton's method."""
 import json
 import math
 import unittest
@@ -9,8 +9,8 @@ import scipy.optimize
 from harness.tools.kit.program import ProgramTest, run
 
 PLAIN = "omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]\n"
-# Three columns with equal sections below a floor that moves and turns in its plane. M breaks the symmetry of the unknowns, not
-# that of the structure.
+# Three columns with equal sections below a floor that moves and rotates in its plane. M breaks the symmetry of the
+# unknowns, not that of the structure.
 STOREY = """beamwork: 1
 sections: {s: {constants: {A: 1e-3, Iy: 1e-7, Iz: 1e-7, It: 4e-8}, young: 2e11, shear_modulus: 8e10}}
 nodes:
@@ -48,11 +48,13 @@ def columns(second_moments, wanted):
 
 
 def shortened(load, stiffness):
-    """Returns the load on a column that is shortened before it buckles; load: that of one of fixed length."""
+    """Returns the critical load of a column that is shortened before it buckles. `load` is that of a column of fixed
+    length."""
     return scipy.optimize.brentq(lambda P: P*(1 - P/stiffness) - load, load, 2*load, xtol=1e-13*load)
 
 
 class FurtherLoads(ProgramTest):
+
     def found(self, scene, formulation, n):
         done = run("solve", "--scene", "/dev/stdin", "-f", formulation, "-n", n, "--format", "json", input=scene)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
@@ -69,7 +71,7 @@ class FurtherLoads(ProgramTest):
                     self.assertAlmostEqual(value, right, delta=3e-9*right)
 
     def test_storey(self):
-        """The two sways coincide; the twist follows. Newton's method fails within 1e-9 of the twist's load."""
+        """The two sway loads coincide, and the twist load follows. Newton's method fails within 1e-9 of the twist load."""
         EI, EA, GJ, L, r = 2e4, 2e8, 3.2e3, 2, 0.5
 
         def twist(P):

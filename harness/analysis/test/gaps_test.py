@@ -1,4 +1,4 @@
-"""Stops with gaps: one load step finds the same state as many, and each stop is either open or compressed in
+"""Stops with gaps: one load step must find the same state as many steps. Each stop must be open or compressed in
 proportion to its force."""
 import random
 import re
@@ -40,6 +40,7 @@ quantities:
 
 
 class GapsTest(SceneCase):
+
     def found(self, text, *more):
         done = self.answered("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 1, *more)
         return {name: float(value) for name, value in re.findall(r"^(R|u\d)\s+(\S+) ", done.stdout, flags=re.M)}

@@ -1,7 +1,7 @@
 /* Structures with hinges compared with closed forms: a beam with an inner hinge, a three-hinged
- * frame, columns, vibration, a truss that snaps through. Also the axes of released ends: those in
- * which the section is described, whatever its principal axes; for a curved member, the axes at its
- * end. */
+ * frame, columns, vibration, and a truss that snaps through. Released ends have the axes in which
+ * the section is described, whatever its principal axes. For a curved member, they are the axes at
+ * its end. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -15,7 +15,7 @@
 
 #define HINGES "harness/analysis/test/hinges.yaml"
 
-/* Checks value i. scale: magnitude for a value that is zero. */
+/* Checks value i. `scale` is the magnitude for a value that is zero. */
 static void check(const cell_result *r, int i, double exact, double allowed, double scale,
                   const char *chosen)
 {
@@ -26,7 +26,7 @@ static void check(const cell_result *r, int i, double exact, double allowed, dou
              there ? r->scene.quantity[i].name : "a quantity", value, exact);
 }
 
-/* With bending and axial deformation only, one element per member is exact at the nodes. */
+/* With only bending and axial deformation, one element per member is exact at the nodes. */
 static void statics(const char *chosen, double allowed)
 {
     cell_result r;
@@ -80,7 +80,7 @@ static void eigenvalues(const char *chosen, int n, double allowed)
     cell_result_free(&r);
 }
 
-/* Bars of a truss, with axial deformation only. */
+/* Bars of a truss, with only axial deformation. */
 static void roof(const char *chosen)
 {
     cell_result r;
@@ -130,12 +130,10 @@ static void hinge_tests(void)
     }
 }
 
-/* An end released from a clamped node is equivalent to an end at a support that is free in this
- * component, in every analysis and with every formulation and Newton algorithm. */
-
 #define SPRINGS "harness/analysis/test/springs.yaml"
 
-/* Compares a released end at a clamped node with a support that is free in this component. */
+/* An end released from a clamped node must be equivalent to an end at a support that is free in
+ * this component, in every analysis and with every formulation and Newton algorithm. */
 static void supported(const char *chosen, int dense)
 {
     static const char *const released[] = {"hinge", "two_turns", "ball", "slide"};
@@ -168,7 +166,7 @@ static void hinge_support_tests(void)
         for (int k = 0; k < 3; k++) {
             char chosen[80];
             snprintf(chosen, sizeof chosen, "%s%s", registry_formulations[i]->name, newton[k]);
-            supported(chosen, k == 2); /* omits analyses that follow a factored tangent */
+            supported(chosen, k == 2); /* without analyses that follow a factored tangent */
         }
 }
 

@@ -1,4 +1,4 @@
-/* A bar with bending, torsion and axial deformation only, and the solution of a scene with it, for
+/* A bar with only bending, torsion and axial deformation, and the solution of a scene with it, for
  * tests of hinges and springs. */
 #ifndef BEAMWORK_TEST_HINGED_H
 #define BEAMWORK_TEST_HINGED_H

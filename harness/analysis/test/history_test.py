@@ -6,8 +6,7 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# A mass on a spring with an eccentric point: pushed from rest, with an initial velocity, and
-# twisted.
+# A mass on a spring with an eccentric point: pushed from rest, with an initial velocity, and twisted.
 PUSHED = """beamwork: 1
 let: {m: 2, k: 200, J: 1, c: 100}
 sections:
@@ -72,7 +71,7 @@ class Histories(ProgramTest):
             self.assertLess(abs(got - e), within*largest)
 
     def test_rates(self):
-        """The errors of integrators decrease with their orders, at the start as well as later."""
+        """The errors of integrators must decrease with their orders, at the start and later."""
         w, v = math.sqrt(200/2), math.sqrt(100)
         for integrator, coarse, factor in (("radau", 2e-5, 7), ("alpha", 0.06, 3.5)):
             errors = []
@@ -105,7 +104,6 @@ class Histories(ProgramTest):
         self.assertLess(abs(values["rms"]["value"]/math.sqrt(sum(squares)/10000) - 1), 1e-5)
 
     def test_refused(self):
-        """Quantities that an integrator does not compute, and points without inertia, are rejected."""
         for integrator, more, what in (("conserving", "", "mean acceleration of each step"),
                                        ("alpha", JERKS, "order 2 provide no jerk")):
             done = self.done(PUSHED % {"step": 0.01, "integrator": integrator, "more": more})
@@ -129,7 +127,7 @@ class Histories(ProgramTest):
         self.assertEqual([got[n]["unit"] for n in ("lines", "power", "force")], ["m", "m^2/Hz", "N^2/Hz"])
 
     def test_parseval(self):
-        """The sums of squares over time and over frequency are equal for any number of stations: even, odd, prime."""
+        """The sums of squares over time and over frequency must be equal for any number of stations: even, odd, prime."""
         for stations, count in (("0..1/60", 60), ("0..1/45", 45), ("0..1/97", 97), ("0..1/2", 2)):
             got, _ = self.curves(SHAKEN % {"shake": "1e-3*(exp(-3*t)*sin(40*t) + t^2)", "stations": stations, "when": ""})
             history = got["history"]["curve_value"][:count]
@@ -141,7 +139,6 @@ class Histories(ProgramTest):
                 self.assertLess(abs(line - exact), 1e-15)
 
     def test_window(self):
-        """The spectrum of a part of the motion with the Hann window agrees with the window's formulas."""
         got, _ = self.curves(SHAKEN % {"shake": SINES, "stations": "0..1/200", "when": "from: 0.25, until: 0.75, taper: hann"})
         history = got["history"]["curve_value"][50:150]
         weights = [math.sin(math.pi*n/100)**2 for n in range(100)]

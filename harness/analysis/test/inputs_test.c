@@ -1,7 +1,7 @@
-/* Every cell of the table of inputs. An input that is used changes the answer and obeys a law:
+/* Every cell of the table of inputs. An input that is used must change the answer and obey a law:
  * equilibrium, superposition, a compliance that is the derivative of the path, a critical load that
- * is the limit point of a continuation, a motion that stays in its initial equilibrium. An input
- * without effect does not change the answer. A rejected input is rejected by name, on its own. */
+ * is the limit point of a continuation, or a motion that stays in its initial equilibrium. An input
+ * without effect must not change the answer. A rejected input must be rejected by name. */
 #include "cases/scene/scene.h"
 
 #include <gsl/gsl_test.h>
@@ -25,7 +25,7 @@ static double apart(const answer *a, const answer *b)
     return largest;
 }
 
-/* Twice the input has twice the effect on the answer. */
+/* Twice the input must have twice the effect on the answer. */
 static void superposition(const scene_input *in, const element_type *e, const answer *without,
                           const answer *with)
 {
@@ -74,7 +74,7 @@ static int load_alone(const scene_input *in, posed *p, scene *s, scene_load *loa
     return scene_load_along(own) && own->kind != SCENE_GRAVITY && own->kind != SCENE_TEMPERATURE;
 }
 
-/* The reaction of the root balances the whole load on a member. */
+/* The reaction of the root must balance the whole load on a member. */
 static void reactions(const scene_input *in, const element_type *e)
 {
     static answer a;
@@ -100,7 +100,7 @@ static void reactions(const scene_input *in, const element_type *e)
     }
 }
 
-/* The resultant in a section equals the loads beyond it. */
+/* The resultant in a cross-section must equal the loads beyond it. */
 static void sections(const scene_input *in, const element_type *e)
 {
     static const double place[] = {0, 0.05, 0.2, 0.45, 0.9};
@@ -165,7 +165,7 @@ static double largest_apart(const answer *a, const answer *b, const char *const 
 static const char *const places[] = {"u_0", "u_1", "u_2", "v_0", "v_1", "v_2", NULL},
                          *const modes[] = {"f0", "f1", "f2", NULL};
 
-/* Under small loads the path agrees with the linear solution. */
+/* Under small loads, the path must agree with the linear solution. */
 static void law_of_linear(const scene_input *in, const element_type *e)
 {
     static answer linear, path;
@@ -180,7 +180,7 @@ static void law_of_linear(const scene_input *in, const element_type *e)
              off);
 }
 
-/* A path to the load factor found by a continuation ends in the same state. */
+/* A path to the load factor found by a continuation must end in the same state. */
 static void law_of_continuation(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer path;
@@ -193,8 +193,8 @@ static void law_of_continuation(const scene_input *in, const element_type *e, co
                  "%s: continuation, %s: the path at its factor", e->name, in->name);
 }
 
-/* A compliance is the derivative of the path to which it belongs; the compliance of the unloaded
- * structure is that at the start of any path. */
+/* A compliance must be the derivative of the path to which it belongs. The compliance of the
+ * unloaded structure must be that at the start of any path. */
 static void law_of_compliance(const scene_input *in, scene_column column, const element_type *e,
                               const answer *with)
 {
@@ -221,8 +221,8 @@ static void law_of_compliance(const scene_input *in, scene_column column, const 
     }
 }
 
-/* Frequencies of the unloaded structure are those at the start of any path, where two-node elements
- * lack their internal motions. */
+/* Frequencies of the unloaded structure must be those at the start of any path, where two-node
+ * elements lack their internal motions. */
 static void law_of_modal(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer about;
@@ -240,7 +240,7 @@ static void law_of_modal(const scene_input *in, const element_type *e, const ans
              in->name, off);
 }
 
-/* Under small loads the stresses of a linear analysis have the same effect as the path. */
+/* Under small loads, the stresses of a linear analysis must have the same effect as the path. */
 static void law_of_modal_linear(const scene_input *in, const element_type *e)
 {
     static answer rest, linear, path;
@@ -255,7 +255,7 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
     p.size = 1e-9;
     solve(&p, e, &rest);
     /* the bending of a closed frame changes the frequency as much, and a linear analysis neglects
-     * this */
+     * this bending */
     if (linear.values == 0 || path.values == 0 || is_called(in, "node attached to another") ||
         is_called(in, "imperfection by shifts"))
         return;
@@ -270,7 +270,8 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
              in->name, off, largest);
 }
 
-/* A frame that does not rotate has the frequencies of the path, computed by a different solver. */
+/* A frame that does not rotate must have the frequencies of the path, which a different solver
+ * computes. */
 static void law_of_modal_about(const scene_input *in, const element_type *e)
 {
     static answer a;
@@ -292,8 +293,8 @@ static void law_of_modal_about(const scene_input *in, const element_type *e)
     }
 }
 
-/* The square of a frequency about the stresses of a linear analysis vanishes at the critical load.
- */
+/* The square of a frequency about the stresses of a linear analysis must vanish at the critical
+ * load. */
 static void law_of_buckling(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer near, nearer;
@@ -314,7 +315,7 @@ static void law_of_buckling(const scene_input *in, const element_type *e, const 
                  g);
 }
 
-/* The first critical load of an arch is the first critical point of its path. */
+/* The first critical load of an arch must be the first critical point of its path. */
 static void law_of_buckling_about(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer a;
@@ -339,8 +340,8 @@ static void law_of_buckling_about(const scene_input *in, const element_type *e, 
                  "%s: buckling about a path, %s: the first critical point", e->name, in->name);
 }
 
-/* At zero frequency the response is the compliance; at other frequencies the solution with all
- * modes gives the same response. */
+/* At zero frequency, the response must be the compliance. At other frequencies, the solution with
+ * all modes must give the same response. */
 static void law_of_harmonic(const scene_input *in, scene_column column, const element_type *e,
                             const answer *with)
 {
@@ -353,7 +354,8 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
         in->name,
         column == SCENE_OF_HARMONIC_ABOUT ? SCENE_OF_COMPLIANCE_ABOUT : SCENE_OF_COMPLIANCE, 1);
     scene s;
-    if (column != SCENE_OF_HARMONIC_LINEAR && !is_called(in, "feedback")) { /* these are rejected */
+    if (column != SCENE_OF_HARMONIC_LINEAR &&
+        !is_called(in, "feedback")) { /* the other inputs are rejected */
         solve(&p, e, &a);
         const double off = largest_apart(with, &a, at_rest);
         gsl_test(!(off <= 1e-7), "%s: %s, %s: at 0 Hz the compliance (%g)", e->name,
@@ -373,7 +375,7 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
              scene_column_name[column], in->name, off, by_modes.reason);
 }
 
-/* About the start of a motion from equilibrium, the response equals that about the equilibrium
+/* About the start of a motion from equilibrium, the response must equal that about the equilibrium
  * state. */
 static void law_of_harmonic_instant(const scene_input *in, const element_type *e)
 {
@@ -398,7 +400,7 @@ static void law_of_harmonic_instant(const scene_input *in, const element_type *e
              e->name, in->name, off, instant.reason);
 }
 
-/* A path in rotating axes ends in the same state as the rotation. */
+/* A path in rotating axes must end in the same state as the rotation. */
 static void law_of_rotation(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer path;
@@ -410,8 +412,8 @@ static void law_of_rotation(const scene_input *in, const element_type *e, const 
              in->name, off);
 }
 
-/* Successive motions, the first of which starts from equilibrium, remain in this equilibrium:
- * inputs without a function of time are held. */
+/* Successive motions, the first of which starts from equilibrium, must remain in this equilibrium.
+ * Inputs without a function of time are held. */
 static void law_of_motion(const scene_input *in, const element_type *e, int continued)
 {
     static answer path, motion;
@@ -437,7 +439,6 @@ static void law_of_motion(const scene_input *in, const element_type *e, int cont
              scene_column_name[p.column], in->name, off, motion.reason);
 }
 
-/* Checks that the answer obeys the law of its analysis. */
 static void obey(const scene_input *in, scene_column column, const element_type *e,
                  const answer *with)
 {
@@ -491,7 +492,8 @@ static void obey(const scene_input *in, scene_column column, const element_type 
     }
 }
 
-/* An input that has an effect in rotating axes, or without a potential, has this effect here. */
+/* An input that has an effect in rotating axes, or without a potential, must have this effect
+ * here. */
 static void part_of_inertia(const scene_input *in, scene_column column, const element_type *e)
 {
     static answer with, without;
@@ -503,7 +505,7 @@ static void part_of_inertia(const scene_input *in, scene_column column, const el
     p.times = 0;
     solve(&p, e, &without);
     const double change = apart(&with, &without);
-    if (column == SCENE_OF_MODAL_ABOUT && /* damping changes the growth there, but no frequency */
+    if (column == SCENE_OF_MODAL_ABOUT && /* damping changes the growth, but no frequency */
         (is_called(in, "damping") || strstr(in->name, "dashpot") != NULL))
         return;
     gsl_test(with.values == 0 || !(change > 1e-6), "%s: %s, %s: changes the answer there (%g; %s)",
@@ -535,9 +537,10 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     if ((column == SCENE_OF_BUCKLING_ABOUT || column == SCENE_OF_MODAL_ABOUT ||
          column == SCENE_OF_COMPLIANCE_ABOUT || column == SCENE_OF_HARMONIC_ABOUT) &&
         in->part[SCENE_OF_STATIC] == SCENE_PART_REFUSED)
-        where = scene_column_name[SCENE_OF_STATIC]; /* likewise */
+        where =
+            scene_column_name[SCENE_OF_STATIC]; /* the static analysis rejects the input first */
     if (is_instant(column) && in->part[SCENE_OF_MOTION] == SCENE_PART_REFUSED)
-        where = scene_column_name[SCENE_OF_MOTION]; /* likewise */
+        where = scene_column_name[SCENE_OF_MOTION]; /* the motion rejects the input first */
     if (part == SCENE_PART_REFUSED) {
         gsl_test(!refused || strstr(with.reason, in->name) == NULL ||
                      strstr(with.reason, where) == NULL,
@@ -571,7 +574,7 @@ static void cell(const scene_input *in, scene_column column, const element_type 
         obey(in, column, e, &with);
 }
 
-/* Two equivalent descriptions have the same answer. */
+/* Two equivalent descriptions must have the same answer. */
 static void alike(const char *name, const char *other, scene_column column, const element_type *e)
 {
     static answer one, two;
@@ -584,8 +587,8 @@ static void alike(const char *name, const char *other, scene_column column, cons
              e->name, scene_column_name[column], name, other, off, one.reason, two.reason);
 }
 
-/* An arm at rest in rotating axes keeps rotating with its drive, apart from the effect of its mass,
- * which is distributed along the elements in the rotation and lumped at the nodes here. */
+/* An arm at rest in rotating axes keeps rotating with its drive, apart from the effect of its mass.
+ * The mass is distributed along the elements in the rotation and lumped at the nodes here. */
 static void start_turning(const element_type *e)
 {
     static answer a;

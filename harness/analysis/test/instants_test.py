@@ -1,5 +1,5 @@
-"""Small motions about instants of motions, compared with closed forms, a steady rotation, and motions with nearby
-initial states."""
+"""Small motions about instants of motions, compared with closed forms, a steady rotation, and motions with nearby initial
+states."""
 import csv
 import json
 import math
@@ -91,6 +91,7 @@ quantities:
 
 
 class Instants(ProgramTest):
+
     def solved(self, text, formulation="collocation", elements=1, status=0, more=()):
         path = self.folder / "scene.yaml"
         path.write_text(text)
@@ -104,8 +105,7 @@ class Instants(ProgramTest):
         self.assertLess(abs(value / right - 1), tolerance, (value, right))
 
     def test_pendulum(self):
-        """A pendulum obeys theta'' = -(g/l) cos(theta) dtheta at the start, between steps, at the end and above the
-        pin."""
+        """A pendulum obeys theta'' = -(g/l) cos(theta) dtheta at the start, between steps, at the end and above the pin."""
         for formulation in FORMULATIONS:
             for integrator in ("radau", "alpha"):
                 for time in (0, 0.31, 0.7):
@@ -150,8 +150,8 @@ class Instants(ProgramTest):
                 self.near(found[f"f_{i}"] * 2 * math.pi, right[i])
 
     def test_nearby_motions(self):
-        """Initial accelerations of motions with different initial velocities differ by -M^-1 (C + G) times the
-        velocity difference."""
+        """Initial accelerations of motions with different initial velocities differ by -M^-1 (C + G) times the velocity
+        difference."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
             folder = self.folder / formulation
             self.solved(FLYING % {"x": 10.0, "y": -20.0}, formulation, 2, 0,
@@ -196,7 +196,6 @@ class Instants(ProgramTest):
         self.assertIn("replace 'axes_of'", self.solved(scene, status=1))
 
     def test_feedback(self):
-        """Feedback loops are not closed about instants: they are rejected by name, unless they are left open."""
         scene = (PENDULUM % {"integrator": "radau", "time": 0.31, "start": ""}).replace(
             "on: bob}}", "on: bob}, servo: {moment: [0, 0, 1], on: pin, feedback: "
             "{node: pin, component: rz, proportional: 3, derivative: 1}}}")

@@ -1,8 +1,7 @@
 /* Properties that need no reference value, for every formulation on every case that it runs: the
  * same mesh described differently, mirror images, rotated symmetric structures, reciprocity.
  * Differences are relative to the size of the numbers. Two discretisations of the same continuum
- * may differ, but the difference decreases as the mesh is refined. Questions are counted: see
- * harness/tools/kit/ask.h. */
+ * may differ, but the difference must decrease as the mesh is refined. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -49,7 +48,7 @@ static double difference(const answer *a, const answer *b, const char **whose)
     return worst;
 }
 
-/* Returns the parameter of this name; NULL: the case has none. */
+/* Returns the parameter of this name, or NULL if the case has none. */
 static const parameter_type *parameter_of(const case_type *type, const char *name)
 {
     const int i = parameter_index(type->parameters, name);
@@ -91,8 +90,8 @@ static int found(const invariants_subject *s, int n, int keep_all, scene_edit ed
     return ask_count(s->tally, out, "%s, n = %d", s->type->name, n);
 }
 
-/* Finds the coarsest mesh that can follow the path, the next mesh, and the answers on both; two
- * elements cannot follow every path (a circle). Returns 0 if no mesh has an answer. */
+/* Finds the coarsest mesh that can follow the path, the next mesh, and the answers on both. Two
+ * elements cannot follow every path, for example a circle. Returns 0 if no mesh has an answer. */
 static int found_coarsest(invariants_subject *s, answer *out, answer *next)
 {
     for (s->coarse = 2; s->coarse <= 32; s->coarse *= 2) {
@@ -117,8 +116,8 @@ static void same(const invariants_subject *s, const char *what, const answer *be
              whose, apart);
 }
 
-/* Checks the retention of all coordinates. Warping coordinates that are kept where nothing warps
- * make the twist cubic in some formulations, which is a better mesh of the same continuum. Twice
+/* Checks the retention of all coordinates. In some formulations, warping coordinates that are kept
+ * although nothing warps make the twist cubic, which is a better mesh of the same continuum. Twice
  * the coarsest mesh must have an answer. */
 static void keep_all(const invariants_subject *s, const answer *fine)
 {
@@ -149,8 +148,8 @@ static void one_case(const case_type *type, const element_type *e, ask_tally *ta
     const int both = ask_count(tally, &fine, "%s, n = %d", type->name, 2 * s.coarse);
     if (both)
         keep_all(&s, &fine);
-    /* Other formulations depend on this order by a discretisation error, which the sweep of
-       extremes shows. */
+    /* other formulations depend on this order by a discretisation error, which the sweep of
+     * extremes shows */
     if (!(e->limits & LIMIT_ORDER_DEPENDENT))
         same(&s, "the other order of nodes changes nothing", &coarse, s.coarse,
              (scene_edit){SCENE_EDIT_REVERSE, 0});
@@ -170,7 +169,7 @@ static void every_case(const element_type *e)
     ask_conclude(&tally, e, "the same in other words");
 }
 
-/* In a mirror image of the structure certain values change sign. */
+/* In a mirror image of the structure, certain values must change sign. */
 static void mirrors(const element_type *e)
 {
     static const struct {
@@ -207,7 +206,7 @@ static void mirrors(const element_type *e)
     ask_conclude(&tally, e, "mirror images");
 }
 
-/* With three equal folds, a rotation by a third of a turn leaves the joint unchanged. */
+/* With three equal folds, a rotation by 120 degrees must leave the joint unchanged. */
 static void thirds(const element_type *e)
 {
     static answer a;
@@ -226,8 +225,8 @@ static void thirds(const element_type *e)
 }
 
 /* Returns the largest difference between the compliance C and its transpose. Maxwell's and Betti's
- * theorems hold for loads with a potential: for semitangential moments, but not for moments about
- * fixed axes. */
+ * theorems hold for loads with a potential, which includes semitangential moments but not moments
+ * about fixed axes. */
 static double asymmetry(const answer *a)
 {
     static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"};

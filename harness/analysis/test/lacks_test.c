@@ -1,6 +1,6 @@
-/* Shear flexibility in both directions: a formulation that supports shear includes it, or declares
- * that it does not and is rejected where it matters. The test is a member of any thickness under a
- * transverse force whose ends do not rotate: its deflection is F l^3 (1 + Phi)/(12 EI). */
+/* A formulation that supports shear must include it in both directions, or declare that it does not
+ * and be rejected where it matters. The test is a member of any thickness under a transverse force
+ * whose ends do not rotate. Its deflection is F l^3 (1 + Phi)/(12 EI). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 
 static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;
 
-/* Builds a beam of one or more members whose tip slides along `direction` only. */
+/* Builds a beam of one or more members whose tip slides only along `direction`. */
 static void guided(scene *s, double across_y, double across_z, int direction, int members)
 {
     const double y_axis[3] = {0, 1, 0};
@@ -38,7 +38,7 @@ static void guided(scene *s, double across_y, double across_z, int direction, in
     scene_add_quantity(s, "u", "m", scene_add_linear(s), scene_coordinate(tip, direction));
 }
 
-/* Returns the deflection; NAN: rejected, with the reason in words[200]. */
+/* Returns the deflection, or NAN if the scene is rejected, with the reason in words[200]. */
 static double deflection(const element_type *type, scene *s, char *words)
 {
     formulation chosen;

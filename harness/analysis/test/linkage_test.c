@@ -1,6 +1,6 @@
-/* Members that rotate freely against each other through large angles: a four-bar linkage and a
- * universal joint follow their exact paths without internal forces; a bent linkage gives the same
- * result in all axes; a linkage without a drive is named. */
+/* Members that rotate freely against each other through large angles. A four-bar linkage and a
+ * universal joint must follow their exact paths without internal forces. A bent linkage must give
+ * the same result in all axes. A linkage without a drive must be named. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -41,7 +41,7 @@ static int add_at(scene *s, double x, double y)
     return scene_add_node(s, r[0], r[1], r[2]);
 }
 
-/* Makes a node rotate about the normal of the plane only. motion: SCENE_FREE or a driver. */
+/* Makes a node rotate only about the normal of the plane. `motion` is SCENE_FREE or a driver. */
 static void pivot(scene *s, int node, int motion)
 {
     static const double z[3] = {0, 0, 1};
@@ -52,8 +52,8 @@ static void pivot(scene *s, int node, int motion)
     n->angle[0] = motion;
 }
 
-/* Adds nodes, bars and their load; turning: motion of the first node, as for pivot(). Returns the
- * nodes of the coupler. */
+/* Adds nodes, bars and their load. `turning` is the motion of the first node, as for pivot().
+ * Returns the nodes of the coupler. */
 static void add_bars(scene *s, int turning, int *second, int *third)
 {
     static const double z[3] = {0, 0, 1};
@@ -113,7 +113,7 @@ static void solve_four_bar(const char *chosen, double angle, double force, const
     cells_solve(build_four_bar, chosen, 1, r);
 }
 
-/* Without a load: the bars are rigid, and the crank rotates by more than half a turn. */
+/* Without a load, the bars are rigid. The crank rotates by more than half a revolution. */
 static void four_bar(const char *chosen)
 {
     cell_result r;
@@ -212,7 +212,7 @@ static void universal_joint(const char *chosen)
     cell_result_free(&r);
 }
 
-/* Builds four bars without a drive, which are rejected in linear and nonlinear analyses. */
+/* Builds four bars without a drive, which must be rejected in linear and nonlinear analyses. */
 static status build_loose(const double value[], scene *s, fault *f)
 {
     const double end = 1;
@@ -287,10 +287,6 @@ static void linkage_tests(void)
     }
 }
 
-/* Structures with springs compared with closed forms: a beam on rotational springs (deflection,
- * buckling, frequency), a sprung cantilever rolled up by a moment, a spring between two moving
- * bodies. */
-
 #define SPRINGS "harness/analysis/test/springs.yaml"
 
 static const double length = 1.3, kappa = 3.7; /* kappa: stiffness of the springs, in EI/L */
@@ -326,8 +322,8 @@ static void equilibrium(const cell_result *r, const char *chosen)
 }
 
 /* A cantilever with a spring at its tip, where a second body is attached by a spring with six
- * entries: the tip's spring carries its part of the load, and the clamp and the ground carry the
- * rest. */
+ * entries. The spring at the tip carries its part of the load, and the clamp and the ground carry
+ * the rest. */
 static void supported(const char *chosen)
 {
     cell_result r;
@@ -372,7 +368,7 @@ static void closed_forms(const char *chosen, int n, double allowed)
     cell_result_free(&r);
 }
 
-/* A very stiff spring acts as a rigid body. */
+/* A very stiff spring must act as a rigid body. */
 static void stiff(const char *chosen)
 {
     cell_result sprung, rigid;

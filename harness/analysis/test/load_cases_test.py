@@ -17,7 +17,7 @@ members:
   ab: {from: a, to: b, section: s, y: [0, 1, 0]}
   bc: {from: b, to: c, section: s, y: [0, 1, 0]PRETENSION}
 """
-# each load, with its case and the factor of that case
+# loads with their cases and the factors of these cases
 LOADS = {"weight": ("gravity: [0, -9.81, 0], on: all", "dead"), "wind": ("distributed: [2, 3, 0], on: bc, from: 0.3", "wind"),
          "hit": ("force: [-40, 5, 0], on: c", "wind"), "twist": ("moment: [0, 0, 2], on: ab, where: 0.4", "live"),
          "sun": ("temperature: 10, gradient: [100, 0], on: bc", "live")}
@@ -59,6 +59,7 @@ def values(of):
 
 
 class LoadCases(ProgramTest):
+
     def same(self, with_cases, without, delta=1e-9, **more):
         one, two = values(solved(with_cases, **more)), values(solved(without, **more))
         self.assertEqual(one.keys(), two.keys())
@@ -66,7 +67,6 @@ class LoadCases(ProgramTest):
             self.assertAlmostEqual(one[name] / two[name], 1, delta=delta, msg=(name, more))
 
     def test_every_analysis(self):
-        """A combination is equivalent to its loads multiplied by their factors."""
         kinds = {"linear": "linear: {COMBINED}", "static": "static: {stations: [0.5, 1]COMBINED}",
                  "rotation": "rotation: {omega: [0, 0, 0.1], stations: [1]COMBINED}"}
         for formulation in FORMULATIONS:
@@ -82,7 +82,6 @@ class LoadCases(ProgramTest):
                     self.same(first, text, formulation=formulation)
 
     def test_states_and_motions(self):
-        """Analyses about a state use the loads of that state: critical loads, paths, frequencies and motions."""
         analyses = """analyses:
   st: {static: {stations: [1]COMBINED}}
   tone: {modal: {about: st}}
@@ -110,7 +109,6 @@ quantities:
             self.same(cases, plain, formulation=formulation, delta=1e-8)
 
     def test_time_buckling_continuation(self):
-        """Functions of time and path factors are multiplied by the factor of the case."""
         text = """nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
 members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
 loads:
@@ -136,7 +134,7 @@ quantities:
             self.same(cases, plain, formulation=formulation, delta=1e-8)
 
     def test_one_factorisation(self):
-        """Many cases and combinations require only one factorisation, and each has the same result as on its own."""
+        """Many cases and combinations must require only one factorisation."""
         kinds = {"ULS": "combination: ULS", "SLS": "combination: SLS", "lift": "combination: lift", "dead": "case: dead",
                  "live": "case: live"}
         head = (HEAD + COMBINATIONS).replace("PRETENSION", ", pretension: 200") + loads()
@@ -156,8 +154,6 @@ quantities:
                         self.assertAlmostEqual(got[f"{name}_{quantity}"], value, delta=1e-12 * abs(value))
 
     def test_envelopes(self):
-        """An envelope gives the largest value, the smallest value or the largest magnitude over the combinations, and
-        names the governing combination."""
         head = (HEAD + COMBINATIONS).replace("PRETENSION", "") + loads() + "analyses: {x: {linear: {}}}\nquantities:\n"
         one = {c: values(solved(head + QUANTITIES.replace("A, WHICH", f"x, combination: {c},"))) for c in ("ULS", "SLS", "lift")}
         for kind, best in (("max", max), ("min", min), ("largest", lambda v, key: max(v, key=lambda c: abs(key(c))))):
@@ -173,7 +169,6 @@ quantities:
         self.assertIn(solved(cases)["u"]["meaning"], ("case dead", "case wind", "case live"))
 
     def test_conditions_and_names(self):
-        """Terms of loads that do not exist are omitted; loops and parameters may name combinations."""
         text = (HEAD + "combinations: {ULS: {dead: g, wind: 1.5, live: 1}, \"G$i\": {for: {i: 1..2}, dead: i, wind: 1}}\n").replace(
             "PRETENSION", "") + loads().replace("case: live}", "case: live, if: {with: 1}}") + """analyses: {x: {linear: {}}}
 quantities:
@@ -193,7 +188,6 @@ quantities:
             self.assertEqual([q["value"] for q in got["quantities"]], [q["value"] for q in twice["quantities"]])
 
     def test_refused(self):
-        """Missing or impossible inputs are rejected by name."""
         head = (HEAD + COMBINATIONS).replace("PRETENSION", "") + loads()
         u = "quantities: {u: {displacement: {analysis: x, WHICH node: c, component: uy}}}\n"
         rows = (
@@ -238,7 +232,6 @@ quantities:
 
 
 class EnvelopeTest(ProgramTest):
-    """Envelopes of nonlinear analyses use existing quantities and name the governing one."""
     TEXT = """beamwork: 1
 UNITS
 sections: {bar: {tube: {diameter: DIAMETER, thickness: WALL}, young: YOUNG, shear_modulus: SHEAR, density: RHO}}
@@ -319,8 +312,6 @@ quantities:
             self.assertIn(words, done.stderr)
 
     def test_sign_of_extremes(self):
-        """The maximum and minimum are those of the reported quantity, including its sign, over paths, over motions and
-        along members."""
         got = values(solved("""beamwork: 1
 sections: {bar: {tube: {diameter: 0.05, thickness: 3e-3}, young: 210e9, shear_modulus: 81e9, density: 7850}}
 nodes: {foot: {at: [0, 0, 0], hold: all}, head: {at: [3, 0, 0], hold: [ux, uy, uz]}, middle: {at: [1.5, 0, 0]}}

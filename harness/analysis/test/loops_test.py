@@ -10,8 +10,7 @@ from scipy.linalg import expm
 
 from harness.tools.kit.program import ProgramTest, run
 
-# A wall on a shaking base, a cart of 2 kg and a tool of 0.5 kg, joined along x by bars of stiffness
-# k1 and k2.
+# A wall on a shaking base, a cart of 2 kg and a tool of 0.5 kg, joined along x by bars of stiffness k1 and k2.
 SCENE = """beamwork: 1
 let: {k1: %(k1)s, k2: 200}
 sections:
@@ -96,6 +95,7 @@ class Plant:
 
 
 class Loops(ProgramTest):
+
     def solve(self, plant, analyses, quantities, at="cart", more="", code=0, time="", options=(), **gains):
         path = self.folder / "scene.yaml"
         words = {"proportional": gains.get("kp", 0), "derivative": gains.get("kd", 0), "integral": gains.get("ki", 0)}
@@ -113,8 +113,8 @@ class Loops(ProgramTest):
         return {q["quantity"]: q for q in record["quantities"]}
 
     def test_poles(self):
-        """The poles are those of a damper and a spring, the roots of a cubic, and those of a loop that drives a mode
-        that it does not measure."""
+        """The poles are those of a damper and a spring, the roots of a cubic, and those of a loop that drives a mode that
+        it does not measure."""
         for at, gains in (("cart", {"kp": 150, "kd": 7}), ("cart", {"kp": 80, "kd": 12, "ki": 90}),
                           ("tool", {"kp": 3, "kd": 0.02, "ki": 2}), ("tool", {"kp": 60, "kd": 9}), ("cart", {"ki": 40}),
                           ("tool", {"kp": 40, "kd": 8, "ki": 100})):
@@ -129,7 +129,7 @@ class Loops(ProgramTest):
                              max(s.real for s in expected) > 1e-9, (at, gains, expected))
 
     def test_single_mass(self):
-        """A PD loop acts as a spring and a dashpot; with an integral the poles are the roots of a cubic, even without a
+        """A PD loop acts as a spring and a dashpot. With an integral, the poles are the roots of a cubic, even without a
         spring."""
         text = """beamwork: 1
 sections: {bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}}
@@ -155,7 +155,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
                 self.assertAlmostEqual(complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])/s, 1, 11)
 
     def test_slow_integral(self):
-        """A pole far slower than the modes hides neither a mode nor the growth of a mode."""
+        """A pole far slower than the modes must hide neither a mode nor the growth of a mode."""
         k, own = 2e7, np.array([[3e4, -3e4], [-3e4, 3e4]])
         rate = "  rate: {force: [1, 0, 0], on: tool, feedback: {node: tool, component: ux, derivative: -20}}\n"
         for ki, kd in ((1e-2, 0), (1e-4, 0), (1e-8, 0), (1e-2, -20), (1e-5, -20), (1e-8, -20)):
@@ -188,8 +188,8 @@ loads:
             self.assertEqual("a mode grows at 3.754" in done.stderr, kd < 0, done.stderr)
 
     def test_integral_of_drive(self):
-        """The integral of a loop that pushes a driven component moves nothing: it has no pole, and the motor's force is
-        its reaction."""
+        """The integral of a loop that pushes a driven component moves nothing. It has no pole, and the force of the motor
+        is its reaction."""
         plant = Plant()
         (self.folder / "scene.yaml").write_text((SCENE % {
             "k1": 300, "c": 4, "at": "tool", "time": "", "still": "", "analyses": POLES + STEADY.replace("[0, ", "["),
@@ -206,7 +206,7 @@ loads:
             self.assertLess(abs(complex(curves["wall_real"][i], curves["wall_imaginary"][i])/wall - 1), 1e-9)
 
     def test_equal_real_poles(self):
-        """Two equal loops have two equal real poles; round-off does not turn them into a complex pair."""
+        """Round-off must not convert two equal real poles to a complex pair."""
         loop = "  %(c)s: {force: [%(x)s], on: cart, feedback: {node: cart, component: u%(c)s, proportional: 5, derivative: %(kd)s, integral: 3}}\n"
         for kd in (3, 100, 200):
             text = """beamwork: 1
@@ -232,7 +232,6 @@ quantities:
                 self.assertLess(abs(s/expected[i//2] - 1), 1e-7, (kd, i))
 
     def test_two_slow_integrals(self):
-        """Two integrals on a chain of carts have the expected poles, even with more than 200 coordinates."""
         for n, gains, slow in ((3, (1e-4, 1e-9), 2), (3, (1e-6, 400), 1), (250, (1e-3, 1e-7), 2), (250, (2, 1e-8), 2)):
             K = 1e4*(2*np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
             at, kp, kd, m, c = (0, n - 1), 5.0, 3.0, 0.4, 0.02
@@ -270,7 +269,7 @@ quantities:
                 self.assertLess(abs(one/s - 1), 1e-6, (n, gains, i, one, s))
 
     def test_responses(self):
-        """Responses are exact for all inputs and outputs, even at zero frequency, where an integral leaves no error."""
+        """Responses are exact even at zero frequency, where an integral leaves no error."""
         quantities = "".join(read(f"{node}_{name}", node=node, component="ux", **keys) for name, keys in INPUTS.items()
                              for node in ("cart", "tool")) + "".join(
             read(f"wall_{name}", node="base", component="ux", of="reaction", **keys) for name, keys in INPUTS.items())
@@ -287,7 +286,7 @@ quantities:
                         self.assertLess(abs(one - expected), 1e-9*max(abs(expected), 1e-3), (gains, key, hertz))
 
     def test_largest(self):
-        """The largest response is found near the poles of the closed loop, between the frequencies."""
+        """The largest response is near the poles of the closed loop, between the frequencies."""
         plant = Plant(kp=400, kd=1)
         record = self.solve(plant, "  steady: {harmonic: {frequencies: [0.1, 20]}}\n",
                             "  most: {response: {analysis: steady, node: cart, component: ux, reference: motor, take: max}}\n",
@@ -308,7 +307,6 @@ quantities:
         self.assertAlmostEqual(record["curves"][0]["curve_value"][0], 1/300, 12)
 
     def test_state_space(self):
-        """Transfer functions of the reference, poles, and the step response of a motion agree with closed forms."""
         for at, gains in (("cart", {"kp": 80, "kd": 12, "ki": 90}), ("tool", {"kp": 3, "kd": 0.02}), ("cart", {"ki": 40})):
             plant = Plant(at=at, **gains)
             quantities = read("tool", node="tool", component="ux", reference="motor") \
@@ -332,8 +330,7 @@ quantities:
             found = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0 and abs(s) > 1e-6), key=abs)
             for s, e in zip(found, plant.poles()):
                 self.assertAlmostEqual(s/e, 1, 8)
-            # the step occurs at 0 s: the reference, which is a state, is set at once, so that e'
-            # has no impulse
+            # the step occurs at 0 s: the reference, which is a state, is set at once, so e' has no impulse
             step = np.zeros(len(A))
             step[np.flatnonzero(B[:, reference] == 1)[-1]] = 0.01
             self.assertAlmostEqual((C @ expm(1.5*A) @ step)[0]/self.values(record)["end"]["value"], 1, 6)

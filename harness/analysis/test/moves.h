@@ -1,4 +1,5 @@
-/* A structure that is analysed in time only may be free, and then has no static state. */
+/* A structure for which only transient analyses are requested may be free, and then has no static
+ * state. */
 #ifndef BEAMWORK_TEST_MOVES_H
 #define BEAMWORK_TEST_MOVES_H
 

@@ -1,13 +1,12 @@
-"""Paths find the first critical points even if several coincide, however long the steps, and whatever zero
-loads are added."""
+"""Paths must find the first critical points even if several coincide, for any length of the steps and for any added zero
+loads."""
 import json
 import math
 import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# E Iz = 1, L = 1, pinned or clamped: the critical load is P = (c pi)^2 E I, with negligible
-# shortening.
+# E Iz = 1, L = 1, pinned or clamped. The critical load is P = (c pi)^2 E I, with negligible shortening.
 COLUMN = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: %(Iy)r, Iz: 1, It: 1}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: %(a)s}, b: {at: [1, 0, 0]%(b)s}}
@@ -34,7 +33,7 @@ quantities:
   l_$i: {for: {i: 0..1}, critical_point: {analysis: path, kind: limit, which: $i}, unit: N}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
-# Torque and thrust, both of fixed direction, on both ends of a pinned shaft.
+# Torque and thrust of fixed direction on both ends of a pinned shaft.
 SHAFT = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: %(Iy)r, Iz: 1, It: %(It)r}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz]}, c: {at: [0.5, 0, 0], hold: [rx]},
@@ -49,8 +48,8 @@ quantities:
   P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
-# A stiff cantilever is bent in its plane while a thrust rises and falls. It withstands the thrust or
-# buckles out of its plane.
+# A stiff cantilever is bent in its plane while a thrust rises and falls. It withstands the thrust or buckles out of its
+# plane.
 PASSING = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: 1, Iz: 1000, It: 1000}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -97,6 +96,7 @@ PI2 = math.pi ** 2
 
 
 class MultiplePoints(ProgramTest):
+
     def points(self, formulation="collocation", n=8, scene=COLUMN, **column):
         path = self.folder / "scene.yaml"
         path.write_text(scene % column)
@@ -110,8 +110,7 @@ class MultiplePoints(ProgramTest):
             self.assertLess(abs(value / right - 1), part, (found, about))
 
     def test_equal_and_almost_equal(self):
-        """Two points or one double point are found, never none, both in one step over all of them and in many
-        steps."""
+        """Two points or one double point must be found, both in one step over all of them and in many steps."""
         for off in (0, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3):
             for step in (1e-6, 1e-5, 4.5e-5):
                 self.near(self.points(Iy=1 + off, step=step, to=4.5e-5, **PINNED),
@@ -124,7 +123,6 @@ class MultiplePoints(ProgramTest):
                           [PI2 / 4] * 2 + [9 * PI2 / 4] * 2, 2e-2, formulation, n)
 
     def test_zero_loads(self):
-        """The result is bitwise the same as without the zero loads."""
         for ends in (PINNED, CLAMPED):
             for Iy in (1, 3):
                 found = [self.points(Iy=Iy, step=1e-3, to=1e-3, **{**ends, "more": more})
@@ -134,7 +132,7 @@ class MultiplePoints(ProgramTest):
         self.near(self.points(Iy=3, step=1e-3, to=1e-3, **PINNED), (PI2, 3 * PI2, 4 * PI2), 1e-3)
 
     def test_lost_and_regained(self):
-        """The critical points of the two-bar arch are found in steps of a hundredth of its path and in one step."""
+        """The steps are a hundredth of the path, or the whole path."""
         fine = self.points(n=4, scene=ARCH, step=0.0024, more="")
         self.near(fine, (2.15466, -0.612777, 2.99647, -0.620572), 1e-5)
         for step in (0.024, 0.08, 0.24):
@@ -143,8 +141,8 @@ class MultiplePoints(ProgramTest):
                 self.near(self.points(n=4, scene=ARCH, step=step, more=more), fine, 1e-7, step)
 
     def test_greenhill(self):
-        """A round shaft under thrust P and a torque m P of fixed direction: the double points at (m P/2)^2 + P = pi^2,
-        which the sign of the determinant does not show, are found; a shaft that is not quite round has two points."""
+        """A round shaft under thrust P and a torque m P of fixed direction has double points at (m P/2)^2 + P = pi^2,
+        where the determinant does not change sign. A shaft that is not quite round has two points."""
         for m in (1e-8, 0.1, 0.5, 2):
             exact = PI2 if m < 1e-3 else 2 * (math.sqrt(1 + m ** 2 * PI2) - 1) / m ** 2
             for twist in (1, 1e4):
@@ -161,8 +159,8 @@ class MultiplePoints(ProgramTest):
                           fine[:2], 1e-8, Iy, step)
 
     def test_partly_following(self):
-        """The fraction eta of a force on a free head follows the rotation. Stability is lost and regained at cos sqrt
-        P = -eta/(1 - eta); for eta above one half there is no such point."""
+        """The fraction eta of a force on a free head follows the rotation. Stability is lost and regained at cos sqrt P =
+        -eta/(1 - eta). For eta above one half there is no such point."""
         for eta in (0.2, 0.4, 0.49, 0.4999, 0.501, 1):
             self.follow(eta, 1, (1e-6, 3e-6, 1e-5))
         self.follow(0.4, 3, (1e-6, 3e-6, 1e-5, 3e-5))
@@ -178,7 +176,7 @@ class MultiplePoints(ProgramTest):
             self.assertEqual(found[len(exact):], [None] * (4 - len(exact)), (eta, step))
 
     def test_words_without_symmetry(self):
-        """Without mass, no divergence is reported up to the first point; with mass, the frequencies decide."""
+        """Without mass, no divergence is reported up to the first point. With mass, the frequencies decide."""
         for density, said in ((0, ["no divergence"] * 3 + ["unstable (2)"] * 3),
                               (1e-9, ["stable"] * 3 + ["unstable: grows"] * 3)):
             path = self.folder / "scene.yaml"
@@ -189,7 +187,7 @@ class MultiplePoints(ProgramTest):
             self.assertEqual([step["stability"] for step in json.loads(done.stdout)["steps"]], said)
 
     def test_frequencies_judge_what_the_determinant_does_not(self):
-        """In Beck's column the determinant never changes its sign; flutter begins at 20.05."""
+        """In Beck's column the determinant never changes its sign. Flutter begins at 20.05."""
         path = self.folder / "scene.yaml"
         for density, said in ((0, ["no divergence"] * 6), (1e-9, ["stable"] * 4 + ["unstable: grows"] * 2)):
             path.write_text((FOLLOWED % {"Iy": 2, "fixed": 0.0, "eta": -1.0, "to": 3e-5, "step": 5e-6})
@@ -198,7 +196,7 @@ class MultiplePoints(ProgramTest):
             self.assertEqual([step["stability"] for step in json.loads(done.stdout)["steps"]], said)
 
     def test_passing_thrust(self):
-        """A loss of stability over a fifth of the step is found wherever it occurs; so are two such losses."""
+        """One or two losses of stability over a fifth of the step must be found wherever they occur."""
         for middle in (0.21, 0.25, 0.28, 0.33, 0.42, 0.5, 0.58, 0.67, 0.75, 0.79):
             found = self.points(n=4, scene=PASSING, factor=[0, 0, 1, 0, 0], step=0.01,
                                 path=[0] + [30 * (middle + away) for away in (-0.2, 0, 0.2)] + [40])
@@ -224,8 +222,8 @@ class MultiplePoints(ProgramTest):
                 self.assertEqual(said[-1], well, (more, middle))
 
     def test_what_is_undecided_is_said(self):
-        """If half of the load follows the rotation, an eigenvalue touches zero at pi^2, and the stability is reported
-        as undecided."""
+        """If half of the load follows the rotation, an eigenvalue touches zero at pi^2, and the stability is reported as
+        undecided."""
         path = self.folder / "scene.yaml"
         for step in (2e-6, 1.2e-5):
             path.write_text(FOLLOWED % {"Iy": 3, "fixed": -0.5, "eta": -0.5, "to": 1.2e-5,
@@ -237,8 +235,8 @@ class MultiplePoints(ProgramTest):
                 self.assertRegex(q["reason"], "undecided: between load factors 9.8[67][0-9]* and 9.8[67]")
 
     def test_held_turn_under_torque(self):
-        """A pinned shaft under Greenhill's loads is held against twist at one end, which is free about the other axes;
-        the support moment keeps its direction as the load does."""
+        """A pinned shaft under Greenhill's loads is held against twist at one end, which is free about the other axes.
+        The support moment and the load keep their directions."""
         for step in (1.5e-5, 1.5e-6):
             path = self.folder / "scene.yaml"
             path.write_text(COLUMN % {"a": "[ux, uy, uz, rx]", "b": ", hold: [uy, uz]", "Iy": 1, "step": step, "to": 1.5e-5,
@@ -250,7 +248,7 @@ class MultiplePoints(ProgramTest):
             self.assertEqual(found[2:], [None, None])
 
     def test_held_turn_in_linear_buckling(self):
-        """Forces on two arms cause a torque that one support carries: this is rejected by name. Without the forces,
+        """Forces on two arms cause a torque that one support carries, which must be rejected by name. Without the forces,
         Euler's load is found twice."""
         for arms, found in ((1, None), (0, [PI2, PI2])):
             path = self.folder / "scene.yaml"
@@ -263,7 +261,6 @@ class MultiplePoints(ProgramTest):
                 self.near([q["value"] for q in json.loads(done.stdout)["quantities"]], found, 1e-4)
 
     def test_found_beside_zero_loads(self):
-        """A zero load changes no bit of frequencies and critical loads with many unknowns."""
         for more in ZERO[1:]:
             for formulation, n in (("collocation", 24), ("geometrically_exact", 24)):
                 with_it, without = (self.found_beside(one, formulation, n) for one in (more, ""))

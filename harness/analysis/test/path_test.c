@@ -1,7 +1,7 @@
-/* Information about a path: the abscissas of its points, and which points are limit points.
+/* Abscissas of the points of a path, and limit points.
  *
- * At a limit point the load factor has an extremum, but not at a bifurcation. The number of limit
- * points therefore follows from the points of the path alone. */
+ * At a limit point the load factor has an extremum; at a bifurcation it has none. Therefore the
+ * points of the path determine the number of limit points. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -17,8 +17,8 @@
 
 static const double times = -3, shift = 0.7; /* factor and offset of the abscissa */
 
-/* A cantilever bent by a force that rises, falls and rises again: its largest deflection is at the
- * station 0.4. Alternatively the path is continued in the deflection. */
+/* A cantilever bent by a force that rises, falls and rises again, with its largest deflection at
+ * the station 0.4. Alternatively the path is continued in the deflection. */
 static status build(const double value[], scene *s, fault *f)
 {
     static const double station[] = {0.1, 0.4, 0.7, 1}, deflection[] = {0.1, 0.2, 0.3},
@@ -76,8 +76,8 @@ static status solve(const case_type *type, const element_type *formulation_type,
                         out);
 }
 
-/* Checks curves over the path or its control coordinate, without and with a factor and an offset.
- */
+/* Checks curves over the path or its control coordinate, without and with a factor and an
+ * offset. */
 static void abscissas(int continued)
 {
     cell_result r;
@@ -165,8 +165,8 @@ static void events(void)
              count[EVENT_BIFURCATION]);
 }
 
-/* If lengths are given in a different unit, the points and the fraction of the load's work are the
- * same. */
+/* If lengths are given in a different unit, the points and the fraction of the work of the load
+ * must be the same. */
 static void units(const char *name, const char *parameters)
 {
     cell_result in_metres, r;
@@ -198,9 +198,6 @@ static void path_tests(void)
     units("lee_frame", "plane=0");
 }
 
-/* Limits within one formulation: if a parameter vanishes, the answer is that without the
- * parameter. */
-
 /* Solves a case on a mesh. Returns 1 if the formulation answered. */
 static int found(const char *name, const char *parameters, const element_type *e, int n,
                  ask_tally *tally, answer *out)
@@ -211,8 +208,8 @@ static int found(const char *name, const char *parameters, const element_type *e
     return ask_count(tally, out, "%s, %s, n = %d", name, parameters, n);
 }
 
-/* As GA tends to infinity, the solution of the shear-flexible cantilever becomes the elastica (L =
- * 1, load 10, EI = 10). */
+/* As GA tends to infinity, the solution of the shear-flexible cantilever must tend to the elastica
+ * (L = 1, load 10, EI = 10). */
 static void stiff_in_shear(const element_type *e)
 {
     static const int n[2] = {4, 16};
@@ -235,7 +232,8 @@ static void stiff_in_shear(const element_type *e)
                      i == 0 ? "deflection" : "shortening", apart[0][i]);
 }
 
-/* Returns the deflection of the elastica beam with an initial curvature [1/m]; NAN: not solved. */
+/* Returns the deflection of the elastica beam with an initial curvature [1/m], or NAN if it was not
+ * solved. */
 static double curved(const element_type *e, double curvature, ask_tally *tally)
 {
     static answer a;
@@ -252,7 +250,7 @@ static double curved(const element_type *e, double curvature, ask_tally *tally)
     return ask_count(tally, &a, "curvature %g", curvature) ? a.value[0] : NAN;
 }
 
-/* As the curvature tends to zero, the answer changes in proportion to it, down to round-off. */
+/* As the curvature tends to zero, the answer must change in proportion to it, down to round-off. */
 static void nearly_straight(const element_type *e)
 {
     ask_tally tally = {0};
@@ -269,7 +267,7 @@ static void nearly_straight(const element_type *e)
              "%s: an initial curvature matters (%.1e)", e->name, slope);
 }
 
-/* The shear-rigid form is the printed form without shear. */
+/* The shear-rigid form must equal the printed form without shear. */
 static void without_shear(const element_type *e, const element_type *rigid)
 {
     static answer a, b;
@@ -292,10 +290,6 @@ static void limits_tests(void)
         nearly_straight(registry_formulations[i]);
     }
 }
-
-/* Iterative refinement: the criteria that end it; slender bars along oblique axes, whose accuracy
- * is limited by the rounding of their forces; and compliances with so many elements that two
- * refinements do not suffice. */
 
 static const double length = 1;
 
@@ -331,7 +325,7 @@ static void sequences(void)
     gsl_test(steps > 100, "what falls slowly ends after %d corrections", steps);
 }
 
-/* Builds a square bar that is pushed along its axis at its tip; the quantities are the
+/* Builds a square bar that is pushed along its axis at its tip. The quantities are the
  * displacements of the tip. */
 static void bar(scene *s, double side, const double direction[3])
 {
@@ -377,7 +371,7 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
                  e->name, slenderness, n, k, a.value[k] / exact - direction[k]);
 }
 
-/* With one element no correction reveals the error, because its forces are rounded in the same way
+/* With one element, no correction reveals the error, because its forces are rounded in the same way
  * each time. */
 static void too_slender(const element_type *e)
 {
@@ -401,7 +395,7 @@ static void slender_bars(const element_type *e, ask_tally *tally)
                 pushed(e, tally, slenderness, direction[d], n);
 }
 
-/* If the factors have only two correct digits, the result is the same as with fewer elements, with
+/* If the factors have only two correct digits, the result must be that with fewer elements, for
  * which the refinement converges. */
 static void compliance_of_many(void)
 {

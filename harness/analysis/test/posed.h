@@ -37,7 +37,7 @@ static void base(scene *s)
     scene_add_load(s, SCENE_FORCE, TIP, -300, 90, 60);
 }
 
-/* Half a shallow arch of the same members, which snaps through whatever other inputs act. */
+/* Half of a shallow arch of the same members, which snaps through whatever other inputs act. */
 static void arch(scene *s)
 {
     base(s);
@@ -54,7 +54,7 @@ static scene_load *follow(scene *s, int load)
     return scene_load_at(s, load);
 }
 
-/* A load along the second member, or a part of it. */
+/* A load along the second member, or along a part of it. */
 static scene_load *spread(scene *s, double from, double to)
 {
     scene_load *load = scene_load_at(s, scene_add_load(s, SCENE_DISTRIBUTED, 1, -70, 60, 50));
@@ -303,7 +303,7 @@ static void add(scene *s, const char *name)
 #undef IS
 }
 
-/* Adds what the input requires, without the input itself. */
+/* Adds what the input requires, without the input. */
 static void carry(scene *s, const char *name)
 {
     static const char *const held[] = {"temperature",       "strain of a member", "pretension",
@@ -321,7 +321,8 @@ static void carry(scene *s, const char *name)
 
 static const double end_of_continuation = 0.01;
 
-/* A scene of the table, with or without the input, and the changes that a law makes to it. */
+/* A scene of the table, with or without the input, and the changes that a law makes to the
+ * scene. */
 typedef struct posed {
     const char *name;
     scene_column column;
@@ -330,9 +331,9 @@ typedef struct posed {
     double size;  /* factor of all loads, strains and motions ... */
     double grown; /* ... and of the loads that are not constant */
     double end;   /* end of the static path */
-    double pull;  /* [N] force at the tip along y, from the start of the path */
+    double pull;  /* force at the tip along y, from the start of the path [N] */
     int turns;    /* 1: the axes of the paths rotate */
-    int follows;  /* 1: a force at the tip follows it */
+    int follows;  /* 1: a force at the tip follows the tip */
 } posed;
 
 /* Returns 1 for loads without a potential, for which flutter is requested. */
@@ -346,8 +347,8 @@ static int flutters(const char *name, scene_column column)
     return 0;
 }
 
-/* Returns 1 if the input adds nodes to the mesh. Its member then has different elements without the
- * input. */
+/* Returns 1 if the input adds nodes to the mesh. Without the input, its member then has different
+ * elements. */
 static int divides(const char *name)
 {
     return strstr(name, "within a member") != NULL || strstr(name, "part of a member") != NULL;
@@ -448,7 +449,6 @@ static int analyse(scene *s, const posed *p)
     }
 }
 
-/* Adds inputs that belong to the analyses. */
 static void begin(scene *s, const posed *p)
 {
     for (int i = 0; i < s->analyses && strcmp(p->name, "velocity at the start") == 0; i++)
@@ -515,7 +515,7 @@ static void want(scene *s, scene_column column, int analysis)
     }
 }
 
-/* Multiplies a member's initial strains by a factor. */
+/* Multiplies the initial strains of a member by a factor. */
 static void strain(scene_member *m, double length, double times)
 {
     m->strain[0] *= times;
@@ -526,7 +526,6 @@ static void strain(scene_member *m, double length, double times)
         m->unstressed_length = length + times * (m->unstressed_length - length);
 }
 
-/* Builds the scene without analyses. */
 static void structure(const posed *p, scene *s)
 {
     static const double from = 0, whole = 1;
@@ -539,7 +538,7 @@ static void structure(const posed *p, scene *s)
         add(s, p->name);
     else
         carry(s, p->name);
-    /* the analysis before it rejects feedback */
+    /* the preceding analysis rejects feedback */
     if (p->with && strcmp(p->name, "feedback") == 0 &&
         (p->column == SCENE_OF_HARMONIC_LINEAR || p->column == SCENE_OF_HARMONIC_ABOUT))
         scene_set_factor(s, s->loads - 1, 2, (const double[]){0, 1}, (const double[]){0, 0});

@@ -1,6 +1,6 @@
-/* Without loads, drives and initial strains all displacements and forces are zero: in every case at
- * every verified parameter point, for every formulation and every evaluated choice of its options.
- * The checks are counted. */
+/* Without loads, drives and initial strains, all displacements and forces must be zero, in every
+ * case at every verified parameter point, for every formulation and every evaluated choice of its
+ * options. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,8 +13,8 @@
 #include "harness/study/study.h"
 
 enum { COMPONENTS = 6, CHOICES = 64 };
-/* Limits relative to the structure's size, one radian, and the largest EA of its members. The
- * source of these values is rounding of an arc's curvature in slender members. */
+/* Limits relative to the size of the structure, to one radian, and to the largest EA of its
+ * members. They allow for rounding of the curvature of arcs in slender members. */
 static const double still = 1e-10, unstressed = 1e-12;
 
 enum { FORMULATIONS = 64 };
@@ -45,7 +45,7 @@ static double stiffest(const scene *s)
     return EA;
 }
 
-/* Leaves the structure alone: the loads and drives exist, but their values are zero. */
+/* Sets the values of the loads and drives to zero. */
 static void leave_alone(scene *s)
 {
     for (int i = 0; i < s->loads; i++)
@@ -73,7 +73,6 @@ static int carries(const scene_node *n, int component)
                : n->rotation == SCENE_ROTATION_SPATIAL && n->angle[component - 3] != SCENE_FREE;
 }
 
-/* Requests every displacement, rotation and reaction. */
 static void ask_for_all(scene *s)
 {
     const double end = 1;
@@ -141,7 +140,6 @@ static void rests(const sweep_point *p, const formulation *chosen, int elements)
     scene_free(&s);
 }
 
-/* Lists the default and the evaluated choices of the options. */
 static int choices_of(const element_type *type, formulation list[CHOICES])
 {
     int count = 1;

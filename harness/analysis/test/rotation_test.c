@@ -1,6 +1,6 @@
-/* Structures in steady rotation, through the public interface: results that do not depend on the
- * frame, the formulation's algorithm or the reference point of a body; the elongation of a thick
- * beam; and a structure at rest, which costs nothing extra. */
+/* Structures in steady rotation: results that do not depend on the frame, the algorithm of the
+ * formulation or the reference point of a body, the elongation of a thick beam, and a structure at
+ * rest, which costs nothing extra. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -35,8 +35,8 @@ static double value_of(const char *case_name, const char *chosen, int n,
     return value;
 }
 
-/* With k = Omega L/c = 1/2, where c is the speed of sound, the elongation is L (tan k/k - 1): with
- * elements of higher order, and in the limit with the others. */
+/* With k = Omega L/c = 1/2, where c is the speed of sound, the elongation is L (tan k/k - 1).
+ * Elements of higher order have this value on this mesh, the others in the limit. */
 static void stretch(void)
 {
     const char *const thick[] = {"omega_star=5", "slenderness=10", NULL};
@@ -55,7 +55,6 @@ static void stretch(void)
     }
 }
 
-/* The result does not depend on the algorithm for equilibrium. */
 static void algorithms(void)
 {
     const char *const inclined[] = {"axis=0.7", "omega_star=12", "slenderness=30", NULL};
@@ -110,8 +109,8 @@ static status build_with_body(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Tests the centrifugal and gyroscopic terms of a rigid offset with the same structure in other
- * coordinates. */
+/* The centrifugal and gyroscopic terms of a rigid offset are compared with the same structure in
+ * other coordinates. */
 static void reference_point(void)
 {
     static const case_type type = {.name = "with_body",
@@ -165,7 +164,7 @@ static void at_rest(void)
     cell_result_free(&turning);
 }
 
-/* An inward-pointing beam buckles under its own centrifugal force, and this is reported. */
+/* An inward-pointing beam buckles under its own centrifugal force, which must be reported. */
 static void instability_is_named(void)
 {
     const char *const inward[] = {"hub_radius=-2", "omega_star=4", NULL};
@@ -186,16 +185,16 @@ static void rotation_tests(void)
     instability_is_named();
 }
 
-/* A free beam: six rigid-body modes of frequency zero, then the bending modes, (k_i L)^2
- * sqrt(EI/(rho A L^4)) with cos(k_i L) cosh(k_i L) = 1. The stiffness matrix is singular; its shift
- * must not affect the frequencies. */
+/* A free beam has six rigid-body modes of frequency zero, then the bending modes (k_i L)^2
+ * sqrt(EI/(rho A L^4)) with cos(k_i L) cosh(k_i L) = 1. The stiffness matrix is singular, and its
+ * shift must not affect the frequencies. */
 
 enum { MODES = 10, RIGID = 6 };
 static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.1e11,
                     density = 7300; /* m, m, m, Pa, kg/m^3 */
 static const double root[2] = {4.7300407448627040, 7.8532046240958376};
 
-/* Returns frequency i: 0 is bending about the weak axis, 1 about the strong axis; the second modes
+/* Returns frequency i: 0 is bending about the weak axis, 1 about the strong axis. The second modes
  * of each follow. */
 static double exact(int i)
 {
@@ -223,13 +222,10 @@ static void free_beam_tests(void)
     frequencies("beamw_vlasov", 32, 1e-5);
     frequencies("beamw_first", 32, 1e-5);
     /* so many elements that rounding in the assembly changes the stiffness, and solutions are
-       refined */
+     * refined */
     frequencies("beamw_vlasov", 600, 2e-7);
     frequencies("beamw_vlasov", 2400, 2e-7);
 }
-
-/* Model and solvers through their public interface: omitted physics changes nothing, and round-off
- * stays small. */
 
 static double solve_value_of(const char *case_name, const char *formulation_text, int n,
                              int keep_all, const char *assignment, const char *quantity,
@@ -284,7 +280,7 @@ static void newton(void)
              "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
 }
 
-/* In a first step of 15 degrees the ends of short elements change places. The strains cannot show
+/* In a first step of 15 degrees, the ends of short elements change places. The strains cannot show
  * this, so the solver must detect it. */
 static void no_element_is_turned_round(void)
 {
@@ -307,8 +303,8 @@ static void fine_mesh(void)
              order);
 }
 
-/* Far below the largest values the geometric stiffness alone determines the pivots of K - A/s, and
- * here they vanish. */
+/* Far below the largest values, the geometric stiffness alone determines the pivots of K - A/s,
+ * which vanish here. */
 static void frame_of_strips(void)
 {
     const double exact = 0.6222080872197;
@@ -329,8 +325,8 @@ static void equal_elements(void)
     gsl_test_rel(critical, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
 }
 
-/* Two elements on fork supports have 14 modes, two of them axial; in some of the others no node
- * moves, and only cross-sections rotate and warp, so these are not axial either. */
+/* Two elements on fork supports have 14 modes, two of them axial. In some of the others no node
+ * moves, and only cross-sections rotate and warp, so these modes are not axial either. */
 static void modes_in_place(void)
 {
     for (int keep_all = 0; keep_all < 2; keep_all++)

@@ -6,7 +6,7 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# Overhung disc. Bending is a problem of two unknowns in the complex plane.
+# Overhung disc, whose bending is a problem of two unknowns in the complex plane.
 SHAFT = """beamwork: 1
 let: {d: 0.02}
 sections:
@@ -22,8 +22,7 @@ omit: [%(omit)s]
 """
 # A point mass on a massless shaft whose end does not tilt: 12 E I/L^3, multiplied by `flat` in one plane.
 JEFFCOTT = SHAFT.replace("mass: 5, inertia: [%(polar)r, 0.02, 0.02, 0, 0, 0]", "mass: 5, hold: [ux, rx, ry, rz]")
-# Stiff arm with a mass at its tip, in an eccentric hinge with a soft spring. Three coordinates have
-# a mass.
+# Stiff arm with a mass at its tip, in an eccentric hinge with a soft spring. Three coordinates have a mass.
 ARM = """beamwork: 1
 let: {W: 20, e: 0.1, L: 0.9, k: 1}
 sections: {arm: {constants: {A: 1e-2, Iy: 1e-4, Iz: 1e-4, It: 2e-4}, young: %s, shear_modulus: 80e9}}
@@ -48,7 +47,7 @@ quantities: {flap: {frequency: {analysis: r, which: 0, family: bending_z}, unit:
 EI, GJ, EA = 200e9*math.pi*0.02**4/64, 80e9*math.pi*0.02**4/32, 200e9*math.pi*0.01**2
 LENGTH, MASS, DIAMETRAL = 0.5, 5, 0.02
 K11, K12, K22 = 12*EI/LENGTH**3, -6*EI/LENGTH**2, 4*EI/LENGTH
-FIRST = math.sqrt(K11/MASS)  # of JEFFCOTT
+FIRST = math.sqrt(K11/MASS)  # first critical speed of JEFFCOTT
 DEFAULT = {"flat": 1.0, "density": 1e-6, "polar": 0.04, "omega": 300.0, "last": 5, "omit": "shear"}
 
 
@@ -125,15 +124,13 @@ class Rotors(ProgramTest):
                 self.close(self.frequencies(SHAFT % DEFAULT, formulation, n), expected(300, 0.04), 300, 2e-9)
 
     def test_masses(self):
-        """The shaft's own mass is 2e-4 of the disc's at 7.85 kg/m^3, and its effect has this order of magnitude."""
+        """The mass of the shaft is 2e-4 of that of the disc at 7.85 kg/m^3, and its effect has this order of magnitude."""
         for density in (7.85, 1e-3, 1e-6, 1e-9, 1e-12):
             for n in (2, 16):
                 found = self.frequencies(SHAFT % {**DEFAULT, "density": density}, "collocation", n)
                 self.close(found, expected(300, 0.04), 300, 1e-9 + 4e-5*density)
 
     def test_too_light(self):
-        """If the shaft is too light for its own frequencies to have correct digits, they are not reported, and the
-        reason is given."""
         for density in (1e-9, 1e-13):
             for omega in (0.5*FIRST, 3*FIRST):
                 scene = JEFFCOTT % {**DEFAULT, "density": density, "omega": omega, "last": 3}
@@ -142,7 +139,6 @@ class Rotors(ProgramTest):
                 self.assertIn("distinguishable from round-off", done["quantities"][2]["reason"])
 
     def test_speeds(self):
-        """Frequencies are correct below, next to and above the critical speed, for a flat disc and for a long one."""
         for polar in (0.04, 0.01):
             at = critical(polar)
             for omega in (1e-2, 1.0, at/2, at*(1 - 1e-3), at*(1 - 1e-6), at*(1 + 1e-6), at*(1 + 1e-3), 300.0, 1e4):
@@ -151,7 +147,6 @@ class Rotors(ProgramTest):
                     self.close(self.frequencies(scene, "collocation", n), expected(omega, polar), omega, 1e-8)
 
     def test_at_the_critical_speed(self):
-        """The result is correct, or the request is rejected by name."""
         at = critical(0.04)
         for omega in (at*(1 - 1e-10), at, at*(1 + 1e-10)):
             done = self.text(SHAFT % {**DEFAULT, "omega": omega}, "collocation", 4)
@@ -161,7 +156,7 @@ class Rotors(ProgramTest):
                 self.assertIn("critical point", done.stderr)
 
     def known(self, scene, formulation, n, exact, within, floor=2e-13):
-        """Checks the values, and that their errors lie within the estimates of round-off, which are no larger than
+        """Checks the values, and that their errors lie within the estimates of round-off, which must be no larger than
         `within`."""
         done = self.solved(scene, formulation, n)
         self.assertEqual(len(done["quantities"]), len(exact))
@@ -172,7 +167,7 @@ class Rotors(ProgramTest):
             self.assertLess(abs(q["value"]/right - 1), q["rounding"] + floor, (formulation, n, q["quantity"]))
 
     def test_massless(self):
-        """Three coordinates have a mass; the others have no frequency. With 200e9 Pa the matrix of 32 elements has
+        """Three coordinates have a mass, and the others have no frequency. With 200e9 Pa the matrix of 32 elements has
         only 3 digits for the soft modes, but the frequencies keep all their digits."""
         exact = (math.sqrt(400/9 + 1/0.81)/2/math.pi, math.sqrt(400*(1 + 1/9) + 1/0.81)/2/math.pi)
         for young, stretch in (("20e9", 1e-5), ("200e9", 1e-6)):
@@ -187,16 +182,14 @@ class Rotors(ProgramTest):
                     self.known(scene, formulation, n, first, 1e-10)
 
     def test_lost(self):
-        """If the matrix has no correct digits, this is reported with a remedy, and no value is given."""
         done = self.record("solve", "--scene", self.written(ARM % "200e9"), "-f", "geometrically_exact", "-n", 64, code=1)
         for q in done["quantities"]:
             self.assertIsNone(q["value"])
             self.assertIn("use fewer elements", q["reason"])
 
     def test_uncertainties(self):
-        """Errors against the closed form lie within the estimates, for several meshes and for speeds on both sides of
-        the critical one. A frequency that vanishes there loses as many digits as its distance from the
-        critical speed, and the estimate shows how many."""
+        """Errors must lie within the estimates. A frequency that vanishes at the critical speed loses as many digits as
+        its distance from this speed, and the estimate must show how many."""
         at = critical(0.04)
         for formulation in ("collocation", "geometrically_exact", "beamw", "sheet_third"):
             for n in (1, 4, 16, 64):
@@ -210,8 +203,6 @@ class Rotors(ProgramTest):
                     self.known(scene, "collocation", n, expected(omega, 0.04), within)
 
     def test_growth(self):
-        """Growth rates between the two critical speeds of a shaft with unequal stiffnesses are correct, and so are
-        their error estimates."""
         for flat in (1.001, 1.3):
             high = math.sqrt(flat)
             for part, within in ((1 + 1e-6, 1e-7), ((1 + high)/2, 1e-9), (high*(1 - 1e-6), 1e-7)):
@@ -226,7 +217,7 @@ class Rotors(ProgramTest):
                                within)
 
     def test_moment(self):
-        """Matrices are stored in full if a moment may make them unsymmetric; the gyroscopic matrix is then included
+        """Matrices are stored in full if a moment may make them unsymmetric. The gyroscopic matrix must then be included
         once."""
         for moment in ("0", "1e-9"):
             scene = SHAFT % {**DEFAULT, "density": 1e-13}
@@ -235,7 +226,6 @@ class Rotors(ProgramTest):
                 self.known(scene, "collocation", n, expected(300, 0.04), 1e-11)
 
     def test_indefinite_without_mass(self):
-        """Elements that are too long for their axial force are reported, with a remedy."""
         done = self.text(WIRE, "geometrically_exact", 8)
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("too long for the axial force", " ".join((done.stdout + done.stderr).split()))
@@ -256,7 +246,7 @@ class Rotors(ProgramTest):
             self.assertEqual("stable without damping" in told, part > 1.1, told)
 
     def test_round_shaft(self):
-        """With equal stiffnesses the frequencies are |w -+ W|; without damping, the shaft is stable above the critical
+        """With equal stiffnesses the frequencies are |w -+ W|. Without damping, the shaft is stable above the critical
         speed."""
         for part in (0.5, 0.999, 1.001, 1.5, 3.0):
             scene = JEFFCOTT % {**DEFAULT, "omega": part*FIRST, "last": 1}
@@ -266,7 +256,7 @@ class Rotors(ProgramTest):
             self.assertEqual(self.stability(scene), "stable" if part < 1 else "stable without damping")
 
     def test_without_modes(self):
-        """An odd number of negative eigenvalues proves instability; an even number does not."""
+        """An odd number of negative eigenvalues proves instability. An even number does not."""
         for part, said in ((0.9, "stable"), (1.05, "unstable: grows"), (1.5, "undecided")):
             scene = JEFFCOTT % {**DEFAULT, "flat": 1.3, "omega": part*FIRST, "last": 0}
             scene = scene.replace("frequency: {analysis: r, which: n}, unit: Hz",
@@ -275,13 +265,13 @@ class Rotors(ProgramTest):
 
 
 def across(a, b, c, d):
-    """Returns the 36 entries of a spring matrix with a, b; c, d between uy and uz."""
+    """Returns the 36 entries of a spring matrix with the block a, b; c, d between uy and uz."""
     rows = [[0]*6 for _ in range(6)]
     rows[1][1:3], rows[2][1:3] = (a, b), (c, d)
     return sum(rows, [])
 
 
-# A disc at the middle of a massless shaft on two bearings; the ends tilt freely.
+# A disc at the middle of a massless shaft on two bearings. The ends tilt freely.
 JOURNAL = """beamwork: 1
 sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
 nodes:
@@ -321,7 +311,7 @@ omit: [shear, rotary_inertia]
 
 
 def dynamic(s):
-    """Returns [a, b, c, d] for the disc's coordinates, with the bearings' coordinates eliminated."""
+    """Returns [a, b, c, d] for the coordinates of the disc, with the coordinates of the bearings eliminated."""
     k = SHAFT_STIFFNESS
     a, b, c, d = (2*x + s*2*y for x, y in zip(BEARING, FILM))
     a, d = a + k, d + k
@@ -330,6 +320,7 @@ def dynamic(s):
 
 
 class Bearings(ProgramTest):
+
     def values(self, scene, n=1, formulation="collocation", **words):
         return self.values_of(scene % words, "-f", formulation, "-n", n)
 
@@ -360,7 +351,7 @@ class Bearings(ProgramTest):
             self.assertLess(abs(got["y"]/(98.1*b/(a*d - b*c)) - 1), 1e-7)
 
     def test_onset(self):
-        """With cross stiffness q and damping c, the whirl grows above q = c w; there is no steady vibration then."""
+        """With cross stiffness q and damping c, the whirl grows above q = c w, where there is no steady vibration."""
         stiffness, damping = 192*200e9*8e-9, 40
         onset = damping*math.sqrt(stiffness/10)
         for part in (0.999, 1.001):
@@ -372,8 +363,8 @@ class Bearings(ProgramTest):
             self.assertEqual((code != 0, "a mode grows at" in told), (part > 1, part > 1), told)
 
     def test_motion(self):
-        """A motion z = y + i u from an initial velocity obeys m z'' + (c - i g) z' + (K - i q) z = 0, and its energy
-        includes the energy supplied by the films."""
+        """A motion z = y + i u from an initial velocity obeys m z'' + (c - i g) z' + (K - i q) z = 0. Its energy includes
+        the energy supplied by the films."""
         m, K, q, c, g, t = 10, 192*200e9*8e-9 + 1e5, 3e4, 300, 900, 0.03
         half = complex(c, -g)/(2*m)
         root = cmath.sqrt(half**2 - complex(K, -q)/m)
@@ -391,7 +382,6 @@ class Bearings(ProgramTest):
             self.assertLess(abs(got["lost"]/(m*1e-12/2 - energy) - 1), within, integrator)
 
     def test_part(self):
-        """If a part is rotated, its spring matrix rotates with it."""
         part = """beamwork: 1
 sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
 parts:
@@ -419,7 +409,6 @@ omit: [shear]
             self.assertLess(abs(by_part[name]/in_scene[name] - 1), 1e-9)
 
     def test_refused(self):
-        """Analyses that need a potential name the spring and the analysis to be used instead."""
         words = {"stiffness": across(*BEARING), "damping": across(*FILM)}
         for analyses, quantities, said in (
                 ("m: {modal: {}}", "f: {frequency: {analysis: m}}", "analysis m (modal) and spring a (unsymmetric spring): "

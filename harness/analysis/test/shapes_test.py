@@ -1,5 +1,5 @@
-"""Shapes of solutions: equilibrium along the lines, agreement with the quantities, and the same data through
-VTK's reader."""
+"""Shapes of solutions: equilibrium along the lines, agreement with the quantities, and the same data through the reader
+of VTK."""
 import unittest
 
 import h5py
@@ -14,7 +14,6 @@ except ImportError:
 from harness.tools.kit.program import ProgramTest, run
 
 
-
 def turned(q, v):
     """Returns v[..., 3] rotated by the unit quaternions q[..., 4] (w x y z)."""
     w, u = q[..., :1], q[..., 1:]
@@ -22,6 +21,7 @@ def turned(q, v):
 
 
 class Solution(ProgramTest):
+
     def setUp(self):
         super().setUp()
         self.path = self.folder / "s.h5"
@@ -34,8 +34,6 @@ class Solution(ProgramTest):
         return file, next(iter(tables["shapes"].values())), tables
 
     def test_path(self):
-        """The position of the cantilever's tip agrees with its quantity, and the resultants at the root are the
-        reactions."""
         for formulation, n in (("sheet_third", 1), ("collocation", 3),
                                ("geometrically_exact:nodes=3", 2)):
             _, shapes, tables = self.solve("sheet_cantilever", formulation, n, "--shapes")
@@ -59,7 +57,6 @@ class Solution(ProgramTest):
             self.assertLess(numpy.abs(balance).max(), 1e-9 * scale, formulation)
 
     def test_structure(self):
-        """Sections, bodies and one line per member are stored; nodes lie where the members end."""
         _, shapes, _ = self.solve("spherical_joint", "sheet_third", 2, "--shapes=3")
         self.assertEqual(list(shapes["value"][()]), [0, 1, 25, 50])
         members, first = shapes["members"][()], shapes["first_point"][()]
@@ -78,8 +75,7 @@ class Solution(ProgramTest):
                                       rtol=1e-12)
 
     def test_modes(self):
-        """The first buckling mode is stored with an amplitude of a tenth of the length, or a rotation of half a
-        radian."""
+        """The first buckling mode is stored with an amplitude of a tenth of the length, or a rotation of half a radian."""
         _, shapes, _ = self.solve("c_column", "beamw_consistent", 16, "--shapes")
         kinds = list(shapes["kind"].asstr()[()])
         self.assertIn("buckling", kinds)
@@ -89,12 +85,12 @@ class Solution(ProgramTest):
         length = numpy.ptp(position[0], axis=0).max()
         moved = numpy.linalg.norm(position[state] - position[0], axis=1).max() / length
         turn = 2 * numpy.arccos(numpy.abs((q[state] * q[0]).sum(axis=1))).max()
-        # the triads' x axes follow the line
+        # the x axes of the triads follow the line
         self.assertAlmostEqual(max(moved / 0.1, turn / 0.5), 1, delta=2e-2)
 
     def test_lines(self):
-        """The line between two nodes is the cubic whose end tangents are the nodes' x axes times the element length;
-        the sections between the nodes are perpendicular to it."""
+        """The line between two nodes is the cubic whose end tangents are the x axes of the nodes times the element
+        length. The cross-sections between the nodes are perpendicular to the line."""
         for formulation in ("sheet_third", "collocation"):
             _, shapes, tables = self.solve("sheet_cantilever", formulation, 1, "--shapes")
             position, length = shapes["position"][-1], tables["points"]["length"][0]
@@ -123,8 +119,7 @@ class Solution(ProgramTest):
         self.assertEqual(size, abs(bimoment[0]))
 
     def test_supports_and_bimoments(self):
-        """The supports of each node are stored as bits ux uy uz rx ry rz; bimoments are zero where warping is free,
-        and nonzero at the clamp."""
+        """The supports of each node are stored as the bits ux uy uz rx ry rz."""
         _, shapes, _ = self.solve("elastica", "collocation", 2, "--shapes")
         self.assertEqual(sorted(shapes["bodies"][:, 1]), [0, 0b111111])
         _, shapes, _ = self.solve("warping_torsion", "collocation", 4, "--shapes")
@@ -135,7 +130,6 @@ class Solution(ProgramTest):
         self.assertLess(numpy.abs(moment[:, 1:]).max(), 1e-6 * numpy.abs(moment[:, 0]).max())
 
     def test_values_of_modes(self):
-        """A mode is stored with its frequency [Hz] or critical load, which agrees with the quantity."""
         _, shapes, tables = self.solve("c_column", "beamw_consistent", 16, "--shapes")
         value = {row["quantity"].decode(): row["value"] for row in tables["quantities"][()]}
         kinds, drawn = shapes["kind"].asstr()[()], shapes["value"][()]
@@ -161,7 +155,6 @@ class Solution(ProgramTest):
 
     @unittest.skipIf(vtk is None, "needs python3-vtk9")
     def test_vtk(self):
-        """VTK reads a single state: lines and walls with their fields."""
         file, shapes, _ = self.solve("spherical_joint", "sheet_third", 1, "--shapes=1")
         self.assertEqual(list(file["VTKHDF"].attrs["Version"]), [1, 0])
         grid = self.read()
@@ -187,7 +180,7 @@ class Solution(ProgramTest):
         self.assertAlmostEqual(covered / (12 * 0.0681 * 0.0282), 1, delta=2e-3)
 
     def test_vtk_steps(self):
-        """Several states are time steps. The layout is that of version 2.0, and each step contains the right state."""
+        """Several states are time steps, in the layout of version 2.0."""
         file, shapes, _ = self.solve("sheet_cantilever", "sheet_third", 2, "--shapes")
         root = file["VTKHDF"]
         self.assertEqual(list(root.attrs["Version"]), [2, 0])

@@ -1,5 +1,5 @@
-/* A stiffness matrix that cannot be factored: a missing support is distinguished from digits lost
- * in round-off, and no wrong result is reported. */
+/* A stiffness matrix that cannot be factored: a missing support must be distinguished from digits
+ * lost in round-off, and no wrong result may be reported. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "harness/model/model.h"
 #include "harness/tools/kit/cells.h"
 
-/* Two beams along x, the second next to the first and supported separately; loads along z. */
+/* Two beams along x, the second next to the first and supported separately, with loads along z. */
 static void two_beams(scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -77,12 +77,12 @@ static void nothing(scene *s)
     (void)s;
 }
 
-/* motion: its components, the largest is 1; all zero: the beam is held */
+/* motion: components, of which the largest is 1; all zero: the beam is held */
 static const struct {
     const char *what;
     void (*change)(scene *);
     double motion[6];
-    int any; /* several motions are free, and it does not matter which of them is named */
+    int any; /* several motions are free, and any of them may be named */
 } changes[] = {
     {"all is held", nothing, {0}, 0},
     {"nothing holds it", everywhere, {0}, 1},
@@ -143,7 +143,7 @@ static status run(const char *case_name, const char *formulation_text, int eleme
     return cell_run(&request, out, f);
 }
 
-/* Every case is held: round-off is never reported as a missing support. */
+/* In every case, round-off must never be reported as a missing support. */
 static void all_cases_are_held(void)
 {
     for (int i = 0; registry_cases[i] != NULL; i++) {
@@ -167,8 +167,8 @@ static void all_cases_are_held(void)
     }
 }
 
-/* Stiffnesses that differ by 1e-20, and very many elements: no missing support is reported, and no
- * number is given as a result. */
+/* With stiffnesses that differ by 1e-20 or very many elements, no missing support may be reported,
+ * and no number may be given as a result. */
 static void round_off(void)
 {
     static const struct {
@@ -202,7 +202,7 @@ static void round_off(void)
     gsl_test(lost < 2, "%d were lost in round-off", lost);
 }
 
-/* A V with equal arms and different meshes: a drive of its apex along the axis moves the apex
+/* A V with equal arms and different meshes. A drive of its apex along the axis moves the apex
  * sideways only by round-off, and cannot satisfy a condition there. */
 static void driver_that_moves_nothing(double half_angle, int condition_component)
 {

@@ -31,7 +31,8 @@ static double euler(void)
     return PI * PI * E * Iz / (L * L);
 }
 
-/* Two members along x, from 0 over L/2 to L, with these strains and no supports. Nodes 0, 1, 2. */
+/* Two members along x, from 0 over L/2 to L, with these strains and no supports. The nodes are 0,
+ * 1, 2. */
 static void two_members(scene *s, const char *name, const double first[3], const double second[3])
 {
     scene_init(s, name);
@@ -162,7 +163,7 @@ static void pinned(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A hot column between walls, pushed at its middle: the forces P in one half and -P in the other
+/* A hot column between walls, pushed at its middle. The forces P in one half and -P in the other
  * add to the thermal thrust, which does not grow. */
 static void column(const element_type *e, ask_tally *tally)
 {
@@ -195,7 +196,6 @@ static void flying(const element_type *e, ask_tally *tally)
                      e->name, i);
 }
 
-/* A formulation without initial strains rejects them. */
 static void refuses(const element_type *e)
 {
     static const double hot[3] = {1e-3, 0, 0};
@@ -231,15 +231,11 @@ static void strain_tests(void)
     gsl_test(walked < 3, "%d formulations have initial strains", walked);
 }
 
-/* Nodes that can rotate freely, because all their members release that rotation: their
- * displacements are defined, in a plane and in space, along the axes and obliquely; their angle is
- * not. */
-
 enum { PLANE = 1, BALL = 2 };
 static const double turn_E = 210e9, I = 1e-6, P = 960;
 
-/* Two members of 1 m that meet in hinges about their z axis, rotated by `R`. how: PLANE: motion out
- * of the frame's plane is held; BALL: all rotations are released. */
+/* Two members of 1 m that meet in hinges about their z axis, rotated by `R`. If `how` is PLANE,
+ * motion out of the plane of the frame is held; if BALL, all rotations are released. */
 static void two_hinges(scene *s, const double R[9], int how, int moment)
 {
     double at[3][3], y[3], force[3];

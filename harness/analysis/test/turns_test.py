@@ -8,10 +8,7 @@ import unittest
 from harness.tools.kit.program import ProgramTest, run
 
 
-# Critical loads about a loaded state: they do not depend on the load of that state, several are
-# found if requested, and the searched range is reported if there is none.
-
-# Euler's load is 1, because E Iz = 4 L^2/pi^2 for the clamped column; its shortening is negligible.
+# Euler's load is 1, because E Iz = 4 L^2/pi^2 for the clamped column, whose shortening is negligible.
 COLUMN = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: %(Iy)r, Iz: %(Iz)r, It: 1}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -27,6 +24,7 @@ ZERO = ", z: {moment: [0, 0, 0], on: b}"
 
 
 class AboutState(ProgramTest):
+
     def factors(self, formulation="collocation", force=-1, Iy=I, last=0, more="", status=0):
         path = self.folder / "scene.yaml"
         path.write_text(COLUMN % {"force": force, "Iy": Iy, "Iz": I, "last": last, "more": more})
@@ -36,7 +34,7 @@ class AboutState(ProgramTest):
                 " ".join((done.stdout + done.stderr).split()))
 
     def test_any_load(self):
-        """The critical load does not depend on the load of the state, from a thousandth of the critical load to a
+        """The critical load must not depend on the load of the state, from a thousandth of the critical load to a
         thousand times it."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
             for force in (1e-3, 0.5, 0.99, 1.01, 30, 1000):
@@ -55,14 +53,13 @@ class AboutState(ProgramTest):
         self.assertEqual(self.factors(more=ZERO)[0], self.factors()[0])
 
     def test_none(self):
-        """Under tension, the searched range is reported."""
         found, said = self.factors(force=1, status=1)
         self.assertEqual(found, [None])
         self.assertRegex(said, r"no critical load from path 1 to [0-9.e+]+: the structure loses no stiffness")
 
 
-# The symmetry of a tangent depends on its own state: an analysis is not rejected because loads
-# could make the tangent of a different state unsymmetric, and a zero load changes no bit.
+# The symmetry of a tangent depends on its own state. An analysis must not be rejected because loads could make the
+# tangent of a different state unsymmetric, and a zero load must change no bit.
 BAR = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.005}, young: 210e9, shear_modulus: 81e9,
                density: 7850}}
@@ -78,6 +75,7 @@ FORMULATIONS = ("collocation", "beamw", "geometrically_exact")
 
 
 class Symmetry(ProgramTest):
+
     def written(self, scene):
         path = self.folder / "scene.yaml"
         path.write_text(scene)
@@ -126,20 +124,20 @@ quantities:
                     self.assertEqual(found[q]["value"], value["value"], (formulation, name, q))
 
     def test_bent_column(self):
-        """A column that bends from the start loses no stiffness: other equilibria that Newton's method finds beyond
-        Euler's load are not reported as critical loads."""
+        """A column that bends from the start loses no stiffness. Other equilibria that Newton's method finds beyond
+        Euler's load must not be reported as critical loads."""
         scene = BAR + """loads: {p: {force: [-200, 0.5, 0], on: b}}
 analyses: {path: {static: {stations: [1]}}, b: {buckling: {about: path}}}
 quantities: {P: {critical_factor: {analysis: b}}}
 """
         for formulation in FORMULATIONS:
             for n in (4, 8, 16, 32, 64):
-                if (formulation, n) != ("beamw", 16):  # on some processors round-off leads to another branch there
+                if (formulation, n) != ("beamw", 16):  # on some processors, round-off leads to another branch
                     self.assertIsNone(self.values(scene, formulation, n, 1)["P"].get("value"), (formulation, n))
 
     def test_bent_column_by_stations(self):
-        """Far beyond Euler's load the column is bent to the side of its transverse load. A different state, in which
-        one long step ends, is unstable and is reported as such."""
+        """Far beyond Euler's load the column is bent to the side of its transverse load. A different state, in which one
+        long step ends, is unstable and must be reported as such."""
         scene = BAR + """loads: {p: {force: [-200, 0.5, 0], on: b}}
 analyses: {path: {static: {stations: %r}}}
 quantities: {u: {displacement: {analysis: path, node: b, component: uy}, unit: m}}
@@ -167,8 +165,8 @@ quantities: {f: {frequency: {analysis: v, which: 0}, unit: Hz}}
         self.assertLess(abs(loaded/unloaded - 1), 1e-2)
 
 
-# Rotations beyond 180 degrees: springs, drives and quantities follow them, in statics, rotating
-# axes and motions; elements follow up to their declared limit and are rejected by name beyond it.
+# Rotations beyond 180 degrees: springs, drives and quantities must follow them, in statics, rotating axes and motions.
+# Elements must follow up to their declared limit and be rejected by name beyond it.
 ROD = "sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 2e-9}, young: 200e9, shear_modulus: 80e9}}\n"
 WOUND = """beamwork: 1
 """ + ROD + """parameters: {angle: {value: 10, unit: rad, min: -200, max: 200, about: "of the end that is driven"}}
@@ -196,7 +194,7 @@ quantities:
   last:  {displacement: {analysis: st, node: b, component: %s}}
   curve: {displacement: {analysis: st, node: b, component: %s, take: curve}}
 """
-# Driven: the moment is 160 N m/rad times the angle, with one element or many, or there is no value.
+# The moment is 160 N m/rad times the prescribed angle, with one element or many, or there is no value.
 DRIVEN = """beamwork: 1
 """ + ROD + """parameters: {angle: {value: 10, unit: rad, min: -100, max: 100, about: "of the driven end"}}
 nodes:
@@ -208,7 +206,7 @@ analyses: {st: {static: {stations: [1], steps: 10}}}
 omit: [trapeze, wagner_torque]
 quantities: {M: {internal: {analysis: st, member: rod, end: from, resultant: Mx}}}
 """
-# A disc on a shaft that spins freely.
+# A disc on a shaft that rotates freely.
 SPINNING = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 2e-9}, young: 200e9, shear_modulus: 80e9, density: 7800}}
 nodes:
@@ -225,6 +223,7 @@ EVERY = ("beamw", "beamw_consistent", "beamw_first", "beamw_vlasov", "collocatio
 
 
 class Turns(ProgramTest):
+
     def scene(self, text):
         path = self.folder / "scene.yaml"
         path.write_text(text)
@@ -236,8 +235,6 @@ class Turns(ProgramTest):
         return values, {c["quantity"]: c["curve_value"] for c in record["curves"]}
 
     def test_wound_spring(self):
-        """The moment is proportional to the angle through several revolutions, in both directions, with few and with
-        many steps."""
         for formulation in EVERY:
             for angle, steps in ((10, 4), (-10, 4), (100, 40)):
                 values, curves = self.solved(WOUND % steps, formulation, 16, "--set", f"angle={angle}")
@@ -249,8 +246,7 @@ class Turns(ProgramTest):
                     self.assertLess(abs(turn/(-right*part/5) - 1), within*max(1, angle*angle/100), (formulation, angle))
 
     def test_readings(self):
-        """The angle of a node that rotates by 10 rad about its axis, or about a perpendicular one, is read
-        correctly."""
+        """The node rotates by 10 rad about its axis, or about a perpendicular axis."""
         for component, hold, moment, stiffness in (("rx", ", hold: [uy, uz, ry, rz]", "load, 0, 0", 160),
                                                    ("rz", "", "0, 0, load", 200), ("ry", "", "0, load, 0", 200)):
             for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
@@ -261,7 +257,6 @@ class Turns(ProgramTest):
                     self.assertAlmostEqual(turn, 10*part, delta=0.01, msg=(formulation, component))
 
     def test_elements(self):
-        """The result is correct, or the element is rejected by name, with a remedy."""
         for formulation in EVERY:
             for n, angle in ((1, 0.7), (1, 1.5), (1, 3.2), (1, 10), (2, 5), (3, 10), (8, 10), (64, 10), (64, -30)):
                 done = run("solve", "--scene", self.scene(DRIVEN), "-f", formulation, "-n", n, "--set",
@@ -281,7 +276,7 @@ class Turns(ProgramTest):
                 self.assertLess(abs(torque/(160*angle)/right - 1), within, (formulation, n, angle))
 
     def test_spin_in_time(self):
-        """Angles are read through several revolutions with every integrator, also after a restart."""
+        """Angles are read through several revolutions with every integrator, even after a restart."""
         for integrator, within in (("alpha", 1e-3), ("conserving", 0.02), ("radau", 1e-3)):  # due to its steps of 0.1 rad
             values, _ = self.solved(SPINNING % ("2", integrator), "collocation", 1)
             self.assertAlmostEqual(values["rx"], 20, delta=within, msg=integrator)
@@ -292,8 +287,6 @@ class Turns(ProgramTest):
             self.assertAlmostEqual(values["rx"], 20, delta=within, msg=integrator)
 
 
-# Impossible or extreme sheets lead either to one line and the documented exit status or to an
-# answer, never to a wrong number without a message.
 def question(case, formulation, n, *assignments, memory=None):
     """Returns the arguments of the command; `memory` [bytes] limits its memory."""
     def limit():
@@ -309,6 +302,7 @@ def solve(*arguments, **options):
 
 
 class BadInput(ProgramTest):
+
     def denied(self, words, *arguments, **options):
         said, limit = question(*arguments, **options)
         self.refused(2, words, *said, preexec_fn=limit)
@@ -353,8 +347,8 @@ class BadInput(ProgramTest):
 
 
 class Extremes(unittest.TestCase):
-    """For L/w from 0.5 to 20, w/t from 10 to 1000 and u_y up to 0.5 L, there is an answer or the reason why there is
-    none. Sheets too thick for N Eq. 50 use a different model, and this is reported."""
+    """For L/w from 0.5 to 20, w/t from 10 to 1000 and u_y up to 0.5 L, there must be an answer or the reason why there is
+    none. Sheets too thick for N Eq. 50 use a different model, which must be reported."""
 
     def test_answer_or_reason(self):
         answers = 0

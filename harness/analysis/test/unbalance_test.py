@@ -1,5 +1,5 @@
-"""Synchronous response to an unbalance of the Jeffcott rotor, and of an overhung disc with gyroscopic moments on
-general bearings."""
+"""Synchronous response to an unbalance of the Jeffcott rotor, and of an overhung disc with gyroscopic moments on general
+bearings."""
 import re
 
 import numpy as np
@@ -52,6 +52,7 @@ def text(**keys):
 
 
 class Unbalance(ProgramTest):
+
     def solved(self, scene):
         path = self.folder / "scene.yaml"
         path.write_text(scene, encoding="utf-8")
@@ -61,7 +62,7 @@ class Unbalance(ProgramTest):
                 for name, values in curves.items() if name.endswith("_real")}
 
     def test_jeffcott(self):
-        """The response y + i z in forward whirl is Z = w^2/(K - i q - m w^2 + i c w); z lags y by 90 degrees."""
+        """The response y + i z in forward whirl is Z = w^2/(K - i q - m w^2 + i c w), and z lags y by 90 degrees."""
         K = 3*E*I/L**3
         for film, cross, damping in ((0, 0, 30), (4e3, 1e3, 40)):
             # the disc can tilt freely: its rotations follow the shaft, without rotary inertia
@@ -98,7 +99,8 @@ class Unbalance(ProgramTest):
                 self.assertLess(abs(found[f"{name}_rx"][i] - value), 1e-9*np.abs(expected).max(), (name, hertz))
 
     def test_modal(self):
-        """With all modes the response is that of the direct solution; with a few modes it is within the bound."""
+        """With all modes, the response must be that of the direct solution. With a few modes, it must be within the
+        bound."""
         damp, parts = matrix(uy_uy=50, uz_uz=20), "".join(map(read, ("uy", "uz", "ry", "rz")))
         stiff = matrix(uy_uy=4e3, uz_uz=9e3)
         direct, modal = (self.solved(text(stiffness=stiff, damping=damp, quantities=parts, solution=solution))
@@ -107,8 +109,8 @@ class Unbalance(ProgramTest):
             self.assertLess(np.abs(modal[name] - values).max(), 1e-8*np.abs(values).max(), name)
 
     def test_axes(self):
-        """The unbalance starts along the next axis and points along the one after that 90 degrees later; its force
-        acts on the base."""
+        """The unbalance starts along the next axis and points along the following axis 90 degrees later. Its force acts
+        on the base."""
         free = text(root="hold: all", disc="hold: [rx, ry, rz]", stiffness=matrix(ux_ux=1e4, uy_uy=2e4, uz_uz=3e4),
                     damping=matrix(ux_ux=30, uy_uy=30, uz_uz=30),
                     quantities="".join(read(c, axis) for axis in ("rx", "ry", "rz") for c in ("ux", "uy", "uz")))
@@ -124,8 +126,8 @@ class Unbalance(ProgramTest):
                     self.assertLess(abs(found[f"{SIX[component]}_{SIX[3 + axis]}"][i] - x), 1e-9*max(abs(x), 1e-6))
 
     def test_reaction(self):
-        """The reaction of a prescribed motion at rest on which the unbalance acts directly is the unbalance force
-        with the sign of a support."""
+        """The reaction of a prescribed motion at rest on which the unbalance acts directly is the unbalance force with
+        the sign of a support."""
         found = self.solved(text(disc="hold: [ux, rx], drive: {uy: still}",
                                  motions="motions: {still: {unit: m, path: [0, 1], value: [0, 0]}}\n",
                                  quantities=read("uy", of="reaction") + read("uz")))
@@ -134,7 +136,7 @@ class Unbalance(ProgramTest):
             self.assertAlmostEqual(tilted, -1, 9)
 
     def test_units(self):
-        """Masses in mm and N are in N s^2/mm: no unit names a kilogram."""
+        """Masses in mm and N are in N s^2/mm, so no unit names a kilogram."""
         lines = []
         for name, component, part in (("shift", "uy", "real"), ("rate", "uy, of: velocity", "imaginary"), ("turn", "rz", "real")):
             lines.append(f"  {name}: {{response: {{analysis: steady, node: disc, component: {component}, part: {part}, "

@@ -1,5 +1,4 @@
-"""Compliances about loaded states compared with differences of paths with small unit loads, where nodes rotate by
-angles."""
+"""Compliances about loaded states compared with differences of paths with small unit loads, where nodes rotate by angles."""
 import numpy
 
 from harness.tools.kit.program import ProgramTest
@@ -54,11 +53,11 @@ def spin(v):
 
 
 class UnitLoads(ProgramTest):
+
     def values(self, text):
         return self.values_of(text, "-f", "collocation", "-n", 1)
 
     def moved(self, text, node, unit):
-        """Returns the displacements [6] under a unit load [6]."""
         text = text.replace("UNIT", f"u: {{force: {list(unit[:3])}, on: {node}}}, v: {{moment: {list(unit[3:])}, on: {node}}}")
         text += "analyses: {S: {static: {stations: [0.5, 1]}}}\nquantities:\n"
         text += "".join(f"  {c}: {{displacement: {{analysis: S, node: {node}, component: {c}}}}}\n" for c in COMPONENTS)
@@ -66,7 +65,6 @@ class UnitLoads(ProgramTest):
         return numpy.array([found[c] for c in COMPONENTS])
 
     def differences(self, text, node, size, about=(0,) * 6):
-        """Returns C [6 x 6] from finite differences."""
         C = numpy.zeros((6, 6))
         for j in range(6):
             ends = [self.moved(text, node, [float(about[i]) + sign * size * (i == j) for i in range(6)]) for sign in (1, -1)]
@@ -86,7 +84,7 @@ class UnitLoads(ProgramTest):
         self.assertLess(numpy.max(numpy.abs(C - D) / numpy.outer(size, size)), 1e-6, words)
 
     def test_sequence(self):
-        """A guide holds an angle: the moment of the guide rotates with the node and is not a load."""
+        """A guide holds an angle. The moment of the guide rotates with the node and is not a load."""
         for x, y in (("held", "free"), ("free", "held"), ("free", "free")):
             text = BENT.replace("angle: X", f"angle: {x}").replace("angle: Y", f"angle: {y}")
             self.alike(self.compliance(text, "b"), self.differences(text, "b", 1e-2), f"{x}, {y}")
@@ -94,7 +92,7 @@ class UnitLoads(ProgramTest):
         self.alike(self.compliance(text, "b"), self.differences(text, "b", 1e-2), "two angles")
 
     def test_diaphragm(self):
-        """The diaphragm's moment about its normal is not a load, for the master and for a dependent node."""
+        """The moment of the diaphragm about its normal is not a load, for the master and for a dependent node."""
         text = STOREY.replace("DRIVE", "")
         for node in "AB":
             self.alike(self.compliance(text, node), self.differences(text, node, 1e3), node)

@@ -15,8 +15,8 @@
 #include "harness/numerics/test/matrices.h"
 #include "harness/study/study.h"
 
-/* Clamped column of length 1, EI = 1, mass 1, with a mass at its tip, in `planes` uncoupled planes;
- * the stiffness in the second plane is `ratio` times that in the first, and P follows the tip. */
+/* Clamped column of length 1, EI = 1, mass 1, with a mass at its tip, in `planes` uncoupled planes.
+ * The stiffness in the second plane is `ratio` times that in the first, and P follows the tip. */
 typedef struct checked_column {
     sparse K, M, C;
 } checked_column;
@@ -83,7 +83,7 @@ static void solve(const checked_column *c, int damped, int wanted, unsymmetric_r
     factor_free(fa);
 }
 
-/* Returns the square of half the difference of the first two squares of frequencies; it is negative
+/* Returns the square of half the difference of the first two squares of frequencies. It is negative
  * beyond the load at which they meet. */
 static double difference(double P, int elements, double tip)
 {
@@ -166,7 +166,7 @@ static void near_flutter(void)
         }
 }
 
-/* Damping of members changes the flutter load, to 10.94 for small damping. */
+/* Damping of members reduces the flutter load, to 10.94 for small damping. */
 static void damped(void)
 {
     static const double load[] = {10.9, 10.97, 20};
@@ -185,7 +185,7 @@ static void damped(void)
     }
 }
 
-/* Without a load the matrices are symmetric, and the frequencies are those of a clamped column,
+/* Without a load, the matrices are symmetric, and the frequencies are those of a clamped column,
  * without growth. */
 static void unloaded(void)
 {
@@ -211,9 +211,9 @@ static void unsymmetric_tests(void)
     unloaded();
 }
 
-/* A rigid body is equivalent to its point masses. Masses at attached nodes give the same motions as
- * one body with their centre and inertia, at rest, under load and in a rotating frame, for any
- * reference point and any orientation of the body. */
+/* A rigid body must be equivalent to its point masses. Masses at attached nodes give the same
+ * motions as one body with their centre and inertia, at rest, under load and in a rotating frame,
+ * for any reference point and any orientation of the body. */
 
 enum { AS, SUPPORT, LOADED };
 enum { POINTS, AT_HUB, BESIDE };
@@ -233,7 +233,7 @@ static const double mass[MASSES] = {0.31, 0.17, 0.23, 0.41}, hub_at[3] = {0.53, 
                                         {0.58, 0.13, -0.16},
                                         {0.66, 0.02, -0.09}};
 
-/* Returns the body that is equivalent to the points; its centre is measured from `from`. */
+/* Returns the body that is equivalent to the points. Its centre is measured from `from`. */
 static scene_body body_of_points(const double from[3])
 {
     scene_body b = {0};
@@ -411,8 +411,8 @@ static int make(const double R[9], scene *s, model **m)
     return made == STATUS_OK;
 }
 
-/* Adds to a mode: local component k at every node of a member follows a sine with the given number
- * of half-waves. */
+/* Adds a sine with the given number of half-waves to local component k at every node of a
+ * member. */
 static void add(const model *m, const double R[9], int member, int k, int waves, double size,
                 double x[])
 {
@@ -475,7 +475,7 @@ static void in_direction(const double R[9])
                             (modes_part[]){{k, waves, k == 3 ? 1 / r : 1},
                                            {other, waves + 2, other == 3 ? 0.8 / r : 0.8}},
                             moved[k], waves, "the larger of two motions");
-            /* modes of sections that rotate in place, and of warping */
+            /* modes of cross-sections that rotate in place, and of warping */
             static const int turn[] = {TURN_Z, TURN_Y, WARPING};
             const double unit[] = {1 / r, 1 / r, 1 / (r * r)};
             for (int k = 0; k < 3; k++) {

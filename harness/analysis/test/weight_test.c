@@ -26,7 +26,7 @@ static int leaf_profile(scene *s)
 static const scene_body heavy = {
     .mass = 0.4, .centre = {0.02, -0.03, 0.05}, .inertia = {2e-4, 3e-4, 4e-4, 1e-5, 0, 0}};
 
-/* Adds the weight, by gravity or as an explicit force. */
+/* Adds the weight, by gravity or in the form of an explicit force. */
 static void add_weight(scene *s, int node, const double by[3], int by_hand)
 {
     const double m = by_hand ? s->node[node].body.mass : 1;
@@ -80,7 +80,7 @@ static void all_analyses(scene *s, int by_hand)
     }
 }
 
-/* Every analysis with gravity agrees bitwise with that under the explicit force. */
+/* Every analysis with gravity must agree bitwise with that under the explicit force. */
 static void by_hand(void)
 {
     scene s;
@@ -98,7 +98,7 @@ static void by_hand(void)
                  one.value[i], other.value[i]);
 }
 
-/* A cantilever with bodies that hang on a short stiff bar: the reaction is the sum of both weights,
+/* A cantilever with bodies that hang on a short stiff bar. The reaction is the sum of both weights,
  * and the moment is about the displaced centre. */
 static void hung(void)
 {
@@ -127,7 +127,7 @@ static void hung(void)
                  "moment, but for the bar's own weight where it bends");
 }
 
-/* Builds a body on a pin that rotates about z only, or freely, with the given supports. */
+/* Builds a body on a pin that rotates only about z, or freely, with the given supports. */
 static int pinned(scene *s, int holds, scene_body body)
 {
     static const int last[] = {SCENE_RY, SCENE_UZ, SCENE_UY, SCENE_UY},
@@ -144,7 +144,7 @@ static int pinned(scene *s, int holds, scene_body body)
 }
 
 /* The period of small oscillations of a body whose centre is at a distance d from its pin is 2 pi
- * sqrt(I/m g d), for any small amplitude. */
+ * sqrt(I/m g d). */
 static void period(void)
 {
     static const double steps[] = {[SCENE_ALPHA] = 5000,
@@ -180,7 +180,7 @@ static void period(void)
 }
 
 /* A heavy top falls, on a fixed pin or on a pin that slides along z or in the plane. The work of
- * its weight equals the decrease of -m g . r_c, and all of it becomes energy of the motion. */
+ * its weight equals the decrease of -m g . r_c and becomes energy of the motion. */
 static void top(int holds)
 {
     static const scene_body body = {
@@ -262,8 +262,8 @@ static void weight_tests(void)
     column(0.2);
 }
 
-/* Fork supports: the web stays between the guides however the beam is bent, the reaction rotates
- * with the section, and nothing depends on the axes of the scene. A rotation held about a fixed
+/* Fork supports: for any bending of the beam, the web stays between the guides, and the reaction
+ * rotates with the section. Nothing depends on the axes of the scene. A rotation held about a fixed
  * axis would fail all three checks. */
 
 enum {
@@ -273,8 +273,8 @@ enum {
     VALUES = 9
 }; /* values of the middle, on the first fork, and of the first fork */
 
-/* Builds a beam with fork supports at both ends, held translations and a force in the middle.
- * Everything is rotated by Q from a beam along x with its web along z. */
+/* Builds a beam with fork supports at both ends, held translations and a force in the middle. The
+ * scene is rotated by Q from a beam along x with its web along z. */
 static void bent_beam(const double Q[9], const double force[3], scene *s)
 {
     static const char *const name[VALUES] = {"u0", "u1", "u2", "M0", "M1", "M2", "t0", "t1", "t2"};
@@ -309,7 +309,6 @@ static void bent_beam(const double Q[9], const double force[3], scene *s)
     }
 }
 
-/* Returns 1 if the formulation answered. */
 static int solve(const element_type *type, const double Q[9], const double force[3],
                  ask_tally *tally, double value[VALUES])
 {
@@ -324,8 +323,8 @@ static int solve(const element_type *type, const double Q[9], const double force
 
 static const double straight[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* In a state bent in both planes the web is perpendicular to the guides' normal, and their moment
- * is perpendicular to both. */
+/* In a state bent in both planes, the web is perpendicular to the normal of the guides, and their
+ * moment is perpendicular to both. */
 static void web_between_guides(const element_type *type, ask_tally *tally)
 {
     const double force[3] = {0, 0.6, -6}, normal[3] = {0, -1, 0}, z[3] = {0, 0, 1};
@@ -346,7 +345,6 @@ static void web_between_guides(const element_type *type, ask_tally *tally)
              "%s: the fork's moment %g is not across web and normal: %g", type->name, size, part);
 }
 
-/* If the same beam lies in other axes, all vectors rotate with it. */
 static void in_other_axes(const element_type *type, ask_tally *tally)
 {
     const double force[3] = {0, 0.6, -6}, turn[3] = {0.7, -1.1, 0.4};
@@ -417,7 +415,7 @@ static void fork_tests(void)
 
 /* Compliance of a node whose prescribed motion is released: forces and moments about fixed axes are
  * dead, whether they are loads or reactions. Loads are not counted as reactions, so the compliance
- * does not depend on how the two share the force that holds the node. */
+ * must not depend on how the two share the force that holds the node. */
 
 static const double young = 2e11, side = 0.02, length = 1;
 
