@@ -10,7 +10,6 @@ import h5py
 from harness.tools.kit.program import ProgramTest, ROOT, environment, run
 
 
-# Quantities that are not requested are not computed.
 HEAD = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.005}, young: 210e9, shear_modulus: 81e9,
                density: 7850}}
@@ -46,6 +45,7 @@ def work(record):
 
 
 class Asked(ProgramTest):
+
     def solved(self, text, *options):
         path = self.folder / "scene.yaml"
         path.write_text(text)
@@ -58,7 +58,6 @@ class Asked(ProgramTest):
                                            if x.split(":")[0].strip() in names])
 
     def test_analyses_that_nobody_reads(self):
-        """The work and the bits are those of a scene with only those analyses that a quantity reads."""
         for asked, line in QUANTITIES.items():
             wanted = f"quantities:\n  {line}\n"
             needed = {asked, "path"} if asked in "cv" else {asked}
@@ -69,7 +68,6 @@ class Asked(ProgramTest):
                              least["quantities"][0]["value"], asked)
 
     def test_a_selection(self):
-        """-k has the same effect as a scene with only those quantities."""
         lines = {k: v.replace("tip:", f"tip_{k}:") for k, v in QUANTITIES.items()}
         text = HEAD + ANALYSES + "quantities:\n" + "".join(f"  {x}\n" for x in lines.values())
         whole = self.solved(text)
@@ -85,7 +83,6 @@ class Asked(ProgramTest):
             self.assertLess(one["cell"]["factorisations"], whole["cell"]["factorisations"])
 
     def test_no_quantities(self):
-        """A scene without quantities reports all results of its analyses."""
         asked = self.solved(HEAD + ANALYSES + "quantities:\n  " + QUANTITIES["path"] + "\n")
         nothing = self.solved(HEAD + ANALYSES)
         self.assertGreater(nothing["cell"]["factorisations"], asked["cell"]["factorisations"])
@@ -126,7 +123,6 @@ class Asked(ProgramTest):
                      "frequency")
 
     def test_verify(self):
-        """A selection computes only what it names; a whole run computes everything."""
         out = self.folder / "v.h5"
         self.answered("verify", "-k", "c_column/default/ and buckling_load", "-f", "beamw", "-o",
                       out)
@@ -139,7 +135,6 @@ class Asked(ProgramTest):
             self.assertEqual(list(finest["factorisations"]), [3])
 
 
-# Available results are printed. Missing ones are reported with the reason and by the exit status.
 BAR = """beamwork: 1
 parameters: {depth: {value: 0.1, unit: m, min: 0.05, max: 0.5, about: "of the section at b"},
              damping: {value: 0, unit: s, min: 0, max: 1, about: "of the member"}}
@@ -195,8 +190,8 @@ class Selected(ProgramTest):
             self.assertGreater(others, 0 if "column" in some else -1, some)
 
     def test_alike_in_converge(self):
-        """The load of a mode does not depend on shear and Wagner moments, but the frequencies of the scene do: the
-        formulation is a different model, with and without a selection."""
+        """The load of a mode does not depend on shear and Wagner moments, but the frequencies of the scene do. Therefore
+        the formulation is a different model, with and without a selection."""
         where = ("converge", "c_column", "--set", "length=4", "--set", "height=0.9", "--set", "width=0.3", "-f",
                  "sheet_second", "-n", "2,4,8,16")
         for more in ((), ("-k", "=buckling_load")):
@@ -206,6 +201,7 @@ class Selected(ProgramTest):
 
 
 class Had(ProgramTest):
+
     def scene(self, text):
         path = self.folder / "own.yaml"
         path.write_text(text)
@@ -226,7 +222,7 @@ class Had(ProgramTest):
         self.assertEqual(found.returncode, 0, found)
 
     def test_values_that_are_asked_for(self):
-        """A tapered open section is rejected; a prismatic member is not a taper."""
+        """A tapered open section is rejected. A prismatic member is not a taper."""
         words = ("solve", "--scene", self.scene(BAR), "-f", "collocation", "-n", "2")
         self.refused(2, "own.yaml", *words)
         done = run(*words, "--set", "depth=0.2")
@@ -235,7 +231,7 @@ class Had(ProgramTest):
         self.refused(2, "did you mean 'depth'", *words, "--set", "deptj=0.2")
 
     def test_matrices_of_damping(self):
-        """C contains member damping, proportional to K at rest, and dashpots; it is absent if nothing is damped."""
+        """C contains member damping, proportional to K at rest, and dashpots. It is absent if nothing is damped."""
         def entries(folder, letter):
             lines = (self.folder/folder/"undeformed"/f"{letter}.mtx").read_text(encoding="utf-8").splitlines()
             rows = [line.split() for line in lines if not line.startswith("%")][1:]
@@ -256,13 +252,12 @@ class Had(ProgramTest):
             self.assertAlmostEqual(apart[-1], 7 if text is dashpot else 0, delta=1e-12*largest)
 
 
-# Default choices of solve and converge.
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
 class Solve(ProgramTest):
+
     def test_both(self):
-        """The choice is reported in the output, and its result is accurate."""
         for case, quantity in (("elastica", "w_over_L"), ("lateral_buckling", "load_factor")):
             text = self.answered("solve", case).stdout
             told = re.match(r"-f (\S+): .*no known deviation here.*\n-n (\d+): ", text)
@@ -276,7 +271,7 @@ class Solve(ProgramTest):
             self.assertLess(min(abs(t["error"]) for t in truths), 1e-3)
 
     def test_cost(self):
-        """The chosen formulation costs at most twice as much as the cheapest one for 0.1 % according to converge,
+        """The chosen formulation must cost at most twice as much as the cheapest one for 0.1 % according to converge,
         which runs all of them."""
         for case in ("elastica", "bend_45", "angle_column", "cross_flexure", "deep_beam", "lateral_buckling",
                      "carried_rod", "geradin_cardona", "loaded_cantilever", "weighted_column"):
@@ -287,7 +282,6 @@ class Solve(ProgramTest):
             self.assertLessEqual(cost[chosen], 2 * min(cost.values()), f"{case}: {chosen}, {cost}")
 
     def test_finer_than_the_meshes_of_a_scene(self):
-        """Elements are doubled until the values have converged."""
         text = LEAF.read_text(encoding="utf-8")
         path = self.folder / "coarse.yaml"
         path.write_text(re.sub(r"(?m)^meshes: .*$", "meshes: [1]", text), encoding="utf-8")
@@ -295,8 +289,6 @@ class Solve(ProgramTest):
         self.assertGreater(int(told.group(1)), 1)
 
     def test_steps(self):
-        """The first lines state the number of chosen steps and of longer steps that failed, in agreement with the
-        listed steps."""
         for case, rejects in (("elastica", True), ("bend_45", False)):
             more = ("--set", "load=10") if rejects else ()
             what = ("solve", case, "-f", "beamw", "-n", "8", *more)
@@ -317,7 +309,7 @@ class Solve(ProgramTest):
         self.refused(2, "one -f and one -n", "solve", "elastica", "-f", "beamw", "-n", "1,2")
 
     def test_the_theory_that_the_case_asks_for(self):
-        """The default is Engesser's theory; the value agrees with the reference value of this theory."""
+        """The default is Engesser's theory."""
         record = self.record("solve", "shear_column")
         self.assertIn("engesser", record["cell"]["features"])
         load = next(q for q in record["quantities"] if q["quantity"] == "buckling_load")
@@ -330,15 +322,12 @@ class Solve(ProgramTest):
         self.assertRegex(text, r"\A-f \S+: .*\n-n \d+: ")
 
     def test_without_truths(self):
-        """Without the list of known deviations there is still a solution, and defects are not mentioned."""
         done = self.answered("solve", "elastica", env=environment(BEAMWORK_TRUTHS="/nowhere.h5"))
         self.assertIn("without reference values", done.stderr)
         self.assertRegex(done.stdout, r"\A-f \S+: ")
         self.assertNotIn("defect", done.stdout)
 
 
-# Formulations whose times are not ranked, in bench and converge: they are shown and marked, but
-# never called the cheapest.
 MARK = "timoshenko: by differences, its times are not ranked"
 
 
@@ -363,12 +352,10 @@ class Unranked(ProgramTest):
                          r"timoshenko, n = 4, timed [0-9.e-]+ ms \(by differences: no rank\)")
 
     def test_alone(self):
-        """If no formulation is ranked, none is the cheapest."""
         out = " ".join(self.bench("-n", "4,8,16,32").split())
         self.assertRegex(out, r"stretch within 10, 1 %: none that ranks; also within it: timoshenko")
 
     def test_against(self):
-        """Times are compared at equal error and at equal numbers of elements, as text and as JSON."""
         out = " ".join(self.bench("--against", "collocation", "-k", "stretch", "--error",
                                   "1%").split())
         self.assertIn("no rank: compared with", out)

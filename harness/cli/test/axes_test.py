@@ -1,4 +1,4 @@
-"""Supports in their own axes: a scene rotated with its supports gives the same results in every analysis."""
+"""Supports in their own axes: a scene that is rotated with its supports must give the same results in every analysis."""
 import json
 import math
 
@@ -77,6 +77,7 @@ quantities:
 
 
 class Axes(ProgramTest):
+
     def values(self, text, *options, formulation="collocation"):
         return self.values_of(text, "-f", formulation, "-n", "2", *options)
 
@@ -94,7 +95,6 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
                 "\nquantities:" + quantities.replace("@", "i." if turned else ""))
 
     def test_turned_scene(self):
-        """Forces, factors and frequencies do not change in any analysis if a part is rotated with its supports."""
         for name, (_, close) in ANALYSES.items():
             plain, turned = (self.values(self.scene(name, turned)) for turned in (0, 1))
             self.assertGreater(len(plain), 0)
@@ -102,7 +102,6 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
                 self.assertLess(abs(turned[key] - value), close * max(1, abs(value)), f"{name}: {key}")
 
     def test_formulations(self):
-        """A roller on a slope agrees with a closed form, with all formulations."""
         names = [f["formulation"] for f in self.record("list", "formulations")["formulations"]]
         self.assertGreaterEqual(len(names), 10)
         for name in names:
@@ -121,7 +120,6 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
             self.assertAlmostEqual(found["t"], 0, delta=1e-6)
 
     def test_symmetry(self):
-        """Half of a beam with symmetry conditions agrees with the whole beam, in a path, in buckling and in a mode."""
         half = MIRRORED.replace("GUIDED", GUIDED).replace("MIDDLE", AXES + ", hold: [ux, ry, rz]")
         whole = MIRRORED.replace("GUIDED", GUIDED).replace("MIDDLE", AXES + ", hold: [ux]")
         for name, more in (("END", f"  b: {{at: [1.2, 1.6, 0], {GUIDED}}}"),
@@ -134,7 +132,7 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
             self.assertLess(abs(b[name] / value - 1), 1e-7, name)
 
     def test_harmonic_reaction(self):
-        """Reactions are along the axes of the node: only the component that the motion drives has a reaction."""
+        """Reactions are along the axes of the node, so only the component that the motion drives has a reaction."""
         text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0]}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], axes: {x: [1, 1, 0], z: [0, 0, 1]}, hold: [uy], drive: {ux: go}}}
 members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
@@ -150,7 +148,6 @@ quantities: {r: {response: {analysis: h, node: b, component: ux, of: reaction, d
         self.assertIn("requires a motion that drives this component alone", done.stdout + done.stderr)
 
     def test_written_again(self):
-        """If axes are given by z and by a member, the written scene gives the same results."""
         first = json.loads(run("solve", "--scene", EXAMPLE, "-f", "collocation", "-n", "1", "--format", "json").stdout)
         again = self.folder / "again.yaml"
         again.write_text(self.answered("scene", "--scene", EXAMPLE).stdout)
@@ -164,7 +161,6 @@ quantities: {r: {response: {analysis: h, node: b, component: ux, of: reaction, d
         self.assertAlmostEqual(found["axial"], 0, delta=1e-6)
 
     def test_refused(self):
-        """Invalid axes, and rotations without a given order, are rejected."""
         text = EXAMPLE.read_text()
         for new, words in (("axes: {x: [1, 1, 0]}", "give two of x, y and z, or a member"),
                            ("axes: {x: [1, 1, 0], y: [1, 0, 0]}", "not perpendicular"),

@@ -75,7 +75,6 @@ static void round_trip(sweep *s)
     free(after.at);
 }
 
-/* Returns 1 if the digest has changed. */
 static int differs(const sweep *s, const char *before)
 {
     const bytes now = written(s);
@@ -117,7 +116,6 @@ static void digests(sweep *s)
     free(before.at);
 }
 
-/* Missing cells are removed and counted. */
 static void kept(sweep *s)
 {
     static const char none[] = {0};
@@ -135,7 +133,7 @@ static void cells_tests(void)
     sweep_free(&s);
 }
 
-/* Texts in manual pages appear as they were written, whatever their first characters are. */
+/* Texts in manual pages must appear as they were written, whatever their first characters are. */
 
 static void written_as(const char *text, const char *wanted, const char *what)
 {
@@ -161,8 +159,8 @@ static void roff_tests(void)
                "78 columns");
 }
 
-/* Every word that the program prints as a result is explained in the glossary. The words come from
- * the program's own tables. */
+/* Every word that the program prints as a result must be explained in the glossary. The words come
+ * from the tables of the program. */
 
 static glossary words;
 

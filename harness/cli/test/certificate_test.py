@@ -26,7 +26,6 @@ class Certificates(Tested):
         self.assertGreaterEqual(len(record["formulations"]), 10)
 
     def test_examples_keep_it(self):
-        """Returns all examples except those that need a Fortran compiler, which have their own tests."""
         for source in sorted(set(EXAMPLES.glob("*.c")) - {EXAMPLES / "uel.c"}):
             out = self.answered("element-test", "--element", self.compiled(source.name)).stdout
             self.assertIn("interface requirements: SATISFIED", out)
@@ -116,7 +115,6 @@ class Tables(Tested):
         self.assertIn("SHA-256 of the program, which contains it", out)
 
     def test_csv(self):
-        """There is one row for each check and for each measured error."""
         found = self.forms()
         rows = list(csv.DictReader(io.StringIO(found["csv"])))
         self.assertEqual([(r["family"], r["name"], r["outcome"], int(r["compared"]))
@@ -132,7 +130,6 @@ class Tables(Tested):
                                                "torsion, warping held"])
 
     def test_markdown(self):
-        """Rows of a table have as many cells as its header."""
         text = self.forms()["markdown"]
         tables = [[line.count("|") for line in part.splitlines()]
                   for part in re.findall(r"(?:^\|.*\n)+", text, re.M)]
@@ -145,8 +142,6 @@ class Tables(Tested):
         self.assertIn("vibration with the mass that beamwork computes", text)
 
     def test_latex(self):
-        """Environments and braces match, rows have the columns of their header, and no character of a text acts as a
-        command."""
         text = self.forms()["latex"]
         opened = []
         for what, name in re.findall(r"\\(begin|end)\{(\w+)\}", text):
@@ -177,7 +172,6 @@ class Tables(Tested):
         self.assertRegex(found["latex"], r"stress, C and G derive .* & violated ")
 
     def test_special_characters(self):
-        """An element may have characters in its name that are special in LaTeX."""
         text = self.forms(("two nodes, one point", "50 % of {a_b} & #1 | $x^2$ ~ \\\\"),
                           ('"timoshenko"', '"my_beam"'))
         self.assertIn(r"\caption{my\_beam: ", text["latex"])

@@ -1,5 +1,5 @@
-"""The choice of solve meets the requested error at about the cost of the cheapest formulation, for all cases, all
-examples and thirty scenes. Digits are shown as far as the values are certain."""
+"""The choice of solve must meet the requested error at about the cost of the cheapest formulation. Digits are shown as
+far as the values are certain."""
 import json
 import random
 import re
@@ -9,9 +9,9 @@ from harness.tools.kit.program import ROOT, ProgramTest
 
 ASKED = 1e-3
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# According to converge, the meshes of this case have not converged to 0.1 % with any formulation.
+# cases whose meshes, according to converge, have not converged to 0.1 % with any formulation
 UNANSWERED = set()
-# The meshes take fifteen seconds and are also solved by verify, so only the choice is checked.
+# cases whose meshes take fifteen seconds and are solved by verify, so only the choice is checked
 LONG = {"hexapod_motion"}
 
 
@@ -53,12 +53,13 @@ def bar(chance, kind):
 
 
 class Choice(ProgramTest):
+
     def answers(self, *scene):
         return self.record("converge", *scene, "--error", "0.1%")
 
     def is_cheap(self, name, chosen, answers):
-        """Checks that the choice costs at most twice as much as the cheapest according to converge; beyond the meshes
-        of converge, the cost of the mesh before the chosen one is used. Returns whether converge has any answer."""
+        """Checks that the choice costs at most twice as much as the cheapest according to converge. Beyond the meshes of
+        converge, the cost of the mesh before the chosen one is used. Returns True if converge has any answer."""
         cost = {a["formulation"]: a["cost"] for a in answers["answers"] if a["rank"]}
         own = cost.get(chosen["formulation"], chosen["cell"]["cost"]/2)
         self.assertLessEqual(own, 2*min(cost.values(), default=own), f"{name}: {chosen['formulation']}, {cost}")
@@ -85,7 +86,7 @@ class Choice(ProgramTest):
         self.assertEqual(unanswered, UNANSWERED)
 
     def test_thirty_scenes(self):
-        """Four times as many elements change no value by more than the requested error."""
+        """Four times as many elements must change no value by more than the requested error."""
         chance = random.Random(17)
         path = self.folder / "scene.yaml"
         for i in range(30):
@@ -109,7 +110,6 @@ class Choice(ProgramTest):
             self.assertTrue(apart/100 < last <= apart, (q["quantity"], shown, q["change"]))
 
     def test_status_where_values_change(self):
-        """If the mesh limit ends the refinement, the status is not_converged, with the values and a remedy."""
         done = self.answered("solve", "deep_beam", "-f", "beamw:mass=lumped", "-k", "frequency_9", "--error", "1e-9", code=1)
         self.assertIn("was requested; use -n 2048, or a larger --error", done.stderr)
         self.assertRegex(done.stdout, r"\nnot_converged: values still change with the mesh: .*frequency_9 still\s+changed by")
@@ -118,8 +118,8 @@ class Choice(ProgramTest):
         self.refused(2, "--error", "solve", "deep_beam", "-n", "4", "--error", "1%")
 
     def test_slow_convergence(self):
-        """Lateral-torsional buckling with shear converges with an order below one, so the expected error exceeds the
-        last change."""
+        """Lateral-torsional buckling with shear converges with an order below one, so the expected error exceeds the last
+        change."""
         path = self.folder / "beam.yaml"
         path.write_text("""beamwork: 1
 units: mm, N, MPa
@@ -135,7 +135,6 @@ quantities: {Mcr: {critical_factor: {analysis: buck}, unit: 1}}
         self.assertLess(abs(found["quantities"][0]["value"]/exact - 1), 1.15e-4, found["elements"])
 
     def test_zero_beside_others(self):
-        """A value that is zero by symmetry counts as converged."""
         scene = bar(random.Random(1), "linear")
         scene["nodes"] = {"n0": {"at": [0, 0, 0], "hold": "all"}, "n1": {"at": [1, 0.3, 0]},
                           "n2": {"at": [2, 0, 0], "hold": "all"}}
@@ -149,7 +148,6 @@ quantities: {Mcr: {critical_factor: {analysis: buck}, unit: 1}}
                 self.assertLessEqual(self.record("solve", "--scene", path, "-f", name)["elements"], 4)
 
     def test_small_loads(self):
-        """The mesh does not depend on the size of the loads."""
         scene = bar(random.Random(1), "linear")
         scene["nodes"] = {"n0": {"at": [0, 0, 0], "hold": "all"}, "n1": {"at": [1, 1, 0]}}
         scene["members"] = {"m": {"from": "n0", "to": "n1", "section": "s", "y": [0, 1, 0], "curvature": [0, 0, 1]}}

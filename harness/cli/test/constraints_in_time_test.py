@@ -57,9 +57,9 @@ quantities:
 
 
 class ConstraintsInTime(ConstraintsCase):
+
     def test_one_node_in_two_in_time(self):
-        """A split node acts as one node in motions: with all integrators, with dashpots, driven, for nodes with and
-        without mass. The energy does not change."""
+        """A split node must act as one node in motions: with dashpots, driven, and for nodes with and without mass."""
         mass = ", mass: 0.5, inertia: [0.01, 0.02, 0.015, 0, 0, 0]"
         beside = ", mass: 0.5, centre: [0.02, 0.01, 0.03], inertia: [0.01, 0.02, 0.015, 0, 0, 0]"
         for how, until, moves in (("alpha, step: 0.002", 0.1, beside), ("alpha, step: 0.002, mass: consistent", 0.1, ""),
@@ -77,8 +77,8 @@ class ConstraintsInTime(ConstraintsCase):
                 self.assertLess(abs(b["D"]), 1e-11 * abs(b["E"]), how)
 
     def test_half(self):
-        """Two halves, one of them at a different position in its own axes, that are equal in the plane of symmetry
-        move like the whole structure, from a static start."""
+        """Two halves, one of them at a different position in its own axes, that are equal in the plane of symmetry move
+        in the same way as the whole structure, from a static start."""
         for how in ("alpha, step: 0.001", "radau, step: 0.002", "conserving, step: 0.001", "explicit, step: 1e-5, mass: lumped"):
             found = []
             for half in (0, 1):
@@ -110,8 +110,8 @@ quantities:
                 self.assertLess(abs(found[1][name] - value), 1e-8 * abs(value) + 1e-10, f"{how}: {name}")
 
     def test_gear_in_time(self):
-        """The response to a torque step is T/k (1 - cos omega t), in either order of the constraint, also in rotated
-        axes, with and without inertia beyond the gear."""
+        """The response to a torque step is T/k (1 - cos omega t), in either order of the constraint, with and without
+        inertia beyond the gear."""
         k1, time, torque = 80e9 * math.pi * 0.01**4 / 2, 0.05, 500
         text = GEAR[:GEAR.index("analyses")].replace("loads: {t: {moment: [0, 0, TORQUE], on: b}, u: {moment: [0, 0, -5], on: d}}",
                                                     "loads: {t: {moment: [0, 0, 500], on: b, time: 1}}")
@@ -171,7 +171,6 @@ quantities:
             self.assertIn("node d: the initial velocity contradicts a constraint", done.stdout + done.stderr)
 
     def test_driven_in_time(self):
-        """If a lever is driven, its other end follows, and its inertia acts on the drive."""
         for how in ("alpha, step: 1e-4", "radau, step: 0.001", "conserving, step: 1e-4"):
             found = self.values(HEAD + """motions: {go: {unit: m, time: 0.01*t^2}}
 nodes:
@@ -193,7 +192,6 @@ quantities:
             self.assertLess(abs(found["D"]), 1e-5 * found["E"], how)
 
     def test_motions(self):
-        """Inputs that an integrator does not support are rejected by name, each on its own."""
         path = self.folder / "motion.yaml"
         text = HEAD + """
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}, c: {at: [2, 0, 0]BESIDE}}
@@ -219,7 +217,6 @@ quantities: {t: {displacement: {analysis: T, node: b, component: rz}}}
         self.assertIn("conserving does not support rotations in a ratio (node d); use alpha or radau", done.stdout + done.stderr)
 
     def test_mechanism(self):
-        """Mechanisms that a constraint does not hold are reported; those that it holds are solved."""
         text = HEAD + """
 nodes: {a: {at: [0, 0, 0], hold: [uy, uz, rx, ry, rz]}, b: {at: [1, 0, 0]}, c: {at: [0, 1, 0], hold: [uy, uz, rx, ry, rz]}, d: {at: [1, 1, 0]ENDS}}
 members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}, n: {from: c, to: d, section: s, y: [0, 1, 0]}}

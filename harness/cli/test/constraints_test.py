@@ -1,4 +1,4 @@
-"""Constraints between components: split nodes, bodies, gears, periodic cells; rejected constraints."""
+"""Constraints between components: split nodes, bodies, gears, periodic cells, and rejected constraints."""
 import math
 
 from harness.cli.test.constraints import ALL, GEAR, HEAD, MASS, ConstraintsCase
@@ -106,8 +106,8 @@ quantities:
 
 
 class Constraints(ConstraintsCase):
+
     def test_one_node_in_two(self):
-        """Two coincident nodes that are equal in all components act as one node, in every analysis and formulation."""
         one = FRAME.replace("@", "b").replace("#", "b").replace("MOVES", MASS)
         two = FRAME.replace("@", "b").replace("#", "e").replace("MOVES", "")
         one = one.replace("NODES", "").replace("CONSTRAINTS", "")
@@ -117,7 +117,6 @@ class Constraints(ConstraintsCase):
             self.same(one, two, 1e-7, formulation=name)
 
     def test_matrices(self):
-        """The stiffness and mass matrices written by --matrices are those of the single node."""
         one = FRAME.replace("@", "b").replace("#", "b").replace("MOVES", MASS)
         two = FRAME.replace("@", "b").replace("#", "e").replace("MOVES", "")
         one = one.replace("NODES", "").replace("CONSTRAINTS", "")
@@ -135,8 +134,8 @@ class Constraints(ConstraintsCase):
                              [line for line in b if not line.startswith("%")])
 
     def test_harmonic_reaction(self):
-        """The reaction of a motion that other components follow by constraints is rejected, because it would be the
-        sum for all of them."""
+        """The reaction of a motion that other components follow by constraints is rejected, because it would be the sum
+        for all of them."""
         path = self.folder / "followed.yaml"
         path.write_text(HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0]}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], drive: {uy: go}}, c: {at: [2, 0, 0]}}
@@ -152,7 +151,7 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
             self.assertIn("drives more than the component", done.stdout + done.stderr)
 
     def test_units(self):
-        """The scene in mm and N gives the same results: a ratio has no unit."""
+        """The scene in mm and N must give the same results, because a ratio has no unit."""
         text = GEAR.replace("AXES ", "").replace("WHO", "d").replace("OTHER", "b").replace("RATIO", "-2")
         one = self.values(text.replace("TORQUE", "40"))
         mm = (text.replace("beamwork: 1", "beamwork: 1\nunits: mm, N, MPa").replace("diameter: 0.02, thickness: 0.01", "diameter: 20, thickness: 10")
@@ -164,7 +163,6 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
             self.assertLess(abs(two[name] / (one[name] * factor) - 1), 1e-8, name)
 
     def test_column(self):
-        """Two coincident equal nodes also act as one node in a continuation, and in buckling about a path."""
         one = COLUMN.replace("NODES", "").replace("#", "b").replace("CONSTRAINTS", "")
         two = COLUMN.replace("NODES", "e: {at: [0.5, 0, 0]}").replace("#", "e")
         self.same(one, two.replace("CONSTRAINTS", "constraints: {one: {equal: [e, b], components: [ux, uy, rz]}}"), 1e-7)
@@ -176,8 +174,8 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
         self.same(one, two.replace("CONSTRAINTS", "constraints: {s: {equal: [p, q], components: ux}}"))
 
     def test_gear(self):
-        """A gear has the stiffness k1 + i^2 k2 and the inertia I1 + i^2 I2, even at large rotations, in either order
-        of the constraint, and in rotated axes."""
+        """A gear has the stiffness k1 + i^2 k2 and the inertia I1 + i^2 I2, even at large rotations, in either order of
+        the constraint, and in rotated axes."""
         k1 = 80e9 * math.pi * 0.01**4 / 2
         k2 = k1 / 2
         stiff, inertia = k1 + 4 * k2, 0.3 + 4 * 0.05
@@ -194,7 +192,6 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
                     self.assertLess(abs(found[name] / value - 1), 1e-8, f"{name} {axes}")
 
     def test_turned_gear(self):
-        """The axis of a gear may be oblique."""
         text = GEAR.replace("WHO", "d").replace("OTHER", "b").replace("RATIO", "-2").replace("TORQUE", "4000")
         plain = self.values(text.replace("AXES ", ""))
         text = text.replace("AXES ", "axes: {z: [0.48, 0.64, 0.6], x: [0.8, -0.6, 0]}, ").replace("y: [0, 1, 0]", "y: [0.8, -0.6, 0]")
@@ -210,8 +207,8 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
             self.assertLess(abs(turned[name] / plain[name] - 1), 1e-8, name)
 
     def test_lever(self):
-        """If displacements have a ratio, the spring at the other end enters with the square of this ratio; if one end
-        is driven, the other follows."""
+        """If displacements have a ratio, the spring at the other end enters with the square of this ratio. If one end is
+        driven, the other follows."""
         text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0.02]}}
 nodes:
   a: {at: [0, 0, 0], hold: all}
@@ -246,8 +243,8 @@ plane: PLANE
         self.assertAlmostEqual(found["rc"], -0.06 * 700 - 20, delta=1e-9)
 
     def test_plane(self):
-        """If rotations at the ends of two beams of a plane scene have a ratio, the moment is (3 E I/2 + 9 x 4 E I)
-        times the first rotation."""
+        """If rotations at the ends of two beams of a plane scene have a ratio, the moment is (3 E I/2 + 9 x 4 E I) times
+        the first rotation."""
         found = self.values(HEAD + """
 nodes:
   a: {at: [0, 0, 0], hold: [ux, uy]}
@@ -279,7 +276,7 @@ omit: [shear]
         self.assertGreater(found["f"], 1)
 
     def test_cell(self):
-        """A cell with equal ends behaves like one of three cells in a row whose outer ends are equal."""
+        """A cell with equal ends must have the results of one of three cells in a row whose outer ends are equal."""
         found = []
         for cells in (1, 3):
             nodes = "".join(f"  l{i}: {{at: [{i}, 0, 0]}}\n  h{i}: {{at: [{i + 0.4}, 0.1, 0]}}\n" for i in range(cells))
@@ -327,7 +324,6 @@ quantities:
             self.assertAlmostEqual(found["u"], 16e-3 + 16 / (192 * 2e9 * 0.02 * 0.03**3 / 12), delta=1e-9)
 
     def test_example(self):
-        """The example agrees with its closed form in all formulations, and the written scene gives the same results."""
         for name in self.names():
             for q in self.record("solve", "--scene", EXAMPLE, "-f", name, "-n", "2")["quantities"]:
                 self.assertLess(abs(q["error"]), 1e-6, f"{name}: {q['quantity']}")
@@ -340,7 +336,6 @@ quantities:
             self.assertAlmostEqual(a["value"], b["value"], delta=1e-12 * abs(a["value"]))
 
     def test_refused(self):
-        """Constraints that contradict supports, motions, bodies or other constraints are rejected."""
         text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0.01]}}
 nodes:
   a: {at: [0, 0, 0], hold: all}

@@ -9,7 +9,6 @@ import unittest
 from harness.tools.kit.program import ProgramTest, ROOT, run
 
 
-# converge: the same numbers as text, CSV and JSON.
 LEAF = pathlib.Path(__file__).parents[3] / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
@@ -21,14 +20,12 @@ def converge(form):
 
 
 def answer(text):
-    """Returns the sentence at the end as one line."""
     return " ".join(text[text.rindex("\nfor 1 %"):].split())
 
 
 class Forms(unittest.TestCase):
 
     def test_nothing_runs(self):
-        """A formulation that does not support the scene is reported with the reason."""
         done = run("converge", "coupled_beam", "-f", "beamw_vlasov")
         self.assertEqual(done.returncode, 3)
         self.assertEqual(" ".join(done.stdout.split()),
@@ -59,7 +56,6 @@ class Forms(unittest.TestCase):
         self.assertIn("exact", converge("text"))
 
     def test_the_last_line_answers(self):
-        """The last line names the smallest mesh from which each quantity of each formulation is within 1 %."""
         series = json.loads(converge("json"))["series"]
         text = answer(converge("text"))
         self.assertTrue(text.startswith("for 1 % in every quantity: "), text)
@@ -77,7 +73,6 @@ class Forms(unittest.TestCase):
             self.assertEqual(told[one["formulation"]], counts[max(bad, default=-1) + 1])
 
     def test_at_an_error_of_ones_own(self):
-        """The answers in JSON and in the last line refer to the requested level."""
         at = {}
         for said, level in (("10%", 0.1), ("0.3%", 0.003), ("0.003", 0.003)):
             command = ("converge", "elastica", "-f", "all", "-n", "1,2,4,8,16", "--error", said)
@@ -107,8 +102,6 @@ class Forms(unittest.TestCase):
         self.assertLess(min(one["cost"] for one in wrong), cheapest["cost"])
 
     def test_of_another_model(self):
-        """The largest difference of the passing formulations from a solid is printed; nothing is printed if no such
-        difference is stored."""
         whole = json.loads(run("converge", "sheet_cantilever", "-f", "collocation", "-f", "beamw",
                                "-n", "2,4,8", "--format", "json").stdout)
         right = {one["formulation"] for one in whole["answers"] if not one["defect"]}
@@ -154,7 +147,6 @@ class Forms(unittest.TestCase):
         self.assertEqual(int(said[1] or 0) + len(missing), int(said[2] or len(names)))
 
 
-# converge: formulations in adjacent columns, a selection of quantities, default choices.
 HEAD, COLUMN, WIDEST = 8, 15, 100
 BESIDE_LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
@@ -184,6 +176,7 @@ def tables(text):
 
 
 class Beside(ProgramTest):
+
     def both(self, *words):
         text = self.answered("converge", *words).stdout
         return text, json.loads(self.answered("converge", *words, "--format", "json").stdout)
@@ -222,7 +215,6 @@ class Beside(ProgramTest):
         self.agree("--scene", BESIDE_LEAF, "-n", "1,2,4", "--set", "stroke=0.009")
 
     def test_selection(self):
-        """Quantities, formulations or both can be selected; a name without a match is rejected."""
         found = tables(self.answered("converge", "c_column", "-k", "frequency_4").stdout)
         self.assertEqual({quantity for quantity, _ in found}, {"frequency_4"})
         self.assertGreater(len(found), 2)
@@ -246,7 +238,6 @@ class Beside(ProgramTest):
                                    delta=1e-9)
 
     def test_by_itself(self):
-        """By default all formulations run on the case's own meshes; those that cannot run are named."""
         chosen = self.answered("converge", "c_column", "-k", "frequency_1", "-n", "2,4").stdout
         every = self.answered("converge", "c_column", "-k", "frequency_1", "-n", "2,4", "-f",
                               "all").stdout
@@ -265,7 +256,6 @@ class Beside(ProgramTest):
             self.refused(2, "--error", *work, error)
 
     def test_one_or_verbose(self):
-        """Values and times are printed separately for a single formulation, and with -v for each formulation."""
         for words in (("-f", "beamw"), ("-f", "beamw", "-f", "collocation", "-v")):
             text = self.answered("converge", "elastica", "-n", "2,4,8", *words).stdout
             self.assertIn("elastica, beamw\n  w_over_L [1]\n", text)

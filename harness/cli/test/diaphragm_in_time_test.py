@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from harness.cli.test.constraints import ConstraintsCase
 from harness.tools.kit.program import ROOT, run
 
-# A floor on springs, with masses at the followers; NORMAL is z, and other normals are cyclic permutations.
+# A floor on springs, with masses at the followers. NORMAL is z, and other normals are cyclic permutations.
 FLOOR = """beamwork: 1
 sections: {s: {rectangle: {width: 0.02, thickness: 0.03}, young: 2e9, shear_modulus: 0.8e9, density: 2000}}
 nodes:
@@ -54,8 +54,8 @@ STIFF = numpy.array([[0, 0], [2e4, 3e4], [1e4, 2e4], [5e3, 0]])
 
 
 def exact(time, stiff=1.0, gain=40):
-    """The floor by its three coordinates, with Dormand-Prince's method of order 8: displacement, velocity and
-    acceleration of each node, and the energies."""
+    """Returns displacement, velocity and acceleration of each node, and the energies, of the floor with its three
+    coordinates. They are integrated by Dormand-Prince's method of order 8."""
     def rows(turn):
         across = numpy.array([[-math.sin(turn), -math.cos(turn)], [math.cos(turn), -math.sin(turn)]])
         return [(numpy.hstack([numpy.eye(2), (across @ a)[:, None]]), across @ numpy.array([-a[1], a[0]])) for a in ARM]
@@ -147,7 +147,7 @@ quantities:
 
 
 def turned(text, times):
-    """The scene in axes that are permuted: x becomes y, y becomes z, z becomes x."""
+    """Returns the scene in permuted axes: x becomes y, y becomes z, z becomes x."""
     for _ in range(times):
         text = re.sub(r"\[([-\d.e]+), ([-\d.e]+), ([-\d.e]+)\]", r"[\3, \1, \2]", text)
         text = re.sub(r"\[([-\d.e]+), ([-\d.e]+), ([-\d.e]+), ([-\d.e]+), ([-\d.e]+), ([-\d.e]+)\]", r"[\3, \1, \2, \6, \4, \5]", text)
@@ -157,9 +157,8 @@ def turned(text, times):
 
 
 class DiaphragmsInTime(ConstraintsCase):
+
     def test_springs(self):
-        """A floor on springs, with masses, loads, a dashpot and feedback at its followers, at large rotations, with
-        each normal."""
         wanted = exact(1)
         self.assertGreater(abs(wanted["turn"]), 0.3)
         for how, normal, close in (("radau, tolerance: 1e-10", 0, 1e-8), ("radau, tolerance: 1e-9", 1, 1e-7), ("alpha, step: 1e-4", 0, 3e-5),
@@ -172,8 +171,8 @@ class DiaphragmsInTime(ConstraintsCase):
                 self.assertLess(abs(found["D"]), 1e-10 * found["E"])
 
     def test_conserving(self):
-        """The integrator conserving has order 2 and conserves the energy of a floor to round-off, and both momenta of
-        a free one."""
+        """The integrator conserving has order 2. It conserves the energy of a floor to round-off, and both momenta of a
+        free floor."""
         text = re.sub(r"  (k|gain): .*\n", "", FLOOR)
         wanted, errors = exact(1, gain=0), []
         for step in (2e-3, 1e-3):
@@ -193,7 +192,6 @@ class DiaphragmsInTime(ConstraintsCase):
         self.assertLess(abs(found["D"]), 1e-12 * found["E"])
 
     def test_turns(self):
-        """Several turns about the normal, on soft springs."""
         soft = FLOOR.replace("HOW", "radau, tolerance: 1e-10")
         for of, to in (("[2e4, 3e4,", "[0.2, 0.3,"), ("[1e4, 2e4,", "[0.1, 0.2,"), ("[5e3,", "[0.05,"), ("2000]}", "0.02]}")):
             self.assertIn(of, soft)
@@ -205,7 +203,7 @@ class DiaphragmsInTime(ConstraintsCase):
         self.assertLess(abs(found["across"]), 1e-12)
 
     def test_small(self):
-        """Small motions of the example agree with the modes of the closed form, with every integrator."""
+        """Small motions of the example must agree with the modes of the closed form."""
         text = (ROOT / "cases" / "examples" / "eccentric_storey.yaml").read_text()
         stiff, soft = (12 * 30e9 * math.pi * d**4 / 64 / 27 for d in (0.4, 0.25))
         ky, kc, kt = 2 * (stiff + soft), 6 * (soft - stiff), 26 * (stiff + soft) + 2 * 12e9 * math.pi * (0.4**4 + 0.25**4) / 96
@@ -228,7 +226,7 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
                 self.assertLess(abs(found[name] / value - 1), 1e-6, f"{how}: {name}")
 
     def test_driven(self):
-        """A driven floor: its followers and their inertia; the reactions add up to the drive."""
+        """The reactions of a driven floor must add up to the drive."""
         text = FLOOR.replace("hold: [uz, rx, ry], mass: 100, inertia: [10, 10, 20, 0, 0, 0]", "hold: [uz, rx, ry], mass: 100, inertia: [10, 10, 20, 0, 0, 0], drive: {ux: go, rz: twist}")
         text = text.replace("loads:", "motions: {go: {unit: m, time: 0.1*t^2}, twist: {unit: rad, time: 2*t^2}}\nloads:")
         text = text.replace(", start: {velocity: [1, -2, 0], spin: [0, 0, 12]}", "").replace("quantities:", "quantities:" + "".join(
@@ -247,8 +245,7 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
             self.assertLess(abs(found["D"]), 1e-6 * found["E"])
 
     def test_body(self):
-        """If its nodes do not tilt, a floor moves like a rigid body; if they do, like one on universal joints. Also
-        about an instant."""
+        """If its nodes do not tilt, a floor moves as a rigid body. If they do, it moves as a body on universal joints."""
         for tilts, how, until, damps, close in (
                 (0, "radau, step: 0.002", 0.1, ", damping: 1e-4", 1e-8), (0, "alpha, step: 0.002, mass: consistent", 0.1, ", damping: 1e-4", 1e-8),
                 (0, "alpha, step: 0.002, mass: lumped", 0.1, "", 1e-8), (0, "explicit, step: 5e-6, mass: lumped", 0.0005, "", 1e-8),
@@ -270,7 +267,7 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
                 self.assertLess(abs(a[name] - value), close * abs(value) + 1e-14, f"{how} {tilts}: {name}")
 
     def test_two_floors(self):
-        """Two floors above each other that spin at the start move like two bodies."""
+        """Two floors above each other that rotate at the start move as two bodies."""
         text = COLUMNS.replace("MORE", "").replace("MOTIONS\n", "").replace("DAMPS", "").replace("HOW", "radau, step: 0.002").replace("UNTIL", "0.1")
         text = text.replace("  M: {at: [0.4, 0.2, 1]", """  D: {at: [0, 0, 2]HIGH}
   E: {at: [0.9, 0, 2]HIGH}
@@ -290,7 +287,6 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
             self.assertLess(abs(a[name] - value), 1e-8 * abs(value), name)
 
     def test_rotating(self):
-        """A floor on columns whose foot is driven, from a rotation, and about an instant."""
         text = re.sub(r"springs: .*\n", "", COLUMNS.replace("MORE", "").replace("DAMPS", "").replace("UNTIL", "0.02"))
         text = re.sub(r"\n  [fghkrs]: \{(force|moment|distributed|reaction).*", "", text).replace("loads:\n", "")
         text = text.replace("S: {static: {stations: [1]}}", "S: {rotation: {omega: [0, 0, 4], stations: [1]}}").replace("hold: all", "part_of: H")
@@ -306,7 +302,6 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
                     self.assertLess(abs(a[name] - value), close * abs(value), f"{how}: {name}")
 
     def test_rejected(self):
-        """The integrator conserving rejects floors whose nodes tilt; all reject a start that tilts a floor."""
         path, floor = self.folder / "floor.yaml", re.sub(r"  k: .*\n", "", FLOOR)
         for text, words in ((floor.replace("HOW", "conserving, step: 1e-3").replace("A: {at: [0, 0, 3], hold: [uz, rx, ry]", "A: {at: [0, 0, 3], hold: [uz]").replace("to: A, stiffness", "from: A, to: o, stiffness").replace("  gain: ", "#"),
                              "the integrator conserving does not support nodes of a diaphragm that tilt (node A); use alpha or radau"),

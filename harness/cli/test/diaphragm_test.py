@@ -43,9 +43,10 @@ quantities:
 
 
 class Diaphragms(ConstraintsCase):
+
     def test_diaphragm(self):
-        """A diaphragm is rigid in its plane, even at large rotations and with eccentric loads. If tilts are free, it
-        has universal joints."""
+        """A diaphragm is rigid in its plane, even at large rotations and with eccentric loads. If tilts are free, it has
+        universal joints."""
         loads = """loads:
   f: {force: [1e6, 4e6, 0], on: M}
   g: {force: [1e6, -3e6, 0], on: A}
@@ -70,8 +71,8 @@ class Diaphragms(ConstraintsCase):
                 self.assertLess(abs(a[name] - value), 1e-10 * abs(a[name]), name)
 
     def test_braced_floor(self):
-        """Nodes of the floor also rise and tilt. The floor is the limit of stiff hinged bars in its plane; the
-        difference is due to their compliance."""
+        """The floor is the limit of stiff hinged bars in its plane. The difference is due to the compliance of the bars.
+        The nodes may rise and tilt."""
         loads, errors = "loads: {f: {force: [1e4, 2e4, -3e4], on: A}, g: {force: [0, 1e4, 5e3], on: C}}\n", []
         same = STOREY.replace("LOADS", loads).replace("HOLD", "").replace("RELEASE", "").replace(", hold: [uz, rx, ry], mass: 500", ", hold: [uz, rx, ry]")
         same = same[:same.index("analyses")] + "analyses: {L: {linear: {}}}\n" + """quantities:
@@ -92,7 +93,6 @@ class Diaphragms(ConstraintsCase):
         self.assertAlmostEqual(errors[0] / errors[1], 100, delta=10)
 
     def test_storey(self):
-        """The example agrees with its closed form in all formulations; invalid diaphragms are rejected."""
         example = ROOT / "cases" / "examples" / "eccentric_storey.yaml"
         for name in self.names():
             for q in self.record("solve", "--scene", example, "-f", name, "-n", "1")["quantities"]:

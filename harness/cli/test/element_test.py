@@ -1,4 +1,4 @@
-"""External formulations: the first example next to the built-in ones, and hostile files."""
+"""External formulations: the first example next to the built-in formulations, and hostile files."""
 import json
 from pathlib import Path
 
@@ -38,7 +38,6 @@ class Example(Loaded):
         self.answered("solve", "-f", "timoshenko", "elastica", "-n", "8", "--element", self.object)
 
     def test_gates(self):
-        """If a stiffness has an error of 1 %, this is reported and written as a finding, and the run fails."""
         wrong = self.example(("c->young * c->Iy / l3", "1.01 * c->young * c->Iy / l3"))
         needed = self.folder / "needed.csv"
         out = self.answered("verify", "--element", wrong, "-f", "timoshenko", "-k",
@@ -55,7 +54,6 @@ class Kept(Loaded):
         cls.object = compile_shared(EXAMPLE, cls.class_folder() / "timoshenko.so")
 
     def test_outputs_do_not_replace_what_is_loaded(self):
-        """An output replaces neither the shared object nor a file named by a command, whatever its name."""
         mine = self.folder / "mine.so"
         mine.write_bytes(Path(self.object).read_bytes())
         script = self.folder / "my beam.py"
@@ -131,7 +129,6 @@ class Refused(Loaded):
 
 
 class Hostile(Loaded):
-    """Each hostile element leads to one line, in `solve` and as a cell of `converge`."""
 
     def one_line(self, made, *words):
         done = run("solve", *CASE, "-n", "2", "--element", made, "--time-limit", "2")

@@ -1,4 +1,4 @@
-"""`element-test`: every formulation satisfies the interface requirements, and planted faults are reported."""
+"""`element-test`: every formulation must satisfy the interface requirements, and injected faults must be reported."""
 import json
 import os
 import subprocess
@@ -7,9 +7,9 @@ from harness.tools.kit.program import ROOT, ProgramTest, broken, environment, ru
 
 EXAMPLES = ROOT / "elements" / "examples"
 CRASHES = environment(ASAN_OPTIONS="handle_segv=0:handle_abort=0")  # an abort is reported as a crash
-ENTRY = "    if (out->e == NULL)"  # the beginning of the example's strain
+ENTRY = "    if (out->e == NULL)"  # the beginning of the strain function of the example
 
-# Fault: (text of the example and its replacement) ..., and words of the sentence that reports it.
+# Fault: pairs of text in the example and its replacement, and words of the sentence that reports the fault.
 FAULTS = {
     "energy": (
         ("e[i] * e[i] / 2;", "e[i] * e[i];"),
@@ -120,7 +120,7 @@ FAULTS = {
         "stress: strains of a few hundredths of the length give status 'singular'"),
 }
 
-# The same for the example that returns forces and stiffness.
+# Faults of the example that returns forces and stiffness.
 FORCE_FAULTS = {
     "sign": (
         ("F[i] = n * r[i];", "F[i] = -n * r[i];"),
@@ -171,7 +171,7 @@ CLASSIC = {
         "stretch: exact with one element and not with four", "a power of the length is wrong"),
 }
 
-# Each declares a higher order than it has, for the analyses given.
+# Declares a higher order than the element has, for the analyses given.
 FOURTH = """static element_order fourth(element_analysis a, const double options[])
 {
     (void)a, (void)options;
@@ -247,7 +247,6 @@ class Planted(Tested):
         self.assertTrue(any("with its nodes exchanged" in s for s in said), said)
 
     def test_endless(self):
-        """The first part that hangs is waited for up to the time limit; later parts are not."""
         made = self.compiled("timoshenko.c", (ENTRY, "    for (volatile int i = 1; i;)\n"
                                               "        ;\n" + ENTRY))
         out = self.answered("element-test", "--element", made, "--time-limit", "1", "-j", "1", code=1).stdout
@@ -256,7 +255,6 @@ class Planted(Tested):
 
 
 class Measured(Tested):
-    """Results of whole structures are printed as they are. A wrong limit is a violation."""
 
     def measured(self, *changes, code=0):
         one = self.certificate(self.compiled("timoshenko.c", *changes), code)
@@ -293,7 +291,7 @@ class Measured(Tested):
                       run("element-test", "--element", made).stdout)
 
     def test_shear_locking(self):
-        """With full integration of shear, the energy includes a part of the rotations, which is reported."""
+        """With full integration of shear, the energy includes a part of the rotations, which must be reported."""
         found = self.measured(("c->young * c->Iz / l3}",
                                "c->young * c->Iz / l3 + c->shear_modulus * c->A / (12 * l)}"),
                               code=1)
@@ -303,7 +301,6 @@ class Measured(Tested):
         self.assertLess(one["error"][-1], -0.99)
 
     def test_constant_shear(self):
-        """An element with half of the shear flexibility along y is reported."""
         found = self.measured(("shear * c->F[0]", "shear / 2 * c->F[0]"), code=1)
         self.assertLess(found["constant shear along y, short"]["error"][0], -0.05)
         self.assertLess(abs(found["constant shear along z, short"]["error"][0]), 1e-9)

@@ -1,5 +1,5 @@
-"""Every example of a formulation is short, is compiled as an external author would compile it, and is evaluated on ten
-cases."""
+"""Every example of a formulation must be short and compile in the way an external author would compile it. It is
+evaluated on ten cases."""
 import re
 import shutil
 import subprocess
@@ -56,7 +56,6 @@ class Judged:
         self.answered("element-test", "--element", self.object)
 
     def test_judged_like_the_others(self):
-        """The example passes ten cases of statics, vibration and buckling."""
         record = self.folder / "v.json"
         self.assertEqual(len(self.cases), 10)
         self.answered("verify", "--element", self.object, "-f", self.name(), "-k",
@@ -75,7 +74,7 @@ class Judged:
         return [q["value"] for q in record["quantities"] if q["value"] is not None]
 
     def same_values(self, other, name, case):
-        """Checks that the values agree with those of another element, which shares no code with it."""
+        """Checks that the values agree with those of another element, which shares no code with the first one."""
         own, theirs = (self.values(*of, case, "-n", "4")
                        for of in ((self.object, self.name()), (other, name)))
         self.assertGreater(len(own), 2)
@@ -99,8 +98,8 @@ class Corotational(Judged, PluginTest):
     cases = (*STATICS_AND_FREQUENCIES, "weighted_column", "lateral_buckling")
 
     def test_converges_as_the_others(self):
-        """With an unsymmetric tangent, or a chord with little axial strain, the element takes as few iterations as the
-        others."""
+        """With an unsymmetric tangent, or a chord with little axial strain, the element must take as few iterations as
+        the others."""
         for axial in ("1e4", "1e12"):
             iterations = {
                 name: self.record("solve", "elastica", "--element", self.object, "-f", name, "-n",
@@ -200,7 +199,7 @@ class Fortran(Judged, PluginTest):
 
 
 class Planted(PluginTest):
-    """Errors of an author are reported by the first check, by `element-test`, or by `verify`."""
+    """Errors of an author must be reported by the first check, by `element-test`, or by `verify`."""
 
     def broken(self, example, change, *words):
         made = self.altered(example, change)
@@ -209,7 +208,6 @@ class Planted(PluginTest):
             self.assertIn(word, told)
 
     def test_sign_of_forces(self):
-        """An element that returns RHS in the place of F is reported."""
         self.broken("corotational.c", ("F[i] = n * r[i]", "F[i] = -n * r[i]"),
                     "displacement along x of node 1", "the derivative of the energy is")
 
@@ -233,7 +231,7 @@ class Planted(PluginTest):
                     "with its nodes exchanged")
 
     def test_axes_exchanged(self):
-        """An element with exchanged axes is consistent but models a different beam, which verify detects."""
+        """An element with exchanged axes is consistent but models a different beam, which verify must detect."""
         made = self.altered("ancf.c", ("ky = dot(section_y", "ky = dot(section_z"),
                             ("kz = dot(section_z", "kz = dot(section_y"))
         record = self.folder / "v.json"

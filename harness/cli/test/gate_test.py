@@ -1,4 +1,4 @@
-"""Requested formulations affect the exit status: wrong elements are reported in every form in which a run states its
+"""Requested formulations affect the exit status: wrong elements must be reported in every form in which a run states its
 outcome."""
 import json
 import pathlib
@@ -18,7 +18,7 @@ EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
 NAME = "timoshenko"
 RUN = ("-k", "elastica/default or tapered_cantilever/default")
 NOWHERE = ("-k", "hexapod/default")
-# Its own mass matrix, 10 % too large, instead of the mass of the displacement field.
+# A user-defined mass matrix, 10 % too large, in place of the mass of the displacement field.
 MASS = (("static int strains(const double options[])", """
 static status inertia(const element_data *d, const node_state x[], const element_rotating_frame *frame,
                       inertia_output *out)
@@ -44,8 +44,8 @@ FAULTS = {
     "stub": ("energy += d->stiffness[i] * e[i] * e[i] / 2;", "energy += 0;", "fail"),
     "coarse": ("cos(sqrt(square) / 2)", "cos(sqrt(square) / 2.1)", "pass"),  # has the same limits, but larger errors
 }
-# Forces along the element that the element itself applies: halves at its nodes, and clamping
-# moments. They refer to its axes at rest or, beyond linear analyses, to those of the scene.
+# Forces along the element that the element applies: halves at its nodes, and clamping moments. They refer to its axes
+# at rest or, beyond linear analyses, to those of the scene.
 OWN_LOADS = (("static int strains(const double options[])", """
 static void along(int count, const element_data *const data[], const node_state x[], along_output out[],
                   status outcome[])
@@ -79,8 +79,8 @@ static void along(int count, const element_data *const data[], const node_state 
 }
 
 static int strains(const double options[])"""), (".stress = stress,", ".stress = stress, .along = along,"))
-# Faults in the element that applies its own loads, with the outcome in every form of output and the
-# number of wrong verdicts. Limits alone do not reveal wrong moments.
+# Faults in the element that applies its own loads, with the outcome in every form of output and the number of wrong
+# verdicts. Limits alone do not reveal wrong moments.
 PLANTS = {
     "right": ((), "pass", 0),
     "stiffness": ((("c->young * c->Iz / l3", "1.1 * c->young * c->Iz / l3"),), "fail", 2),
@@ -90,8 +90,8 @@ PLANTS = {
     "stub": ((("    (void)inner;\n", "    (void)inner;\n    return STATUS_OK;\n"),), "fail", 2),
     "refuses": ((("    (void)f;\n", "    strcpy(f->text, \"not yet\");\n    return STATUS_REFUSED;\n"),), "fail", 2),
 }
-# A force, a moment and a load along the beam have the deflection F l^3/3EI + M l^2/2EI + q l^4/8EI
-# with EI = 1, l = 1; the frequency is 1.8751^2/2pi sqrt(EI/(rho A l^4)).
+# A force, a moment and a load along the beam have the deflection F l^3/3EI + M l^2/2EI + q l^4/8EI with EI = 1, l = 1.
+# The frequency is 1.8751^2/2pi sqrt(EI/(rho A l^4)).
 LOADED = """beamwork: 1
 sections: {s: {rectangle: {width: 1, thickness: 0.01}, young: 12e6, shear_modulus: 5e6, density: 100}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -119,7 +119,7 @@ print(found.passed, found.outcome)
 
 
 def changed(text, *changes):
-    """Replaces each text once; skips empty texts."""
+    """Replaces each text once. Empty texts are skipped."""
     for before, after in changes:
         assert not before or text.count(before) == 1, before
         text = text.replace(before, after) if before else text
@@ -132,6 +132,7 @@ def compiled(source, text):
 
 
 class Gate(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()
@@ -184,9 +185,8 @@ class Gate(ProgramTest):
                 self.assertEqual("element-test" in done.stdout, broken)
 
     def test_seven_doors(self):
-        """A wrong stiffness, a wrong mass, a load with the wrong sign, and stubs are reported in the exit status,
-        JUnit, Markdown, JSON, the last line, the report and Python. The load along the element is applied by the
-        element itself (element_type.along)."""
+        """A wrong stiffness, a wrong mass, a load with the wrong sign, and stubs must be reported in the exit status,
+        JUnit, Markdown, JSON, the last line, the report and Python."""
         scene = self.folder / "loaded.yaml"
         scene.write_text(LOADED, encoding="utf-8")
         for name, (_, outcome, wrong) in PLANTS.items():
@@ -200,7 +200,7 @@ class Gate(ProgramTest):
                 self.check_python(self.loaded[name], None, f"{outcome == 'pass'} {outcome}", scene=str(scene))
 
     def test_not_worse_than(self):
-        """Results within every tolerance that are worse than before are detected: on one mesh of results and in the
+        """Results within every tolerance that are worse than before must be detected: on one mesh of results and in the
         short table, but not on other meshes."""
         _, files = self.verified("right")
         old, table = self.folder / "old.h5", self.folder / "old.csv"
@@ -223,7 +223,6 @@ class Gate(ProgramTest):
                      "--not-worse-than", table)
 
     def test_tolerance(self):
-        """A given tolerance replaces those of the cases."""
         for name, tolerance, outcome in (("stiffness", "50%", "pass"), ("stiffness", "0.1%", "fail"), ("right", "1e-12", "fail")):
             done, files = self.verified(name, "--tolerance", tolerance)
             self.check_doors(done, files, outcome, OUTCOMES[outcome])
@@ -238,14 +237,12 @@ class Gate(ProgramTest):
         self.check_doors(done, files, "fail", 1)
 
     def test_nothing_judged(self):
-        """Nothing is evaluated if the element cannot run, is a different model, or has no reference value."""
         done, files = self.verified("right", what=NOWHERE)
         document, failures = self.check_doors(done, files, "nothing was judged", 3)
         self.assertEqual(document["judged"], 0)
         self.assertIn("judged nothing", failures[0].get("message"))
 
     def test_exit_zero(self):
-        """--exit-zero changes only the exit status, not the output."""
         for name, what in (("stiffness", RUN), ("stub", RUN), ("right", NOWHERE)):
             done, files = self.verified(name, "--exit-zero", what=what)
             first = done.stdout.splitlines()[0]
@@ -255,7 +252,6 @@ class Gate(ProgramTest):
         self.refused(2, "--no_such_option", "verify", "--exit-zero", "--no_such_option", silent=False)
 
     def test_proposals(self):
-        """Verdicts that affect the exit status are still proposed as findings."""
         needed = self.folder / "needed.csv"
         self.verified("stiffness", "--propose-deviations", needed)
         self.assertGreater(len(needed.read_text(encoding="utf-8").splitlines()), 1)

@@ -1,4 +1,4 @@
-"""Every command among the examples of the help texts and the manual is run unchanged."""
+"""Runs every command among the examples of the help texts and the manual unchanged."""
 import re
 import shlex
 import shutil
@@ -24,16 +24,16 @@ w_over_L, 1, 8, 48, 0.1, , 0.3017, 1e-4
 SMALL = " -k '=elastica and =default and =beamw'"
 # Replacements in expensive examples with the reason: part of the command, and its replacement.
 REDUCED = {
-    "verify --shard 1/4 --into parts": ("parts", "parts" + SMALL),  # a quarter of all verdicts: 20 s
-    "verify -o build/results.h5": ("results.h5", "results.h5" + SMALL),  # all verdicts: a minute
-    "--design sobol --points 200": ("200", "4"),  # every formulation at 200 points: 20 s
-    "--vary length=2..12/10 -k buckling_load --compute-references": ("2..12/10", "2..12/1"),  # a program derives each value: a second
+    "verify --shard 1/4 --into parts": ("parts", "parts" + SMALL),  # a quarter of all verdicts takes 20 s
+    "verify -o build/results.h5": ("results.h5", "results.h5" + SMALL),  # all verdicts take a minute
+    "--design sobol --points 200": ("200", "4"),  # every formulation at 200 points takes 20 s
+    "--vary length=2..12/10 -k buckling_load --compute-references": ("2..12/10", "2..12/1"),  # a program derives each value in a second
     "--error 1%,0.1%": ("1%,0.1%", "1%"),  # each level is measured for three seconds
 }
 
 
 def commands(text):
-    """Returns the indented lines that begin with the program's name. Two spaces precede an explanation."""
+    """Returns the indented lines that begin with the name of the program. Two spaces precede an explanation."""
     return [line.split("   ")[0].strip() for line in text.splitlines() if re.match(r"  beamwork [a-z]", line)]
 
 
@@ -53,7 +53,7 @@ def reduced(command):
 
 
 class Examples(ProgramTest):
-    """The files that the examples mention exist and are small."""
+    """The files that the examples mention, which are small."""
 
     @classmethod
     def setUpClass(cls):

@@ -9,18 +9,17 @@ from harness.cli.test.work import EVERY_VERB
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, environment, run
 
 
-# Help, explained words, and misspelt names.
 WIDEST = 100
-# the C library's argp does not free a byte at exit
+# argp of the C library does not free a byte at exit
 ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 
 
 class Help(ProgramTest):
+
     def help_of(self, verb):
         return self.answered(verb, "-h", env=ENV).stdout
 
     def test_every_verb(self):
-        """Three forms of the command give the same text, within the columns, with an example that names the verb."""
         for verb in EVERY_VERB:
             text = self.help_of(verb)
             self.assertEqual(text, self.answered(verb, "--help", env=ENV).stdout)
@@ -39,7 +38,6 @@ class Help(ProgramTest):
         self.assertIn("HDF5", run("--version").stdout)
 
     def test_examples_are_accepted(self):
-        """Every option in an example belongs to the verb of the example."""
         seen = 0
         for verb in EVERY_VERB:
             text = self.help_of(verb)
@@ -51,6 +49,7 @@ class Help(ProgramTest):
 
 
 class Misspelt(ProgramTest):
+
     def test_verbs(self):
         self.refused(2, "did you mean 'solve'", "slove")
         self.refused(2, "did you mean 'verify'", "help", "verifi")
@@ -67,7 +66,6 @@ class Misspelt(ProgramTest):
         self.refused(2, "--all-dofs takes no value", "solve", "elastica", "--all-dofs=1")
 
     def test_values_are_no_options(self):
-        """The word after an option with a value is that value, whatever it begins with."""
         self.refused(2, "'-1'", "solve", "elastica", "-f", "beamw", "-n", "-1")
         self.refused(2, "--elemnts", "solve", "elastica", "-f", "--elemnts", "-n", "1")
         self.refused(2, "--elemnts", "solve", "-f", "beamw", "-n1", "--", "--elemnts")
@@ -77,8 +75,8 @@ class Misspelt(ProgramTest):
 
 
 class Explain(ProgramTest):
+
     def test_words(self):
-        """Words are found in any spelling; several arguments form one term."""
         text = self.answered("explain", "wrong limit").stdout
         self.assertEqual(self.answered("explain", "Wrong", "limit").stdout, text)
         self.assertEqual(self.answered("explain", "wrong_limit").stdout, text)
@@ -110,9 +108,7 @@ class Explain(ProgramTest):
         self.refused(4, "missing.h5", "explain", "pass", "--truths", "missing.h5")
 
 
-# Manual pages: they contain everything that the program has, and formatters accept them.
-
-# the C library's argp does not free a byte at exit
+# argp of the C library does not free a byte at exit
 MANUAL_ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 FILES = ("beamwork.1", "beamwork-scene.5", "beamwork-results.5")
 # in -h and in a page: letter, name, argument, description
@@ -141,6 +137,7 @@ def hand_page(name):
 
 
 class Manual(ProgramTest):
+
     def page(self, name):
         return self.answered("help", "--man", name, env=MANUAL_ENV).stdout
 
@@ -154,7 +151,6 @@ class Manual(ProgramTest):
         self.refused(2, "did you mean 'solve'", "help", "--man", "slove")
 
     def test_options_of_help(self):
-        """Help and manual have the same options with the same text, in the same order."""
         for verb in EVERY_VERB:
             shown = [(letter, name, bare(argument), words.split()) for letter, name, argument, words
                      in SHOWN.findall(self.answered(verb, "-h", env=MANUAL_ENV).stdout)]
@@ -171,7 +167,6 @@ class Manual(ProgramTest):
                 self.assertIn("\n" + line.strip() + "\n", text)
 
     def test_keys_of_scenes(self):
-        """The page has all keys, as many times as `scene --keys` lists them."""
         keys = re.findall(r"^( *)(\w+) +\S", self.answered("scene", "--keys").stdout.partition(
             "is replaced:\n")[2], re.MULTILINE)
         shown = [name for blanks, name in keys if len(blanks) < 12]
@@ -188,7 +183,6 @@ class Manual(ProgramTest):
             self.assertIn(record["table"] + '"\n' + record["summary"].split()[0], page)
 
     def test_element(self):
-        """The page has every member of the interface and all physics, and no placeholders."""
         page = plain(hand_page("beamwork-element.7"))
         self.assertNotRegex(page, "@[A-Z]+@")
         self.assertIn(".Dd November 21, 2026\n", page)
@@ -221,19 +215,18 @@ class Manual(ProgramTest):
             self.assertEqual((done.returncode, done.stdout), (0, ""), name)
 
 
-# Commands that the program prints are run unchanged, with elements, scenes, and names that need
-# quotes.
 EXAMPLE = (ROOT / "elements" / "examples" / "timoshenko.c").read_text(encoding="utf-8")
 SCENE = (ROOT / "cases" / "examples" / "euler_column.yaml").read_text(encoding="utf-8")
 BENDING = "c->young * c->I"
 
 
 def commands(text):
-    """Returns the lines that begin with the program's name, with continuation lines joined."""
+    """Returns the lines that begin with the name of the program, with continuation lines joined."""
     return re.findall(r"(?:^ *|: )(beamwork (?!\w+: )[^;\n]+)", re.sub(r" \\\n *", " ", text), re.MULTILINE)
 
 
 class Printed(ProgramTest):
+
     def setUp(self):
         super().setUp()
         self.element = self.folder / "my element's.so"
@@ -268,7 +261,6 @@ class Printed(ProgramTest):
             self.run_all(done.stdout, 1, self.element)
 
     def test_what_is_shown_by(self):
-        """Hints with the name of a file can be copied from between their quotes."""
         for words in (("solve", "--scene", self.scene, "--set", "foo=1"), ("sweep", "--scene", self.scene),
                       ("sweep", "--scene", self.scene, "--vary", "foo")):
             hint = re.search(r"'(beamwork list .*)' shows", self.refused_line(*words))

@@ -16,6 +16,7 @@ def names_of(text, heading):
 
 
 class Lists(ProgramTest):
+
     def setUp(self):
         super().setUp()
         text = self.answered("list").stdout
@@ -29,7 +30,6 @@ class Lists(ProgramTest):
         return " ".join(text.split()), text
 
     def test_orders(self):
-        """The lowest and highest order of each analysis are those that the formulation declares."""
         for name, statics in (("collocation", "2 to 10"), ("sheet_third", "2 to 4")):
             told = " ".join(self.shown(name)[0].split()).partition("order of convergence: ")[2]
             self.assertTrue(told.startswith(f"{statics} in statics, 4 to 8 in vibration, "
@@ -43,7 +43,6 @@ class Lists(ProgramTest):
             self.assertEqual(names_of(text, "\nformulations"), self.formulations)
 
     def test_every_formulation(self):
-        """Every case is listed once, under whether it can be run, in agreement with the list of the case."""
         runs = {case: self.shown(case)[0] for case in self.cases}
         for name in self.formulations:
             words = self.shown(name)[0]
@@ -58,7 +57,6 @@ class Lists(ProgramTest):
                 self.assertEqual(runs_here, f" {name} runs" in runs[case], (name, case))
 
     def test_findings(self):
-        """Every rule that names the formulation is listed with its cause."""
         with open(ROOT / "reference" / "findings.csv", newline="", encoding="utf-8") as table:
             rules = list(csv.DictReader(table))
         for name in self.formulations:
@@ -72,7 +70,6 @@ class Lists(ProgramTest):
         self.assertNotIn("finding", done.stdout)
 
     def test_json(self):
-        """JSON contains the same data."""
         every = self.record("list")
         self.assertEqual([one["case"] for one in every["cases"]], self.cases)
         self.assertEqual([one["formulation"] for one in every["formulations"]], self.formulations)

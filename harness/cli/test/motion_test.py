@@ -1,4 +1,4 @@
-"""Motions in time: external formulations, the time integration error, masses, and continued runs."""
+"""Transient analyses: external formulations, the time-integration error, masses, and continued runs."""
 import csv
 import io
 import math
@@ -12,7 +12,6 @@ from harness.cli.test.plugin import EXAMPLES, PluginTest, compile_shared
 from harness.tools.kit.program import ProgramTest, TRUTHS
 
 
-# External formulations in motions: by strains, by forces, by an energy alone, and in a separate process.
 PROCESS = f"exec:'{sys.executable}' '{EXAMPLES / 'timoshenko.py'}'"
 
 ARM = """beamwork: 1
@@ -42,8 +41,7 @@ class OwnMotion(PluginTest):
                            name, "-n", 4, *element)
 
     def compare(self, name, element, integrators=("alpha", "conserving", "radau")):
-        """Checks that motions agree with the exact beam with as many elements, and that conserving steps conserve
-        energy."""
+        """Checks that motions agree with the exact beam with as many elements, and that conserving steps conserve energy."""
         for integrator in integrators:
             ours = self.flight(integrator, "collocation")
             own = self.flight(integrator, name, "--element", element)
@@ -63,7 +61,6 @@ class OwnMotion(PluginTest):
                                                     self.folder / "c.so"))
 
     def test_by_an_energy_alone(self):
-        """A thin arm is rotated by its hub."""
         made = compile_shared(EXAMPLES / "ancf.c", self.folder / "a.so")
         path = self.folder / "arm.yaml"
         path.write_text(ARM, encoding="utf-8")
@@ -76,8 +73,6 @@ class OwnMotion(PluginTest):
     def test_in_another_process(self):
         self.compare("timoshenko_py", PROCESS, ("conserving",))
 
-
-# The time integration error with the default settings: 0.1 % of the motion, from nanometres to metres.
 
 # A mass on a leaf spring under a suddenly applied force: u/u_static = 1 - cos(omega t).
 SUDDEN = """beamwork: 1
@@ -198,8 +193,7 @@ class MotionError(ProgramTest):
                 {one["quantity"]: one["value"] for one in record["quantities"]})
 
     def test_sudden_loads(self):
-        """The error is checked for amplitudes from 2 pm to 20 mm, and with a different number of elements, relative to
-        the largest motion, 2."""
+        """The amplitudes are from 2 pm to 20 mm. The error is relative to the largest motion, 2."""
         for how, limit in (("", 1e-3), ("integrator: alpha, ", 1.2e-3)):
             for force, n in ((1e-7, 1), (1e-3, 1), (1e-3, 4), (1, 1)):
                 with self.subTest(how=how, force=force, n=n):
@@ -220,7 +214,7 @@ class MotionError(ProgramTest):
                         self.assertLess(abs(one - other), 1e-3*largest)
 
     def test_at_rest(self):
-        """A structure bent by a constant load stays at rest in few steps with any integrator: the residual of its
+        """A structure bent by a constant load stays at rest in few steps with any integrator, because the residual of its
         equilibrium is not resolved as a motion."""
         for how in ("", "integrator: alpha, ", "integrator: conserving, "):
             for force in (0, 1, 1e-9):
@@ -243,8 +237,6 @@ class MotionError(ProgramTest):
         self.assertAlmostEqual(errors[0]/errors[1], 4, delta=0.6)
 
 
-# The parameter `mass` of built-in cases: distribution of the mass of members. The default is that
-# of the case without the parameter.
 ASKED = {"coupled_beam": ("asked=frequencies",), "sheet_cantilever": ("modes=3",),
          "tapered_cantilever": ("section=wedge", "asked=waves")}
 MASSLESS = {"angle_column", "bend_45", "c_cantilever", "carried_rod", "cross_flexure", "elastica", "geradin_cardona",
@@ -269,7 +261,7 @@ class MassTest(SceneCase):
         return [(n, tuple(w for one in ASKED.get(n, ()) for w in ("--set", one))) for n in having]
 
     def lumped_differs(self, case, point):
-        """Checks that the results are bitwise those of the case's scene with `mass: lumped` and are marked."""
+        """Checks that the results are bitwise those of the scene of the case with `mass: lumped` and are marked."""
         usual, lumped = (self.record("solve", case, *WHERE, *point, *mass) for mass in ((), LUMPED))
         self.assertEqual(usual["parameters"]["mass"], "usual")
         self.assertEqual(lumped["parameters"]["mass"], "lumped")
@@ -302,7 +294,6 @@ class MassTest(SceneCase):
         self.assertIn("mass=lumped", said[1][0])
 
     def test_consistent_is_required(self):
-        """Formulations with a consistent mass give the usual results; those that lump the mass are rejected."""
         spin = ("spin_up", *WHERE, "--set", "time=0.5")
         usual = values(self.record("solve", *spin))
         self.assertEqual(values(self.record("solve", *spin, "--set", "mass=consistent")), usual)
@@ -322,8 +313,6 @@ class MassTest(SceneCase):
         found = {row["mass"]: abs(float(row["error"])) for row in csv.DictReader(io.StringIO(done.stdout))}
         self.assertLess(10 * found["usual"], found["lumped"])
 
-
-# Motions continued in another run agree with a single run, bitwise if steps are constant and end there.
 
 # Rotated quickly from its position under its own weight, with a suddenly applied load.
 SWING = """\
@@ -388,7 +377,7 @@ class RestartTest(SceneCase):
                 self.assertGreater(abs(float(one["z"])), 1e-3)
 
     def test_to_round_off(self):
-        """The results agree to round-off only if a run chooses its pivots again or an end has shortened a step."""
+        """The results agree only to round-off if a run chooses its pivots again or an end has shortened a step."""
         for changes, most in (({"how": "radau"}, 1e-9), ({"how": "radau", "damp": 1e-3}, 1e-9),
                               ({"how": "radau", "tol": 1e-8}, 1e-4), ({"how": "alpha", "step": 0.01}, 1e-9)):
             with self.subTest(**changes):
@@ -397,7 +386,6 @@ class RestartTest(SceneCase):
                     self.assertAlmostEqual(float(two[name]), float(value), delta=most * max(1, abs(float(value))))
 
     def test_one_after_the_other(self):
-        """A motion can be continued several times."""
         path, ends = self.scene(SWING), [self.folder / f"{i}.h5" for i in range(3)]
         self.values(path, *MESH, "--set", "end=0.5", "--save-state", ends[0])
         self.values(path, "--set", "end=1", "--restart", ends[0], "--save-state", ends[1])

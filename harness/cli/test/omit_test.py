@@ -1,5 +1,5 @@
-"""The parameter `omit` of built-in cases: their sources omit physics, omit=none includes all physics, and stored
-values of a case do not apply then."""
+"""The parameter `omit` of built-in cases. Their sources omit physics, omit=none includes all physics, and stored values
+of a case do not apply then."""
 import csv
 import io
 import json
@@ -38,7 +38,6 @@ class OmitTest(SceneCase):
         self.assertEqual(changed, 3)
 
     def test_as_the_scene(self):
-        """The results agree with those of the case's scene without `omit`, to 1e-12."""
         for case, point in (("c_column", ()), ("moment_buckling", ("--set", "length=4")), ("c_cantilever", ()),
                             ("elastica", ("--set", "load=3"))):
             where = ("-f", "geometrically_exact", "-n", 4)
@@ -54,7 +53,6 @@ class OmitTest(SceneCase):
             self.assertNotRegex(self.answered("scene", case, *WHOLE).stdout, "(?m)^omit:")
 
     def test_omitted_whatever_is_asked(self):
-        """A requested resultant does not restore physics that the scene omits."""
         text = """beamwork: 1
 sections:
   i: {i: {depth: 0.1, flange: 0.06, flange_thickness: 3e-3, web_thickness: 2e-3}, young: 210e9, shear_modulus: 81e9}
@@ -86,7 +84,6 @@ quantities:
         self.assertGreater(len(turns), 1)
 
     def test_more_than_single_switches(self):
-        """With omit=none a case has shear, whatever its own switch."""
         solved = [values(self.record("solve", "moment_buckling", "-n", 4, "-f", "geometrically_exact", *more))
                   for more in ((), ("--set", "shear=1"), WHOLE, (*WHOLE, "--set", "shear=1"))]
         self.assertEqual(solved[2], solved[3])
@@ -117,8 +114,8 @@ quantities:
             more="omit: [trapeze]\n")
 
     def test_numbers_that_are_not_given(self):
-        """Constants that a section does not define are zero. This is reported unless they have no effect, are omitted,
-        or follow from the shape."""
+        """Constants that a section does not define are zero. This is reported unless they have no effect, are omitted, or
+        follow from the shape."""
         constants = "constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8%s}, young: 2e11, shear_modulus: 8e10"
         full = ", F: [1200, 0, 0, 0, 1200, 0, 0, 0, 0], Iw: 1e-10"
         diagonal = "stiffness: [2e8, 1e8, 1e8, 1e3, 4e5, 2e5], mass: [8, 8, 8, 1e-3, 1e-3, 1e-3]"
@@ -143,7 +140,7 @@ quantities:
                 self.assertEqual(found, [told] if told else [], (section, analysis, more, verb))
 
     def test_what_is_not_modelled(self):
-        """A Z section with restrained warping twists further to one side; a channel, an unstressed Z and a Z without
+        """A Z section with restrained warping twists further to one side. A channel, an unstressed Z and a Z without
         cubic torsion do not."""
         for flange, analysis, more, told in (
             (0.07, "static: {stations: [1]}", "", True), (-0.07, "static: {stations: [1]}", "", False),
@@ -177,7 +174,6 @@ quantities:
                              (flange, analysis, more))
 
     def test_assumptions_stand_everywhere(self):
-        """Text, CSV, JSON, HDF5, JUnit and Markdown have the same list."""
         scene = ("--scene", self.scene(self.loaded_bar(", Iw: 0")))
         physics = "shear, wagner_torque"
         said = physics + " of section bar is not given by its numbers: assumed to be zero"
@@ -212,7 +208,7 @@ quantities:
         self.assertIn(line, files[3].read_text())
 
     def test_zero_that_is_given(self):
-        """A constant given as zero counts as known, also in the written scene."""
+        """A constant given as zero counts as known, even in the written scene."""
         every = ", ".join("0" for _ in range(9))
         for more, told in (("", "shear, warping, wagner_torque"), (", Iw: 0", "shear, wagner_torque"),
                            (", wagner_torque: 0", "shear, warping"), (f", F: [{every}]", "warping, wagner_torque"),
@@ -236,7 +232,6 @@ quantities:
             self.assertEqual(set(found["physics"].split(", ")), set(told.split(", ")), more)
 
     def test_no_truth(self):
-        """There is no stored or derived reference value and no verdict; the output explains how to obtain one."""
         self.refused(1, "beamwork scene c_column --set omit=none", "truth", "c_column", *WHOLE, silent=False)
         self.assertIn("buckling_load", self.answered("truth", "c_column", "--set", "omit=source").stdout)
         judged = self.record("converge", "elastica", "-f", "geometrically_exact", *WHOLE)

@@ -15,16 +15,16 @@ from harness.tools.kit.program import ProgramTest, ROOT, TRUTHS, environment, ru
 from reference.pack import seal
 
 
-# Contradictory or empty arguments, and a machine with too few resources, lead to one line and the
-# documented exit status.
-LISTS = ("formulation", "element", "elements", "set")  # may be given several times
-# the C library's argp does not free a byte at exit
+# Contradictory or empty arguments, and a machine with too few resources, must lead to one line and the documented exit
+# status.
+LISTS = ("formulation", "element", "elements", "set")  # options that may be given several times
+# argp of the C library does not free a byte at exit
 HELP = environment(ASAN_OPTIONS="detect_leaks=0")
 
 
 class Words(ProgramTest):
+
     def test_options_twice(self):
-        """Every single-valued option of every verb, as its help lists them, is rejected if given twice."""
         seen = 0
         for verb in VERBS:
             shown = run(verb, "--help", env=HELP).stdout
@@ -63,7 +63,6 @@ class Words(ProgramTest):
         self.refused(2, "option", "converge", "elastica", "-n", "2", "-f", "beamw:")
 
     def test_numbers(self):
-        """A number beyond the range of a double is rejected, not read as zero or infinity."""
         for text in ("1e-400", "-1e-400", "1e400", "1e-320", "1e999999999999", "0x1p-2000", "nan",
                      "inf", "1,5", "1e", "", " "):
             self.refused(2, "parameter load", "solve", "elastica", "-f", "beamw", "-n", "1",
@@ -78,7 +77,7 @@ class Tables(ProgramTest):
 
     CLI = ROOT / "harness" / "cli"
     ANSWERS = {"bench": ("bench", "contest", "contestant")}  # otherwise in the file of the verb
-    ELSEWHERE = {("scene", "format")}  # used in the errors reported by case_input
+    ELSEWHERE = {("scene", "format")}  # used in the errors that case_input reports
 
     def shown(self, verb):
         """Returns (letter, name) of each option."""
@@ -89,7 +88,6 @@ class Tables(ProgramTest):
         return (self.CLI / f"{name}.c").read_text(encoding="utf-8")
 
     def test_letters(self):
-        """There are few letters, each with one meaning; names within a verb are unique."""
         meaning = {}
         for verb in EVERY_VERB:
             names = [name for _, name in self.shown(verb)]
@@ -99,7 +97,6 @@ class Tables(ProgramTest):
         self.assertEqual("".join(sorted(meaning)), "fhjknoqsv")
 
     def test_former_letters(self):
-        """Each former letter is still accepted, with a note on the option's name."""
         names = {name: verb for verb in EVERY_VERB for _, name in self.shown(verb)}
         former = re.findall(r"\{'(.)', \"([a-z-]+)\"\}", self.source("options"))
         self.assertGreater(len(former), 40)
@@ -109,7 +106,6 @@ class Tables(ProgramTest):
         self.answered("solve", "warping_torsion", "-fbeamw", "-Kn2")
 
     def test_former_names(self):
-        """Each former name is accepted, with one line that gives the new name; no help lists it."""
         verbs = {name: verb for verb in EVERY_VERB for _, name in self.shown(verb)}
         renamed = re.findall(r"\{\"([a-z-]+)\", \"([a-z-]+)\"\}", self.source("options"))
         self.assertEqual(len(renamed), 10)
@@ -127,7 +123,7 @@ class Tables(ProgramTest):
         self.refused(2, "solve takes no --beside", "solve", "elastica", "--beside", "x.h5")
 
     def test_each_is_used(self):
-        """Each option is used by its verb; 'merge' passes all options on."""
+        """Each option is used by its verb. 'merge' passes all options on."""
         everything = "".join(path.read_text(encoding="utf-8") for path in self.CLI.glob("*.c"))
         for verb in EVERY_VERB:
             name = verb.replace("-", "_")
@@ -170,7 +166,7 @@ class Machine(ProgramTest):
                              arguments)
 
     def test_small_files(self):
-        """A file size limit (ulimit -f) is reported, even without a parent that ignores its signal."""
+        """A file size limit (ulimit -f) must be reported, even without a parent that ignores its signal."""
         def limit():
             signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
             resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
@@ -199,15 +195,13 @@ class Machine(ProgramTest):
             self.skipTest("needs a build without sanitizers")
 
     def test_small_stack(self):
-        """If the stack limit (ulimit -s) is too small, it is raised if this is allowed; otherwise the run is rejected
-        in one line."""
         self.needs_no_sanitizers()
         for size in (24, 32, 64, 128, 512):
             for hard in (False, True):
                 self.with_stack(size, hard, os.environ["PATH"], BEAMWORK_TRUTHS=TRUTHS)
 
     def test_least_stack(self):
-        """The message appears with the smallest stack that the loader supports, for any address layout; a message
+        """The message must appear with the smallest stack that the loader supports, for any address layout. A message
         through stdio, whose buffer is on the stack, would crash three times in four."""
         self.needs_no_sanitizers()
         for size in 8 * (16, 17, 18):
@@ -215,7 +209,7 @@ class Machine(ProgramTest):
 
 
 class OtherPythons(ProgramTest):
-    """Reference values are also derived in a virtual environment, or with a different Python."""
+    """Reference values are derived even in a virtual environment, or with a different Python."""
 
     def derived(self, **changes):
         done = self.answered("truth", "elastica", "--set", "load=2.5", env=environment(**changes))
@@ -250,8 +244,6 @@ class OtherPythons(ProgramTest):
         self.derived(PYTHONSTARTUP="/nowhere", PYTHONSAFEPATH="1")
 
 
-# The program from a user's point of view: answers, rejections with one line and the documented exit
-# status, no partial file.
 EXAMPLES = ROOT / "cases" / "examples"
 
 
@@ -267,6 +259,7 @@ def untimed(text):
 
 
 class Refusals(ProgramTest):
+
     def test_names(self):
         self.refused(2, "did you mean 'c_column'", "solve", "c_colum", "-f", "beamw", "-n", "2")
         self.refused(2, "did you mean 'beamw'", "solve", "c_column", "-f", "beamv", "-n", "2")
@@ -307,7 +300,6 @@ class Refusals(ProgramTest):
             self.answered(*[path if word == "FILE" else word for word in words])
 
     def test_examples_have_names(self):
-        """A scene of cases/examples is a case by its name, as in the report."""
         path = EXAMPLES / "euler_column.yaml"
         for verb in (("list", ), ("solve", "-f", "beamw", "-n", "2", "--format", "csv"), ("truth", )):
             by_name, by_file = (self.answered(verb[0], *of, *verb[1:]).stdout
@@ -350,6 +342,7 @@ class Refusals(ProgramTest):
 
 
 class Answers(ProgramTest):
+
     def test_json(self):
         result = self.record(*solve("c_column", "section_data=printed"))
         self.assertEqual(result["schema_version"], 3)
@@ -359,7 +352,6 @@ class Answers(ProgramTest):
         self.assertTrue(any(t["truth_kind"] == "exact" for t in load["truths"]))
 
     def test_gate(self):
-        """Removing a rule from the list of known deviations makes the run fail."""
         path = self.folder / "t.h5"
         shutil.copy(TRUTHS, path)
         selection = ("-k", "c_column and section_data=printed and beamw", "--truths", path)
@@ -376,8 +368,6 @@ class Answers(ProgramTest):
         self.assertEqual(untimed(one.stdout), untimed(two.stdout))
 
     def test_truth(self):
-        """Reference values are stored at known points, derived at new ones, and rejected where no program can derive
-        them."""
         source = r" +1 +exact +same\n +reference/derive/cantilevers.py"
         for load in ("load=2", "load=2.5"):
             done = self.answered("truth", "elastica", "--set", load)
@@ -388,8 +378,8 @@ class Answers(ProgramTest):
                      silent=False, env=environment(BEAMWORK_REFERENCE="/nowhere"))
 
     def test_truth_has_the_digits_of_its_uncertainty(self):
-        """The value has no digits of rounding noise, the shear theory is stated, a thickness without stored values has
-        a value, and a remedy is given if no program can derive the value."""
+        """The value must have no digits of rounding noise. A thickness without stored values has a value, and a remedy is
+        given if no program can derive the value."""
         text = self.answered("truth", "spherical_joint").stdout
         self.assertNotRegex(text, r"\d\.\d*(9{6}|0{6}\d)")
         self.assertRegex(text, r"support_stiffness_max +\S+ \+- .* exact +same, haringx\n")
@@ -408,8 +398,6 @@ class Answers(ProgramTest):
         return {name: (float(value), float(plus)) for name, value, plus in found}, lines
 
     def test_truth_of_a_scene(self):
-        """A user's scene is solved as a network of members. The values agree with those of the file and of the
-        built-in case."""
         for case in ("bend_45", "shear_elastica", "roll_up"):
             scene = self.folder / f"{case}.yaml"
             self.answered("scene", case, "-o", scene)
@@ -428,7 +416,6 @@ class Answers(ProgramTest):
         self.assertIn("cells", done.stderr)
 
     def test_derived_lines_belong_into_the_file(self):
-        """Derived lines apply only to the parameters for which they were derived."""
         scene = self.folder / "portal.yaml"
         text = (EXAMPLES / "plane_portal.yaml").read_text(encoding="utf-8")
         head, _, tail = text.partition("truths:\n")

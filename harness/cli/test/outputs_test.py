@@ -20,14 +20,15 @@ from harness.tools.kit.program import (PROGRAM, ProgramTest, ROOT, TRUTHS, envir
 from reference.pack import seal
 
 
-# Destinations of output: through links, into pipes and devices, never onto an input or another
-# output, checked before any work.
+# Destinations of output: through links, into pipes and devices, never onto an input or another output, checked before
+# any work.
 def shape(text):
     """Returns a text without its numbers, because times differ between runs."""
     return re.sub(r"[0-9][0-9.e+-]*", "#", text)
 
 
 class Folder(ProgramTest):
+
     def stored(self, name):
         path = self.folder / name
         self.assertEqual(run("verify", *WORK["verify"], "-o", path).returncode, 0)
@@ -35,8 +36,8 @@ class Folder(ProgramTest):
 
 
 class Places(Folder):
+
     def test_no_places(self):
-        """Invalid destinations are reported for every output of every verb before anything is computed."""
         for verb, work in WORK.items():
             for option in [(o,) for o in TEXT[verb]] + ([WHOLE[verb]] if WHOLE[verb] else []):
                 self.refused(2, "the name of an output is empty", verb, *work, *option, "")
@@ -48,7 +49,6 @@ class Places(Folder):
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_whole_files(self):
-        """HDF5 output to anything except a regular file is rejected, and the target does not change."""
         fifo = self.folder / "fifo"
         os.mkfifo(fifo)
         for verb, option in WHOLE.items():
@@ -57,7 +57,6 @@ class Places(Folder):
         self.assertTrue(fifo.is_fifo())
 
     def test_text_is_no_hdf5(self):
-        """A file named .h5 is written as HDF5, or not at all."""
         for verb, options in TEXT.items():
             for option in options:
                 for name in ("a.h5", "a.HDF5") if (verb, option) not in BOTH else ():
@@ -72,7 +71,6 @@ class Places(Folder):
                 self.assertEqual(list(file["experiments"]), [verb])
 
     def test_closed_standard_output(self):
-        """Files are still written, and none becomes standard output."""
         for work in (("verify", *WORK["verify"]), ("solve", "elastica", "-f", "beamw", "-n", "1", "--shapes"),
                      ("sweep", "elastica", "-f", "beamw", "-n", "1", "--vary", "load=1,2")):
             path = self.folder / f"{work[0]}.h5"
@@ -88,7 +86,6 @@ class Places(Folder):
         self.assertTrue(read_json(path)["outcomes"])
 
     def test_signals(self):
-        """A process ended by a signal leaves no unfinished file."""
         for number in (signal.SIGTERM, signal.SIGHUP):
             for delay in (0.01, 0.03, 0.05, 0.08, 0.12):
                 for work in (("converge", "loaded_cantilever", "-f", "beamw", "-o", "c.txt"),
@@ -100,7 +97,6 @@ class Places(Folder):
                     self.assertEqual([name for name in os.listdir(self.folder) if ".part-" in name], [])
 
     def test_pipes(self):
-        """Text is written to a named pipe as to a file."""
         for verb, options in TEXT.items():
             for option in options:
                 fifo, file, got = self.folder / "fifo", self.folder / "file", []
@@ -132,7 +128,6 @@ class Places(Folder):
             self.assertEqual(run("verify", *WORK["verify"], "-o", file, stdout=out).returncode, 2)
 
     def test_links(self):
-        """If the path is a link, its target is replaced, not the link."""
         target, link = self.folder / "target", self.folder / "link"
         target.write_text("before", encoding="utf-8")
         link.symlink_to("target")
@@ -142,6 +137,7 @@ class Places(Folder):
 
 
 class Twice(Folder):
+
     def names(self, name):
         """Returns other names of the same file."""
         path = self.folder / name
@@ -211,8 +207,8 @@ class Twice(Folder):
 
 
 class LongPaths(Folder):
+
     def test_clone(self):
-        """In a clone in a folder with a very long name, reference values, derivations and outputs are found."""
         deep = self.folder
         while len(str(deep)) < 3000:
             deep = deep / ("d" * 200)
@@ -229,7 +225,6 @@ class LongPaths(Folder):
             self.assertEqual(done.returncode, 0, done.stderr)
 
 
-# Output of verify: one screen, unexpected results in full, colour on terminals only.
 SELECT = ("verify", "-k", "c_column and section_data=printed and (beamw or collocation)")
 SMALL = ("verify", "-k", "shear_elastica/default or elastica/default")
 UTF8 = environment(LC_ALL="C.UTF-8")
@@ -253,7 +248,6 @@ def on_terminal(*arguments, **changes):
 
 
 class Pictures(ProgramTest):
-    """`plot` creates pictures, and tables whose columns are the curves of `solve`."""
     SCENE = """beamwork: 1
 sections:
   tube: {tube: {diameter: 0.04, thickness: 2e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
@@ -296,7 +290,6 @@ omit: [trapeze, wagner_moments, wagner_torque]
         return columns
 
     def test_forms(self):
-        """The default name is used, and each format is recognised by its first bytes."""
         self.assertEqual(self.plot("-f", "beamw").stdout, "arm.png\n")
         for form, begin in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
             path = self.folder / f"arm.{form}"
@@ -308,7 +301,6 @@ omit: [trapeze, wagner_moments, wagner_torque]
             self.assertIn(word, words)
 
     def test_columns(self):
-        """Single values become curves, except times and frequencies of modes."""
         of = self.table("-f", "beamw")
         self.assertEqual(list(of), ["path", "bent [m]", "time [s]", "last [m]", "most [m]",
                                     "frequency [Hz]", "gives [m/N]", "gives, phase [rad]"])
@@ -340,7 +332,6 @@ class Screen(ProgramTest):
             self.assertLessEqual(len(line), 100, line)
 
     def test_widths(self):
-        """Long names, sources and descriptions continue on separate lines."""
         long_name = "collocation:stages=3,newton=displacement"
         for words in (("truth", "c_column"), ("truth", "warping_torsion"), ("scene", "--keys"),
                       ("bench", "c_column", "-f", "collocation", "--against", "beamw_consistent",
@@ -350,12 +341,10 @@ class Screen(ProgramTest):
             self.columns(self.answered(*words).stdout)
 
     def test_source_of_a_prediction(self):
-        """The source is separated from the error."""
         text = self.answered("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1").stdout
         self.assertRegex(text, r"(?m)^prediction C_xx .* %  N Eq\. 54, analytic$")
 
     def without_a_rule(self):
-        """Returns reference values whose list of known deviations does not contain those of these cases."""
         path = self.folder / "t.h5"
         shutil.copy(TRUTHS, path)
         with h5py.File(path, "r+") as file:
@@ -364,7 +353,6 @@ class Screen(ProgramTest):
         return path
 
     def test_matrix(self):
-        """There is a mark for each case and formulation, and its explanation."""
         for env, marks in ((UTF8, "≠1 ✓ · ○ ✓ ✓ ≠1 ≈2 ○ ○"), (ASCII, "#1 ok . m ok ok #1 ~2 m m")):
             text = self.answered(*SMALL, env=env).stdout
             row, = re.findall(r"^shear_elastica +(\S.*)$", text, re.M)
@@ -376,7 +364,6 @@ class Screen(ProgramTest):
             self.assertEqual(text.isascii(), env is ASCII)
 
     def test_verdict_sentence(self):
-        """One sentence says that findings were expected."""
         for quiet in ((), ("-q",)):
             text = self.answered(*SMALL, *quiet).stdout
             self.assertRegex(" ".join(text.split()), r"PASS: every verdict is as expected; 6 of them are "
@@ -388,7 +375,6 @@ class Screen(ProgramTest):
         self.assertLess(len(text.splitlines()), 5)
 
     def test_unexpected(self):
-        """Unexpected results are shown in full, with commands that reproduce them, even with --quiet."""
         truths = self.without_a_rule()
         for quiet in ((), ("-q",), ("-v",)):
             text = self.answered(*SELECT, "--truths", truths, *quiet, code=1, env=ASCII).stdout
@@ -414,7 +400,6 @@ class Screen(ProgramTest):
         self.assertIn("! not as expected, see below   # limit off", text)
 
     def test_long_table(self):
-        """The long table is printed on request or with a selection, but never with --quiet."""
         long = r"(?m)^  w_over_L \[.*\], truth 0\.\d+ \+- \S+ \(exact\)$"
         chosen = ("verify", "-k", "elastica/default and (beamw or collocation)")
         self.assertRegex(self.answered(*chosen).stdout, long)
@@ -423,7 +408,6 @@ class Screen(ProgramTest):
         self.refused(2, "give one of them", *chosen, "-q", "-v")
 
     def test_widths(self):
-        """Tables of every verb with the longest existing names stay within the width."""
         longest = ("-f", "beamw_consistent:torsion=hyperbolic", "-f", "collocation")
         for words in (("solve", "c_column", *longest[:2], "-n", "2"),
                       ("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1"),
@@ -433,11 +417,10 @@ class Screen(ProgramTest):
                       ("stress", "-k", "decay_free"), ("stress", "-k", "twist_wagner")):
             text = self.answered(*words).stdout
             self.assertGreater(len(text.splitlines()), 3)
-            # A row of a value stays in one line; notes may follow its error.
+            # a row of a value stays in one line; notes may follow its error
             self.columns(re.sub(r"(?m)( % against \w+), .*$", r"\1", text))
 
     def test_errors_in_percent(self):
-        """Errors agree with those in the JSON, in every verb."""
         case = ("shear_elastica", "-f", "beamw", "-n", "4")
         error = 100 * self.record("solve", *case)["quantities"][0]["error"]
         shown = f"{error:+.4f} %"
@@ -445,7 +428,6 @@ class Screen(ProgramTest):
             self.assertIn(shown, self.answered(verb, *case).stdout)
 
     def test_colour(self):
-        """Colour is used on a terminal that supports it, unless it is switched off."""
         coloured, code = on_terminal(*SMALL, TERM="xterm", NO_COLOR="")
         self.assertEqual(code, 0)
         self.assertIn("\x1b[32mPASS\x1b[0m", coloured)

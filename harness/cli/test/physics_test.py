@@ -1,5 +1,5 @@
 """Scenes as a new user writes them, without options for physics, compared with closed forms: torsional buckling,
-unsymmetric sections, the effect of tension and rotation on torsion, rotary inertia; also messages on omitted physics
+unsymmetric sections, the effect of tension and rotation on torsion, and rotary inertia. Messages on omitted physics
 and the shear theory."""
 import math
 import unittest
@@ -50,9 +50,9 @@ def walls(points, lines, thickness):
 
 
 def flexural_torsional(A, I_across, I_along, It, away, length):
-    """Returns the lowest critical load [N] of a fork-ended column whose section is symmetric about one axis and does
-    not warp. I_across is the second moment of area for the bending that couples with the twist, because the shear
-    centre is at a distance from the centroid."""
+    """Returns the lowest critical load [N] of a fork-ended column whose section is symmetric about one axis and does not
+    warp. I_across is the second moment of area for the bending that couples with the twist, because the shear centre
+    is at a distance from the centroid."""
     euler, weak = (math.pi ** 2 * E * I / length ** 2 for I in (I_across, I_along))
     r2 = (I_across + I_along) / A + away ** 2
     twist, beta = G * It / r2, 1 - away ** 2 / r2
@@ -84,8 +84,8 @@ class PhysicsTest(SceneCase):
                   204800, 1e-6)
 
     def test_channel_as_the_case(self):
-        """The result agrees with the built-in column of that section, and with Timoshenko and Gere if the physics
-        that they neglect is omitted."""
+        """The expected values are those of the built-in column of that section, and those of Timoshenko and Gere if the
+        physics that they neglect is omitted."""
         section = "channel: {depth: 98e-3, flange: 49e-3, flange_thickness: 2e-3, web_thickness: 2e-3}"
         sizes = ("length=2", "height=0.098", "width=0.049", "flange_thickness=2e-3",
                  "web_thickness=2e-3", "young=210e9", "shear_modulus=81e9", "density=7850")
@@ -101,7 +101,7 @@ class PhysicsTest(SceneCase):
         self.near(self.column(section, more="omit: [shear]\n")["up"], 43535, 1e-3)
 
     def test_kinds(self):
-        """The kind of a buckling mode follows from symmetry: sections without symmetry about y or z bend and twist."""
+        """Symmetry determines the kind of a buckling mode: sections without symmetry about y or z bend and twist."""
         for section, kind in (("rectangle: {width: 0.02, thickness: 0.03}", "flexural"),
                               ("tube: {diameter: 0.04, thickness: 2e-3}", "flexural, double"),
                               ("constants: {A: 1.6e-3, Iy: 3e-6, Iz: 4e-6, It: 8e-9, Iw: 1e-12}", "torsional"),
@@ -114,7 +114,6 @@ class PhysicsTest(SceneCase):
                 self.assertEqual(found[0]["meaning"], kind, f"{section}, {formulation}")
 
     def test_angle_and_tee_twist(self):
-        """Equal-leg angles and a tee compressed at the centroid have flexural-torsional buckling."""
         for leg, thickness, length in ((0.1, 8e-3, 2.0), (0.06, 3e-3, 1.0), (0.05, 5e-3, 3.0)):
             A, I = 2 * leg * thickness, thickness * leg ** 3
             exact = flexural_torsional(A, I / 3, I / 12, A * thickness ** 2 / 3,
@@ -145,8 +144,7 @@ class PhysicsTest(SceneCase):
         self.assertGreater(abs(without["up"] / 177150 - 1), 0.05)
 
     def test_twisted_leaf(self):
-        """A leaf that is free to shorten has M = G It w' + E/2 w'^3 (int r^4 - Ip^2/A) and shortens by w'^2 L
-        Ip/2A."""
+        """A leaf that is free to shorten has M = G It w' + E/2 w'^3 (int r^4 - Ip^2/A) and shortens by w'^2 L Ip/2A."""
         text = BAR.format(
             width=50e-3, thickness=0.5e-3, length=0.1, material=MATERIAL,
             rest="motions:\n  twist: {unit: rad, path: [0, 1], value: [0, 0.2]}\nanalyses:\n"
@@ -162,9 +160,9 @@ class PhysicsTest(SceneCase):
         self.assertLess(abs(plain["ux"]), 1e-15)
 
     def test_twisted_walls(self):
-        """Walls that are free to shorten, bend and warp have M = G It w' + 4 E c w'^3 with 8 c = int q^2 dA, where q
-        is r^2 without its components along 1, y and z. The sections have eccentric shear centres, branches and unequal
-        flanges. The parts of the torque are checked with another formulation."""
+        """Walls that are free to shorten, bend and warp have M = G It w' + 4 E c w'^3 with 8 c = int q^2 dA, where q is
+        r^2 without its components along 1, y and z. The sections have eccentric shear centres, branches and unequal
+        flanges."""
         import numpy as np
         t, rate = 1e-3, 0.1
         for points, lines in (
@@ -217,7 +215,7 @@ class PhysicsTest(SceneCase):
 
     def test_strip_that_rotates(self):
         """A strip whose width is in the plane of rotation has the torque (G It + N Ip/A) w' with N = rho A W^2 (L^2 -
-        x^2)/2, and the propeller moment W^2 rho (I1 - I2) w; the solution is in odd powers w = x, x^3, ... about the
+        x^2)/2, and the propeller moment W^2 rho (I1 - I2) w. The solution is in odd powers w = x, x^3, ... about the
         hub."""
         b, t, length, speed = 40e-3, 1e-3, 0.4, 300.0
         I1, I2, terms = t * b ** 3 / 12, b * t ** 3 / 12, 5
@@ -227,7 +225,7 @@ class PhysicsTest(SceneCase):
         for i in range(terms):
             for j in range(terms):
                 p, q = 2 * i + 1, 2 * j + 1
-                s = p + q - 1  # int w_p' w_q' = p q/s, with (1 - x^2) less p q/(s + 2)
+                s = p + q - 1  # int w_p' w_q' = p q/s, with (1 - x^2) minus p q/(s + 2)
                 K[i, j] = G * It / length ** 2 * p * q / s + RHO * Ip * speed ** 2 / 2 * p * q * (
                     1 / s - 1 / (s + 2)) + RHO * (I1 - I2) * speed ** 2 / (p + q + 1)
                 M[i, j] = RHO * Ip / (p + q + 1)
@@ -250,7 +248,6 @@ class PhysicsTest(SceneCase):
         self.near(self.solved(text + "omit: rotary_inertia\n", "-n", 64)["f"], 628.78, 5e-5)
 
     def test_words(self):
-        """Omitted physics and the shear theory are reported, but only if they matter."""
         square = "rectangle: {width: 0.1, thickness: 0.1}"
         text = COLUMN.format(section=square, length=1, loads=PUSH, material=MATERIAL)
         self.assertNotIn("omitted", self.answered("solve", "--scene", self.scene(text)).stdout)
@@ -294,7 +291,6 @@ MODAL = "analyses: {v: {modal: {}}}\nquantities: {f: {frequency: {analysis: v, w
 
 
 class MassesTest(SceneCase):
-    """`solve` reports the masses of an analysis in kg, and the components held by drives."""
 
     def said(self, **changes):
         text = GUIDE.format(**{"inertia": "", "more": "", "rest": MODAL} | changes)

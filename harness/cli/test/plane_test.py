@@ -1,5 +1,5 @@
-"""Different models: scenes held in a plane, physics that a formulation does not support, and formulations not accepted
-yet."""
+"""Different models: scenes held in a plane, physics that a formulation does not support, and formulations that are not
+accepted yet."""
 import csv
 import io
 import json
@@ -13,11 +13,10 @@ import h5py
 from harness.tools.kit.program import ProgramTest, ROOT
 
 
-# plane: a scene that is held in its plane.
 EXAMPLES = ROOT / "cases" / "examples"
 E, G, RHO = 210e9, 81e9, 7850
 LENGTH, HEIGHT, THICK = 1, 0.1, 0.002
-# the strip is high in its plane and thin perpendicular to it
+# the strip is high in its plane and thin perpendicular to the plane
 STRIP = """beamwork: 1
 name: strip
 sections: {s: {rectangle: {width: 0.002, thickness: 0.1}, young: 210e9, shear_modulus: 81e9,
@@ -73,6 +72,7 @@ def turned(text, plane):
 
 
 class Plane(ProgramTest):
+
     def solved(self, text, *options, formulation="collocation", n=16):
         path = self.folder / "scene.yaml"
         path.write_text(text)
@@ -95,15 +95,14 @@ class Plane(ProgramTest):
                 self.assertLess(abs(found[name] / exact - 1), 0.02, (plane, name))
 
     def test_the_same_as_in_space(self):
-        """Results in the plane agree with those in space if the states that are stable in the plane are also stable in
-        space."""
+        """The states that are stable in the plane are also stable in space."""
         text = self.answered("scene", "elastica").stdout
         whole, space = self.solved(text)
         half, plane = self.solved(text + "plane: xy\n")
         self.assertEqual((whole["cell"]["free"], half["cell"]["free"]), (96, 48))
         for name, value in space.items():
             self.assertLess(abs(plane[name] / value - 1), 1e-9, name)
-        for n in (1, 3, 64):  # in space members of many elements are condensed
+        for n in (1, 3, 64):  # in space, members of many elements are condensed
             for formulation in ("beamw", "collocation"):
                 _, space = self.solved(text, formulation=formulation, n=n)
                 _, plane = self.solved(text + "plane: xy\n", formulation=formulation, n=n)
@@ -111,7 +110,6 @@ class Plane(ProgramTest):
                     self.assertLess(abs(plane[name] / value - 1), 1e-8, (formulation, n, name))
 
     def test_examples(self):
-        """Rigid parts, releases, drives, a body and a motion in time can be held in a plane."""
         for name in ("bent_leaf", "four_bar", "hinged_guide", "released_guide"):
             text = (EXAMPLES / f"{name}.yaml").read_text()
             _, space = self.solved(text, n=4)
@@ -128,7 +126,6 @@ class Plane(ProgramTest):
             self.assertGreater(compared, 0)
 
     def test_released_ends(self):
-        """Released ends are also held against motion out of the plane."""
         values = []
         for release, plane in (("rz", ""), ("rz", "plane: xy\n"),
                                ("[rx, ry, rz]", "plane: xy\n"),
@@ -165,7 +162,6 @@ class Plane(ProgramTest):
         self.assertIn("plane", self.answered("scene", "--keys").stdout)
 
     def test_what_leaves_it_is_refused(self):
-        """Motion out of the plane is rejected in one line that names its cause."""
         held = STRIP + "plane: xy\n"
         node = "b: {at: [1, 0, 0]"
         changes = {
@@ -220,9 +216,9 @@ class Plane(ProgramTest):
         self.refused(2, "held in a plane", "export", "--scene", path, "--to", "calculix")
 
 
-# A formulation that does not support all physics of a scene: it is evaluated as usual if this does
-# not affect the requested quantities; otherwise it is a different model, which is shown but does
-# not affect the exit status, rankings or agreements.
+# A formulation that does not support all physics of a scene is evaluated as usual if this does not affect the requested
+# quantities. Otherwise it is a different model, which is shown but does not affect the exit status, rankings or
+# agreements.
 LEAF = """beamwork: 1
 sections: {s: {rectangle: {width: 0.1, thickness: %s}, young: 210e9, shear_modulus: 81e9}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0.2, 0, 0]}}
@@ -241,6 +237,7 @@ PAPERS = {"c_column": ("beamw_vlasov", "sheet_second", "sheet_third", "beamw"),
 
 
 class OtherModel(ProgramTest):
+
     def scene(self, *numbers):
         path = self.folder / "leaf.yaml"
         path.write_text(LEAF % numbers)
@@ -303,7 +300,6 @@ class OtherModel(ProgramTest):
         self.assertFalse(found["collocation"]["other_model"])
 
     def test_as_in_the_papers(self):
-        """Second order, third order and Vlasov can be compared as in the papers."""
         for case, names in PAPERS.items():
             done = self.answered("converge", case, *[w for name in names for w in ("-f", name)],
                                  "-n", "1,2", "--format", "json")
@@ -315,14 +311,11 @@ class OtherModel(ProgramTest):
             self.assertTrue(of["beamw_vlasov"]["other_model"], case)
 
     def test_sweep(self):
-        """Reference values of a sweep come from formulations of the full model."""
         text = self.answered("sweep", "shear_column", "--vary", "length=0.5,1", "-f",
                              "beamw_vlasov").stdout
         self.assertNotIn("does not support", text)
 
     def test_sweep_of_another_model(self):
-        """A formulation is marked at the points where it is a different model, and excluded from shares and rankings
-        there."""
         path = self.folder / "leaf.yaml"
         path.write_text(LEAF.replace("sections:", "parameters: {t: {value: 0.1, unit: m}}\nsections:") %
                         ("t", "0.001", "0"))
@@ -342,7 +335,6 @@ class OtherModel(ProgramTest):
         self.assertEqual(bits.split("\n")[int(lacks[1, 0]).bit_length() - 1], "shear")
 
     def test_omitted(self):
-        """Physics that the scene omits is stated in every table."""
         deep = self.scene("0.1", "1", "0")
         for words, code in ((("solve", "-n", "2"), 0), (("converge",), 0), (("verify", "-v"), 3)):
             text = self.answered(words[0], *deep, *words[1:], code=code).stdout
@@ -364,7 +356,6 @@ class OtherModel(ProgramTest):
         self.assertIn("\n- leaf: trapeze, wagner_torque\n", files[2].read_text())
 
     def test_bench(self):
-        """A different model is not timed with the formulations that are ranked but named; on its own it is marked."""
         deep = self.scene("0.1", "1", "0")
         text = self.answered("bench", *deep, "-f", "beamw_vlasov", "-f", "collocation", "-n",
                              "1").stdout
@@ -376,8 +367,6 @@ class OtherModel(ProgramTest):
         self.assertNotIn("B: shear", text)
 
 
-# Formulations in the source tree that are not accepted yet are reported, and do not affect the exit
-# status unless they are named.
 NAME = "sheet_second"
 
 
@@ -447,7 +436,6 @@ class NotAccepted(ProgramTest):
             self.assertEqual((row["type"].decode(), int(row["is_new"])), (NAME, new))
 
     def test_extremes(self):
-        """A failure at an extreme needs a finding if the formulation is accepted."""
         for truths, code in (("accepted", 1), ("new", 0)):
             what = ("stress", "-k", f"slender_square and {NAME}", "--truths", self.truths[truths])
             out = self.answered(*what, code=code).stdout

@@ -1,4 +1,4 @@
-"""External formulations, compiled as an external author would compile them, for the tests of `--element`."""
+"""External formulations, compiled in the way an external author would compile them, for the tests of `--element`."""
 import os
 import subprocess
 
@@ -9,7 +9,7 @@ WARNINGS = ("-Wall", "-Wextra", "-Werror")
 
 
 def compile_shared(source, made, *options):
-    """Compiles this file into a shared object with the public headers only."""
+    """Compiles this file to a shared object with only the public headers."""
     subprocess.run([os.environ.get("CC", "cc"), "-O1", *options, "-shared", "-fPIC", "-I", ROOT,
                     source, "-lm", "-o", made],
                    check=True)
@@ -25,7 +25,7 @@ class PluginTest(ProgramTest):
         return compile_shared(source, self.folder / name)
 
     def altered(self, example, *changes):
-        """Returns an example with parts of its text replaced; each part must occur."""
+        """Returns an example with parts of its text replaced. Each part must occur."""
         text = (EXAMPLES / example).read_text(encoding="utf-8")
         for before, after in changes:
             self.assertIn(before, text)

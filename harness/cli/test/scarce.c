@@ -1,6 +1,6 @@
-/* Loaded into a program by LD_PRELOAD, this library fails the k-th allocation after the start of
- * main, k = $SCARCE_AT, in the process that was started, but not in its children. $SCARCE_ONLY:
- * only calls of this function are counted. $SCARCE_COUNT: file that receives their number. */
+/* A library for LD_PRELOAD that makes the k-th allocation after the start of main fail, with k =
+ * $SCARCE_AT, in the process that was started, but not in its children. If $SCARCE_ONLY is set,
+ * only calls of this function are counted. $SCARCE_COUNT is the file that receives their number. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>

@@ -1,5 +1,5 @@
-"""If memory runs out anywhere, including libraries and libc, every run ends within a time limit, with one line, and
-leaves a complete file or none."""
+"""If memory runs out anywhere, including libraries and libc, every run must end within a time limit, with one line, and
+leave a complete file or none."""
 import re
 import shutil
 import subprocess
@@ -36,6 +36,7 @@ TIMES = re.compile(r"[0-9.e+-]+ m?s\b|\"(seconds\w*|time|load\w*)\": [^,\n]*")
 
 @unittest.skipIf(sanitized(), "needs a program without sanitizers")
 class Scarce(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         cls.library = cls.class_folder() / "scarce.so"
@@ -82,8 +83,7 @@ class Scarce(ProgramTest):
                     self.assertTrue(code in (2, 4, 5) or last.startswith(CRASHED), (code, errors))
 
     def test_results_of_workers(self):
-        """The parent has no memory for the results of a worker: it does not wait for this worker, which is still
-        running."""
+        """The parent has no memory for the results of a worker. It must not wait for this worker, which is still running."""
         code, _, errors, files = self.attempt(WORK["verify"], SCARCE_AT="1", SCARCE_ONLY="fmemopen")
         self.assertEqual((code, errors, files), (4, "beamwork: out of memory for results\n", ["tiny.yaml"]))
 

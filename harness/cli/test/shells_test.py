@@ -12,7 +12,6 @@ from harness.cli.test.work import EVERY_VERB
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, TRUTHS, environment
 
 
-# Interactive completion: bash and zsh in their own terminals, with the tab key.
 HERE = ROOT / "harness" / "cli"
 PACKAGE = pathlib.Path("/usr/share/bash-completion/bash_completion")
 PATIENCE = 60  # seconds to wait for a shell that does not answer
@@ -36,13 +35,12 @@ LINES = {
     "explain bimom": ["explain", "bimoment"],
     "explain Poiss": ["explain", "Poisson's"],
 }
-# The command prints its arguments in a form that never occurs in the shell's own output.
+# The command prints its arguments in a form that never occurs in the output of the shell.
 SHOW = ("beamwork() { if [ \"$1\" = help ]; then command beamwork \"$@\"; else "
         "printf '<<'; printf '%s|' \"$@\"; printf '>>\\n'; fi; }")
 
 
 class Terminal:
-    """A shell that runs interactively."""
 
     def __init__(self, folder, *command):
         self.child, self.master = pty.fork()
@@ -71,6 +69,7 @@ class Terminal:
 
 
 class Shell(unittest.TestCase):
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -88,7 +87,7 @@ class Shell(unittest.TestCase):
         for typed, wanted in LINES.items():
             closing = '"' if typed.count('"') == 1 else ""
             shell.say(f"beamwork {typed}\t")
-            # bash closes the quotation itself; a second pair is an empty piece of the same word
+            # bash closes the quotation; a second pair is an empty piece of the same word
             shell.say(f'{closing}{closing}\n' if closing else "\n")
             text = shell.answer(">>")
             shown = text.partition("<<")[2].partition("|>>")[0].split("|")
@@ -101,7 +100,6 @@ class Shell(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("bash") and PACKAGE.exists(), "needs bash-completion")
     def test_bash_with_its_package(self):
-        """The completion file is found where packages install it, when it is first needed."""
         found = self.folder / "share" / "bash-completion" / "completions"
         found.mkdir(parents=True)
         shutil.copy(HERE / "beamwork.bash", found / "beamwork")
@@ -114,14 +112,13 @@ class Shell(unittest.TestCase):
                     "unsetopt prompt_cr prompt_sp"), "zsh", "-f", "-i")
 
 
-# Completions offered at the cursor: exactly the entries of the tables.
-
-# the C library's argp does not free a byte at exit
+# argp of the C library does not free a byte at exit
 ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
 class Completion(ProgramTest):
+
     def lines(self, *words):
         """Returns the completions for the line 'beamwork WORD...' with the cursor at the end of the last word."""
         return self.answered("help", "--complete", *words, env=ENV).stdout.splitlines()
@@ -193,7 +190,6 @@ class Completion(ProgramTest):
         self.assertEqual(self.offered("solve", "elastica", "-n", ""), [])
 
     def test_words(self):
-        """Terms of several words are completed in one argument or in several."""
         self.assertIn("limit", self.offered("explain", "wrong", ""))
         self.assertIn("wrong limit", self.offered("explain", "wrong l"))
         self.assertEqual(self.offered("explain", "bimom"), ["bimoment"])

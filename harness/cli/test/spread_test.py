@@ -1,4 +1,4 @@
-"""Shards of verbs are computed, killed, damaged and merged; the result is that of a single run."""
+"""Shards of verbs are computed, killed, damaged and merged. The result must be that of a single run."""
 import os
 import pathlib
 import random
@@ -37,7 +37,6 @@ def without_times(text):
 
 
 class SpreadTest(ProgramTest):
-    """Helpers of the tests below."""
 
     def hash_of(self, file):
         """Returns the hash and the number of values of a stored run."""
@@ -54,7 +53,6 @@ class SpreadTest(ProgramTest):
 
 
 class Verify(SpreadTest):
-    """Compares verify in shards with verify in one run."""
 
     @classmethod
     def setUpClass(cls):
@@ -83,7 +81,6 @@ class Verify(SpreadTest):
         return done
 
     def test_merged(self):
-        """Text, values, verdicts, JUnit tests and exit status are those of a single run."""
         done = self.is_as_alone("--json", self.folder / "merged.json", "--junit",
                                 self.folder / "merged.xml")
         self.assertEqual(without_times(done.stdout), without_times(self.alone.stdout))
@@ -98,7 +95,6 @@ class Verify(SpreadTest):
         self.assertEqual(tests[0], tests[1])
 
     def test_anywhere(self):
-        """The working folder may differ, and the batches may be in two folders, some of them in both."""
         (self.folder / "more").mkdir()
         names = self.names()
         self.assertGreater(len(names), 3)
@@ -110,7 +106,6 @@ class Verify(SpreadTest):
                          self.hash_of(self.home / "alone.h5"))
 
     def test_again(self):
-        """A restarted shard computes only missing batches; all shards together compute nothing twice."""
         gone = self.folder / "parts" / self.names()[1]
         gone.unlink()
         done = self.shard("1/1", "verify", "-k", CASES)
@@ -120,8 +115,6 @@ class Verify(SpreadTest):
         self.is_as_alone()
 
     def test_missing(self):
-        """If batches are missing, the exit status is 5, and there is a list, but no output; --partial writes the
-        existing results and reports this."""
         names = self.names()
         for name in names[1:]:
             (self.folder / "parts" / name).unlink()
@@ -136,7 +129,6 @@ class Verify(SpreadTest):
         self.assertGreater(int(self.hash_of(self.folder / "merged.partial.h5")[1]), 1000)
 
     def test_spoilt(self):
-        """A truncated or altered batch is named, counts as missing, and is computed again."""
         first, second, *_ = (self.folder / "parts" / name for name in self.names())
         os.truncate(first, first.stat().st_size // 2)
         content = bytearray(second.read_bytes())
@@ -150,7 +142,6 @@ class Verify(SpreadTest):
         self.is_as_alone()
 
     def test_foreign(self):
-        """Batches of other requests, builds and files are rejected by name."""
         parts = self.folder / "parts"
         self.refused(2, ["another request", "(verify --select"], "verify", "-k", "elastica",
                      "--into", parts)
@@ -164,7 +155,6 @@ class Verify(SpreadTest):
         self.refused(2, ["odd.batch", "not a batch of this program"], "merge", parts)
 
     def test_other_answers(self):
-        """If a batch exists with two different results, both are named and neither is used."""
         name = self.names()[0]
         other = self.folder / "other"
         other.mkdir()
@@ -178,7 +168,6 @@ class Verify(SpreadTest):
                      self.folder / "parts", other)
 
     def test_no_room(self):
-        """A full disk leads to one line, exit status 4 and no incomplete files; existing files remain."""
         names = self.names()
         gone = max(names, key=lambda name: (self.folder / "parts" / name).stat().st_size)
         (self.folder / "parts" / gone).unlink()
@@ -191,10 +180,9 @@ class Verify(SpreadTest):
 
 
 class Killed(SpreadTest):
-    """Runs are killed (kill -9) at random moments."""
 
     def test_killed(self):
-        """Kills the process or its group twenty times; after the rest is computed, the hash is the same."""
+        """Kills the process or its group twenty times. After the rest is computed, the hash must be the same."""
         alone = self.folder / "alone.h5"
         self.answered("verify", "-k", CASES, "-o", alone)
         parts = self.folder / "parts"
@@ -217,7 +205,6 @@ class Killed(SpreadTest):
         self.assertEqual(self.hash_of(self.folder / "merged.h5"), self.hash_of(alone))
 
     def test_interrupted(self):
-        """Ctrl-C leads to exit status 5, one line and no incomplete files."""
         parts = self.folder / "parts"
         with subprocess.Popen([PROGRAM, "verify", "--into", parts], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True) as child:
@@ -232,10 +219,8 @@ class Killed(SpreadTest):
 
 
 class Others(SpreadTest):
-    """Tests with a user's scene, and invalid combinations of options."""
 
     def test_own_scene(self):
-        """Two shards merged in another folder agree with a single run; nothing is evaluated."""
         scene = self.folder / "leaf.yaml"
         scene.write_text(SCENE)
         ask = ("verify", "--scene", scene)
@@ -250,7 +235,6 @@ class Others(SpreadTest):
         self.refused(2, ["other reference values, scenes or formulations"], "merge", self.folder / "parts")
 
     def test_refused(self):
-        """Invalid combinations of options are reported before anything is computed."""
         parts = self.folder / "parts"
         for words, arguments in (
                 (["K/N"], ["--shard", "3/2", "--into", parts]),

@@ -16,14 +16,13 @@ from harness.records.test.stored import group_of
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, run
 
 
-# sweep: values of single solutions, designs, references, files.
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 COLUMN = ("shear_column", "--vary", "length=0.5..2/3", "--vary", "side=0.01..0.04/2:log",
           "-f", "beamw", "-f", "collocation", "-n", "8,2,4")
 
 
 def sealed(path):
-    """Returns whether the last line states the length of the rest of the file."""
+    """Returns True if the last line states the length of the rest of the file."""
     data = path.read_bytes()
     word, size, _ = data[-40:].split()
     return word == b"beamwork-seal" and int(size, 16) == len(data) - 40
@@ -66,7 +65,6 @@ class Grid(ProgramTest):
             self.assertEqual(self.of["value"][point, formulation, mesh, 0], alone)
 
     def test_errors_and_least_mesh(self):
-        """Errors refer to the stored reference, and the smallest mesh follows from the errors."""
         error = self.of["error"][:, 0, :, 0]
         expected = self.of["value"][:, 0, :, 0] / self.of["reference"] - 1
         known = np.isfinite(error)
@@ -92,7 +90,6 @@ class Grid(ProgramTest):
         self.assertTrue((self.of["cost"] > 0).all() and (self.of["seconds"] > 0).all())
 
     def test_worst_points_are_scenes_that_solve(self):
-        """A separate solution at the worst point has the same digits as in the sweep."""
         for row in self.of["worst"]:
             which = ("beamw", "collocation").index(row["formulation"].decode())
             path = self.path.with_suffix(".worst") / row["scene"].decode()
@@ -110,7 +107,6 @@ class Grid(ProgramTest):
                          ["column.h5", "column.worst"])
 
     def test_any_number_of_processes(self):
-        """The values do not depend on the number of processes."""
         for jobs in (1, 3):
             path = self.folder / f"{jobs}.h5"
             self.answered("sweep", *COLUMN, "-j", jobs, "-o", path)
@@ -162,8 +158,8 @@ class References(ProgramTest):
         self.assertIn("the limit from the same meshes", screen)
 
     def test_limits_that_disagree_are_no_reference(self):
-        """The limits of a formulation without shear along one axis and of one with it disagree, so they are no
-        reference value."""
+        """The limits of a formulation without shear along one axis and of one with it disagree, so they are no reference
+        value."""
         kind, _, error, screen = self.kinds(
             "--scene", LEAF, "--vary", "thickness=0.8e-3,1e-3", "-f", "sheet_second", "-f",
             "sheet_third", "-n", "8,16,32,64,128", "-k", "k_pushed", "--error", "0.1%")
@@ -213,7 +209,6 @@ class Designs(ProgramTest):
         self.assertTrue((first == again).all() and (first != other).all())
 
 
-# sweep: interrupted runs, shards, repeated runs, and rejected requests.
 SWEEP_RUN_LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
@@ -228,7 +223,6 @@ class Going(ProgramTest):
             self.assertEqual(file.attrs["scene"].decode(), str(SWEEP_RUN_LEAF))
 
     def test_interrupted_goes_on(self):
-        """Finished work is kept; once the rest is computed, the file is the same as that of an uninterrupted run."""
         words = ["sweep", "snap_through", "--vary", "angle=0.1..0.6/1199", "-f", "beamw", "-n",
                  "1,2", "-k", "limit_load", "-j", "1", "-o"]
         path, whole = self.folder / "s.h5", self.folder / "whole.h5"
@@ -252,7 +246,6 @@ class Going(ProgramTest):
         self.assertFalse((self.folder / "s.batches").exists())
 
     def test_shards(self):
-        """Separately computed shards give the same result when merged; missing ones are reported."""
         words = ("sweep", "snap_through", "--vary", "angle=0.1..0.6/1199", "-f", "beamw", "-n",
                  "1,2", "-k", "limit_load")
         into = [self.folder / name for name in ("a", "b")]
@@ -301,7 +294,6 @@ class Going(ProgramTest):
         self.assertEqual([p.name for p in self.folder.iterdir()], ["e.worst"])
 
     def test_one_run_for_each_output(self):
-        """If another run uses the output, the run ends with one line and removes nothing."""
         batches = self.folder / "e.batches"
         batches.mkdir()
         words = ("sweep", "elastica", "--vary", "load=1,2", "-f", "beamw", "-n", "1", "-o", self.folder / "e.h5")
@@ -313,7 +305,6 @@ class Going(ProgramTest):
         self.assertFalse(batches.exists())
 
     def test_refusals(self):
-        """Cause and remedy are reported before anything runs."""
         for words, says in (
                 (("elastica",), "no parameter varies"),
                 (("elastica", "--vary", "lod=1..2/3"), "did you mean 'load'"),

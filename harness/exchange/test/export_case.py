@@ -35,8 +35,8 @@ quantities:
   turn:       {displacement: {analysis: run, node: tip, component: rz}, unit: rad}
 """
 RECTANGLE = "rectangle: {width: 10e-3, thickness: 2e-3}"
-# Sections of walls; the area of their centre lines; and the area that is counted twice where a wall ends inside another
-# one.
+# Sections of walls, the area of their centre lines, and the area that is counted twice where a wall ends inside another
+# wall.
 WALLS = {
     "channel: {depth: 0.02, flange: 0.01, flange_thickness: 1e-3, web_thickness: 0.6e-3}":
         (2 * 10e-6 + 12e-6, 0),
@@ -54,7 +54,7 @@ WALLS = {
 CHANNEL = "channel: {depth: 0.2, flange: 0.1, flange_thickness: 10e-3, web_thickness: 6e-3}"
 TIP = "at: [0.02, 2, 0]"  # the axis of the member is along y
 PERCENT = {"ux": -0.29, "uy": 0, "uz": 0.04, "rx": -0.19, "ry": 1.32, "rz": -0.26, "twist": 0.89}
-# A linear analysis gives no reactions.
+# Requests a reaction, which a linear analysis does not give.
 HELD = "  held:       {reaction: {analysis: run, node: base, component: ux}, unit: N}\n"
 PATH = "{static: {stations: [0.5, 1]}}"
 
@@ -93,6 +93,7 @@ def mesh_of(deck):
 
 
 class ExportTest(SceneCase):
+
     def deck(self, scene, *options):
         path = self.folder / "deck.inp"
         self.answered("export", "--scene", scene, "--to", "calculix", "-o", path, *options)

@@ -15,12 +15,11 @@ from harness.exchange.test.export_case import (CHANNEL, ExportTest, HEIGHT, INER
 from harness.tools.kit.program import ROOT, run
 
 
-# export: decks contain meshes that fill their members, unsupported scenes are rejected, and the output of CalculiX is
-# read.
 class Decks(ExportTest):
+
     def test_bricks_fill_the_member(self):
-        """The elements are right-handed, fill the volume of the member and lie between its ends; all nodes are used,
-        except those of rigid bodies."""
+        """The elements must be right-handed, fill the volume of the member and lie between its ends. All nodes must be
+        used, except those of rigid bodies."""
         nodes, elements = mesh_of(self.deck(self.scene(cantilever(1.0)), "-n", "6"))
         self.assertEqual(elements.shape, (6 * 8 * 1, 20))
         corners = np.array([[nodes[n] for n in e[:8]] for e in elements])
@@ -44,8 +43,8 @@ class Decks(ExportTest):
                                            atol=1e-12)
 
     def test_walls(self):
-        """Bricks share their faces, and no space is filled twice. The area is that of the walls, except where a wall
-        ends inside another one; the deck states the difference."""
+        """Bricks share their faces, and no space is filled twice. The area is that of the walls, except where a wall ends
+        inside another wall. The deck states the difference."""
         faces = [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
         for section, (area, twice) in WALLS.items():
             deck = self.deck(self.scene(cantilever(1.0).replace(RECTANGLE, section)), "-n", "3")
@@ -101,7 +100,6 @@ class Decks(ExportTest):
             self.assertAlmostEqual(float(cards["3"]) / np.deg2rad(20), angle, places=9)
 
     def test_what_is_not_carried(self):
-        """An unsupported scene is rejected with one line that names the reason, and no file is written."""
         plain = cantilever(1.0)
         wrong = {
             "warp": plain.replace(", warping: fixed", ""),
@@ -171,7 +169,6 @@ class Answers(ExportTest):
         self.assertEqual(float(rows["deflection"][7]), 0.25 * read_back.DIGITS)
 
     def test_convention(self):
-        """Moments about the undeformed structure agree with the scene's convention and are imported."""
         text = cantilever(1.0).replace("run: {linear: {}}", "run: {compliance: {node: tip}}")
         text = text[:text.index("  deflection:")] + (
             "  turn: {compliance: {analysis: run, row: rz, column: rz}, unit: rad/(N m)}\n")
@@ -185,8 +182,6 @@ class Answers(ExportTest):
         self.answered("import", out, "-o", self.folder / "values.h5")
 
     def test_meshes_of_one_scene(self):
-        """Meshes of one scene form one series; decks of different scenes, or two decks with the same mesh, are
-        rejected."""
         scene, decks = self.scene(cantilever(1.0)), []
         for n in ("1", "2"):
             decks.append(self.deck(scene, "-n", n).rename(self.folder / f"deck{n}.inp"))
@@ -219,9 +214,10 @@ class Answers(ExportTest):
         self.assertIn("4 values, 1 mesh; another model: solid", told)
 
 
-# The results of CalculiX, if it is installed, agree with those of beams and plates.
+# The results of CalculiX, if it is installed, compared with those of beams and plates.
 @needs_ccx
 class Solved(ExportTest):
+
     def test_cantilever(self):
         """Exact values: tip deflection F L^3/(3 E I) + 6 F L/(5 G A), rotation F L^2/(2 E I)."""
         found = self.solved(self.scene(cantilever(2.0)), "-n", "10")
@@ -240,8 +236,8 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["held"] / -force, 1, delta=1e-5)
 
     def test_arc(self):
-        """Exact values for an end rotation a: deflection (1 - cos a) L/a, shortening (1 - sin a/a) L. They also hold
-        for an oblique bar, whose rotation axis is not a coordinate axis."""
+        """Exact values for an end rotation a: deflection (1 - cos a) L/a, shortening (1 - sin a/a) L. They apply to an
+        oblique bar, whose rotation axis is not a coordinate axis."""
         angle, c, s = 1.2, 0.8, 0.6
         text = cantilever(0.0, PATH).replace(
             "tip:  {at: [0.02, 0.1, 0]", "tip:  {at: [0.02, 0.08, 0.06], rotation: {vector: [none, "
@@ -258,7 +254,7 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["turn"], -c * angle, delta=1e-6)
 
     def test_compliance(self):
-        """Exact compliances of a beam's end, including moments: L/(E I), L^2/(2 E I), L/(E A)."""
+        """Exact compliances of the end of a beam: L/(E I), L^2/(2 E I), L/(E A)."""
         text = cantilever(1.0).replace("run: {linear: {}}", "run: {compliance: {node: tip}}")
         entries = {"turn_turn": ("rz", "rz", "rad/(N m)", LENGTH / (YOUNG * INERTIA)),
                    "turn_move": ("rz", "ux", "rad/N", -LENGTH**2 / (2 * YOUNG * INERTIA)),
@@ -289,8 +285,8 @@ class Solved(ExportTest):
             self.assertAlmostEqual(more[name], percent, delta=0.1, msg=name)
 
     def test_wagner_moments(self):
-        """A channel of 4 m loaded at its centroid twists and moves transversely to its load. The solid moves 12 %
-        more than beams without int y (y^2 + z^2) dA, and 0.6 % less than beams with this term."""
+        """A channel of 4 m loaded at its centroid twists and moves transversely to its load. The solid moves 12 % more
+        than beams without int y (y^2 + z^2) dA, and 0.6 % less than beams with this term."""
         text = cantilever(0.0, "{static: {stations: [1]}}").replace(RECTANGLE, CHANNEL).replace(
             "force: [0.0, 0, 0]", "force: [0, 0, -3e3]").replace("[0.02, 0.1, 0]", "[0.02, 4, 0]")
         text = text.replace("shear_modulus: 100e9", "shear_modulus: 80e9")
@@ -305,8 +301,8 @@ class Solved(ExportTest):
             self.assertLess(solid / beam, most)
 
     def test_leaf_spring_guide(self):
-        """Plates resist anticlastic bending: the solid is stiffer than beams by percentages that do not vanish on finer
-        meshes."""
+        """Plates resist anticlastic bending, so the solid is stiffer than beams by percentages that do not vanish on
+        finer meshes."""
         scene = EXAMPLES / "leaf_spring_guide.yaml"
         solid = self.solved(scene, "-n", "20")
         told = self.record("solve", "--scene", scene, "-f", "collocation", "-n", "4")

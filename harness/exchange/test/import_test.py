@@ -1,4 +1,4 @@
-"""import: names, units, parameters and axes are converted; all errors are reported in one run; verify compares the
+"""import: names, units, parameters and axes are converted, all errors are reported in one run, and verify compares the
 imported values."""
 import json
 import pathlib
@@ -115,8 +115,8 @@ class Import(ProgramTest):
         self.assertIn("given again", self.read(HEAD + COLUMNS + ROWS + ROWS, 2).stderr)
 
     def test_axes(self):
-        """If the other program's x axis is beamwork's -y axis, its C_ux_Fx is beamwork's C_uy_Fy. An entry with only
-        one such index changes sign."""
+        """If the x axis of the other program is the -y axis of beamwork, C_ux_Fx of that program is C_uy_Fy of beamwork.
+        An entry with only one such index changes sign."""
         self.read(HEAD + "# axes: x=-y y=x z=z\n" + COLUMNS +
                   "C_ux_Fx, m/N, 2,,,, 3,\nC_ux_Fy, m/N, 2,,,, 4,\n")
         found = {row["quantity"]: (row["value"], row["factor"]) for row in self.stored()}
@@ -131,7 +131,6 @@ class Import(ProgramTest):
                          {b"C_ux_Mz": -3, b"C_uy_Mz": 4, b"C_thz_Mz": 5})
 
     def test_a_motion_in_other_axes(self):
-        """Rates, momenta, rotations and energies of a motion are converted, and maxima may become minima."""
         (self.folder / "fly.yaml").write_text(FLYING, encoding="utf-8")
         rows = "".join(f"{name}, {unit}, 2,,,, {value},\n" for name, unit, value in (
             ("vx", "mm/s", 3), ("vy", "mm/s", 4), ("Ly", "kg m^2/s", 5), ("pz", "N s", 6),
@@ -189,8 +188,7 @@ class Import(ProgramTest):
                    self.folder / name, *options)
 
     def test_what_is_missing_is_gone(self):
-        """A missing series is reported as gone: after a change of its name, without the import, or without a mesh.
-        This holds for a comparison of two runs, with the short table, and in the run itself."""
+        """A missing series is reported as gone: after a change of its name, without the import, or without a mesh."""
         values = ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))
         text = "# beamwork-import: 1\n# program: {}\n# version: {}\n# case: elastica\nquantity, unit, elements, value\n"
         rows = [f"w_over_L, 1, {n}, {value}\n" for n, value in values]
@@ -228,7 +226,7 @@ class Import(ProgramTest):
                      "collocation", "--imported", self.folder / "theirs.h5", "--imported-must-pass")
 
     def test_quantities_on_their_own_meshes(self):
-        """A quantity given on fewer meshes is judged on those meshes; its own finest mesh counts as the finest."""
+        """A quantity given on fewer meshes is evaluated on those meshes, the finest of which counts as the finest mesh."""
         self.read("# beamwork-import: 1\n# program: mine\n# case: elastica\nquantity, unit, elements, value\n" +
                   "".join(f"w_over_L, 1, {n}, {v}\n" for n, v in ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))) +
                   "".join(f"theta, rad, {n}, {0.46135195119 + 0.04 / n**2}\n" for n in (2, 4, 8, 16)))
@@ -247,8 +245,7 @@ class Import(ProgramTest):
         self.assertIn("finest mesh, n = 8: 0.4615", " ".join(done.stdout.split()))
 
     def test_several_beside(self):
-        """Each file may be given once, and each program may occur once at a point. A message gives the number of
-        series at other points."""
+        """Each file may be given once, and each program may occur once at a point."""
         self.read(
             HEAD.replace("MBDyn 1.7.3, 3-node", "rival") + COLUMNS + ROWS +
             "# case: elastica\nw_over_L, 1, 2,,,, 1,\n")
@@ -272,7 +269,6 @@ class Import(ProgramTest):
                      self.folder / "theirs.h5", "-o", self.folder / "theirs.h5")
 
     def test_mistakes_as_json(self):
-        """Errors are listed for each file, in the same form as errors in scenes; a file without errors has an empty list."""
         files = {
             "good.csv": HEAD + COLUMNS + ROWS, "bad.csv": HEAD + "# modle: solid\n" + COLUMNS + ROWS
         }
@@ -308,7 +304,6 @@ class Import(ProgramTest):
                      "--format", "csv")
 
     def test_curves(self):
-        """The points of a curve are stored in the order of their abscissa, whatever their order in the file; the abscissa is in SI."""
         self.read(HEAD + COLUMNS +
                   "C_xx_curve, mm/N, 4,,, 0.01, 29,\nC_xx_curve, mm/N, 4,,, 0.005, 14,\n")
         with h5py.File(self.folder / "theirs.h5") as file:

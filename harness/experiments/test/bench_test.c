@@ -1,5 +1,5 @@
-/* Conclusions of a benchmark about times: one is drawn only if the noise allows it, and the
- * counted work is the same every time. */
+/* A conclusion of a benchmark about times is drawn only if the noise allows it. The counted work
+ * must be the same every time. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -14,8 +14,8 @@
 
 enum { PAIRS = 101, TRIALS = 300 };
 
-/* Returns the time of a lap of 1.7 ms with the noise of a shared machine: mostly small,
- * sometimes large, and drifting. */
+/* Returns the time of a lap of 1.7 ms with the noise of a shared machine: mostly small, sometimes
+ * large, and drifting. */
 static double noisy(const gsl_rng *random, double drift)
 {
     const double tail =
@@ -96,8 +96,8 @@ static void test_compare(void)
     gsl_test_int(rounds_compare(&even, &even), 0, "times that are equal do not differ");
 }
 
-/* Errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %: the answer is the coarsest mesh such that it and all
- * finer meshes are within the level. */
+/* For the errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %, the answer is the coarsest mesh for which it and
+ * all finer meshes are within the level. */
 static void test_reach(void)
 {
     const double error[5] = {0.2, -0.005, 0.03, 0.002, -0.0005};
@@ -172,9 +172,6 @@ static void bench_tests(void)
     test_rounds();
 }
 
-/* The published algorithm as a baseline: the size of its system, when it is timed, and how its time
- * is used. */
-
 /* Returns the order of the matrix that is eliminated. */
 static int order_of(const cell_request *request)
 {
@@ -229,7 +226,6 @@ static void unknowns(void)
     gsl_test(measured < 24, "%d cells were measured", measured);
 }
 
-/* Problems without iterations, or with too large a matrix, are not measured. */
 static void not_measured(void)
 {
     const cell_request linear = cells_of(case_find("warping_torsion", NULL), "beamw_consistent", 4),
@@ -257,12 +253,10 @@ static void dense_tests(void)
     seconds();
 }
 
-/* Expectations, counts and exit status of the sweep of extremes, with artificial outcomes. */
-
 static char all[] = "*", word[32];
 
-/* Returns the counts for one outcome of the given kind, with a known deviation that expects this
- * or another outcome. */
+/* Returns the counts for one outcome of the given kind, with a known deviation that expects this or
+ * another outcome. */
 static extreme_count judged(outcome_kind kind, const char *expected, int whole, int *unexpected,
                             int *code)
 {
@@ -351,7 +345,7 @@ static void unobserved(void)
     }
 }
 
-/* Two outcomes, in one cell or (one_cell 0) in two cells, in either order: a cell counts as its
+/* Two outcomes, in one cell or (one_cell 0) in two cells, in either order. A cell counts as its
  * worst outcome. */
 static void cells(void)
 {
@@ -446,8 +440,8 @@ static int exact_extreme(void)
     return i;
 }
 
-/* own: number of elements of the mesh that is evaluated. error[0]: its relative error; the
- * others: errors of its neighbours; NAN: no value. */
+/* `own` is the number of elements of the mesh that is evaluated, and error[0] is its relative
+ * error. The others are errors of its neighbours. NAN: no value. */
 static void make(int own, const int mesh[OUTCOME_NEIGHBOURS], const double error[MESHES],
                  neighbours_bench *b)
 {

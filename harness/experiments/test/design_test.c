@@ -21,7 +21,6 @@ static void unit_axes(sweep_axis out[3])
         out[i] = (sweep_axis){.of = &table[i], .index = i, .kind = AXIS_LINEAR, .from = 0, .to = 1};
 }
 
-/* The last axis varies fastest. */
 static void grid(void)
 {
     static const double right[] = {0, 1, 0, 2, 0, 3, 5, 1, 5, 2, 5, 3};
@@ -79,7 +78,7 @@ static void halton(void)
     design_free(&d);
 }
 
-/* Points are the same wherever a request starts, before or after a mark. */
+/* Points must be the same wherever a request starts, before or after a mark. */
 static void anywhere(design_kind kind)
 {
     enum { POINTS = 2 * DESIGN_STRIDE + 100 };
@@ -103,7 +102,6 @@ static void anywhere(design_kind kind)
     free(all);
 }
 
-/* Different seeds give different points; equal seeds give equal points. */
 static void seeds(void)
 {
     sweep_axis a[3];
@@ -144,11 +142,9 @@ static void design_tests(void)
     is_refused(DESIGN_SOBOL, &parted, 10, "'/4' is for a grid; remove it");
 }
 
-/* Orders, and the cost at an error level, from runs with artificial errors. */
-
 enum { RUNS = 5 };
 
-/* Runs of one integrator with steps 0.1, 0.05, ... */
+/* Makes runs of one integrator with steps 0.1, 0.05, ... */
 static void fill(pace *p, pace_group *g, pace_run run[RUNS], const char *method, int nominal,
                  const double error[RUNS])
 {
@@ -205,8 +201,8 @@ static void order_of_each(void)
     gsl_test_rel(run[2].order, 1, 1e-14, "against the run before");
 }
 
-/* Errors and costs are powers of the step size: a level between two runs has the cost given by
- * that power. */
+/* Errors and costs are powers of the step size. A level between two runs has the cost given by that
+ * power. */
 static void cost_of_a_level(void)
 {
     pace p;
@@ -225,8 +221,8 @@ static void cost_of_a_level(void)
     gsl_test(r.run != NULL, "a shorter step is not within it");
 }
 
-/* Returns 1 when the errors of a quantity, on successively finer runs, count as not converging.
- * The errors of positions converge. */
+/* Returns 1 if the errors of a quantity, on successively finer runs, count as not converging. The
+ * errors of positions converge. */
 static int stands(const double error[RUNS], double floor)
 {
     pace p;

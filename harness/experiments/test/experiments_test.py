@@ -1,5 +1,4 @@
-"""One results file for all experiments, written by the program: several experiments at a time, old files, damaged
-files."""
+"""One results file for all experiments: several experiments at a time, old files, damaged files."""
 import fcntl
 import shutil
 import subprocess
@@ -37,7 +36,7 @@ def content(group):
 
 
 def contents(path):
-    """Returns {group: contents}; verify: everything outside of the groups."""
+    """Returns {group: contents}. The group `verify` contains everything outside the other groups."""
     with h5py.File(path) as file:
         groups = {name: content(group) for name, group in file["experiments"].items()}
         own = {name: value for name, value in content(file).items()
@@ -73,7 +72,6 @@ class Experiments(ProgramTest):
                          ["results.h5", "results.worst"])
 
     def test_replaced_whole(self):
-        """A run replaces its whole group, even if it writes less; other groups remain the same to the byte."""
         before = contents(self.path)
         self.answered("element-test", "beamw", "-o", self.path)
         self.answered("motion", "pendulum", "-f", "beamw", "-n", "1", "--set", "time=0.1",
@@ -90,7 +88,6 @@ class Experiments(ProgramTest):
             self.assertEqual(list(file["cases"]), ["elbow"])
 
     def test_an_old_file(self):
-        """A file of version 2 can be compared and reported, and experiments can be added to it."""
         def old(file):
             del file["experiments"]
             file.attrs.modify("schema_version", 2)
@@ -107,13 +104,11 @@ class Experiments(ProgramTest):
         self.assertTrue((self.folder / "site" / "stability.html").exists())
 
     def test_times_alone(self):
-        """Results of bench can be compared in a file that has no results of verify."""
         path = self.folder / "times.h5"
         self.answered(*ASKED["bench"], "-o", path)
         self.assertIn(SAME, self.answered("compare", path, path).stdout)
 
     def test_report(self):
-        """The report states the commit of each group."""
         def other(file):
             file["experiments/stress"].attrs["commit"] = b"another one"
 
@@ -127,7 +122,6 @@ class Experiments(ProgramTest):
         self.assertIn("measured by <code>make bench</code>", page)
 
     def test_what_would_be_lost(self):
-        """If a file would be lost, the run is rejected before it starts, and the file does not change."""
         damaged, other = self.folder / "damaged.h5", self.folder / "other.h5"
         damaged.write_bytes(self.path.read_bytes()[:-100])
         with h5py.File(other, "w") as file:
@@ -139,8 +133,6 @@ class Experiments(ProgramTest):
             self.assertEqual(path.read_bytes(), before)
 
     def test_a_sweep_alone(self):
-        """An old file with only a sweep can be compared, reported and replaced, and other experiments can be added
-        to it."""
         def old(file):
             group = file["experiments/sweep"]
             for name in group:
@@ -166,7 +158,6 @@ class Experiments(ProgramTest):
         self.assertEqual(set(contents(path)), {"verify", "stress", "sweep"})
 
     def test_held(self):
-        """A file in use by another run, or by a program that writes to it, is reported before the run starts."""
         with open(f"{self.path}.lock", "w", encoding="ascii") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             self.refused(2, "another run is using", *ASKED["sweep"], "-o", self.path)
@@ -178,7 +169,6 @@ class Experiments(ProgramTest):
         self.refused(4, "cannot be locked", *ASKED["stress"], "-o", self.path)
 
     def test_text_still(self):
-        """The ending of the file's name selects text output."""
         path = self.folder / "stress.csv"
         self.answered(*ASKED["stress"], "--format", "csv", "-o", path)
         self.assertEqual(path.read_text(encoding="utf-8"),

@@ -1,4 +1,4 @@
-"""beamwork motion, through the program: time-integration errors, orders, energy and momenta."""
+"""Time-integration errors, orders, energy and momenta of `beamwork motion`."""
 import csv
 import io
 import json
@@ -115,7 +115,6 @@ class Words(ProgramTest):
         self.assertIn("lowest cost to an error of 0.01, the first three:", text)
 
     def test_consistent_mass_is_not_lumped_in_silence(self):
-        """With consistent mass, an integrator that supports only lumped mass gives no motion and no order."""
         scene = self.folder / "mine.yaml"
         scene.write_text(LEAF.replace("young: 210e9", "density: 7800, young: 210e9") + """
 analyses:

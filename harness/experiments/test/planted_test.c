@@ -1,5 +1,5 @@
-/* Faults injected into formulations that have none: each is detected, with a message that names
- * the cause. A fault changes the output of one function. */
+/* Faults injected into formulations that have none. Each must be detected, with a message that
+ * names the cause. A fault changes the output of one function. */
 #include "harness/experiments/experiments_impl.h"
 #include <math.h>
 
@@ -94,7 +94,7 @@ static status deaf_to_strains(const element_data *d, const double e[], const dou
     return base->stress(d, f, inner, out);
 }
 
-/* Bending about z is softer than the constants of the section require. */
+/* Makes bending about z softer than the constants of the section require. */
 static status soft_about_z(const element_data *d, const double e[], const double inner[],
                            stress_output *out)
 {
@@ -193,7 +193,7 @@ static status no_reason(const element_request *request, element_data *out, fault
     return request->features & FEATURE_SHEAR ? base->prepare(request, out, f) : STATUS_REFUSED;
 }
 
-/* In a call for many elements, returns the energy of the first one for all of them. */
+/* In a call for many elements, returns the energy of the first element for all of them. */
 static void one_energy(int count, const element_data *const data[], const double *const e[],
                        const double *const inner[], stress_output out[], status outcome[])
 {
@@ -301,10 +301,8 @@ static void planted_tests(void)
     the_rest();
 }
 
-/* Faults injected into the inertia of formulations: each is detected, with a message that names
- * the cause. */
-
-/* Defines an inertia function whose outputs are changed. */
+/* Defines an inertia function whose outputs are changed. A fault of inertia must be detected, with
+ * a message that names the cause. */
 #define INERTIA(name, statement)                                                                   \
     static status name(const element_data *d, const node_state x[],                                \
                        const element_rotating_frame *frame, inertia_output *out)                   \
@@ -325,8 +323,8 @@ INERTIA(half_potential, if (out->potential != NULL) *out->potential /= 2)
 INERTIA(wrong_force, if (out->force != NULL) out->force[8] *= -1)
 INERTIA(wrong_softening, if (out->N != NULL) out->N[14 * 2 + 2] *= 1.01)
 INERTIA(unsymmetric_softening, if (out->N != NULL) out->N[14 * 1 + 2] *= 1.01)
-/* The error is larger for rotations than for translations, in units of the test element's length
- * [m]. */
+/* the error is larger for rotations than for translations, in units of the length of the test
+ * element [m] */
 INERTIA(
     unsymmetric_turns, if (out->N != NULL) {
         out->N[14 * 5 + 4] += 0.03 * 0.2385 * 0.2385 * out->N[0];

@@ -1,5 +1,5 @@
-/* Shards that are computed into folders and merged give the same results as one process, however
- * they end. */
+/* Shards that are computed into folders and merged must give the same results as one process,
+ * however they end. */
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -33,8 +33,8 @@ static void one_folder(void)
     folder_remove(&of);
 }
 
-/* Batches of works with different numbers of shards are combined. A batch that is in both
- * folders is used once. */
+/* Batches of works with different numbers of shards are combined. A batch that is in both folders
+ * is used once. */
 static void two_folders(void)
 {
     const test_folder a = folder_make(), b = folder_make();
@@ -63,7 +63,7 @@ static void two_folders(void)
     folder_remove(&other);
 }
 
-/* If the process of a batch ends, only this batch is lost; it is computed after a restart. */
+/* If the process of a batch ends, only this batch is lost. It is computed after a restart. */
 static void lost(void)
 {
     const test_folder of = folder_make();
@@ -83,8 +83,7 @@ static void lost(void)
     folder_remove(&of);
 }
 
-/* A batch that fails ends the run with its message, and so does a full disk; existing batches are
- * kept. */
+/* A batch that fails, or a full disk, ends the run with its message. Existing batches are kept. */
 static void failures(void)
 {
     const test_folder of = folder_make();
@@ -116,7 +115,7 @@ static void failures(void)
     folder_remove(&of);
 }
 
-/* The run is killed at twenty random moments, and then runs to completion. */
+/* The run is killed at twenty random times, and then runs to completion. */
 static void killed(void)
 {
     const test_folder of = folder_make();

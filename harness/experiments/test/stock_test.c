@@ -1,4 +1,4 @@
-/* Folders with invalid files: each file is reported in one line, and none is used. */
+/* Folders with invalid files. Each file must be reported in one line, and none may be used. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -31,7 +31,7 @@ static void fill(filled *out)
     out->path = folder_path(&out->of, out->name);
 }
 
-/* Reads the folder. said: the messages. */
+/* Reads the folder. `said` receives the messages. */
 static status take(filled *of, stock *s, char said[400], fault *f)
 {
     memset(said, 0, 400);
@@ -47,7 +47,7 @@ static long size_of(const char *path)
     return stat(path, &there) == 0 ? (long)there.st_size : -1;
 }
 
-/* The damaged batch counts as missing, is named once, and is computed again. */
+/* The damaged batch must count as missing, be named once, and be computed again. */
 static void is_done_again(filled *of, const char *what)
 {
     stock s;
@@ -92,7 +92,7 @@ static void damaged(void)
     folder_remove(&of.of);
 }
 
-/* A merge and a restart reject the folder, with a message that contains these words. */
+/* A merge and a restart must reject the folder, with a message that contains these words. */
 static void is_refused(filled *of, const char *words)
 {
     stock s;
@@ -182,8 +182,8 @@ static void nowhere(void)
     folder_remove(&of);
 }
 
-/* Batches that were computed on another processor or with another BLAS are reported; those from
- * another host are not. */
+/* Batches that were computed on another processor or with another BLAS must be reported. Those from
+ * another host must not. */
 static void machines(void)
 {
     filled of;
@@ -234,9 +234,7 @@ static void stock_tests(void)
     nowhere();
 }
 
-/* Digests, and the division of work into batches and shards. */
-
-/* The examples in FIPS 180-4. */
+/* The examples of FIPS 180-4. */
 static void known_digests(void)
 {
     static const struct {
@@ -291,8 +289,8 @@ static void cut(void)
     gsl_test_int(deal_cut(0, cost, 0.5, first), 0, "of nothing no batch");
 }
 
-/* Each batch is assigned to one shard, the costs of the shards are nearly equal, and the result
- * is reproducible. */
+/* Each batch is assigned to one shard, the costs of the shards are nearly equal, and the result is
+ * reproducible. */
 static void dealt(void)
 {
     enum { BATCHES = 500, SHARDS = 7 };
@@ -315,8 +313,7 @@ static void dealt(void)
     gsl_test(most > 1.01 * least, "shards end together: %g to %g", least, most);
 }
 
-/* The result agrees with the rule: the most expensive remaining batch goes to the first of the
- * shards with the lowest cost. */
+/* Rule: the most expensive remaining batch goes to the first of the shards with the lowest cost. */
 static void dealt_by_the_rule(void)
 {
     enum { BATCHES = 300, MOST = 40 };
@@ -348,7 +345,7 @@ static void deal_tests(void)
     dealt();
 }
 
-/* Integrators, steps and tolerances as given on the command line. */
+/* Checks integrators, steps and tolerances as given on the command line. */
 
 static void list_is(const char *text, double ratio, int count, const double right[])
 {

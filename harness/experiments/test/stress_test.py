@@ -11,7 +11,7 @@ from harness.tools.kit import program
 from harness.tools.kit.program import ProgramTest, ROOT
 
 
-# beamwork stress: its exit status, the agreement of its output forms, and that a wrong number is always reported.
+# `beamwork stress`: its exit status, the agreement of its output forms, and that a wrong number is always reported.
 SMALL = "decay_free or soft_square or twist_wagner"
 
 
@@ -27,7 +27,7 @@ class Stress(ProgramTest):
         cls.code, cls.record = done.returncode, json.loads(done.stdout)
 
     def altered(self, change):
-        """Packs the reference values of a copy of reference/, after `change` was applied to the copy."""
+        """Packs the reference values of a copy of reference/, to which `change` was applied."""
         copy = self.folder / "reference"
         left_out = shutil.ignore_patterns("__pycache__", "derive", "test")
         shutil.copytree(ROOT / "reference", copy, ignore=left_out)
@@ -104,7 +104,7 @@ class Stress(ProgramTest):
         self.assertEqual(done.returncode, 1, done.stdout)
 
     def test_motions(self):
-        """Step sizes do not change; a rotation too large for a step is reported by name."""
+        """Step sizes do not change. A rotation too large for a step is reported by name."""
         done = run("-k", "(turn_alpha or long_steps_radau) and collocation", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stdout)
         record = json.loads(done.stdout)
@@ -141,10 +141,10 @@ class Stress(ProgramTest):
             self.refused(code, "", "stress", *arguments, silent=False)
 
 
-# Motions at extremes: each integrator gives a value with its error, or fails with a reason.
+# At extremes, each integrator must give a value with its error, or fail with a reason.
 STEEL = 200e9, 7800.0
 
-# A sheet with a length of a thousand times its thickness is held in a deflected position and released.
+# A sheet with a length of a thousand times its thickness, which is held in a deflected position and released.
 SHEET = """beamwork: 1
 sections:
   sheet: {rectangle: {width: 0.05, thickness: 1e-4}, young: 200e9, shear_modulus: 77e9,
@@ -165,7 +165,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
 SHEET_PERIOD = 0.1**2 * 2 * math.pi / 1.8751041**2 / math.sqrt(STEEL[0] * 1e-8 / 12 / STEEL[1])
 
-# A rod with a body at one end flies freely. MASS: mass of the body relative to that of the rod.
+# A rod with a body at one end flies freely. MASS is the mass of the body relative to that of the rod.
 BODY = """beamwork: 1
 sections:
   rod: {rectangle: {width: 0.02, thickness: 0.02}, young: 5e6, shear_modulus: 2e6, density: DENSITY}
@@ -229,7 +229,7 @@ class Extremes(ProgramTest):
             self.assertLess(found[integrator]["error"], most, integrator)
 
     def test_nearly_massless_nodes(self):
-        """With and without rotary inertia, the result is a correct value or a failure with a reason."""
+        """With and without rotary inertia, the result must be a correct value or a failure with a reason."""
         for omit in ("", ", rotary_inertia"):
             found = self.runs(BODY, "collocation", 0.01, "--conservation-only", TIME=1, DENSITY=1e-6,
                               MASS=1, INERTIA=0.1, OMIT=omit)

@@ -127,7 +127,7 @@ static void worst_are(const tally *t)
     gsl_test_rel(t->doubt[1], 4e-4, 1e-15, "the largest doubt");
 }
 
-/* The summary is the same whether points are added together or one by one. */
+/* The summary must be the same whether points are added together or one by one. */
 static void same_in_pieces(const parameter_ranges *r, const rows *whole, const tally *right)
 {
     tally t;
@@ -175,7 +175,7 @@ static void tally_tests(void)
     ranges_free(&r);
 }
 
-/* Arguments of --vary: values, limits, and rejected ones. */
+/* Arguments of --vary: values, limits, and rejected arguments. */
 
 static const parameter_type axis_table[] = {
     {"width", "m", 0.05, 1e-3, 10, NULL, "of a strip"},
@@ -267,8 +267,7 @@ static void axis_tests(void)
     is_refused("ends=fixd", "unknown choice");
 }
 
-/* Tests that a formulation satisfies every claim that it makes, and that its claims are
- * compared. */
+/* A formulation must satisfy every claim that it makes, and its claims must be compared. */
 
 static void tell(const char *key, const checks_family *family, const claims *c)
 {
@@ -298,15 +297,15 @@ static void contract_tests(void)
     gsl_test(by_matrices < 1, "%d formulations carry sections by their matrices", by_matrices);
 }
 
-/* Contents of the fields of a sweep's map: one field of each kind. */
+/* Contents of the fields of the map of a sweep: one field of each kind. */
 
 enum { PLACES = 8 };
 
 static const parameter_type map_table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {0}};
 static const case_type map_box = {.name = "box", .parameters = {map_table}};
 
-/* Fields with their marks in a sweep with reference values at some points only (mixed), and
- * without any (alike). */
+/* Fields with their marks in a sweep with reference values at some points only (mixed), and without
+ * any (alike). */
 static const struct {
     tally_place place;
     const char *mixed, *alike;
