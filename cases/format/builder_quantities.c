@@ -184,11 +184,16 @@ static void check_when(const fields *f, const scene_quantity *q)
     if (!fields_have(f, "when") || q->what.kind == SCENE_ENVELOPE_OF || q->analysis < 0 ||
         q->analysis >= s->analyses)
         return;
-    if (q->transform == SCENE_HISTORY && !scene_is_passed(q, s->analysis[q->analysis].kind))
+    if (s->analysis[q->analysis].kind != SCENE_MOTION)
         document_mistake(f->b->mistakes, document_find(f->map, "when"), 0,
-                         "when: it is the window of crossings, means, spectra and extremes of a "
-                         "motion between its stations, and this quantity is none of these; remove "
-                         "it, or change 'take'");
+                         "when: it is the window of a motion in time, and %s is not a motion; "
+                         "remove it, or name a motion",
+                         scene_called(s, SCENE_ANALYSES, q->analysis).text);
+    else if (q->transform == SCENE_HISTORY && !scene_is_passed(q, SCENE_MOTION))
+        document_mistake(
+            f->b->mistakes, document_find(f->map, "when"), 0,
+            "when: it is the window of crossings, means, spectra and extremes, and this "
+            "quantity is none of these; remove it, or change 'take'");
     else
         for (int i = q->passing.direction == SCENE_RISING; i < 3;
              i++) /* the direction 'rising' is ignored, because it is always written */

@@ -70,7 +70,7 @@ const quantity_type quantity_internal = {.key = "internal",
                                          .kind = SCENE_INTERNAL,
                                          .field = fields,
                                          .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,
-                                         .passing = QUANTITY_EXTREMES,
+                                         .between = 1,
                                          .unit = unit,
                                          .meaning = meaning,
                                          .read = read};

@@ -33,7 +33,7 @@ const quantity_type quantity_momentum = {.key = "momentum",
                                          .kind = SCENE_BALANCE,
                                          .field = fields,
                                          .analyses = 1u << SCENE_MOTION,
-                                         .passing = QUANTITY_EXTREMES,
+                                         .between = 1,
                                          .unit = unit,
                                          .meaning = meaning,
                                          .read = read};

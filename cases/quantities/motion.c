@@ -38,7 +38,7 @@ const quantity_type quantity_motion = {.key = "motion",
                                        .kind = SCENE_DRIVER_VALUE,
                                        .field = fields,
                                        .analyses = QUANTITY_ALL_STATES,
-                                       .passing = QUANTITY_CROSSINGS,
+                                       .between = 1,
                                        .unit = unit,
                                        .meaning = meaning,
                                        .read = read};

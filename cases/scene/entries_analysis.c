@@ -266,7 +266,8 @@ static const entry_field in_time[] = {
      .summary =
          "mass-proportional damping; stiffness-proportional: 'damping' of members and springs",
      .left_out = "none"},
-    {"start", ENTRY_MAP, .below = start, .summary = "velocities at the start",
+    {"start", ENTRY_MAP, .below = start,
+     .summary = "velocities at the start, added to those of a rotation in 'about'",
      .left_out = "at rest, or as given by 'about'"},
     ACTING(all_loads),
     {.name = NULL}};

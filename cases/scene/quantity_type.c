@@ -91,10 +91,6 @@ int scene_extreme_sign(const scene_quantity *q)
 
 int scene_is_passed(const scene_quantity *q, scene_analysis_kind analysis)
 {
-    const quantity_passing passing = quantity_type_of(q)->passing;
-    const int extreme = q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ||
-                        q->reduction == SCENE_MAX_TIME || q->reduction == SCENE_MIN_TIME;
-    if (analysis != SCENE_MOTION || passing == QUANTITY_AT_STATIONS)
-        return 0;
-    return extreme || (passing == QUANTITY_CROSSINGS && q->reduction > SCENE_CURVE);
+    return analysis == SCENE_MOTION && quantity_type_of(q)->between &&
+           (scene_is_extreme(q->reduction) || q->reduction > SCENE_CURVE);
 }

@@ -359,7 +359,7 @@ typedef enum scene_reduction {
     SCENE_MIN,
     SCENE_AT,
     SCENE_CURVE,
-    /* Statistics over all times of a motion, only for positions and rates. */
+    /* Statistics over all times of a motion. */
     SCENE_MAX_TIME,   /* time of the largest value [s] */
     SCENE_MIN_TIME,   /* time of the smallest value [s] */
     SCENE_CROSSING,   /* time at which a level is crossed [s] */
@@ -377,6 +377,12 @@ typedef enum scene_reduction {
 static inline int scene_is_timed(scene_reduction how)
 {
     return how > SCENE_CURVE && how < SCENE_MEAN;
+}
+
+/* Returns 1 for a largest or smallest value, and for its time. */
+static inline int scene_is_extreme(scene_reduction how)
+{
+    return how == SCENE_MAX || how == SCENE_MIN || how == SCENE_MAX_TIME || how == SCENE_MIN_TIME;
 }
 
 /* Direction in which a level is crossed. */
@@ -1513,13 +1519,6 @@ typedef struct quantity_eigenvalue {
     double decay; /* decay rate of a damped mode [1/s] */
 } quantity_eigenvalue;
 
-/* Events that are evaluated between the stations of a motion. */
-typedef enum quantity_passing {
-    QUANTITY_AT_STATIONS,
-    QUANTITY_EXTREMES, /* maximum and minimum */
-    QUANTITY_CROSSINGS /* maximum, minimum and level crossings */
-} quantity_passing;
-
 typedef struct quantity_type {
     const char *key, *summary;
     /* SCENE_READING for quantities that depend only on nodes; otherwise the kind that an analysis
@@ -1527,7 +1526,7 @@ typedef struct quantity_type {
     scene_quantity_kind kind;
     const entry_field *field; /* keys of the map below the key of the quantity */
     unsigned analyses;        /* bits 1 << kind for all kinds of analysis that have the quantity */
-    quantity_passing passing;
+    int between; /* 1: extremes, crossings and means of a motion include times between stations */
     /* Returns the default unit of the value. The powers of length and force in the unit determine
      * scaling. */
     const char *(*unit)(const scene *, const scene_quantity *);
@@ -1566,7 +1565,7 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
          ENTRY_WORD,                                                                               \
          .group = 1,                                                                               \
          .words = SCENE_TAKE_CHOICES,                                                              \
-         .summary = "statistic over all stations",                                                 \
+         .summary = "statistic over all stations, or over all times of a motion",                  \
          .usual = "last"}
 #define QUANTITY_MODE                                                                              \
     {"which",                                                                                      \

@@ -563,7 +563,33 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
     return scene_spectrum_stations(s, q, &first, &count, f);
 }
 
-/* Checks that only positions and rates are evaluated between the stations of a motion. */
+/* Rejects a station of an analysis of one state. Names the state. */
+static status refuse_station(const scene *s, const scene_quantity *q, fault *f)
+{
+    const scene_analysis *a = &s->analysis[q->analysis];
+    const scene_words who = scene_called(s, SCENE_ANALYSES, q->analysis);
+    const int about = a->kind != SCENE_LINEAR && a->follows != SCENE_NONE &&
+                              scene_path_of(&s->analysis[a->follows]) != NULL
+                          ? a->follows
+                          : SCENE_NONE;
+    if (about == SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: %s has one state and no stations; remove 'at' and 'take', "
+                         "or use a static path",
+                         q->name, who.text);
+    if (s->analysis[about].kind == SCENE_MOTION)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: %s is about one instant of %s and has no stations; remove "
+                         "'at' and 'take', and select the instant with 'time' of the analysis",
+                         q->name, who.text, scene_name(s, SCENE_ANALYSES, about).text);
+    return fault_set(f, STATUS_REFUSED,
+                     "quantity %s: %s is about the last state of %s and has no stations; remove "
+                     "'at' and 'take'; for an earlier state, add a path that ends there and name "
+                     "it with 'about'",
+                     q->name, who.text, scene_name(s, SCENE_ANALYSES, about).text);
+}
+
+/* Checks the stations or the window of a quantity. */
 static status check_passing(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_analysis *a = &s->analysis[q->analysis];
@@ -575,19 +601,11 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
     const int stations =
         scene_path_of(a) != NULL || (a->kind == SCENE_COMPLIANCE && a->follows != SCENE_NONE);
     if (q->reduction != SCENE_LAST && !stations)
-        return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: %s has one state and no stations; remove 'at' and 'take', "
-                         "or use a static path",
-                         q->name, scene_called(s, SCENE_ANALYSES, q->analysis).text);
+        return refuse_station(s, q, f);
     if (q->reduction > SCENE_CURVE && a->kind != SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: times, crossings and means require a motion in time; name "
                          "one, or request a station or a curve",
-                         q->name);
-    if (q->reduction > SCENE_CURVE && !scene_is_passed(q, a->kind))
-        return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: crossings, periods and means require positions or rates; "
-                         "request the maximum, the minimum or a curve",
                          q->name);
     if (!scene_is_passed(q, a->kind))
         return STATUS_OK;

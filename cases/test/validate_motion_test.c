@@ -532,6 +532,15 @@ static void station_of_linear(scene *s)
         scene_add_quantity(s, "v", "m", scene_add_linear(s), scene_coordinate(TIP, SCENE_UY)), 0.5);
 }
 
+static void station_of_frequencies_about_a_path(scene *s)
+{
+    const double end = 1;
+    scene_set_at(scene_add_quantity(s, "f", "Hz",
+                                    scene_add_modal(s, scene_add_static(s, 1, &end, 1)),
+                                    scene_frequency(0, SCENE_ANY)),
+                 0.5);
+}
+
 static void largest_of_frequencies(scene *s)
 {
     scene_add_quantity(s, "f", "Hz", scene_add_modal(s, 0), scene_frequency(0, SCENE_ANY))
@@ -552,7 +561,8 @@ static const refusal wanted_refusals[] = {
     {critical_about_buckling, "analysis 2: ", "name a static analysis, or remove 'about'"},
     {frequencies_about_rotation, "analysis 2: ", "request the frequencies of the rotation itself"},
     {station_of_linear, "quantity v: ", "analysis 1 has one state and no stations"},
-    {largest_of_frequencies, "quantity f: ", "analysis 1 has one state and no stations"},
+    {largest_of_frequencies, "quantity f: ", "analysis 1 is about the last state of"},
+    {station_of_frequencies_about_a_path, "quantity f: ", "for an earlier state, add a path"},
     {two_names, "quantity u: ", "two quantities have this name"},
     {no_analysis, "quantity u: ", "analysis: analysis 1 does not exist"},
     {no_coordinate, "quantity u: ", "component: the value 6 has no meaning"},

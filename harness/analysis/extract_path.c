@@ -276,6 +276,9 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
     const int known = found != NULL && found->known == 1;
     if (found != NULL && found->known == PASSING_LOST) {
         quantity_no_value(r, STATUS_NO_VALUE, turns_lost);
+    } else if (found != NULL && found->known == PASSING_UNSOLVED) {
+        quantity_no_value(r, STATUS_NOT_CONVERGED,
+                          "no solution was found at an instant inside a step; give a shorter step");
     } else if (o->status != STATUS_OK && !(known && q->reduction == SCENE_CROSSING)) {
         path_ends(c, q, o, r);
     } else if (!known) {

@@ -280,9 +280,12 @@ typedef struct outcome_instant {
 } outcome_instant;
 
 /* Extremum or crossing of a quantity during a motion, at any time of a step. */
-enum { PASSING_LOST = 2 }; /* a rotation vector has lost its direction (harness/model/model.h) */
+enum {
+    PASSING_LOST = 2, /* a rotation vector has lost its direction (harness/model/model.h) */
+    PASSING_UNSOLVED  /* an instant inside a step has no solution */
+};
 typedef struct outcome_passing {
-    int known;    /* 1: the value is known; 0: there is no value; or PASSING_LOST */
+    int known;    /* 1: the value is known; 0: there is no value; or one of the above */
     double value; /* value before factor and offset, time [s], or number of crossings per second */
     double time;  /* [s] time of a maximum or minimum */
     double error; /* estimated error due to interpolation between the ends of steps */

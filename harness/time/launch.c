@@ -176,6 +176,8 @@ status launch_again(analysis_context *c, const carried_masses *masses, const sce
     const status outcome = inc != NULL
                                ? begin(&s, how, now, room, inc, inc + s.all + 1, f)
                                : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    now->state->path =
+        now->time; /* loads after the jump, or after a static path, act from now on */
     free(inc);
     stage_free(&s);
     return outcome;

@@ -328,7 +328,11 @@ static status solve(motion_course *w, fault *f)
                              .masses = &w->masses,
                              .scheme = w->scheme,
                              .out = w->out};
-    w->watches = (watches){.c = w->c, .analysis = w->analysis, .scheme = w->scheme, .out = w->out};
+    w->watches = (watches){.c = w->c,
+                           .analysis = w->analysis,
+                           .scheme = w->scheme,
+                           .masses = &w->masses,
+                           .out = w->out};
     TRY(stations_alloc(&w->stations, f));
     TRY(watches_alloc(&w->watches, f));
     w->peaks = (peaks){.c = w->c,

@@ -267,9 +267,10 @@ static status read_whole(const reading *from, const scene_quantity *q, const dou
 {
     status outcome = STATUS_OK;
     const int moves = from->v != NULL;
-    const double path = from->x != NULL       ? 1
-                        : from->state != NULL ? kinematics_state_path(from->state)
-                                              : NAN;
+    const double at = from->x != NULL       ? 1
+                      : from->state != NULL ? kinematics_state_path(from->state)
+                                            : NAN,
+                 path = from->before ? kinks_before(from->eq->m, at) : at;
     read_state s = {.as = places_of(from),
                     .from = from,
                     .motion = {from->v, a, moves && model_spreads(from->eq->m, q->analysis)},

@@ -206,6 +206,7 @@ typedef struct reading {
                                  structure is at rest */
     const double *balance;    /* [SCENE_BALANCES]; NULL: not needed */
     const double *compliance; /* [36]; NULL: not needed */
+    int before;               /* 1: with the loads before a jump at this instant */
     /* for linear statics about the undeformed state: displacements [free + driven] and stresses
      * [elements x strains] due to all loads; otherwise NULL */
     const double *x, *sigma;

@@ -93,6 +93,39 @@ status alpha_alloc(const scheme_request *, motion_scheme **, fault *);
  * but its iterations are not recorded. */
 status aside_step(analysis_context *, motion_scheme *, const instant *from, double time,
                   instant *at, fault *);
+/* An instant of the motion at which a quantity is read. */
+typedef struct aside_place {
+    const instant *at;
+    const double *balance; /* [SCENE_BALANCES]; NULL: not known yet */
+    int before;            /* 1: before a jump of the loads at this instant */
+} aside_place;
+status aside_read(const analysis_context *, const carried_masses *, const outcome_motion *,
+                  const scene_quantity *, const aside_place *, double *out, fault *);
+
+/* Values of any quantity inside one step. Side steps are shared by quantities that read the same
+ * instants. */
+
+enum { ASIDES = 4 }; /* stored side steps of one step: the first ones and the last one */
+
+typedef struct asides {
+    analysis_context *c;
+    motion_scheme *scheme;
+    const carried_masses *masses;
+    const outcome_motion *out;
+    const instant *from, *to; /* ends of the step */
+    instant at[ASIDES];
+    int made;       /* number of stored side steps */
+    status outcome; /* last failure since asides_take; FAULT stays */
+    fault why;
+} asides;
+
+/* The caller sets c, scheme, masses and out. */
+status asides_alloc(asides *, fault *);
+void asides_free(asides *);
+void asides_take(asides *, const instant *from, const instant *to);
+/* Returns the value at a time of the step, before factor and offset; NAN: no solution was found,
+ * and `outcome` contains the status. */
+double asides_reading(asides *, const scene_quantity *, double time);
 
 /* Energies and momenta during a motion. */
 
@@ -1212,8 +1245,15 @@ typedef void feedback_entry(void *to, int row, int column, double value);
 void feedback_tangent(const equations *, const model_state *, const feedback_gains *,
                       feedback_entry *take, void *to);
 
-/* Extrema, level crossings and means of a motion between its stations. Crossings are roots of the
- * polynomial inside a step. They are accurate to rounding error. */
+/* Extrema, level crossings and means of a motion between its stations. Positions and rates come
+ * from the polynomial inside a step, whose roots are accurate to round-off. Level crossings and
+ * means of reactions, resultants, stresses, energies and momenta come from side steps. */
+
+/* Values in one step from which a mean is computed. */
+enum { MEANS_NODES = 5 };
+typedef struct means_part {
+    double time[MEANS_NODES], value[MEANS_NODES];
+} means_part;
 
 /* One quantity. */
 typedef struct watched {
@@ -1225,10 +1265,15 @@ typedef struct watched {
     int crossings; /* number of counted crossings inside the window, in the requested direction */
     double first, last; /* [s] first and last crossing */
     double error;       /* [s] error of the first and of the last crossing */
-    /* time integral of the values or of their squares relative to `largest`, and length of the time
-     * interval [s] */
-    double sum, span;
-    double largest; /* largest magnitude so far, for a root mean square */
+    int aside;          /* 1: values come from side steps */
+    double sum, span;   /* time integral of values, or of squares relative to `largest`; [s] */
+    double largest;     /* largest magnitude so far */
+    /* error of a mean */
+    int parts, holds; /* polynomial: number of steps; side steps: 0 none, 1 one step, 2 more; 1:
+                         `past` is the first step of a pair */
+    means_part past;
+    double doubt, worst; /* error of `sum` so far, and its largest magnitude so far */
+    double apart;        /* largest difference between side steps and the polynomial */
 } watched;
 
 typedef struct watches {
@@ -1240,13 +1285,26 @@ typedef struct watches {
     watched *one; /* [count] */
     step_between inside;
     instant at;
+    const carried_masses *masses;
+    int aside; /* 1: a quantity needs side steps */
+    asides asides;
 } watches;
 
-/* Allocates the data. The caller sets c, analysis, scheme and out. */
+/* Allocates the data. The caller sets c, analysis, scheme, masses and out. */
 status watches_alloc(watches *, fault *);
 void watches_free(watches *);
 status watches_step(watches *, const instant *from, const instant *to, fault *);
 /* Completes the data at the end of the motion. */
 void watches_end(watches *);
+/* Returns the value of the quantity at a time of the step, before factor and offset; NAN: none. */
+double watched_value(watches *, const watched *, double time);
+/* Computes the difference between a side step to the given time and the polynomial; 0 for
+ * quantities that do not use the polynomial. */
+status watched_disagreement(watches *, const watched *, const instant *from, double time,
+                            double *out, fault *);
+/* Returns node i of the points from a to b at which a force or an energy is evaluated. */
+double means_node(double a, double b, int i);
+/* Adds the part from a to b of the step to a mean, or to a root mean square. */
+status means_add(watches *, watched *, const instant *from, double a, double b, fault *);
 
 #endif

@@ -8,16 +8,18 @@
 #include "harness/numerics/numerics.h"
 
 /* intervals of a step, in each of which one root is searched for */
-enum { PIECES = 4, MOST_HALVINGS = 200 };
+enum { PIECES = MEANS_NODES - 1, MOST_HALVINGS = 200 };
 
 /* smaller values, relative to the size of the quantity, have no sign */
 static const double no_sign = 1e-13,
+                    /* the same for forces and energies, relative to the largest so far */
+    no_sign_aside = 1e-9,
                     /* The sign changes by a jump, and not through zero, if the value at the root is
                      * not below this fraction of the values around it. For example, a rotation
                      * vector reverses its direction at half a revolution. */
     a_jump = 1e-3;
 
-static void begin(const watches *s, watched *one, const scene_quantity *q)
+static void begin(watches *s, watched *one, const scene_quantity *q)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
     const double end = path->value[path->stations - 1];
@@ -25,7 +27,16 @@ static void begin(const watches *s, watched *one, const scene_quantity *q)
                      .out = &s->out->passing[q - s->c->scene->quantity],
                      .from = q->passing.from,
                      .until = q->passing.until > 0 ? fmin(q->passing.until, end) : end,
+                     .aside = !reading_is_kinematic(q),
                      .noise = no_sign * fmax(1, model_length(s->c->model))};
+    s->aside |= one->aside;
+}
+
+/* Returns 1 for a quantity of the motion that is not one of `peaks`. */
+static int is_watched(const watches *s, const scene_quantity *q)
+{
+    return q->analysis == s->analysis && scene_is_passed(q, SCENE_MOTION) &&
+           (reading_is_kinematic(q) || !scene_is_extreme(q->reduction));
 }
 
 status watches_alloc(watches *s, fault *f)
@@ -38,11 +49,10 @@ status watches_alloc(watches *s, fault *f)
     if (s->one == NULL || s->out->passing == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the states of a motion");
     for (int i = 0; i < what->quantities; i++)
-        if (what->quantity[i].analysis == s->analysis &&
-            scene_is_passed(&what->quantity[i], SCENE_MOTION) &&
-            reading_is_kinematic(&what->quantity[i]))
+        if (is_watched(s, &what->quantity[i]))
             begin(s, &s->one[s->count++], &what->quantity[i]);
-    return STATUS_OK;
+    s->asides = (asides){.c = s->c, .scheme = s->scheme, .masses = s->masses, .out = s->out};
+    return s->aside ? asides_alloc(&s->asides, f) : STATUS_OK;
 }
 
 void watches_free(watches *s)
@@ -50,12 +60,8 @@ void watches_free(watches *s)
     free(s->one);
     between_free(&s->inside);
     instant_free(&s->at);
-}
-
-/* Returns the value before factor and offset, from the polynomial inside the step. */
-static double value_at(watches *s, const watched *one, double time)
-{
-    return between_reading(&s->inside, one->q, time, &s->at);
+    if (s->aside)
+        asides_free(&s->asides);
 }
 
 /* Returns the slope of this value. The slope is exact if the quantity is a polynomial of fourth
@@ -63,8 +69,8 @@ static double value_at(watches *s, const watched *one, double time)
 static double slope_at(watches *s, const watched *one, double time)
 {
     const double d = (s->inside.to->time - s->inside.from->time) / 64;
-    return (8 * (value_at(s, one, time + d) - value_at(s, one, time - d)) -
-            (value_at(s, one, time + 2 * d) - value_at(s, one, time - 2 * d))) /
+    return (8 * (watched_value(s, one, time + d) - watched_value(s, one, time - d)) -
+            (watched_value(s, one, time + 2 * d) - watched_value(s, one, time - 2 * d))) /
            (12 * d);
 }
 
@@ -72,20 +78,26 @@ typedef double along(watches *, const watched *, double time);
 
 static double above_level(watches *s, const watched *one, double time)
 {
-    return value_at(s, one, time) - one->q->passing.level;
+    return watched_value(s, one, time) - one->q->passing.level;
 }
 
 /* Returns the root between a and b, where the values fa and fb of f have opposite signs. Uses
- * secant steps, and bisection if these converge slowly. */
+ * secant steps, and bisection if these converge slowly. If values come from side steps, their
+ * rounding errors and 1e-10 of the step end the search. */
 static double root(watches *s, const watched *one, along *f, double a, double fa, double b,
                    double fb)
 {
-    for (int i = 0; i < MOST_HALVINGS && fa != 0 && fb != 0; i++) {
+    const double least = one->aside ? 1e-10 * (s->inside.to->time - s->inside.from->time) : 0,
+                 zero = one->aside ? one->noise / 10 : 0;
+    double last = a - 1;
+    for (int i = 0; i < MOST_HALVINGS && fabs(fa) > zero && fabs(fb) > zero; i++) {
         const double width = b - a, secant = b - fb * width / (fb - fa);
         const double inside = 1e-3 * width;
         const double x = i % 3 == 2 ? a + width / 2 : fmin(fmax(secant, a + inside), b - inside);
-        if (width <= 2 * DBL_EPSILON * fmax(fabs(a), fabs(b)) || x <= a || x >= b)
+        if (width <= fmax(least, 2 * DBL_EPSILON * fmax(fabs(a), fabs(b))) || x <= a || x >= b ||
+            fabs(x - last) < least)
             break;
+        last = x;
         const double fx = f(s, one, x);
         if ((fx < 0) == (fa < 0)) {
             a = x;
@@ -98,24 +110,10 @@ static double root(watches *s, const watched *one, along *f, double a, double fa
     return fabs(fa) < fabs(fb) ? a : b;
 }
 
-/* Computes the difference between the polynomial and a side step to the given time. */
-static status disagreement(watches *s, const watched *one, const instant *from, double time,
-                           double *out, fault *f)
-{
-    const double here = value_at(s, one, time);
-    *out = 0;
-    if (reading_is_slope(one->q) || time <= from->time || time >= s->inside.to->time)
-        return STATUS_OK;
-    const status outcome = aside_step(s->c, s->scheme, from, time, &s->at, f);
-    if (outcome == STATUS_OK)
-        *out = fabs(reading_of(s->c->model, one->q, s->at.state, s->at.v, s->at.a) - here);
-    return outcome == STATUS_FAULT ? outcome : STATUS_OK;
-}
-
 static status crossed(watches *s, watched *one, const instant *from, double time, fault *f)
 {
     double error = 0;
-    TRY(disagreement(s, one, from, time, &error, f));
+    TRY(watched_disagreement(s, one, from, time, &error, f));
     const double slope = fabs(slope_at(s, one, time));
     error = slope > 0 ? error / slope : 0;
     if (one->q->reduction == SCENE_CROSSING && one->crossings == one->q->passing.order)
@@ -143,6 +141,13 @@ static int counts(const watched *one, int side)
     return way == SCENE_EITHER || side == (way == SCENE_RISING ? 1 : -1);
 }
 
+/* Returns 1 for positions, whose jumps are no crossings; forces and accelerations jump with the
+ * loads. */
+static int turns_back(const watched *one)
+{
+    return !one->aside && one->q->what.kind != SCENE_RATE;
+}
+
 static status watch_level(watches *s, watched *one, const instant *from, const double t[],
                           const double value[], fault *f)
 {
@@ -160,6 +165,7 @@ static status watch_level(watches *s, watched *one, const instant *from, const d
                                 ? root(s, one, above_level, t[i - 1], before, t[i], now)
                                 : t[i > 0 ? i - 1 : 0];
         const int jumps =
+            turns_back(one) &&
             fabs(above_level(s, one, time)) > a_jump * fmax(fabs(before), fabs(now)) + one->noise;
         if (!jumps && time >= one->from && time <= one->until)
             TRY(crossed(s, one, from, time, f));
@@ -189,10 +195,10 @@ static status watch_extreme(watches *s, watched *one, const instant *from, doubl
         const double now = sign * slope_at(s, one, t[i + 1]);
         if (before > 0 && now < 0) {
             const double time = root(s, one, slope_at, t[i], sign * before, t[i + 1], sign * now);
-            const double there = value_at(s, one, time);
+            const double there = watched_value(s, one, time);
             double error = 0;
             if (!one->out->known || sign * there > sign * one->out->value)
-                TRY(disagreement(s, one, from, time, &error, f));
+                TRY(watched_disagreement(s, one, from, time, &error, f));
             take_extreme(one, sign, there, time, error);
         }
         before = now;
@@ -200,31 +206,19 @@ static status watch_extreme(watches *s, watched *one, const instant *from, doubl
     return STATUS_OK;
 }
 
-/* Adds a part of a mean by six-point Gauss quadrature, which is exact for squares of fifth-degree
- * polynomials. A root mean square is computed relative to the largest value so far, so its square
- * does not overflow. */
-static void add_mean(watches *s, watched *one, double a, double b)
+/* The quantity has no value from now on. */
+static void lose(watched *one)
 {
-    static const double x[] = {0.23861918608319690863, 0.66120938646626451366,
-                               0.93246951420315202781},
-                        w[] = {0.46791393457269104739, 0.36076157304813860757,
-                               0.17132449237917034504};
-    const double half = (b - a) / 2, middle = (a + b) / 2;
-    const int square = one->q->reduction == SCENE_RMS;
-    for (int i = 0; i < 3; i++)
-        for (int side = -1; side <= 1; side += 2) {
-            double value = value_at(s, one, middle + side * half * x[i]);
-            if (square && fabs(value) > one->largest) {
-                one->sum *= pow(one->largest / fabs(value), 2);
-                one->largest = fabs(value);
-            }
-            if (square && one->largest > 0)
-                value = pow(value / one->largest, 2);
-            one->sum += half * w[i] * value;
-        }
-    one->span += b - a;
-    const double mean = one->sum / one->span;
-    *one->out = (outcome_passing){1, square ? one->largest * sqrt(mean) : mean, b, 0};
+    one->out->known = one->aside ? PASSING_UNSOLVED : PASSING_LOST;
+}
+
+/* Returns a bound on the rounding error of a force or an energy. */
+static double rounding_of(const watches *s, const watched *one)
+{
+    const scene_quantity_kind kind = one->q->what.kind;
+    if (kind == SCENE_BALANCE)
+        return balance_rounding(s->c->model);
+    return kind == SCENE_REACTION || kind == SCENE_INTERNAL ? 1e-12 * s->inside.to->stress : 0;
 }
 
 static status watch_step(watches *s, watched *one, const instant *from, fault *f)
@@ -233,22 +227,25 @@ static status watch_step(watches *s, watched *one, const instant *from, fault *f
     double t[PIECES + 1], value[PIECES + 1];
     if (!(b > a))
         return STATUS_OK;
-    if (one->out->known == PASSING_LOST)
+    if (one->out->known > 1)
         return STATUS_OK;
     if (one->q->reduction >= SCENE_MEAN) {
-        add_mean(s, one, a, b);
+        TRY(means_add(s, one, from, a, b, f));
         if (isnan(one->sum))
-            one->out->known = PASSING_LOST;
+            lose(one);
         return STATUS_OK;
     }
     for (int i = 0; i <= PIECES; i++) {
-        t[i] = i == PIECES ? b : a + i * (b - a) / PIECES;
-        value[i] = value_at(s, one, t[i]);
+        t[i] = one->aside ? means_node(a, b, i) : i == PIECES ? b : a + i * (b - a) / PIECES;
+        value[i] = watched_value(s, one, t[i]);
         if (isnan(value[i])) {
-            one->out->known = PASSING_LOST;
+            lose(one);
             return STATUS_OK;
         }
+        one->largest = fmax(one->largest, fabs(value[i]));
     }
+    if (one->aside)
+        one->noise = fmax(no_sign_aside * one->largest, rounding_of(s, one));
     if (one->q->reduction >= SCENE_CROSSING)
         return watch_level(s, one, from, t, value, f);
     return watch_extreme(s, one, from, scene_extreme_sign(one->q), t, value, f);
@@ -259,9 +256,11 @@ status watches_step(watches *s, const instant *from, const instant *to, fault *f
     if (s->count == 0)
         return STATUS_OK;
     between_take(&s->inside, s->scheme->degree, from, to);
+    asides_take(&s->asides, from, to);
     for (int i = 0; i < s->count; i++)
         TRY(watch_step(s, &s->one[i], from, f));
-    return STATUS_OK;
+    return s->asides.outcome == STATUS_FAULT ? fault_set(f, STATUS_FAULT, "%s", s->asides.why.text)
+                                             : STATUS_OK;
 }
 
 void watches_end(watches *s)
