@@ -15,7 +15,7 @@
  * order. First derivatives are with respect to these coordinates. Second derivatives refer to the
  * exponential chart R(dphi) = exp(dphi~) R and are therefore symmetric. Matrices are row-major. An
  * output that is NULL is not computed. Elements allocate nothing and keep no state: the caller owns
- * all arrays. */
+ * all arrays, also the history of an element (element_type.history). */
 #ifndef BEAMWORK_ELEMENT_H
 #define BEAMWORK_ELEMENT_H
 
@@ -31,13 +31,14 @@
 extern "C" {
 #endif
 
-enum { ELEMENT_ABI = 3 };
+enum { ELEMENT_ABI = 4 };
 enum {
     ELEMENT_MAX_NODES = 3,
     NODE_COORDINATES = 7,
     ELEMENT_MAX_COORDINATES = 21,
     ELEMENT_MAX_STRAINS = 24,
-    ELEMENT_MAX_OPTIONS = 6
+    ELEMENT_MAX_OPTIONS = 6,
+    ELEMENT_MAX_HISTORY = 256
 };
 
 /* Restrictions of a type. */
@@ -58,6 +59,9 @@ enum element_limit {
                                      all types without LIMIT_QUARTER_TURN */
     LIMIT_TENSION = 1 << 6, /* an element that is too long for its axial force loses its transverse
                              * stiffness; `tension` returns the ratio of its length to the limit */
+    LIMIT_NOT_OBJECTIVE = 1 << 8,  /* rigid rotations of a deformed element change its strains */
+    LIMIT_PATH_DEPENDENT = 1 << 9, /* strains depend on the path that led to a state; only with a
+                                    * history */
     LIMIT_EIGHTH_TWIST =
         1 << 7 /* the torsional strain is the sine of the twist between the nodes; beyond a twist of
                   pi/4 the torque decreases, and another state has the same strain */
@@ -146,6 +150,7 @@ typedef struct element_constants {
     int nodes, strains;                    /* numbers of nodes and strains; 0: 2 nodes, 8 strains */
     element_order order[ELEMENT_ANALYSES]; /* orders of convergence; highest 0: lowest order 2,
                                               highest order 4 */
+    int history;                           /* number of values of the history */
 } element_constants;
 
 /* An element type. Optional members may be NULL or 0; the end of each comment gives the default. */
@@ -237,8 +242,8 @@ typedef struct element_type {
     void (*force_many)(int count, const element_data *const data[], const node_state x[],
                        force_output out[], status outcome[]);
 
-    /* Optional: constant values that replace `nodes`, `strains` and `order` if they do not depend
-     * on options. */
+    /* Optional: constant values that replace `nodes`, `strains`, `order` and `history` if they do
+     * not depend on options. */
     const element_constants *constants;
     /* Optional: returns one line that explains why results since the last call are invalid, or NULL
      * if the results are valid. */
@@ -281,6 +286,18 @@ typedef struct element_type {
      * function is nonlinear, this causes an error of second order in curvature. */
     void (*unstressed)(const element_data *, const double more[3], const node_state x[],
                        element_data *out);
+    /* Optional: values that an element stores along a path, for strains that depend on previous
+     * states, such as interpolated rotation increments. Only with `strain` and `stress`, and
+     * without `along`, `equations_many` and `unstressed`. `strain` receives the values of the last
+     * accepted state, the end of a load step or time step (strain_output.history), and derivatives
+     * are those for constant values. A step that is repeated starts from the same values. */
+    int (*history)(const double options[]); /* number of doubles of each element; default: 0 */
+    /* Computes the values in the undeformed state; default: zero. */
+    void (*begin)(const element_data *, const node_state x[], double history[]);
+    /* Required with history: replaces the values by those of the state x, which was reached from
+     * them and is accepted. The strains of x must not change, and a second call at x must change
+     * nothing, both to round-off. */
+    void (*commit)(const element_data *, const node_state x[], double history[]);
 } element_type;
 
 /* Makes a symbol visible outside a shared object, even with -fvisibility=hidden. */
@@ -342,6 +359,13 @@ static inline int element_inner(const element_type *t, const double options[])
 static inline int element_memory(const element_type *t, const double options[])
 {
     return t->memory ? t->memory(options) : 0;
+}
+
+static inline int element_history(const element_type *t, const double options[])
+{
+    if (t->history)
+        return t->history(options);
+    return t->constants ? t->constants->history : 0;
 }
 
 #ifdef __cplusplus

@@ -5,10 +5,11 @@
 
 /* Outputs of `strain`. */
 typedef struct strain_output {
-    double *e;       /* [strains] [m] */
-    double *J;       /* [strains x 7 nodes] de/dx */
-    const double *s; /* in: [strains] stresses for H; may be NULL if H is not requested */
-    double *H;       /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2, overwritten */
+    double *e;             /* [strains] [m] */
+    double *J;             /* [strains x 7 nodes] de/dx */
+    const double *s;       /* in: [strains] stresses for H; may be NULL if H is not requested */
+    double *H;             /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2, overwritten */
+    const double *history; /* in: [history] values of the last accepted state; NULL: none */
 } strain_output;
 
 /* Outputs of `stress`. */

@@ -9,6 +9,10 @@ function out = beamwork_element(first, varargin)
 %                           .strain(3), .section.young ..., .features.shear ..., .options.NAME
 %   e = strain(kind, r, u, R, a)  e(m,N) of r(3,n,N), u(3,n,N), R(3,3,n,N), a(n,N)
 %   [energy, sigma, C] = stress(kind, e)      (1,N), (m,N), (m,m,N); where prepare gives []
+%   h = begin(kind, r, u, R, a)   h(q,N), with 'history', q, 'begin', @begin, 'commit', @commit: values
+%                           of undeformed elements. strain then has one more argument, h of the last
+%                           accepted state, the end of a load step or time step
+%   h = commit(kind, r, u, R, a, h)           h of an accepted state, which was reached from h
 %   [energy, F, K] = force(kind, r, u, R, a)  (1,N), (7n,N), (7n,7n,N); 'force', @force in place of
 %                           strain and stress; with 'gives', 'energy' or 'force' the first of them
 % Derivatives of strains are complex steps: strain must take complex arrays and be analytic (.' for
@@ -124,7 +128,19 @@ n = 2;
 if isfield(said, 'nodes'), n = said.nodes; end
 if what == 3, first = numel(body); else, first = 16 * n * N; end
 x = reshape(body(1:first), [], N);
-s = reshape(body(first + 1:end), [], N);
+q = 0;
+if isfield(said, 'history'), q = said.history; end
+h = [];
+second = first;
+if q > 0 && any(what == [2 7])
+    second = first + q * N;
+    h = reshape(body(first + 1:second), q, N);
+end
+s = reshape(body(second + 1:end), [], N);
+if any(what == [6 7])
+    values = histories(call, kinds, what, numbers, x, h, q);
+    return;
+end
 whole = {[], [], []};
 for number = unique(numbers)
     alike = find(numbers == number);
@@ -134,7 +150,12 @@ for number = unique(numbers)
     for k = 1:most:numel(alike)
         of = alike(k:min(k + most - 1, end));
         if what == 2
-            part = strains(said, call.strain, mask, kind, reshape(x(:, of), 16, n, []), s(:, of));
+            of_strain = call.strain;
+            if q > 0 % P states of each element follow each other
+                of_strain = @(kind, r, u, R, a) call.strain(kind, r, u, R, a, ...
+                    reshape(repmat(reshape(h(:, of), q, 1, []), 1, size(a, 2) / numel(of), 1), q, []));
+            end
+            part = strains(said, of_strain, mask, kind, reshape(x(:, of), 16, n, []), s(:, of));
         elseif what == 3
             part = energies(call.stress, mask, {kind, x(:, of)}, said.strains, numel(of));
         else
@@ -149,6 +170,25 @@ for number = unique(numbers)
 end
 values = [whole{1}(:); whole{2}(:); whole{3}(:)];
 if ~isreal(values), error('beamwork:refused', 'complex numbers where real ones are due'); end
+end
+
+function values = histories(call, kinds, what, numbers, x, h, q)
+% The histories of undeformed elements, or of accepted states that were reached from h.
+N = numel(numbers);
+out = zeros(q, N);
+for number = unique(numbers)
+    of = find(numbers == number);
+    state = nodes(reshape(x(:, of), 16, [], numel(of)));
+    if what == 7
+        found = call.commit(kinds{number + 1}, state{:}, h(:, of));
+    elseif isfield(call, 'begin')
+        found = call.begin(kinds{number + 1}, state{:});
+    else
+        found = zeros(q, numel(of));
+    end
+    out(:, of) = sized(found, [q numel(of)], 'begin or commit');
+end
+values = out(:);
 end
 
 function value = sized(value, wanted, name)

@@ -14,6 +14,9 @@ argument of each function is the kind of all N elements:
                           angular velocity (both in fixed axes) and rate of warping of each node.
                           Everything else follows from it: rotating frames, motions in time
                           (not with inertia="vibration"). Default: the mass that all formulations share
+  begin(kind, r, u, R, a) -> h[N, q], with history=q: the values of the undeformed elements. strain then has one more
+                          argument, h of the last accepted state, the end of a load step or time step
+  commit(kind, r, u, R, a, h) -> h[N, q] of an accepted state, which was reached from h
 Derivatives of strain and mass are computed by complex steps: both must accept complex arrays and be analytic (no abs,
 norm, conj or comparison of values; rotation_vector and sinc below are analytic). With gives="e", strain receives only
 real arrays, and beamwork computes differences. Raise Refused(why) for unsupported requests.
@@ -33,9 +36,9 @@ FEATURES = ("warping", "shear", "eccentric shear centre", "trapeze", "wagner mom
             "rotary inertia", "initial curvature", "coupled section")
 SECTION = ("young shear_modulus density A Iy Iz It Iw ys zs Ip wagner_y wagner_z wagner_torque D:9 "
            "F:9 axes_angle centroid:2 matrices stiffness:36 mass:36 rectangle width height")
-FUNCTIONS = ("prepare", "strain", "stress", "force", "mass")
+FUNCTIONS = ("prepare", "strain", "stress", "force", "mass", "begin", "commit")
 KEYS = ("name summary source family offers gives strains nodes order limits shear_theories "
-        "inertia options").split()
+        "inertia options history").split()
 TINY, STEP = 1e-20, 2e-3  # sizes of complex steps and of the finite differences that check complex steps
 
 
@@ -115,11 +118,13 @@ def moved(kind, x, real, imag):
         at[..., 15] + move[..., 6])]
 
 
-def derivatives(kind, strain, x, s):
-    """Returns J [N, m, 7 n]. If s [N, m] is given, returns H [N, 7 n, 7 n], the second derivative of s times the strains."""
+def derivatives(kind, strain, x, s, h=()):
+    """Returns J [N, m, 7 n]. If s [N, m] is given, returns H [N, 7 n, 7 n], the second derivative of s times the strains.
+    h: (), or (history [N, q],)."""
     (N, n, _), (real, imag) = x.shape, steps(x.shape[1], s is not None)
     unit = np.tile(kind.length ** np.array([1, 1, 1, 0, 0, 0, -1]), n)
-    rate = strain(kind, *moved(kind, x, real, imag)).imag.reshape(N, len(real), -1) / TINY
+    h = [v.repeat(len(real), 0) for v in h]
+    rate = strain(kind, *moved(kind, x, real, imag), *h).imag.reshape(N, len(real), -1) / TINY
     if s is None:
         return rate.swapaxes(1, 2) / unit
     f = np.einsum("npm,nm->np", rate, s).reshape(N, 4, -1)
@@ -130,17 +135,18 @@ def derivatives(kind, strain, x, s):
     return H
 
 
-def is_analytic(kind, strain, x):
+def is_analytic(kind, strain, x, h=()):
     """Returns True if complex steps of strain or mass agree with finite differences near an element x[1, n, 16]."""
     n = x.shape[1]
     away = np.sin(np.arange(1, 7 * n + 1)).reshape(1, n, 7) / 20
     state = [v.real for v in moved(kind, x, away, 0 * away)]
     x = np.concatenate([v.reshape(1, n, -1) for v in state], -1)
     real = STEP * np.kron([[1], [-1], [2], [-2]], np.eye(7 * n)).reshape(-1, n, 7)
-    e = strain(kind, *(v.real for v in moved(kind, x, real, 0 * real))).reshape(4, 7 * n, -1)
+    e = strain(kind, *(v.real for v in moved(kind, x, real, 0 * real)),
+               *(v.repeat(len(real), 0) for v in h)).reshape(4, 7 * n, -1)
     by_differences = (8 * (e[0] - e[1]) - e[2] + e[3]).T / (12 * STEP)
     unit = np.tile(kind.length ** np.array([1, 1, 1, 0, 0, 0, -1]), n)
-    by_steps = derivatives(kind, strain, x, None)[0] * unit
+    by_steps = derivatives(kind, strain, x, None, h)[0] * unit
     return not (abs(by_steps - by_differences) > 1e-6 * abs(by_differences).max()).any()
 
 
@@ -250,7 +256,7 @@ def inertia(mask, kind, x, body, functions):
 
 def answers(what, mask, kind, body, said, functions):
     """Returns the arrays that the mask requests for elements of one kind. body[N, ...] is the body of the request."""
-    N, n, m = len(body), said.get("nodes", 2), said.get("strains", 0)
+    N, n, m, q = len(body), *(said.get(key, no) for key, no in (("nodes", 2), ("strains", 0), ("history", 0)))
     if what == 3:
         found = functions["stress"](kind, body)
         return three("stress", found, mask, ("sigma", "C"), N, m, f"strains={m}")
@@ -258,6 +264,13 @@ def answers(what, mask, kind, body, said, functions):
     if what == 5:
         return inertia(mask, kind, x, body[:, 16 * n:], functions)
     state = states(x)
+    h, s = body[:, 16 * n:16 * n + q], body[:, 16 * n + q:]
+    if what in (6, 7):
+        name = FUNCTIONS[what - 1]
+        if name == "begin" and name not in functions:
+            return [np.zeros((N, q))]
+        found = functions[name](kind, *state, *(() if what == 6 else (h,)))
+        return [checked(found, name, N, (q,), f"history={q} wants")]
     if what == 4:
         found = functions["force"](kind, *state)
         return three("force", found, mask, "FK", N, 7 * n, f"nodes={n}")
@@ -267,13 +280,14 @@ def answers(what, mask, kind, body, said, functions):
         return checked(functions["strain"](kind, *state), "strain", len(state[0]), (m,),
                        f"strains={m} wants", numbers)
 
+    h = (h,) if q else ()
     if mask & 6 and not functions.get("analytic") and np.isfinite(x[0]).all():
-        functions["analytic"] = is_analytic(kind, strain, x[:1])
+        functions["analytic"] = is_analytic(kind, strain, x[:1], [v[:1] for v in h])
         if not functions["analytic"]:
             raise Refused("derivatives are complex steps, but strain is not analytic (abs, norm, "
                           "a comparison, .real?): correct it, or say gives='e'")
-    of = (lambda: strain(kind, *state), lambda: derivatives(kind, strain, x, None),
-          lambda: derivatives(kind, strain, x, body[:, 16 * n:]))
+    of = (lambda: strain(kind, *state, *h), lambda: derivatives(kind, strain, x, None, h),
+          lambda: derivatives(kind, strain, x, s, h))
     return [f() for i, f in enumerate(of) if mask >> i & 1]
 
 
@@ -293,7 +307,8 @@ def answer(what, mask, count, body, kinds, said, functions):
         return prepared(body, kinds, said, functions)
     numbers, rest = np.frombuffer(body, "<i8", count), np.frombuffer(body, "<f8", offset=8 * count)
     n = said.get("nodes", 2) * count
-    ends = {2: [16 * n], 4: [16 * n], 5: np.cumsum(
+    q = said.get("history", 0) * count
+    ends = {2: [16 * n, 16 * n + q], 4: [16 * n], 6: [16 * n], 7: [16 * n], 5: np.cumsum(
         [16 * n, 6 * (mask >> 8 & 1), 7 * n * (mask >> 9 & 1), 7 * n * (mask >> 10 & 1)])}
     parts = np.split(rest, ends.get(what, []))
     if what == 5:  # one frame for all elements

@@ -20,7 +20,8 @@ module beamwork
   enum, bind(c) ! restrictions: limits
     enumerator :: limit_doubly_symmetric = 1, limit_order_dependent = 2, limit_quarter_turn = 4, &
                   limit_warping_rigid = 8, limit_flat_arc = 16, limit_half_turn = 32, &
-                  limit_tension = 64, limit_eighth_twist = 128
+                  limit_tension = 64, limit_eighth_twist = 128, limit_not_objective = 256, &
+                  limit_path_dependent = 512
   end enum
   enum, bind(c) ! what is computed by differences: leaves
     enumerator :: leaves_J = 1, leaves_H = 2, leaves_force = 4, leaves_tangent = 8
@@ -52,7 +53,7 @@ module beamwork
   end type
 
   type, bind(c) :: strain_output ! null: not needed
-    type(c_ptr) :: e, J, s, H
+    type(c_ptr) :: e, J, s, H, history
   end type
 
   type, bind(c) :: stress_output
@@ -64,7 +65,7 @@ module beamwork
   end type
 
   type, bind(c) :: element_type ! members that are not set: not given
-    integer(c_int) :: abi = 3
+    integer(c_int) :: abi = 4
     integer(c_size_t) :: size = 0 ! c_sizeof(the variable)
     type(c_ptr) :: name = c_null_ptr, summary = c_null_ptr, source = c_null_ptr, &
                    family = c_null_ptr
@@ -90,7 +91,8 @@ module beamwork
     type(c_funptr) :: tension = c_null_funptr
     type(c_ptr) :: misprint = c_null_ptr
     type(c_funptr) :: along = c_null_funptr, mass_of_field = c_null_funptr, &
-                      unstressed = c_null_funptr
+                      unstressed = c_null_funptr, history = c_null_funptr, &
+                      begin = c_null_funptr, commit = c_null_funptr
   end type
 end module
 

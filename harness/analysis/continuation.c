@@ -110,6 +110,7 @@ static void turn_start(continuation *p)
 static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t,
                        fault *f)
 {
+    kinematics_commit(p->c->model, p->n.state);
     kinematics_state_copy(p->c->model, p->n.state, p->n.backup);
     TRY(continuation_step_correct(p, goal, &t->record, f));
     TRY(continuation_step_end(p, &p->next, &t->record, f));

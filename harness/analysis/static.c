@@ -55,6 +55,7 @@ static status walk_to(newton_run *n, double target, flutter_judge *judge, double
         const int last = from + *increment * (1 + 1e-9) >= target;
         const double to = last ? target : from + *increment;
         step_record record = {.path = to, .increment = to - from, .rejected = rejected};
+        kinematics_commit(n->c->model, n->state);
         kinematics_state_copy(n->c->model, n->state, n->backup);
         if (n->predictor != NULL)
             predictor_guess(&n->c->eq, n->predictor, to, n->state);

@@ -252,7 +252,7 @@ static status forces_under(const taken *of, const node_state x[], double F[X], d
                         .mixed = mixed,
                         .H = H};
     status outcome = STATUS_OK;
-    s->type.strain(data, x, &(strain_output){.e = e, .J = J});
+    s->type.strain(data, x, &(strain_output){.e = e, .J = J, .history = s->history});
     memcpy(inner, of->inner, (size_t)s->inner * sizeof *inner);
     for (int i = 0; i < SETTLING; i++) {
         s->type.along(1, &data, x, &out, &outcome);
@@ -270,7 +270,7 @@ static status forces_under(const taken *of, const node_state x[], double F[X], d
     if (K == NULL)
         return outcome;
     memcpy(of->inner, inner, (size_t)s->inner * sizeof *inner);
-    s->type.strain(data, x, &(strain_output){.s = sigma, .H = K});
+    s->type.strain(data, x, &(strain_output){.s = sigma, .H = K, .history = s->history});
     dense_add_congruence(s->strains, X, J, C, K, work);
     dense_add_congruence(3, X, out.turn, out.second, K, work);
     memset(both, 0, sizeof both);

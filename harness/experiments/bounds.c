@@ -70,7 +70,8 @@ static void strains(const specimen *s, const node_state x[], claims *c)
     strain_output out = {.e = guard(&e, "strain: e", s->strains),
                          .J = guard(&J, "strain: J", s->strains * s->coordinates),
                          .s = weight,
-                         .H = guard(&H, "strain: H", s->coordinates * s->coordinates)};
+                         .H = guard(&H, "strain: H", s->coordinates * s->coordinates),
+                         .history = s->history};
     claims_doing(c, "strain%s", s->words);
     s->type.strain(s->data, x, &out);
     look(&e, 1, s, c);
@@ -196,7 +197,7 @@ static void check(const specimen *s, claims *c)
     specimen_state(s, 0.02, 53, x);
     memcpy(given, x, sizeof given);
     strains(s, x, c);
-    s->type.strain(s->data, x, &(strain_output){.e = e});
+    s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     memcpy(kept, e, (size_t)s->strains * sizeof *e);
     stresses(s, e, c);
     masses(s, x, c);
@@ -235,7 +236,7 @@ static void tell(const specimen *s, const node_state x[], call_account *out)
     memset(out, 0, sizeof *out);
     for (int i = 0; i < s->strains; i++)
         weight[i] = cos(3.7 * i + 0.3);
-    s->type.strain(s->data, x, &(strain_output){out->e, out->J, weight, out->H});
+    s->type.strain(s->data, x, &(strain_output){out->e, out->J, weight, out->H, s->history});
     specimen_rest(s, out->inner);
     out->stress = specimen_settled(
         s, out->e, out->inner,
@@ -344,9 +345,9 @@ static void alone(const specimen *s, const call_account *before, const node_stat
     double weight[STATELESS_M], inner[SPECIMEN_INNER];
     for (int i = 0; i < s->strains; i++)
         weight[i] = cos(3.7 * i + 0.3);
-    s->type.strain(s->data, x, &(strain_output){.s = weight, .H = a.H});
-    s->type.strain(s->data, x, &(strain_output){.J = a.J});
-    s->type.strain(s->data, x, &(strain_output){.e = a.e});
+    s->type.strain(s->data, x, &(strain_output){.s = weight, .H = a.H, .history = s->history});
+    s->type.strain(s->data, x, &(strain_output){.J = a.J, .history = s->history});
+    s->type.strain(s->data, x, &(strain_output){.e = a.e, .history = s->history});
     memcpy(inner, before->inner, sizeof inner);
     s->type.stress(s->data, a.e, inner, &(stress_output){.C = a.C});
     s->type.stress(s->data, a.e, inner, &(stress_output){.sigma = a.sigma});
@@ -367,11 +368,11 @@ static void two_ways(const specimen *s, const call_account *before, const node_s
     double e[STATELESS_M], inner[SPECIMEN_INNER], energy = NAN;
     node_state y[ELEMENT_MAX_NODES];
     specimen_state(s, 0.04, 77, y);
-    s->type.strain(s->data, y, &(strain_output){.e = e});
+    s->type.strain(s->data, y, &(strain_output){.e = e, .history = s->history});
     specimen_rest(s, inner);
     if (specimen_settled(s, e, inner, &(stress_output){.energy = &energy}) != STATUS_OK)
         return;
-    s->type.strain(s->data, x, &(strain_output){.e = e});
+    s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     specimen_settled(s, e, inner, &(stress_output){.energy = &energy});
     claims_departs(one, fabs(energy / before->energy - 1),
                    "stress, update: the same strains have an energy of %.9g J, but %.9g J when "

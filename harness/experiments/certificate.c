@@ -300,7 +300,11 @@ static void error_text(double error, char text[COLUMN + 8])
     else if (percent >= 999)
         snprintf(text, COLUMN + 8, "%.0e %%", percent);
     else
-        snprintf(text, COLUMN + 8, percent < 1e-2 ? "%.0e %%" : "%.2g %%", percent);
+        snprintf(text, COLUMN + 8,
+                 percent < 1e-2   ? "%.0e %%"
+                 : percent < 99.5 ? "%.2g %%"
+                                  : "%.0f %%",
+                 percent);
 }
 
 static int nothing(const element_measure *one)
@@ -311,7 +315,8 @@ static int nothing(const element_measure *one)
     return 1;
 }
 
-static void write_measure(FILE *to, const element_measure *one, int verbose)
+/* path 1: the words are a verdict, which is always printed. */
+static void write_measure(FILE *to, const element_measure *one, int path, int verbose)
 {
     const int at = fprintf(to, "    %-*s", MEASURE - 4, one->name);
     if (nothing(one)) {
@@ -325,8 +330,10 @@ static void write_measure(FILE *to, const element_measure *one, int verbose)
     }
     if (!isnan(one->order))
         fprintf(to, "  %.1f (%d-%d)", one->order, one->least, one->highest);
+    if (path && one->words[0] != '\0')
+        fprintf(to, "  %s", one->words);
     fputs(one->locks ? "  locks\n" : "\n", to);
-    if (verbose && !one->astray && one->words[0] != '\0')
+    if (verbose && !path && !one->astray && one->words[0] != '\0')
         paragraph_write(to, fprintf(to, "      "), 6, one->words);
 }
 
@@ -344,7 +351,7 @@ static void write_measures(FILE *to, screen look, const certificate *c, int part
     if (own->measures.count == 0 && own->claims.count == 1 && c->late != NULL)
         paragraph_write(to, fprintf(to, "    "), 4, own->claims.claim[0].sentence);
     for (int i = 0; i < own->measures.count; i++)
-        write_measure(to, &own->measures.measure[i], verbose);
+        write_measure(to, &own->measures.measure[i], part == CHECKS_FAMILIES + 3, verbose);
     if (part == CHECKS_FAMILIES + 2 && c->chosen.type->inertia == NULL)
         fputs(
             "    vibration: with the mass that beamwork computes; the element gives no 'inertia'\n",

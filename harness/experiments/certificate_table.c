@@ -166,6 +166,8 @@ static void fill_measure(paper_table *t, const certificate_part *of, int index, 
                  state_limit(&of->claims, one->name, t->latex ? "--" : "-"));
     else if (group == 1)
         snprintf(cell[1 + points], CELL, one->locks ? "yes" : "no");
+    else if (group == 3)
+        put_text(t, cell[1 + points], one->words);
     else {
         put_error(t, cell[1 + points], NAN);
         if (!isnan(one->order))
@@ -177,8 +179,9 @@ static void fill_measure(paper_table *t, const certificate_part *of, int index, 
 
 static void fill_measures(paper_table *t, const certificate *c, int group)
 {
-    static const char *const first[] = {"elements", "thickness/length", "elements"},
-                             *const last[] = {"limit", "locks", "order"};
+    static const char *const first[] = {"elements", "thickness/length", "elements",
+                                        "turns, cycles"},
+                             *const last[] = {"limit", "locks", "order", "verdict"};
     const certificate_part *own = &c->part[CHECKS_FAMILIES + group];
     const element_measure *longest = &own->measures.measure[0];
     for (int i = 1; i < own->measures.count; i++)
@@ -314,7 +317,8 @@ static void write_one(FILE *to, int latex, const certificate *c)
     static const char *const caption[] = {
         "errors in uniform and linear states of a cantilever",
         "errors over thickness with 8 elements",
-        "errors over numbers of elements, with observed and declared orders of convergence"};
+        "errors over numbers of elements, with observed and declared orders of convergence",
+        "changes by superposed turns and after closed cycles of deformation, 24 steps each"};
     static paper_table t; /* too large for the stack of a thread */
     char words[CELL];
     write_about(to, latex, c);

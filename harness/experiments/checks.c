@@ -23,6 +23,7 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"rotating", "centrifugal and gyroscopic terms derive from the kinetic energy",
      checks_rotating},
     {"in_time", "inertia forces in time derive from the kinetic energy", checks_in_time},
+    {"history", "committed values continue the strains", checks_history},
 };
 
 /* Invariance under rigid motion, under reversal of the nodes, and under a change of the unit of
@@ -36,8 +37,8 @@ static void rigid(const specimen *s, double size, const double turn[3], claim *o
     node_state x[ELEMENT_MAX_NODES], carried[ELEMENT_MAX_NODES];
     specimen_state(s, size, 5, x);
     specimen_carry(s, turn, x, carried);
-    s->type.strain(s->data, x, &(strain_output){.e = e});
-    s->type.strain(s->data, carried, &(strain_output){.e = carried_e});
+    s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
+    s->type.strain(s->data, carried, &(strain_output){.e = carried_e, .history = s->history});
     for (int i = 0; i < s->strains; i++)
         claims_departs(one, fabs(carried_e[i] - e[i]) / s->request.length,
                        "strain: when the element is rotated by (%g, %g, %g) rad and shifted as a "
@@ -51,7 +52,7 @@ static void rest(const specimen *s, claim *one)
     double e[M];
     node_state x[ELEMENT_MAX_NODES];
     specimen_state(s, 0, 5, x);
-    s->type.strain(s->data, x, &(strain_output){.e = e});
+    s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     for (int i = 0; i < s->strains; i++)
         claims_departs(one, fabs(e[i]) / s->request.length,
                        "strain: strain %d of the undeformed element is %.6g m, not zero%s", i + 1,
@@ -61,7 +62,7 @@ static void rest(const specimen *s, claim *one)
 static status energy_of(const specimen *s, const node_state x[], double *energy)
 {
     double e[M], inner[SPECIMEN_INNER];
-    s->type.strain(s->data, x, &(strain_output){.e = e});
+    s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     specimen_rest(s, inner);
     *energy = NAN;
     return specimen_settled(s, e, inner, &(stress_output){.energy = energy});
@@ -132,13 +133,14 @@ static void check(const specimen *s, claims *c)
 {
     static const double turn[][3] = {{0.71, -1.93, 1.37}, {0, 0, 2.2}, {3.1, 0, 0}, {0, -1.6, 0}};
     claims_doing(c, "strain of an element that is turned%s", s->words);
-    for (size_t k = 0; k < sizeof turn / sizeof turn[0]; k++) {
+    for (size_t k = 0; k < sizeof turn / sizeof turn[0] && !(s->type.limits & LIMIT_NOT_OBJECTIVE);
+         k++) {
         rigid(s, 0, turn[k], claims_open(c, "rigid motion causes no strain", 1e-14));
         rigid(s, 0.2, turn[k], claims_open(c, "rigid motion changes no strain", 2e-14));
     }
     rest(s, claims_open(c, "the undeformed element has no strain", 1e-14));
     claims_doing(c, "strain and stress of an element whose nodes are exchanged%s", s->words);
-    if (!(s->type.limits & LIMIT_ORDER_DEPENDENT) && s->made.curvature[0] == 0 &&
+    if (!(s->type.limits & LIMIT_ORDER_DEPENDENT) && s->values == 0 && s->made.curvature[0] == 0 &&
         s->made.form == PROFILES_RECTANGLE) {
         if (s->type.offers & FEATURE_LARGE)
             node_order(s, 0.05,
@@ -159,6 +161,12 @@ void checks_motion(const formulation *chosen, claims *out)
     if (chosen->type->limits & LIMIT_ORDER_DEPENDENT)
         claims_not_made(out, "exchanging the nodes does not change the energy",
                         "declares LIMIT_ORDER_DEPENDENT");
+    else if (element_history(chosen->type, chosen->option) > 0)
+        claims_not_made(out, "exchanging the nodes does not change the energy",
+                        "declares a history, which belongs to the order of the nodes");
+    if (chosen->type->limits & LIMIT_NOT_OBJECTIVE)
+        claims_not_made(out, "rigid motion changes no strain",
+                        "declares LIMIT_NOT_OBJECTIVE; see 'paths'");
 }
 
 /* States with NaN or Inf, as in a diverging iteration. The element must report them by a status or
@@ -178,7 +186,7 @@ static int all_finite(int n, const double a[])
 static int swallowed(const specimen *s, const node_state x[])
 {
     double e[UNSOUND_M], sigma[UNSOUND_M], inner[SPECIMEN_INNER], energy = 0;
-    s->type.strain(s->data, x, &(strain_output){.e = e});
+    s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     if (!all_finite(s->strains, e))
         return 0;
     specimen_rest(s, inner);
@@ -237,7 +245,7 @@ static void far_away(const specimen *s, double size, claim *one)
         C[UNSOUND_M * UNSOUND_M], inner[SPECIMEN_INNER];
     node_state x[ELEMENT_MAX_NODES];
     specimen_state(s, size, 61, x);
-    s->type.strain(s->data, x, &(strain_output){.e = e, .J = J});
+    s->type.strain(s->data, x, &(strain_output){.e = e, .J = J, .history = s->history});
     specimen_rest(s, inner);
     s->type.stress(s->data, e, inner, &(stress_output){.sigma = sigma, .C = C});
     claims_asks(one, 1, "%s", "");

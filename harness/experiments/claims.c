@@ -8,8 +8,6 @@
 #include "elements/math/scalar.h"
 #include "harness/model/model.h"
 
-/* Appends a point to a measure. */
-static void measures_point(element_measure *one, double at, double error);
 /* Returns 1 if there are at least three points, and none of them has a value. */
 static int measures_hopeless(const element_measure *one);
 
@@ -331,7 +329,7 @@ element_measure *measures_add(measures *m, const char *name)
     return one;
 }
 
-static void measures_point(element_measure *one, double at, double error)
+void measures_point(element_measure *one, double at, double error)
 {
     assert(one->points < MEASURE_POINTS);
     one->at[one->points] = at;

@@ -15,7 +15,7 @@ static int strains_at(const void *context, int i, double si, int j, double sj, d
     const specimen_place *at = context;
     node_state x[ELEMENT_MAX_NODES];
     specimen_moved(at, i, si, j, sj, x);
-    at->s->type.strain(at->s->data, x, &(strain_output){.e = values});
+    at->s->type.strain(at->s->data, x, &(strain_output){.e = values, .history = at->s->history});
     return 0;
 }
 
@@ -24,7 +24,7 @@ static int jacobian_at(const void *context, int i, double si, int j, double sj, 
     const specimen_place *at = context;
     node_state x[ELEMENT_MAX_NODES];
     specimen_moved(at, i, si, j, sj, x);
-    at->s->type.strain(at->s->data, x, &(strain_output){.J = values});
+    at->s->type.strain(at->s->data, x, &(strain_output){.J = values, .history = at->s->history});
     return 0;
 }
 
@@ -58,7 +58,7 @@ static void check_J(const specimen *s, const node_state x[], claim *one)
     double J[M * N], found[N][M];
     for (int c = 0; c < n; c++)
         stencil_first(strains_at, &at, s->strains, c, found[c]);
-    s->type.strain(s->data, x, &(strain_output){.J = J});
+    s->type.strain(s->data, x, &(strain_output){.J = J, .history = s->history});
     for (int i = 0; i < s->strains; i++) {
         double row[N], differences[N];
         for (int c = 0; c < n; c++) {
@@ -101,7 +101,7 @@ static void check_H(const specimen *s, const node_state x[], claim *one)
     const specimen_place at = {s, x};
     const int n = s->coordinates;
     double J[M * N], H[N * N], weight[M] = {0}, size = 0;
-    s->type.strain(s->data, x, &(strain_output){.J = J});
+    s->type.strain(s->data, x, &(strain_output){.J = J, .history = s->history});
     for (int c = 0; c < n; c++)
         stencil_first(jacobian_at, &at, s->strains * n, c, change[c]);
     for (int i = 0; i < s->strains; i++)
@@ -110,7 +110,7 @@ static void check_H(const specimen *s, const node_state x[], claim *one)
     for (int i = 0; i < s->strains; i++) {
         memset(weight, 0, sizeof weight);
         weight[i] = 1;
-        s->type.strain(s->data, x, &(strain_output){.s = weight, .H = H});
+        s->type.strain(s->data, x, &(strain_output){.s = weight, .H = H, .history = s->history});
         compare_H(s, i, H, (const double(*)[M * N]) change, size, one);
     }
 }
@@ -192,10 +192,10 @@ static void gather(const specimen *s, const specimen *other, many_batch *b)
     specimen_rest(s, b->inner);
 }
 
-static strain_output strain_of(const many_batch *b, many_answers *a)
+static strain_output strain_of(const many_batch *b, int k, many_answers *a)
 {
     const unsigned leaves = b->of[0]->made.given->leaves;
-    strain_output out = {.e = a->e};
+    strain_output out = {.e = a->e, .history = b->of[k]->history};
     if (!(leaves & LEAVES_J))
         out.J = a->J;
     if (!(leaves & (LEAVES_J | LEAVES_H))) {
@@ -258,13 +258,13 @@ static void strains(const specimen *s, many_batch *b, claim *one)
 {
     strain_output out[MANY];
     for (int k = 0; k < MANY; k++) {
-        out[k] = strain_of(b, &b->alone[k]);
+        out[k] = strain_of(b, k, &b->alone[k]);
         s->type.strain(b->data[k], b->x + (ptrdiff_t)k * s->nodes, &out[k]);
     }
     if (s->type.strain_many == NULL)
         return;
     for (int k = 0; k < MANY; k++)
-        out[k] = strain_of(b, &b->together[k]);
+        out[k] = strain_of(b, k, &b->together[k]);
     s->type.strain_many(MANY, b->data, b->x, out);
     for (int k = 0; k < MANY; k++)
         compare_strains(b, k, one);

@@ -168,7 +168,7 @@ static void check(const specimen *s, claims *c)
     const energy_place at = {.s = s, .e = e, .inner = inner};
     specimen_state(s, moved_by, 11, x);
     claims_doing(c, "stress%s", s->words);
-    s->type.strain(s->data, x, &(strain_output){.e = e});
+    s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     specimen_rest(s, inner);
     const status outcome = specimen_settled(
         s, e, inner,

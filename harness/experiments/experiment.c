@@ -296,7 +296,7 @@ static const schema_field fields_of_measure[] = {
 static const record_type record_measure = {
     "measure",
     "measured",
-    "errors over meshes or thicknesses",
+    "errors over meshes, thicknesses or turns",
     {key_of_formulation, key_of_family, key_of_measure, fields_of_measure}};
 
 /* Returns the abscissa of a point of a measure. The group counts the points. */
@@ -311,7 +311,8 @@ static void get_error(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_point[] = {
-    {"at", "1", FIELD_DOUBLE, "number of elements, or thickness over length", .get = get_at},
+    {"at", "1", FIELD_DOUBLE, "number of elements, thickness over length, or number of turns",
+     .get = get_at},
     {"error", "1", FIELD_DOUBLE, "relative to the exact value", .get = get_error},
     {0}};
 static const record_type record_measured_point = {

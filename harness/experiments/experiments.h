@@ -120,7 +120,7 @@ enum { MEASURE_POINTS = 12, MEASURES_MOST = 16, MEASURE_NAME = 64, MEASURE_WORDS
 typedef struct element_measure {
     char name[MEASURE_NAME];
     int points;
-    double at[MEASURE_POINTS];    /* numbers of elements, or thickness/length */
+    double at[MEASURE_POINTS];    /* numbers of elements, thickness/length, or numbers of turns */
     double error[MEASURE_POINTS]; /* errors relative to the exact value; NAN: none */
     double order;       /* observed order of the errors; NAN: not requested, or none observed */
     int least, highest; /* lowest and highest order that the type declares; 0: not requested */
@@ -284,7 +284,9 @@ typedef struct specimen {
     section section;
     element_request request;
     element_data *data;
-    size_t size; /* size of `data` [bytes] */
+    size_t size;     /* size of `data` [bytes] */
+    double *history; /* [values] of the undeformed state; NULL: none */
+    int values;
     int nodes, strains, coordinates, inner, memory;
     char words[SPECIMEN_WORDS]; /* text for messages: "" or ", with option=value, section" */
 } specimen;
@@ -305,7 +307,7 @@ typedef struct checks_family {
     checks_run *run;
 } checks_family;
 
-enum { CHECKS_FAMILIES = 14 };
+enum { CHECKS_FAMILIES = 15 };
 extern const checks_family checks_families[CHECKS_FAMILIES];
 
 /* Measurements made for every formulation, in groups. */
@@ -317,7 +319,7 @@ typedef struct measured_group {
     measured_run *run;
 } measured_group;
 
-enum { MEASURED_GROUPS = 3 };
+enum { MEASURED_GROUPS = 4 };
 extern const measured_group measured_groups[MEASURED_GROUPS];
 
 /* Certificate of a formulation: whether it satisfies the interface requirements, and its measured

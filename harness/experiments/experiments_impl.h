@@ -67,6 +67,8 @@ status batch_belongs(const batch_label *, const shard_work *, const char *path, 
 
 /* Appends an empty measure and returns it. */
 element_measure *measures_add(measures *m, const char *name);
+/* Appends a point to a measure. */
+void measures_point(element_measure *one, double at, double error);
 /* Returns the number of measures with a wrong limit. */
 int measures_astray(const measures *m);
 
@@ -144,10 +146,12 @@ checks_run checks_mass;      /* the mass matrix is symmetric and positive defini
 checks_run checks_rotating;  /* effects of a rotating frame */
 checks_run checks_along;     /* loads along one element */
 checks_run checks_in_time;   /* inertia forces during motions */
+checks_run checks_history;   /* committed values continue the strains */
 
 measured_run measured_states;  /* errors of a cantilever with respect to the exact solution */
 measured_run measured_locking; /* errors over thickness/length */
 measured_run measured_orders;  /* errors over the number of elements */
+measured_run measured_paths;   /* superposed rotations, closed cycles */
 
 const char *certificate_part_name(int part);
 /* Returns a description of a part in one line. */

@@ -21,7 +21,7 @@ static int finite_stiffness(const specimen *s, unsigned seed)
     double inner[SPECIMEN_INNER], e[SPECIMEN_STRAINS], C[SPECIMEN_STRAINS * SPECIMEN_STRAINS];
     node_state x[ELEMENT_MAX_NODES];
     specimen_state(s, 0.01, seed, x);
-    s->type.strain(s->data, x, &(strain_output){.e = e});
+    s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     specimen_rest(s, inner);
     if (specimen_settled(s, e, inner, &(stress_output){.C = C}) != STATUS_OK)
         return 0;
@@ -157,7 +157,7 @@ static int answer(const specimen *s, const node_state x[], effects_answers *out)
     specimen_numbers(s->strains, 67, stress);
     if (s->type.geometric != NULL)
         s->type.geometric(s->data, stress, out->G);
-    s->type.strain(s->data, x, &(strain_output){.e = out->e, .J = out->J});
+    s->type.strain(s->data, x, &(strain_output){.e = out->e, .J = out->J, .history = s->history});
     specimen_rest(s, inner);
     return specimen_settled(
                s, out->e, inner,

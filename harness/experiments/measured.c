@@ -11,6 +11,7 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
      measured_states},
     {"locking", "8 elements, thickness by length from 1 to 1e-6", measured_locking},
     {"orders", "orders of convergence, and errors with 1 to 32 elements", measured_orders},
+    {"paths", "changes by superposed turns and after closed cycles, 24 steps each", measured_paths},
 };
 
 /* Errors over thickness/length, from 1 to 1e-6. Locking makes them increase as the element becomes

@@ -15,6 +15,40 @@ static int fits(const specimen *s)
     return s->inner <= SPECIMEN_INNER && s->memory <= SPECIMEN_MEMORY;
 }
 
+/* Computes the undeformed state: nodes along the arc of the initial curvature. */
+static void at_rest(const specimen *s, node_state x[])
+{
+    static const double ahead[3] = {1, 0, 0};
+    const double length = s->request.length;
+    double turn[3], q[4];
+    for (int i = 0; i < 3; i++)
+        turn[i] = s->request.curvature[i] * length;
+    for (int k = 0; k < s->nodes; k++) {
+        memset(&x[k], 0, sizeof x[k]);
+        arc_at(turn, ahead, (double)k / (s->nodes - 1), x[k].r, q);
+        rotation_matrix(q, x[k].R);
+        for (int i = 0; i < 3; i++)
+            x[k].r[i] *= length;
+    }
+}
+
+/* Computes the history of the undeformed state. */
+static status begin(specimen *s, fault *f)
+{
+    node_state x[ELEMENT_MAX_NODES];
+    const int count = element_history(&s->type, s->options);
+    if (count == 0)
+        return STATUS_OK;
+    s->history = calloc((size_t)count, sizeof *s->history);
+    if (s->history == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a history");
+    s->values = count;
+    at_rest(s, x);
+    if (s->type.begin != NULL)
+        s->type.begin(s->data, x, s->history);
+    return STATUS_OK;
+}
+
 status specimen_make(const specimen_request *what, specimen *out, fault *f)
 {
     memset(out, 0, sizeof *out);
@@ -44,13 +78,16 @@ status specimen_make(const specimen_request *what, specimen *out, fault *f)
     if (out->data == NULL)
         return fault_set(f, STATUS_FAULT, "data_size requests %zu bytes, which are not available",
                          out->size);
-    return out->type.prepare(&out->request, out->data, f);
+    TRY(out->type.prepare(&out->request, out->data, f));
+    return begin(out, f);
 }
 
 void specimen_free(specimen *s)
 {
     free(s->data);
+    free(s->history);
     s->data = NULL;
+    s->history = NULL;
 }
 
 unsigned specimen_features(const element_type *t, unsigned without)
@@ -73,23 +110,6 @@ void specimen_numbers(int count, unsigned seed, double out[])
     unsigned long long state = seed;
     for (int i = 0; i < count; i++)
         out[i] = number(&state);
-}
-
-/* Computes the undeformed state, in which the nodes lie on the arc of the initial curvature. */
-static void at_rest(const specimen *s, node_state x[])
-{
-    static const double ahead[3] = {1, 0, 0};
-    const double length = s->request.length;
-    double turn[3], q[4];
-    for (int i = 0; i < 3; i++)
-        turn[i] = s->request.curvature[i] * length;
-    for (int k = 0; k < s->nodes; k++) {
-        memset(&x[k], 0, sizeof x[k]);
-        arc_at(turn, ahead, (double)k / (s->nodes - 1), x[k].r, q);
-        rotation_matrix(q, x[k].R);
-        for (int i = 0; i < 3; i++)
-            x[k].r[i] *= length;
-    }
 }
 
 void specimen_state(const specimen *s, double size, unsigned seed, node_state x[])
@@ -195,7 +215,7 @@ static int gives_answers(const specimen *s, claims *c)
         return 1;
     claims_doing(c, "strain, stress%s", s->words);
     specimen_state(s, 0.04, 41, x);
-    s->type.strain(s->data, x, &(strain_output){.e = e, .J = J});
+    s->type.strain(s->data, x, &(strain_output){.e = e, .J = J, .history = s->history});
     specimen_rest(s, inner);
     specimen_settled(s, e, inner, &(stress_output){.energy = &energy});
     const char *why = s->type.trouble(s->data);

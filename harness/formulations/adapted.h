@@ -10,10 +10,10 @@
 
 struct element_data {
     const element_type *given;
-    int nodes, strains; /* numbers of nodes and strains of the completed type */
-    double length;      /* [m] */
-    field_mass mass;    /* used if the type has no `inertia` */
-    max_align_t own[];  /* element_data of the type */
+    int nodes, strains, history; /* numbers of nodes and strains of the completed type */
+    double length;               /* [m] */
+    field_mass mass;             /* used if the type has no `inertia` */
+    max_align_t own[];           /* element_data of the type */
 };
 
 static inline const element_data *adapted_own(const element_data *d)
@@ -42,7 +42,8 @@ void differences_strain_many(int count, const element_data *const data[], const 
                              strain_output out[]);
 /* Computes the second derivatives H [7n x 7n] of the strains by finite differences of the
  * Jacobian. jacobian(d, x, J) fills J [strains x 7n]. */
-typedef void differences_jacobian(const element_data *d, const node_state x[], double J[]);
+typedef void differences_jacobian(const element_data *d, const node_state x[],
+                                  const double *history, double J[]);
 void differences_curvature(const element_data *d, const node_state x[], differences_jacobian *,
                            const double s[], double H[]);
 

@@ -18,6 +18,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     out->strains = given->force == NULL ? element_strains(given, request->options)
                    : out->nodes == 2    ? places_strains_two(request->options)
                                         : places_strains_three(request->options);
+    out->history = element_history(given, request->options);
     out->length = request->length;
     field_mass_prepare(request, out->nodes, &out->mass);
     return given->prepare(request, (element_data *)out->own, f);
@@ -73,6 +74,16 @@ static void unstressed(const element_data *d, const double more[3], const node_s
     d->given->unstressed(adapted_own(d), more, x, (element_data *)out->own);
 }
 
+static void begin(const element_data *d, const node_state x[], double history[])
+{
+    d->given->begin(adapted_own(d), x, history);
+}
+
+static void commit(const element_data *d, const node_state x[], double history[])
+{
+    d->given->commit(adapted_own(d), x, history);
+}
+
 static double tension(const element_data *d, const double sigma[])
 {
     return d->given->tension(adapted_own(d), sigma);
@@ -123,6 +134,8 @@ static void wrap(const element_type *given, element_type *out)
     out->unstressed = given->unstressed != NULL ? unstressed : NULL;
     out->tension = given->tension != NULL ? tension : NULL;
     out->trouble = given->trouble != NULL ? trouble : NULL;
+    out->begin = given->begin != NULL ? begin : NULL;
+    out->commit = given->commit != NULL ? commit : NULL;
 }
 
 static void make_relative(const element_type *given, int nodes, element_type *out)
@@ -143,6 +156,31 @@ static status refuse(const element_type *given, const char *what, fault *f)
     return fault_set(f, STATUS_REFUSED, "formulation %s: %s", given->name, what);
 }
 
+static status check_history(const element_type *given, const double options[], fault *f)
+{
+    const int count = element_history(given, options);
+    if (count < 0 || count > ELEMENT_MAX_HISTORY)
+        return refuse(given, "an element has 0 to 256 values of history", f);
+    if (given->force != NULL && given->limits & (LIMIT_NOT_OBJECTIVE | LIMIT_PATH_DEPENDENT))
+        return refuse(given,
+                      "with 'force', strains are relative to the first node and thus objective; "
+                      "give 'strain' and 'stress', or remove LIMIT_NOT_OBJECTIVE and "
+                      "LIMIT_PATH_DEPENDENT",
+                      f);
+    if (count == 0 && given->limits & LIMIT_PATH_DEPENDENT)
+        return refuse(given, "LIMIT_PATH_DEPENDENT requires 'history'", f);
+    if (count > 0 && given->commit == NULL)
+        return refuse(given, "'history' requires 'commit', which computes the values of a state",
+                      f);
+    if (count > 0 && given->force != NULL)
+        return refuse(given, "'history' requires 'strain' and 'stress' instead of 'force'", f);
+    if (count > 0 &&
+        (given->along != NULL || given->unstressed != NULL || given->equations_many != NULL))
+        return refuse(given, "with 'history', remove 'along', 'unstressed' and 'equations_many'",
+                      f);
+    return STATUS_OK;
+}
+
 static status check(const element_type *given, const double options[], fault *f)
 {
     const int nodes = element_nodes(given, options);
@@ -160,7 +198,7 @@ static status check(const element_type *given, const double options[], fault *f)
     if (given->force == NULL && (element_strains(given, options) < 1 ||
                                  element_strains(given, options) > ELEMENT_MAX_STRAINS))
         return refuse(given, "an element has 1 to 24 strains", f);
-    return STATUS_OK;
+    return check_history(given, options, f);
 }
 
 status adapters_complete(const element_type *given, const double options[], element_type *out,
@@ -169,7 +207,7 @@ status adapters_complete(const element_type *given, const double options[], elem
     TRY(check(given, options, f));
     *out = *given;
     if (given->leaves == 0 && given->force == NULL && given->inertia != NULL &&
-        given->data_size != NULL)
+        given->data_size != NULL && element_history(given, options) == 0)
         return STATUS_OK;
     wrap(given, out);
     if (given->force != NULL)

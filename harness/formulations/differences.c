@@ -117,6 +117,10 @@ static int make_room(gather *g)
     if (data == NULL)
         return 0;
     g->data = data;
+    const double **history = realloc(g->history, count * sizeof(void *));
+    if (history == NULL)
+        return 0;
+    g->history = history;
     node_state *x = realloc(g->x, count * nodes * sizeof *x);
     if (x == NULL)
         return 0;
@@ -129,7 +133,8 @@ static int make_room(gather *g)
     return 1;
 }
 
-const double *gather_next(gather *g, const element_data *own, const node_state x[])
+const double *gather_next(gather *g, const element_data *own, const node_state x[],
+                          const double *history)
 {
     if (g->answered)
         return g->answer + (size_t)g->next++ * g->size;
@@ -138,6 +143,7 @@ const double *gather_next(gather *g, const element_data *own, const node_state x
         return NULL;
     }
     g->data[g->count] = own;
+    g->history[g->count] = history;
     memcpy(g->x + (size_t)g->count * (size_t)g->nodes, x, (size_t)g->nodes * sizeof *x);
     g->count++;
     return NULL;
@@ -180,6 +186,7 @@ void gather_run(int count, int nodes, size_t size, gather_element *element,
     }
     free(start);
     free(g.data);
+    free(g.history);
     free(g.x);
     free(g.answer);
 }
@@ -191,6 +198,7 @@ typedef struct difference_place {
     const element_data *data;
     const node_state *x;
     const double *s;                /* stresses, for second derivatives */
+    const double *history;          /* of the element; NULL: none */
     differences_jacobian *jacobian; /* Jacobian of the strains; NULL: none */
     gather *together; /* gathers all perturbed states; NULL: each state is evaluated when it is
                          needed */
@@ -220,9 +228,11 @@ static int strains_at(const void *context, int i, double si, int j, double sj, d
     if (at->together == NULL || !at->together->answered)
         moved(at, i, si, j, sj, x);
     if (at->together == NULL)
-        at->data->given->strain(adapted_own(at->data), x, &(strain_output){.e = values});
+        at->data->given->strain(adapted_own(at->data), x,
+                                &(strain_output){.e = values, .history = at->history});
     else
-        copy_answer(gather_next(at->together, adapted_own(at->data), x), at->data->strains, values);
+        copy_answer(gather_next(at->together, adapted_own(at->data), x, at->history),
+                    at->data->strains, values);
     return 0;
 }
 
@@ -248,9 +258,10 @@ static int forces_at(const void *context, int i, double si, int j, double sj, do
     if (at->together == NULL || !at->together->answered)
         moved(at, i, si, j, sj, x);
     if (at->together == NULL)
-        at->jacobian(at->data, x, J);
+        at->jacobian(at->data, x, at->history, J);
     else
-        copy_answer(gather_next(at->together, adapted_own(at->data), x), at->data->strains * n, J);
+        copy_answer(gather_next(at->together, adapted_own(at->data), x, at->history),
+                    at->data->strains * n, J);
     for (int c = 0; c < n; c++) {
         values[c] = 0;
         for (int k = 0; k < at->data->strains; k++)
@@ -312,9 +323,10 @@ void differences_curvature(const element_data *d, const node_state x[],
     curvature(&(difference_place){.data = d, .x = x, .s = s, .jacobian = jacobian}, H);
 }
 
-static void given_jacobian(const element_data *d, const node_state x[], double J[])
+static void given_jacobian(const element_data *d, const node_state x[], const double *history,
+                           double J[])
 {
-    d->given->strain(adapted_own(d), x, &(strain_output){.J = J});
+    d->given->strain(adapted_own(d), x, &(strain_output){.J = J, .history = history});
 }
 
 static int leaves_j(const element_data *d)
@@ -341,8 +353,12 @@ static strain_output given_part(const element_data *d, const strain_output *out)
 static void made_part(const element_data *d, const node_state x[], gather *together,
                       const strain_output *out)
 {
-    const difference_place at = {
-        .data = d, .x = x, .s = out->s, .jacobian = given_jacobian, .together = together};
+    const difference_place at = {.data = d,
+                                 .x = x,
+                                 .s = out->s,
+                                 .history = out->history,
+                                 .jacobian = given_jacobian,
+                                 .together = together};
     if (leaves_j(d) && out->J != NULL)
         first(&at, out->J);
     if (!leaves_h(d) || out->s == NULL || out->H == NULL)
@@ -375,6 +391,7 @@ static void evaluate_states(void *context, gather *g, int first_state, int count
         double *answer = g->answer + (size_t)(first_state + i) * g->size;
         out[i] =
             leaves_j(all->data[0]) ? (strain_output){.e = answer} : (strain_output){.J = answer};
+        out[i].history = g->history[first_state + i];
     }
     all->data[0]->given->strain_many(count, g->data + first_state,
                                      g->x + (size_t)first_state * (size_t)g->nodes, out);
@@ -392,11 +409,32 @@ static void give_parts(int count, const many *all)
     }
 }
 
+/* Sets the results to NaN if an element with a history is evaluated without it; then no analysis
+ * uses them. */
+static int has_history(int count, const element_data *const data[], strain_output out[])
+{
+    int missing = 0;
+    for (int i = 0; i < count; i++) {
+        const element_data *d = data[i];
+        const int n = NODE_COORDINATES * d->nodes;
+        if (d->history == 0 || out[i].history != NULL)
+            continue;
+        missing = 1;
+        for (int k = 0; out[i].e != NULL && k < d->strains; k++)
+            out[i].e[k] = NAN;
+        for (int k = 0; out[i].J != NULL && k < d->strains * n; k++)
+            out[i].J[k] = NAN;
+        for (int k = 0; out[i].s != NULL && out[i].H != NULL && k < n * n; k++)
+            out[i].H[k] = NAN;
+    }
+    return !missing;
+}
+
 void differences_strain_many(int count, const element_data *const data[], const node_state x[],
                              strain_output out[])
 {
     many all = {data, x, out};
-    if (count == 0)
+    if (count == 0 || !has_history(count, data, out))
         return;
     give_parts(count, &all);
     const element_data *d = data[0];
@@ -410,6 +448,8 @@ void differences_strain(const element_data *d, const node_state x[], strain_outp
         differences_strain_many(1, &d, x, out);
         return;
     }
+    if (!has_history(1, &d, out))
+        return;
     strain_output asked = given_part(d, out);
     d->given->strain(adapted_own(d), x, &asked);
     made_part(d, x, NULL, out);

@@ -57,7 +57,9 @@ enum channel_request {
     CHANNEL_STRAIN,
     CHANNEL_STRESS,
     CHANNEL_FORCE,
-    CHANNEL_INERTIA
+    CHANNEL_INERTIA,
+    CHANNEL_BEGIN,
+    CHANNEL_COMMIT
 };
 
 enum { CHANNEL_HEADER = 40, CHANNEL_ANSWER = 24 };
@@ -118,6 +120,7 @@ typedef struct gather {
     int nodes;       /* number of nodes of a state */
     size_t size;     /* number of doubles in an answer */
     const element_data **data; /* [count] data of the type that is completed */
+    const double **history;    /* [count] of the elements */
     node_state *x;             /* [count x nodes] */
     double *answer;            /* [count x size] */
     /* number of states for which there is memory; 1 after an allocation failure */
@@ -136,7 +139,8 @@ void gather_run(int count, int nodes, size_t size, gather_element *, gather_eval
                 void *context);
 /* Returns the answer [size] for the state x[nodes]. Returns NULL in the first pass, in which the
  * result of the caller is not used. */
-const double *gather_next(gather *, const element_data *own, const node_state x[]);
+const double *gather_next(gather *, const element_data *own, const node_state x[],
+                          const double *history);
 
 /* Energy, forces and stiffness from the functions of the type, for one state or for many states in
  * one call. */

@@ -22,6 +22,8 @@ static const word_bit limits[] = {{"doubly symmetric", LIMIT_DOUBLY_SYMMETRIC},
                                   {"eighth twist", LIMIT_EIGHTH_TWIST},
                                   {"warping rigid", LIMIT_WARPING_RIGID},
                                   {"flat arc", LIMIT_FLAT_ARC},
+                                  {"not objective", LIMIT_NOT_OBJECTIVE},
+                                  {"path dependent", LIMIT_PATH_DEPENDENT},
                                   {NULL, 0}};
 static const word_bit theories[] = {
     {"engesser", SHEAR_ENGESSER}, {"haringx", SHEAR_HARINGX}, {NULL, 0}};
@@ -37,9 +39,9 @@ static const struct gives {
              {"force", 1, LEAVES_TANGENT},
              {"tangent", 1, 0}};
 
-static const char *const keys[] = {"beamwork", "name",           "summary", "source", "family",
-                                   "offers",   "gives",          "strains", "nodes",  "order",
-                                   "limits",   "shear_theories", "options", "inertia"};
+static const char *const keys[] = {"beamwork", "name",           "summary", "source",  "family",
+                                   "offers",   "gives",          "strains", "nodes",   "order",
+                                   "limits",   "shear_theories", "options", "inertia", "history"};
 
 typedef struct handshake_reading {
     const char *who;
@@ -236,6 +238,7 @@ static status read_all(const handshake_reading *r, handshake *out)
     else if (json_object_get(r->said, "strains") != NULL)
         return refuse(r, "strains",
                       "formulations of whole elements do not have this key; remove it");
+    TRY(number_of(r, "history", 1, ELEMENT_MAX_HISTORY, 0, &out->constants.history));
     TRY(orders_of(r, out->constants.order));
     TRY(inertia_of(r, out));
     return handshake_options(r->who, json_object_get(r->said, "options"), &t->options[0], r->f);

@@ -146,7 +146,8 @@ static status start_again(process *p, fault *f)
         strcmp(again.type.name, p->type.name) == 0 && again.whole == p->whole &&
         again.type.leaves == p->type.leaves && again.inertia == (p->type.inertia != NULL) &&
         again.type.spreads == p->type.spreads && again.constants.strains == p->constants.strains &&
-        again.constants.nodes == p->constants.nodes;
+        again.constants.nodes == p->constants.nodes &&
+        again.constants.history == p->constants.history;
     return same ? STATUS_OK
                 : channel_break(&p->to, "gives different declarations when it starts again", f);
 }
@@ -214,6 +215,7 @@ static status prepare_locked(process *p, const element_request *request, element
                        .started = p->to.started,
                        .kind = p->kinds++,
                        .strains = p->constants.strains,
+                       .history = p->constants.history,
                        .coordinates = NODE_COORDINATES * element_nodes(&p->type, request->options)};
     return ask_prepare(p, request, out, f);
 }
@@ -274,6 +276,8 @@ static status begin(process *p, const char *command, fault *f)
     frames_serve(p);
     if (said.inertia)
         frames_serve_inertia(p);
+    if (said.constants.history > 0)
+        frames_serve_history(p);
     return channel_call(&p->to, p->type.name, f);
 }
 

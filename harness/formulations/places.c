@@ -112,8 +112,9 @@ static void node_rows(const element_data *d, const node_state x[], int k, double
     }
 }
 
-static void jacobian(const element_data *d, const node_state x[], double J[])
+static void jacobian(const element_data *d, const node_state x[], const double *history, double J[])
 {
+    (void)history;
     const int n = NODE_COORDINATES * d->nodes;
     memset(J, 0, (size_t)(d->strains * n) * sizeof *J);
     for (int k = 1; k < d->nodes; k++)
@@ -127,7 +128,7 @@ void places_strain(const element_data *d, const node_state x[], strain_output *o
     if (out->e != NULL)
         strains_of(d, x, out->e);
     if (out->J != NULL)
-        jacobian(d, x, out->J);
+        jacobian(d, x, NULL, out->J);
     if (out->s != NULL && out->H != NULL)
         differences_curvature(d, x, jacobian, out->s, out->H);
 }
@@ -208,7 +209,7 @@ status forces_of(const element_data *d, gather *together, const node_state x[], 
     const size_t n = (size_t)NODE_COORDINATES * (size_t)d->nodes;
     if (together == NULL)
         return d->given->force(adapted_own(d), x, out);
-    const double *answer = gather_next(together, adapted_own(d), x);
+    const double *answer = gather_next(together, adapted_own(d), x, NULL);
     if (answer == NULL)
         answer = none;
     if (out->energy != NULL)

@@ -88,12 +88,14 @@ static status strain_frame(const frame_question *q, const node_state x[], strain
                            fault *f)
 {
     const element_data *d = q->data[0];
-    const size_t m = (size_t)d->strains, c = (size_t)d->coordinates,
+    const size_t m = (size_t)d->strains, c = (size_t)d->coordinates, h = (size_t)d->history,
                  nodes = (size_t)frame_nodes(d) * sizeof *x, s = q->mask & 4 ? m : 0;
     const char *from;
     char *to;
-    TRY(frame_begin(q, nodes + s * sizeof(double), &to, f));
+    TRY(frame_begin(q, nodes + (h + s) * sizeof(double), &to, f));
     frame_put(&to, x, (size_t)q->count * nodes);
+    for (int i = 0; i < q->count && h > 0; i++)
+        frame_put(&to, out[i].history, h * sizeof(double));
     for (int i = 0; i < q->count && s > 0; i++)
         frame_put(&to, out[i].s, s * sizeof(double));
     TRY(frame_ask(q, &from, f));
@@ -391,4 +393,46 @@ static status inertia(const element_data *d, const node_state x[],
 void frames_serve_inertia(process *p)
 {
     p->type.inertia = inertia;
+}
+
+/* Histories of a formulation whose process computes them: one request for each element. */
+
+static void history_of(const element_data *d, enum channel_request what, const node_state x[],
+                       double history[])
+{
+    const size_t nodes = (size_t)frame_nodes(d) * sizeof *x, count = (size_t)d->history,
+                 given = what == CHANNEL_COMMIT ? count * sizeof *history : 0;
+    const frame_question q = {what, 0, 1, &d, count * sizeof *history};
+    const char *from;
+    char *to;
+    fault f = {""};
+    pthread_mutex_lock(&d->of->to.lock);
+    status outcome = frame_begin(&q, nodes + given, &to, &f);
+    if (outcome == STATUS_OK) {
+        frame_put(&to, x, nodes);
+        frame_put(&to, history, given);
+        outcome = frame_ask(&q, &from, &f);
+    }
+    if (outcome == STATUS_OK)
+        frame_take(&from, history, count);
+    else
+        fill_nan(history, count);
+    channel_note(&d->of->to, outcome == STATUS_OK ? STATUS_OK : STATUS_REFUSED, &f);
+    pthread_mutex_unlock(&d->of->to.lock);
+}
+
+static void begin(const element_data *d, const node_state x[], double history[])
+{
+    history_of(d, CHANNEL_BEGIN, x, history);
+}
+
+static void commit(const element_data *d, const node_state x[], double history[])
+{
+    history_of(d, CHANNEL_COMMIT, x, history);
+}
+
+void frames_serve_history(process *p)
+{
+    p->type.begin = begin;
+    p->type.commit = commit;
 }

@@ -20,7 +20,7 @@ struct element_data {
     /* number of the start of the process that prepared the kind, and number of the kind in this
      * process */
     long started, kind;
-    int strains, coordinates, linear;
+    int strains, coordinates, history, linear;
     double C[]; /* [strains x strains] C of linear stresses sigma = C e */
 };
 
@@ -28,6 +28,8 @@ struct element_data {
 void frames_serve(process *p);
 /* Sets the inertia function of the type if the process computes inertia (process_frames.c). */
 void frames_serve_inertia(process *p);
+/* Sets the functions of the history of the type if it has one (process_frames.c). */
+void frames_serve_history(process *p);
 
 /* A request about many elements. Contains the numbers of values per element in the request and in
  * the answer. */

@@ -61,7 +61,8 @@ static void span_of(const model *m, const model_state *s, int element, span *out
     kinematics_gather(m, s, el, out->x);
     for (int k = 0; k < m->mesh.nodes; k++)
         rotation_from_matrix(out->x[k].R, out->q[k]);
-    m->mesh.type->strain(data, out->x, &(strain_output){.J = J});
+    m->mesh.type->strain(data, out->x,
+                         &(strain_output){.J = J, .history = model_history_of(m, s, element)});
     dense_add_transpose_mul(m->mesh.coordinates, m->mesh.strains, 1, J, sigma, out->force);
 }
 

@@ -444,14 +444,29 @@ status kinematics_nodes_alloc(const model *m, const model_state *from, model_sta
     return STATUS_OK;
 }
 
+/* Sets the history of a new, undeformed state; the first one is m->rest. */
+static void begin_history(const model *m, model_state *s)
+{
+    const size_t each = (size_t)m->mesh.history;
+    if (m->rest != NULL && m->rest != s)
+        memcpy(s->history, m->rest->history, (size_t)m->mesh.elements * each * sizeof *s->history);
+    for (int i = 0; i < m->mesh.elements && m->rest == s && m->mesh.type->begin != NULL; i++) {
+        const mesh_element *el = &m->mesh.element[i];
+        node_state x[ELEMENT_MAX_NODES];
+        kinematics_gather(m, s, el, x);
+        m->mesh.type->begin(m->mesh.kind[el->kind].data, x, &s->history[(size_t)i * each]);
+    }
+}
+
 status kinematics_state_alloc(const model *m, model_state **out, fault *f)
 {
     const size_t V = (size_t)m->mesh.vertices, E = (size_t)m->mesh.elements;
-    TRY(block_alloc(
-        V * 10 + 3 * (size_t)m->mesh.releases + (size_t)m->mesh.warps + (size_t)m->scene->drivers +
-            E * (size_t)(2 * m->mesh.strains + m->mesh.inner) + 3 * (size_t)m->mesh.turns +
-            (scene_has_feedback(m->scene) ? (size_t)m->scene->loads : 0),
-        out, f));
+    TRY(block_alloc(V * 10 + 3 * (size_t)m->mesh.releases + (size_t)m->mesh.warps +
+                        (size_t)m->scene->drivers +
+                        E * (size_t)(2 * m->mesh.strains + m->mesh.inner + m->mesh.history) +
+                        3 * (size_t)m->mesh.turns +
+                        (scene_has_feedback(m->scene) ? (size_t)m->scene->loads : 0),
+                    out, f));
     model_state *s = *out;
     s->u = s->block;
     s->q = s->u + 3 * V;
@@ -462,7 +477,8 @@ status kinematics_state_alloc(const model *m, model_state **out, fault *f)
     s->e = s->driver + m->scene->drivers;
     s->sigma = s->e + E * (size_t)m->mesh.strains;
     s->inner = s->sigma + E * (size_t)m->mesh.strains;
-    s->turn = s->inner + E * (size_t)m->mesh.inner;
+    s->history = s->inner + E * (size_t)m->mesh.inner;
+    s->turn = s->history + E * (size_t)m->mesh.history;
     s->feedback = s->turn + 3 * (size_t)m->mesh.turns;
     for (size_t i = 0; i < V; i++)
         rotation_identity(&s->q[4 * i]);
@@ -470,7 +486,20 @@ status kinematics_state_alloc(const model *m, model_state **out, fault *f)
         for (size_t i = 0; i < E; i++)
             m->mesh.type->rest(m->mesh.kind[m->mesh.element[i].kind].data,
                                &s->inner[i * (size_t)m->mesh.inner]);
+    if (m->mesh.history > 0)
+        begin_history(m, s);
     return STATUS_OK;
+}
+
+void kinematics_commit(const model *m, model_state *s)
+{
+    for (int i = 0; i < m->mesh.elements && m->mesh.history > 0; i++) {
+        const mesh_element *el = &m->mesh.element[i];
+        node_state x[ELEMENT_MAX_NODES];
+        kinematics_gather(m, s, el, x);
+        m->mesh.type->commit(m->mesh.kind[el->kind].data, x,
+                             &s->history[(size_t)i * (size_t)m->mesh.history]);
+    }
 }
 
 void kinematics_state_free(model_state *s)

@@ -35,8 +35,15 @@ static status choose_options(model *m, const double options[], fault *f)
     m->mesh.strains = element_strains(m->mesh.type, m->options);
     m->mesh.inner = element_inner(m->mesh.type, m->options);
     m->mesh.memory = element_memory(m->mesh.type, m->options);
+    m->mesh.history = element_history(m->mesh.type, m->options);
     m->mesh.takes = takes_loads(m);
     m->mesh.frees = scene_is_free(m->scene, NULL);
+    if (m->mesh.history > 0 && m->mesh.frees)
+        return fault_set(f, STATUS_REFUSED,
+                         "temperatures, elongations and initial strains of members require strains "
+                         "that depend only on the state, but %s has a history; use another "
+                         "formulation",
+                         t->name);
     m->mesh.work_size = m->mesh.strains * (m->mesh.coordinates + m->mesh.strains + 2) +
                         m->mesh.memory + (m->mesh.takes ? slot_along(m) : 0);
     return STATUS_OK;
@@ -52,7 +59,8 @@ static int stations_of(const scene_analysis *a)
 static status check_memory(const model *m, fault *f)
 {
     const double entries = (double)m->mesh.coordinates * m->mesh.coordinates / 2,
-                 words = 10.0 * (m->mesh.nodes - 1) + 2 * m->mesh.strains + m->mesh.inner;
+                 words = 10.0 * (m->mesh.nodes - 1) + 2 * m->mesh.strains + m->mesh.inner +
+                         m->mesh.history;
     double count = 0, states = 3;
     char what[80];
     for (int i = 0; i < m->scene->members; i++)
@@ -226,6 +234,12 @@ static status build(model *m, const model_request *request, fault *f)
     }
     if (adapters_words(type)[0] != '\0')
         TRY(coordinates_note_left_out(m, f, "%s", adapters_words(type)));
+    if (type->limits & LIMIT_NOT_OBJECTIVE)
+        TRY(coordinates_note_left_out(
+            m, f, "objectivity: rigid rotations of a deformed element change its strains"));
+    if (type->limits & LIMIT_PATH_DEPENDENT)
+        TRY(coordinates_note_left_out(
+            m, f, "path independence: results depend on the path and its steps"));
     if (process_serves(type))
         TRY(coordinates_note_left_out(
             m, f, "of the times: the time that the process of the formulation takes"));

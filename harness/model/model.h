@@ -301,8 +301,8 @@ typedef struct mesh_kind {
 /* Data that the inline functions below read. They are the first member of every model. Only
  * harness/model sets them. */
 typedef struct model_mesh {
-    const element_type *type;                       /* completed by adapters_complete */
-    int nodes, coordinates, strains, inner, memory; /* numbers per element */
+    const element_type *type;                                /* completed by adapters_complete */
+    int nodes, coordinates, strains, inner, memory, history; /* numbers per element */
     int vertices, elements, kinds, warps;
     /* index of the first vertex of released ends, which are the last vertices, and number of
      * released ends */
@@ -357,6 +357,10 @@ static inline int model_inner(const model *m)
 static inline int model_memory(const model *m)
 {
     return model_mesh_of(m)->memory;
+}
+static inline int model_history(const model *m)
+{
+    return model_mesh_of(m)->history;
 }
 /* Returns 1 if elements include loads along them in their equilibrium (element_type.along). */
 static inline int model_takes_loads(const model *m)
@@ -662,6 +666,9 @@ status kinematics_nodes_alloc(const model *, const model_state *from, model_stat
 void kinematics_state_free(model_state *);
 const model_state *kinematics_rest(const model *); /* the undeformed state */
 void kinematics_state_copy(const model *, const model_state *from, model_state *to);
+/* Makes the history of all elements that of this state, which is accepted and from which a step
+ * begins. Until then, results of the state and its tangent are those of the step that led to it. */
+void kinematics_commit(const model *, model_state *);
 double kinematics_state_path(const model_state *);
 const double *kinematics_strains(const model_state *); /* [elements x strains] */
 
@@ -794,9 +801,19 @@ struct model_state {
     double *warp;              /* [warps] */
     double *driver;            /* [drivers] current value */
     double *e, *sigma, *inner; /* [elements x strains], [elements x strains], [elements x inner] */
+    double *history;           /* [elements x history] */
     double *turn;              /* [turns x 3] tracked rotation vectors */
     double *feedback; /* [loads] integrals of the feedback errors; empty if there is no feedback */
 };
+
+/* Returns the history of an element in this state; NULL: the formulation has none, or the state
+ * has only nodes. */
+static inline const double *model_history_of(const model *m, const model_state *s, int element)
+{
+    return model_history(m) > 0 && s->history != NULL
+               ? &s->history[(size_t)element * (size_t)model_history(m)]
+               : NULL;
+}
 
 /* Possible motions [6: displacement, rotation] of a node: the span of the columns of its Jacobian.
  * Computed axes have rounding errors, so ranks are determined relative to the size of the columns,

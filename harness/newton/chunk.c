@@ -55,7 +55,8 @@ static void strains_one_by_one(const equations *eq, const linear_memory *memory,
                      &(strain_output){.e = deformed[k],
                                       .J = w.J,
                                       .s = c->K != NULL ? of_strains(m, s->sigma, c->index) : NULL,
-                                      .H = c->K});
+                                      .H = c->K,
+                                      .history = model_history_of(m, s, c->index)});
     }
 }
 
@@ -91,7 +92,8 @@ static void strains_together(const model *m, const linear_memory *memory, const 
         out[k] = (strain_output){.e = deformed[k],
                                  .J = linearise_slot(m, memory, c->index).J,
                                  .s = c->K != NULL ? of_strains(m, s->sigma, c->index) : NULL,
-                                 .H = c->K};
+                                 .H = c->K,
+                                 .history = model_history_of(m, s, c->index)};
     }
     model_type(m)->strain_many(count, data, x, out);
 }

@@ -191,7 +191,8 @@ static status link_element_of(const equations *eq, const model_state *s, const c
     double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[3 * ELEMENT_MAX_NODES],
         along[ELEMENT_MAX_COORDINATES] = {0};
     kinematics_gather(m, s, model_element(m, i), x);
-    ahead_strain(eq, i, x, &(strain_output){.s = sigma, .H = H});
+    ahead_strain(eq, i, x,
+                 &(strain_output){.s = sigma, .H = H, .history = model_history_of(m, s, i)});
     for (int k = 0; k < model_nodes(m); k++)
         memcpy(r + 3 * k, x[k].r, sizeof x[k].r);
     memset(force, 0, (size_t)model_own_coordinates(m) * sizeof *force);

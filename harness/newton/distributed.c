@@ -210,7 +210,8 @@ int distributed_add_own(const equations *eq, const model_state *s, const node_st
     distributed_take(eq, element, path, &of);
     if (!of.acts)
         return 0;
-    model_type(m)->strain(data, x, &(strain_output){.e = D, .J = J});
+    model_type(m)->strain(
+        data, x, &(strain_output){.e = D, .J = J, .history = model_history_of(m, s, element)});
     free_strain_subtract(eq, element, path, D);
     of.out.sigma = sigma;
     of.out.C = K != NULL || !linear ? C : NULL;
@@ -232,7 +233,8 @@ int distributed_add_own(const equations *eq, const model_state *s, const node_st
     dense_add_transpose_mul(X, model_strains(m), 1, J, D, forces);
     if (K == NULL)
         return 1;
-    model_type(m)->strain(data, x, &(strain_output){.s = sigma, .H = H});
+    model_type(m)->strain(
+        data, x, &(strain_output){.s = sigma, .H = H, .history = model_history_of(m, s, element)});
     dense_add_congruence(model_strains(m), X, J, C, K, work);
     for (int k = 0; k < X * X; k++)
         K[k] += H[k];
@@ -280,7 +282,8 @@ static void add_rate(const equations *eq, const model_state *s, const node_state
         of.out.e = &s->e[(size_t)element * (size_t)model_strains(m)];
         of.out.inner = &s->inner[(size_t)element * (size_t)model_inner(m)];
     }
-    model_type(m)->strain(data, x, &(strain_output){.J = J});
+    model_type(m)->strain(data, x,
+                          &(strain_output){.J = J, .history = model_history_of(m, s, element)});
     model_type(m)->along(1, &data, x, &of.out, &outcome);
     dense_add_transpose_mul(X, model_strains(m), 1, J, sigma, work);
     for (int k = 0; k < X; k++)

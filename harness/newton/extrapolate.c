@@ -280,9 +280,14 @@ int extrapolate_state(const equations *eq, int count, const model_state *const a
     if (!g.good[count])
         return 0;
     const double *weight = g.weight[count];
-    memset(out->block, 0, out->size * sizeof *out->block);
-    for (int i = 0; i < count; i++)
-        add_weighted(weight[i], out->size, at[i]->block, out->block);
+    const size_t before = (size_t)(out->history - out->block), /* the history is not extrapolated */
+        after = before + (size_t)model_elements(m) * (size_t)model_history(m);
+    memset(out->block, 0, before * sizeof *out->block);
+    memset(out->block + after, 0, (out->size - after) * sizeof *out->block);
+    for (int i = 0; i < count; i++) {
+        add_weighted(weight[i], before, at[i]->block, out->block);
+        add_weighted(weight[i], out->size - after, at[i]->block + after, out->block + after);
+    }
     for (int v = 0; v < model_vertices(m); v++)
         if (turns_by_itself(m, v))
             extrapolate_rotation(m, v, count, weight, at, out);

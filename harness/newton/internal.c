@@ -77,7 +77,8 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
                                                              along[ELEMENT_MAX_COORDINATES] = {0};
     const size_t first = (size_t)i * (size_t)model_strains(m);
     kinematics_gather(m, s->s, el, x);
-    model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
+    model_type(m)->strain(model_kind(m, el->kind)->data, x,
+                          &(strain_output){.J = J, .history = model_history_of(m, s->s, i)});
     dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, J,
                             s->sigma != NULL ? &s->sigma[first] : &s->s->sigma[first], force);
     double taken[2][3] = {{0}};

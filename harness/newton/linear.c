@@ -120,7 +120,9 @@ void linear_forces(const equations *eq, const double sigma[], double f[])
         double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[MODEL_MAX_COORDINATES] = {0};
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, kinematics_rest(m), model_element(m, i), x);
-        ahead_strain(eq, i, x, &(strain_output){.J = J});
+        ahead_strain(
+            eq, i, x,
+            &(strain_output){.J = J, .history = model_history_of(m, kinematics_rest(m), i)});
         eq->run->counters.strain_evaluations++;
         dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, J,
                                 &sigma[(size_t)i * (size_t)model_strains(m)], force);
@@ -141,7 +143,10 @@ static void geometric_of(const equations *eq, int i, const double sigma[], doubl
     const element_data *data = model_kind(m, el->kind)->data;
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, kinematics_rest(m), el, x);
-    ahead_strain(eq, i, x, &(strain_output){.J = J, .s = sigma, .H = H});
+    ahead_strain(
+        eq, i, x,
+        &(strain_output){
+            .J = J, .s = sigma, .H = H, .history = model_history_of(m, kinematics_rest(m), i)});
     if (model_type(m)->geometric != NULL)
         model_type(m)->geometric(data, sigma, G);
     else

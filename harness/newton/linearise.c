@@ -19,7 +19,7 @@ static status compatible_element(const equations *eq, model_state *s, int i)
     kinematics_gather(m, s, el, x);
     double *e = &s->e[(size_t)i * (size_t)model_strains(m)],
            *sigma = &s->sigma[(size_t)i * (size_t)model_strains(m)];
-    ahead_strain(eq, i, x, &(strain_output){.e = e});
+    ahead_strain(eq, i, x, &(strain_output){.e = e, .history = model_history_of(m, s, i)});
     free_strain_subtract(eq, i, s->path, e);
     eq->run->counters.strain_evaluations++;
     eq->run->counters.stress_evaluations++;
@@ -337,7 +337,8 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
             double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
                 force[ELEMENT_MAX_COORDINATES] = {0}, rho[3], moment[3];
             kinematics_gather(m, s, el, x);
-            model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
+            model_type(m)->strain(model_kind(m, el->kind)->data, x,
+                                  &(strain_output){.J = J, .history = model_history_of(m, s, i)});
             dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, J,
                                     &stress[(size_t)i * (size_t)model_strains(m)], force);
             rotating_frame_add(eq, x, i, s->path, force, NULL,
@@ -417,7 +418,9 @@ void linearise_add_internal(const equations *eq, const model_state *s, int eleme
         node_state x[ELEMENT_MAX_NODES];
         double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[MODEL_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, el, x);
-        model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
+        model_type(m)->strain(
+            model_kind(m, el->kind)->data, x,
+            &(strain_output){.J = J, .history = model_history_of(m, s, element[k])});
         dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, J,
                                 &s->sigma[(size_t)element[k] * (size_t)model_strains(m)], force);
         eliminate_forces(m, s, el, force);

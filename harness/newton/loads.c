@@ -185,7 +185,8 @@ void loads_add_temperature(const equations *eq, const model_state *s, const scen
                 STATUS_OK) /* this call cannot fail in an accepted state */
             continue;
         dense_mul_vec(model_strains(m), model_strains(m), C, e, sigma);
-        model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
+        model_type(m)->strain(model_kind(m, el->kind)->data, x,
+                              &(strain_output){.J = J, .history = model_history_of(m, s, i)});
         dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, J, sigma, force);
         eliminate_forces(m, s, el, force);
         assemble_vector(el, force, out);

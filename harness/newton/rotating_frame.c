@@ -208,7 +208,10 @@ static status add_element(const equations *eq, const model_state *state, int i, 
     double D[E], J[E * X], H[X * X], P[E], C[E * E], force[X] = {0}, along[X] = {0};
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, state, el, x);
-    model_type(m)->strain(data, x, &(strain_output){.e = D, .J = J, .s = sigma, .H = H});
+    model_type(m)->strain(
+        data, x,
+        &(strain_output){
+            .e = D, .J = J, .s = sigma, .H = H, .history = model_history_of(m, state, i)});
     free_strain_subtract(eq, i, path, D);
     const stress_output stresses = {.sigma = P, .C = C};
     status outcome;

@@ -180,7 +180,8 @@ status stiffness_parts_geometric(const equations *eq, const linear_memory *memor
         double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
             present[ELEMENT_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, el, x);
-        ahead_strain(eq, i, x, &(strain_output){.s = sigma, .H = H});
+        ahead_strain(eq, i, x,
+                     &(strain_output){.s = sigma, .H = H, .history = model_history_of(m, s, i)});
         eq->run->counters.strain_evaluations++;
         if (eq->loading.rotates) {
             outcome = rotating_frame_add(eq, x, i, s->path, present, H, f);

@@ -88,7 +88,9 @@ static status evaluate(const equations *eq, int i, double J[], double C[], doubl
     kinematics_gather(m, kinematics_rest(m), model_element(m, i), x);
     eq->run->counters.strain_evaluations++;
     eq->run->counters.stress_evaluations++;
-    ahead_strain(eq, i, x, &(strain_output){.e = e, .J = J});
+    ahead_strain(
+        eq, i, x,
+        &(strain_output){.e = e, .J = J, .history = model_history_of(m, kinematics_rest(m), i)});
     if (is_strained(m, i))
         return evaluate_strained(m, i, e, inner, C, initial);
     return ahead_stress(eq, i, model_kind_of(m, i)->data, e, inner, &(stress_output){.C = C});
@@ -357,7 +359,8 @@ void ahead_strains(const equations *eq, const model_state *s, int what, const do
         a->strain[i] = (strain_output){.e = what & AHEAD_E ? a->e + i * n : NULL,
                                        .J = what & AHEAD_J ? a->J + i * n * c : NULL,
                                        .s = what & AHEAD_H ? sigma + i * n : NULL,
-                                       .H = what & AHEAD_H ? a->H + i * c * c : NULL};
+                                       .H = what & AHEAD_H ? a->H + i * c * c : NULL,
+                                       .history = model_history_of(m, s, i)};
     }
     model_type(m)->strain_many(model_elements(m), a->data, a->x, a->strain);
     a->what = what;

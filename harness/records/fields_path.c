@@ -325,6 +325,10 @@ static void get_limits(const subject *s, field_value *out)
         {LIMIT_TENSION,
          "no element so long that its axial force makes its transverse stiffness indefinite"},
         {LIMIT_EIGHTH_TWIST, "less than an eighth of a turn of twist in an element"},
+        {LIMIT_NOT_OBJECTIVE, "strains that rigid rotations of a deformed element change; the "
+                              "error vanishes with more elements"},
+        {LIMIT_PATH_DEPENDENT, "strains that depend on the path that led to a state; the error "
+                               "vanishes with more elements"},
         {LIMIT_WARPING_RIGID, "no shear deformation due to warping: no closed cells that warp"},
         {LIMIT_FLAT_ARC, "the arc of a curved element rises by less than 2 radii of gyration of "
                          "its section (of a leaf: 0.58 thicknesses)"},

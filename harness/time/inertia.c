@@ -353,7 +353,9 @@ static double rounding_of(const model *m, const mesh_element *el, int index)
     double J[E * ELEMENT_MAX_COORDINATES], C[E * E], sum = 0;
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, kinematics_rest(m), el, x);
-    model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
+    model_type(m)->strain(
+        model_kind(m, el->kind)->data, x,
+        &(strain_output){.J = J, .history = model_history_of(m, kinematics_rest(m), index)});
     if (model_type(m)->stress(model_kind(m, el->kind)->data, kinematics_rest(m)->e + first,
                               kinematics_rest(m)->inner + (size_t)index * (size_t)model_inner(m),
                               &(stress_output){.C = C}) != STATUS_OK)

@@ -300,8 +300,23 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
     return STATUS_OK;
 }
 
+/* Energy and momenta are conserved only if strains depend on the state alone, and not on rigid
+ * rotations. */
+static status check_conserving(const analysis_context *c, int analysis, fault *f)
+{
+    const element_type *t = model_type(c->model);
+    if (scene_motion_of(&c->scene->analysis[analysis])->scheme != SCENE_CONSERVING ||
+        (model_history(c->model) == 0 && !(t->limits & LIMIT_NOT_OBJECTIVE)))
+        return STATUS_OK;
+    return fault_set(f, STATUS_REFUSED,
+                     "the integrator conserving requires strains that depend only on the state and "
+                     "not on rigid rotations, but %s %s; use the integrator alpha or radau",
+                     t->name, model_history(c->model) > 0 ? "has a history" : "is not objective");
+}
+
 status checks_of(const analysis_context *c, int analysis, fault *f)
 {
+    TRY(check_conserving(c, analysis, f));
     TRY(check_newton(c, scene_motion_of(&c->scene->analysis[analysis]), f));
     TRY(check_mass(c, analysis, f));
     TRY(forms_check(c->model, f));

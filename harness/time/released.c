@@ -272,7 +272,8 @@ status damping_matrix(const equations *eq, const model_state *s, double more, sp
         if (eta == 0)
             continue;
         kinematics_gather(m, s, el, x);
-        model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
+        model_type(m)->strain(model_kind(m, el->kind)->data, x,
+                              &(strain_output){.J = J, .history = model_history_of(m, s, i)});
         for (size_t k = 0; k < n * n; k++)
             S[k] = eta * d.stiffness[(size_t)el->kind * n * n + k];
         dense_add_congruence(model_strains(m), model_own_coordinates(m), J, S, A, work);
@@ -317,7 +318,8 @@ status damping_rates(const model *m, const model_state *s, const double v[], dou
         node_state x[ELEMENT_MAX_NODES];
         double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], local[ELEMENT_MAX_COORDINATES];
         kinematics_gather(m, s, model_element(m, i), x);
-        model_type(m)->strain(model_kind_of(m, i)->data, x, &(strain_output){.J = J});
+        model_type(m)->strain(model_kind_of(m, i)->data, x,
+                              &(strain_output){.J = J, .history = model_history_of(m, s, i)});
         kinematics_local(m, s, model_element(m, i), dx, local);
         dense_mul_vec(model_strains(m), model_own_coordinates(m), J, local,
                       rate + (size_t)i * (size_t)model_strains(m));

@@ -275,7 +275,8 @@ static void strains_of(const model *m, const model_state *at, int element, doubl
     double own[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, at, el, x);
-    model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = own});
+    model_type(m)->strain(model_kind(m, el->kind)->data, x,
+                          &(strain_output){.J = own, .history = model_history_of(m, at, element)});
     for (int k = 0; k < model_strains(m); k++) {
         double *row = J + k * el->columns;
         memset(row, 0, (size_t)el->columns * sizeof *row);

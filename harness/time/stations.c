@@ -199,6 +199,8 @@ static void blend_elements(const step_between *b, double s, model_state *at)
     blend(strains, s, from->e, to->e, at->e);
     blend(strains, s, from->sigma, to->sigma, at->sigma);
     blend(inner, s, from->inner, to->inner, at->inner);
+    memcpy(at->history, to->history,
+           (size_t)model_elements(m) * (size_t)model_history(m) * sizeof *at->history);
 }
 
 /* Sets positions and rates at a time [s] inside the step or near the step. */

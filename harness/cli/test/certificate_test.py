@@ -133,7 +133,7 @@ class Tables(Tested):
         text = self.forms()["markdown"]
         tables = [[line.count("|") for line in part.splitlines()]
                   for part in re.findall(r"(?:^\|.*\n)+", text, re.M)]
-        self.assertEqual(len(tables), 4)
+        self.assertEqual(len(tables), 5)
         for bars in tables:
             self.assertGreater(len(bars), 4)
             self.assertEqual(len(set(bars)), 1)
@@ -151,7 +151,7 @@ class Tables(Tested):
                 self.assertEqual(opened.pop(), name)
         self.assertEqual(opened, [])
         tables = re.findall(r"\\begin\{tabular\}\{(\S+)\}\n(.*?)\\end\{tabular\}", text, re.S)
-        self.assertEqual(len(tables), 4)
+        self.assertEqual(len(tables), 5)
         for columns, body in tables:
             columns = re.sub(r"p\{.*?\}", "p", columns)
             self.assertGreater(len(ROWS.findall(body)), 3)

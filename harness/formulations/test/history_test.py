@@ -1,0 +1,265 @@
+"""Histories of elements: committed at accepted steps and never at rejected ones, in every analysis."""
+import json
+import shutil
+import subprocess
+import sys
+
+from harness.cli.test.plugin import EXAMPLES, compile_shared
+from harness.tools.kit.program import ROOT, ProgramTest, broken
+
+BAR = """beamwork: 1
+sections: {s: {rectangle: {width: 0.02, thickness: 0.01}, young: 2e11, shear_modulus: 8e10, density: 8000}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], hold: [uy, uz, ry, rz]%s}}
+members: {ab: {from: a, to: b, section: s, y: [0, 1, 0]}}
+omit: [warping, trapeze, wagner_torque]
+"""
+DRIVEN, FREE = BAR % ", drive: {rx: turn}", BAR % ""
+BESIDE = BAR.replace(", b: {", ", c: {at: [0, 1, 0], hold: all}, d: {at: [1, 1, 0]}, b: {").replace(
+    "members: {", "members: {cd: {from: c, to: d, section: s, y: [0, 1, 0]}, ") % ", drive: {rx: turn}"
+TORQUE = "torque: {reaction: {analysis: run, node: b, component: rx, take: curve}, unit: N m}"
+TURN = "turn: {displacement: {analysis: run, node: b, component: rx, take: curve}, unit: rad}"
+# midpoint.c in Octave and Fortran: changes of timoshenko.m and timoshenko.f90
+OCTAVE = (("function e = strain(kind, r, u, R, a)", "function e = linear(kind, r, u, R, a)"),
+          ("function A = turned_back(R)", """function e = strain(kind, r, u, R, a, h)
+e = linear(kind, r, u, R, a);
+t = e(4, :) / kind.length;
+m = (t + h(1, :)) / 2;
+e(4, :) = kind.length * (h(2, :) + (t - h(1, :)) .* (1 + 10 * m .^ 2));
+end
+
+function h = commit(kind, r, u, R, a, h)
+of_strain = strain(kind, r, u, R, a, h)(4, :);
+h = [linear(kind, r, u, R, a)(4, :); of_strain] / kind.length;
+end
+
+function A = turned_back(R)"""),
+          ("'strain', @strain, 'strains', 6,", "'strain', @strain, 'strains', 6, 'history', 2, 'commit', @commit,"),
+          ("{'doubly symmetric'}", "{'doubly symmetric', 'path dependent'}"))
+FORTRAN = (("this%stress = c_funloc(stress)", """this%stress = c_funloc(stress)
+    this%history = c_funloc(history)
+    this%commit = c_funloc(commit)"""),
+           ("ior(limit_doubly_symmetric, ", "ior(limit_doubly_symmetric + limit_path_dependent, "),
+           ("    e(1) = e(1) - data%length\n  end subroutine", """    e(1) = e(1) - data%length
+    if (.not. c_associated(out%history)) return
+    call c_f_pointer(out%history, h, [2])
+    k = e(4) / data%length
+    e(4) = data%length * (h(2) + (k - h(1)) * (1 + 10 * ((k + h(1)) / 2)**2))
+  end subroutine
+
+  function history(options) bind(c, name="") result(count)
+    type(c_ptr), value :: options
+    integer(c_int) :: count
+    count = 2
+  end function
+
+  subroutine commit(data, x, h) bind(c, name="")
+    type(element_data), intent(in) :: data
+    type(node_state), intent(in) :: x(2)
+    real(c_double), intent(inout), target :: h(2)
+    real(c_double), target :: e(m), plain(m)
+    call strain(data, x, strain_output(c_loc(e), c_null_ptr, c_null_ptr, c_null_ptr, c_loc(h)))
+    call strain(data, x, strain_output(c_loc(plain), c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr))
+    h = [plain(4), e(4)] / data%length
+  end subroutine"""),
+           ("real(c_double), pointer :: e(:)\n    real(c_double) :: chord", """real(c_double), pointer :: e(:), h(:)
+    real(c_double) :: chord"""))
+RIGIDITY = 292.712582272 / 0.8  # [N m^2]: the linear torsion of timoshenko.c
+
+
+class Path:
+    """The bar of midpoint.c, with n elements, after accepted twists [rad]."""
+
+    def __init__(self, n=1):
+        self.n, self.twist, self.strain = n, 0, 0
+
+    def at(self, twist):
+        """Returns the strain of an element, and its first and second derivative, for a trial twist."""
+        step, m = twist / self.n - self.twist, (twist / self.n + self.twist) / 2
+        return self.strain + step * (1 + 10 * m * m), 1 + 10 * m * m + 10 * step * m, 20 * m + 5 * step
+
+    def torque(self, twist):
+        e, J, _ = self.at(twist)
+        return RIGIDITY * self.n * e * J
+
+    def stiffness(self, twist):
+        e, J, H = self.at(twist)
+        return RIGIDITY * (J * J + e * H)
+
+    def accept(self, twist):
+        self.strain, self.twist = self.at(twist)[0], twist / self.n
+
+    def under(self, torque):
+        """Returns the twist under a torque."""
+        low, high = self.n * self.twist, 2
+        for _ in range(100):
+            middle = (low + high) / 2
+            low, high = (middle, high) if self.torque(middle) < torque else (low, middle)
+        return low
+
+
+class History(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = compile_shared(ROOT / "harness/formulations/test/midpoint.c", cls.class_folder() / "midpoint.so")
+
+    def scene(self, text):
+        path = self.folder / "scene.yaml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def solved(self, text, *words, n=1):
+        """Returns the curves of a scene by quantity, and its record."""
+        done = self.answered("solve", self.scene(text), "--element", self.shared, "-n", n,
+                             *(words if "-f" in words else ("-f", "midpoint", *words)), "--format", "json")
+        record = json.loads(done.stdout)
+        return {c["quantity"]: dict(zip(c["curve_x"], c["curve_value"])) for c in record["curves"]}, record
+
+    def follows(self, torque, steps, twist_of, n=1, close=2e-6):
+        """Requires the torques at stations to be those of the path with these accepted steps."""
+        path, compared = Path(n), 0
+        for at in steps:
+            if at in torque:
+                compared += 1
+                self.assertAlmostEqual(torque[at] / path.torque(twist_of(at)), 1, delta=close)
+            path.accept(twist_of(at))
+        self.assertEqual(compared, len([at for at in torque if at > 0]))
+
+    def test_rejected_steps(self):
+        """Steps that are rejected leave nothing in the history; a station has that of the step that led to it."""
+        text = BESIDE + ("motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.8]}}\n"
+                         "loads: {pull: {force: [-30000, 20000, 8000], on: d}}\n"
+                         "analyses: {run: {static: {stations: 0..1/2}}}\n"
+                         f"quantities: {{{TORQUE}}}\n")
+        for n, words in ((4, ()), (4, ("--steps", 3)), (4, ("-f", "midpoint:newton=displacement")),
+                         (2, ("-f", "midpoint:newton=dense")), (4, ("--threads", 2))):
+            curves, record = self.solved(text, *words, n=n)
+            self.assertGreater(sum(s["rejected"] for s in record["steps"]), 0, words)
+            self.follows(curves["torque"], [s["path"] for s in record["steps"]], lambda at: 0.8 * at, n)
+
+    def test_loads_and_stiffness(self):
+        """The tangent of an accepted state is that of the step that led to it; continuation commits its steps, too."""
+        static = FREE + ("loads: {pull: {moment: [1000, 0, 0], on: b}}\n"
+                         "analyses: {run: {static: {stations: 0..1/4}}, at: {compliance: {node: b, about: run}}}\n"
+                         f"quantities: {{{TURN}, stiffness: "
+                         "{stiffness: {analysis: at, component: rx, take: curve}, unit: N m/rad}}\n")
+        continued = FREE + ("loads: {pull: {moment: [1000, 0, 0], on: b}, more: {force: [40000, 0, 0], on: b}}\n"
+                            "analyses: {run: {continuation: {control: {node: b, component: ux}, step: 0.25e-3,\n"
+                            "  to: [0.25e-3, 0.5e-3, 0.75e-3, 1e-3], constant: yes}}}\n"
+                            f"quantities: {{{TURN}}}\n")
+        curves, _ = self.solved(static)
+        beside, _ = self.solved(continued)
+        path = Path()
+        for part in (0.25, 0.5, 0.75, 1):
+            twist = path.under(1000 * part)
+            self.assertAlmostEqual(curves["turn"][part], twist, delta=1e-6)
+            self.assertAlmostEqual(beside["turn"][part * 1e-3], twist, delta=1e-6)
+            self.assertAlmostEqual(curves["stiffness"][part] / path.stiffness(twist), 1, delta=2e-5)
+            path.accept(twist)
+
+    def test_motions(self):
+        """Motions commit their steps, also if they continue another motion or begin from a static state."""
+        text = DRIVEN + ("motions: {turn: {unit: rad, time: 0.8*t^2}}\n"
+                         "analyses:\n"
+                         "  run: {motion: {stations: 0..1/4, integrator: INTEGRATOR, step: 0.25}}\n"
+                         "  first: {motion: {stations: [0, 0.5], integrator: INTEGRATOR, step: 0.25}}\n"
+                         "  second: {motion: {stations: [0.75, 1], integrator: INTEGRATOR, step: 0.25, about: first}}\n"
+                         f"quantities: {{{TORQUE}, {TORQUE.replace('run', 'second').replace('torque', 'then')}}}\n")
+        steps, twist_of = (0.25, 0.5, 0.75, 1), lambda time: 0.8 * time**2
+        for integrator in ("radau", "alpha", "explicit"):
+            curves, _ = self.solved(text.replace("INTEGRATOR", integrator))
+            self.follows(curves["torque"], steps, twist_of, close=1e-5)
+            for time in (0.75, 1):
+                self.assertAlmostEqual(curves["then"][time] / curves["torque"][time], 1, delta=1e-5)
+        # stations within a step are steps of their own, which leave nothing behind
+        curves, _ = self.solved(text.replace("INTEGRATOR", "radau").replace("0..1/4", "0..1/12"))
+        path = Path()
+        for k in range(1, 13):
+            time = k / 12
+            found = min(curves["torque"].items(), key=lambda one, time=time: abs(one[0] - time))[1]
+            self.assertAlmostEqual(found / path.torque(twist_of(time)), 1, delta=1e-4)
+            if k % 3 == 0:
+                path.accept(twist_of(time))
+
+    def test_as_without(self):
+        """An element whose history has no effect gives the results of the same element without one."""
+        text = (ROOT / "harness/formulations/test/midpoint.c").read_text(encoding="utf-8")
+        source = self.folder / "plain.c"
+        source.write_text(text.replace("1 + 10 * m * m", "1 + 0 * m"), encoding="utf-8")
+        mine = compile_shared(source, self.folder / "plain.so")
+        other = compile_shared(EXAMPLES / "timoshenko.c", self.folder / "timoshenko.so")
+        for case, words in (("release", ("--set", "time=0.05")), ("c_cantilever", ()), ("elastica", ())):
+            found = []
+            for file, name in ((mine, "midpoint"), (other, "timoshenko")):
+                done = self.answered("solve", case, "--element", file, "-f", name, "-n", 4, *words, "--format", "json")
+                found.append({q["quantity"]: q["value"] for q in json.loads(done.stdout)["quantities"]})
+            self.assertEqual(found[0].keys(), found[1].keys())
+            for name, value in found[1].items():
+                if value is not None:
+                    self.assertAlmostEqual(found[0][name], value, delta=1e-7 * abs(value), msg=(case, name))
+
+    def test_process(self):
+        """The example in Python gives the results of the example in C; so does a motion."""
+        scene = self.scene(FREE.replace("hold: [uy, uz, ry, rz]", "") + (
+            "loads: {pull: {force: [-20, 30, 60], on: b}, turn: {moment: [30, 0, 0], on: b}}\n"
+            "analyses: {run: {static: {stations: 0..1/3}}, go: {motion: {stations: [0.05], integrator: alpha, "
+            "step: 0.005}}}\n"
+            "quantities: {y: {displacement: {analysis: run, node: b, component: uy}},\n"
+            "  z: {displacement: {analysis: go, node: b, component: uz}}}\n").replace(", }", "}"))
+        shared = compile_shared(EXAMPLES / "incremental.c", self.folder / "incremental.so")
+        found = []
+        for file, name in ((shared, "incremental"),
+                           (f"exec:'{sys.executable}' '{EXAMPLES / 'incremental.py'}'", "incremental_py")):
+            done = self.answered("solve", scene, "--element", file, "-f", name, "-n", 3, "--format", "json")
+            record = json.loads(done.stdout)
+            found.append([q["value"] for q in record["quantities"]])
+            self.assertIn("path independence", json.dumps(record))
+        for one, other in zip(*found):
+            self.assertAlmostEqual(one / other, 1, delta=1e-6)
+
+    def changed(self, name, changes):
+        """Returns the path of an example with changes."""
+        text = (EXAMPLES / name).read_text(encoding="utf-8")
+        for before, after in changes:
+            self.assertIn(before, text)
+            text = text.replace(before, after, 1)
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def follows_in(self, element, name):
+        scene = self.scene(DRIVEN + ("motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.8]}}\n"
+                                     "analyses: {run: {static: {stations: 0..1/4}}}\n"
+                                     f"quantities: {{{TORQUE}}}\n"))
+        done = self.answered("solve", scene, "--element", element, "-f", name, "-n", 2, "--format", "json")
+        curve = json.loads(done.stdout)["curves"][0]
+        self.follows(dict(zip(curve["curve_x"], curve["curve_value"])), curve["curve_x"][1:], lambda at: 0.8 * at, 2)
+        done = self.answered("element-test", "--element", element, "--format", "json")
+        self.assertEqual(broken(json.loads(done.stdout)), [])
+
+    def test_octave(self):
+        if shutil.which("octave-cli") is None:
+            self.skipTest("needs octave-cli")
+        path = self.changed("timoshenko.m", OCTAVE)
+        shutil.copy(EXAMPLES / "beamwork_element.m", self.folder)
+        self.follows_in(f"exec:octave-cli -qf '{path}'", "timoshenko_m")
+
+    def test_fortran(self):
+        if shutil.which("gfortran") is None:
+            self.skipTest("needs gfortran")
+        path, made = self.changed("timoshenko.f90", FORTRAN), self.folder / "mine.so"
+        subprocess.run(["gfortran", "-O1", "-shared", "-fPIC", path, "-o", made], check=True, cwd=self.folder)
+        self.follows_in(made, "timoshenko_f90")
+
+    def test_refused(self):
+        """What requires strains of the state alone is refused, with a remedy."""
+        conserving = DRIVEN + ("motions: {turn: {unit: rad, time: t^2}}\n"
+                               "analyses: {run: {motion: {stations: [1], integrator: conserving, step: 0.1}}}\n"
+                               f"quantities: {{{TORQUE}}}\n")
+        warm = FREE.replace("density: 8000", "density: 8000, expansion: 1e-5") + (
+            "loads: {warm: {temperature: 30, on: ab}}\nanalyses: {run: {static: {stations: [1]}}}\n"
+            "quantities: {x: {displacement: {analysis: run, node: b, component: ux}}}\n")
+        for text, why in ((conserving, "use the integrator alpha or radau"), (warm, "use another formulation")):
+            done = self.answered("solve", self.scene(text), "--element", self.shared, "-f", "midpoint", code=2)
+            self.assertIn(why, done.stderr + done.stdout)
+            self.assertIn("has a history", done.stderr + done.stdout)
