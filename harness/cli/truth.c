@@ -7,13 +7,22 @@
 #include "cases/format/format.h"
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"
 
 typedef struct truth_request {
     case_options of;
     truths_options truths;
+    const char *format;
 } truth_request;
+
+/* A reference value. Words that do not apply are empty. */
+typedef struct shown_value {
+    const char *quantity, *formulation, *unit, *kind, *model, *theory, *source, *convention;
+    int elements; /* of the formulation; 0: any number */
+    double value, uncertainty;
+} shown_value;
 
 enum { NAME = 28, INDENT = 6 };
 
@@ -29,50 +38,92 @@ static void digits_of(double value, double uncertainty, char text[32])
 }
 
 /* Prints two lines: the value, and its source. */
-static void print_value(const char *quantity, double value, double uncertainty, const char *unit,
-                        const char *kind, const char *whose, const char *source, const char *note)
+static void print_value(const shown_value *v)
 {
-    const int name = printf("  %-*s", NAME, quantity);
+    char title[SCENE_NAME + FORMULATION_KEY + 16], digits[32], whose[2 * SCENE_NAME];
+    snprintf(title, sizeof title, v->elements > 0 ? "%s%s%s n=%d" : "%s%s%s", v->quantity,
+             v->formulation[0] != '\0' ? ", " : "", v->formulation, v->elements);
+    snprintf(whose, sizeof whose, "%s%s%s", v->model, v->theory[0] != '\0' ? ", " : "", v->theory);
+    const int name = printf("  %-*s", NAME, title);
     if (name > NAME + 2)
         printf("\n%*s", NAME + 2, "");
-    char digits[32];
-    digits_of(value, uncertainty, digits);
-    printf(" %24s +- %-8.1e %-8s %-13s %s\n", digits, uncertainty, unit, kind, whose);
-    paragraph_say(stdout, 0, INDENT, "%s%s%s", source, note[0] != '\0' ? "; " : "", note);
+    digits_of(v->value, v->uncertainty, digits);
+    printf(" %24s +- %-8.1e %-8s %-13s %s\n", digits, v->uncertainty, v->unit, v->kind, whose);
+    paragraph_say(stdout, 0, INDENT, "%s%s%s", v->source, v->convention[0] != '\0' ? "; " : "",
+                  v->convention);
 }
 
-/* Prints the stored rows of this point. Returns the number of rows for the continuum and the same
+/* Prints the value or, if there is a list, appends it to the list. */
+static void show(json_t *list, const shown_value *v)
+{
+    if (list == NULL) {
+        print_value(v);
+        return;
+    }
+    json_array_append_new(list,
+                          json_pack("{s:s,s:s,s:i,s:f,s:f,s:s,s:s,s:s,s:s,s:s,s:s}", "quantity",
+                                    v->quantity, "formulation", v->formulation, "elements",
+                                    v->elements, "value", v->value, "uncertainty", v->uncertainty,
+                                    "unit", v->unit, "kind", v->kind, "model", v->model, "theory",
+                                    v->theory, "source", v->source, "convention", v->convention));
+}
+
+static shown_value stored_value(const truth *row, int theory)
+{
+    return (shown_value){.quantity = row->quantity,
+                         .formulation = row->formulation,
+                         .unit = row->unit,
+                         .kind = row->kind,
+                         .model = row->model,
+                         .theory = theory ? row->theory : "",
+                         .source = row->source,
+                         .convention = row->convention,
+                         .elements = row->elements,
+                         .value = row->value,
+                         .uncertainty = row->uncertainty};
+}
+
+static shown_value derived_as(const derived_value *v)
+{
+    return (shown_value){.quantity = v->quantity,
+                         .formulation = "",
+                         .unit = v->unit,
+                         .kind = "exact",
+                         .model = "same",
+                         .theory = "",
+                         .source = v->source,
+                         .convention = v->convention,
+                         .value = v->value,
+                         .uncertainty = v->uncertainty};
+}
+
+/* Shows the stored rows of this point. Returns the number of rows for the continuum and the same
  * model. */
-static int print_stored(const truths *t, const case_type *type, const double parameter[])
+static int show_stored(json_t *list, const truths *t, const case_type *type,
+                       const double parameter[])
 {
     int continuum = 0, discrete = 0;
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
         if (row->formulation[0] != '\0' || !truth_holds(row, type, parameter))
             continue;
-        char whose[2 * SCENE_NAME];
-        snprintf(whose, sizeof whose, "%s%s%s", row->model, row->theory[0] != '\0' ? ", " : "",
-                 row->theory);
-        print_value(row->quantity, row->value, row->uncertainty, row->unit, row->kind, whose,
-                    row->source, row->convention);
+        const shown_value v = stored_value(row, 1);
+        show(list, &v);
         continuum += strcmp(row->model, "same") == 0;
     }
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
         if (row->formulation[0] == '\0' || !truth_holds(row, type, parameter))
             continue;
-        if (discrete++ == 0)
+        if (discrete++ == 0 && list == NULL)
             printf("of one formulation\n");
-        char name[SCENE_NAME + FORMULATION_KEY + 16];
-        snprintf(name, sizeof name, row->elements > 0 ? "%s, %s n=%d" : "%s, %s", row->quantity,
-                 row->formulation, row->elements);
-        print_value(name, row->value, row->uncertainty, row->unit, row->kind, row->model,
-                    row->source, row->convention);
+        const shown_value v = stored_value(row, list != NULL);
+        show(list, &v);
     }
     return continuum;
 }
 
-static status print_derived(const case_type *type, const double parameter[], fault *f)
+static status show_derived(json_t *list, const case_type *type, const double parameter[], fault *f)
 {
     char script[PATH_MAX], text[PARAMETERS_TEXT];
     derived_value *value;
@@ -86,9 +137,10 @@ static status print_derived(const case_type *type, const double parameter[], fau
     TRY(derive_script("at.py", script, f));
     parameters_source_text(type, parameter, text, sizeof text);
     const status outcome = derive_values(script, type->name, text, &value, &count, f);
-    for (int i = 0; i < count; i++)
-        print_value(value[i].quantity, value[i].value, value[i].uncertainty, value[i].unit, "exact",
-                    "same", value[i].source, value[i].convention);
+    for (int i = 0; i < count; i++) {
+        const shown_value v = derived_as(&value[i]);
+        show(list, &v);
+    }
     free(value);
     return outcome;
 }
@@ -123,8 +175,9 @@ static void print_line(const derived_value *v, const case_type *type, const doub
     printf("}\n");
 }
 
-/* Prints the values. The caller, print_scene, closes the file, even after a failure. */
-static status print_scene_of(const case_type *type, const double parameter[], FILE *text, fault *f)
+/* Shows the values. The caller, show_scene, closes the file, also after a failure. */
+static status show_scene_of(json_t *list, const case_type *type, const double parameter[],
+                            FILE *text, fault *f)
 {
     char script[PATH_MAX];
     scene s = {0};
@@ -138,21 +191,27 @@ static status print_scene_of(const case_type *type, const double parameter[], FI
     scene_free(&s);
     TRY(outcome);
     TRY(derive_scene(script, text, &value, &count, f));
-    printf("derived values, as lines for the scene file\ntruths:\n");
-    for (int i = 0; i < count; i++)
-        print_line(&value[i], type, parameter);
+    if (list == NULL)
+        printf("derived values, as lines for the scene file\ntruths:\n");
+    for (int i = 0; i < count; i++) {
+        const shown_value v = derived_as(&value[i]);
+        if (list != NULL)
+            show(list, &v);
+        else
+            print_line(&value[i], type, parameter);
+    }
     free(value);
     return STATUS_OK;
 }
 
-/* Prints the reference values of a scene file, which are computed for a network of members and
+/* Shows the reference values of a scene file, which are computed for a network of members and
  * bodies. */
-static status print_scene(const case_type *type, const double parameter[], fault *f)
+static status show_scene(json_t *list, const case_type *type, const double parameter[], fault *f)
 {
     FILE *text = tmpfile();
     if (text == NULL)
         return fault_set(f, STATUS_FAULT, "no temporary file for the scene");
-    const status outcome = print_scene_of(type, parameter, text, f);
+    const status outcome = show_scene_of(list, type, parameter, text, f);
     fclose(text);
     if (outcome != STATUS_REFUSED)
         return outcome;
@@ -162,6 +221,34 @@ static status print_scene(const case_type *type, const double parameter[], fault
         "%.140s; give `truths` of the scene, numbers or formulas with their source, or "
         "compare formulations: 'beamwork converge --scene FILE' looks for an agreement",
         why.text);
+}
+
+/* Shows stored values and, where there are none, derived ones. */
+static status show_all(const truth_request *r, const case_type *type, const truths *t, json_t *list,
+                       fault *f)
+{
+    const int stored = show_stored(list, t, type, r->of.parameter);
+    fflush(stdout);
+    if (r->of.scene == NULL)
+        return stored > 0 ? STATUS_OK : show_derived(list, type, r->of.parameter, f);
+    const status outcome = show_scene(list, type, r->of.parameter, f);
+    if (stored == 0 || outcome != STATUS_REFUSED)
+        return outcome;
+    fprintf(stderr, "beamwork: %s\n", f->text);
+    return STATUS_OK;
+}
+
+static status show_json(const truth_request *r, const case_type *type, const truths *t,
+                        const char *parameters, fault *f)
+{
+    json_t *list = json_array();
+    const status outcome = show_all(r, type, t, list, f);
+    if (outcome == STATUS_OK)
+        return json_finish(json_pack("{s:i,s:s,s:s,s:o}", "schema_version", SCHEMA_VERSION, "case",
+                                     type->name, "parameters", parameters, "values", list),
+                           stdout, f);
+    json_decref(list);
+    return outcome;
 }
 
 static int answer(const command_line *l, void *request)
@@ -174,28 +261,26 @@ static int answer(const command_line *l, void *request)
     const case_type *type = case_input_find(&r->of);
     if (type == NULL)
         return r->of.refusal;
+    if (r->format[0] == 'c')
+        return message_fail(STATUS_REFUSED, "truth is written as text or json");
     status outcome = case_input_truths(&r->of, &r->truths, &t, &f);
     if (outcome != STATUS_OK)
         return message_fail(outcome, f.text);
     parameters_text(type, r->of.parameter, text, sizeof text);
-    printf("%s%s%s\n", type->name, text[0] != '\0' ? ": " : "", text);
-    const int stored = print_stored(&t, type, r->of.parameter);
-    fflush(stdout);
-    if (r->of.scene != NULL)
-        outcome = print_scene(type, r->of.parameter, &f);
-    if (r->of.scene != NULL && stored > 0 && outcome == STATUS_REFUSED) {
-        fprintf(stderr, "beamwork: %s\n", f.text);
-        outcome = STATUS_OK;
+    if (r->format[0] == 'j') {
+        outcome = show_json(r, type, &t, text, &f);
+    } else {
+        printf("%s%s%s\n", type->name, text[0] != '\0' ? ": " : "", text);
+        outcome = show_all(r, type, &t, NULL, &f);
     }
-    if (r->of.scene == NULL && stored == 0)
-        outcome = print_derived(type, r->of.parameter, &f);
     truths_free(&t);
     const int code = message_exit(outcome, &f);
     return code == EXIT_REFUSED ? EXIT_DIFFERS : code;
 }
 
 #define IN(at) .member = offsetof(truth_request, at)
-static const verb_group shared[] = {SHARED(case, of), SHARED(own_truths, truths), {NULL, 0}};
+static const verb_group shared[] = {
+    SHARED(case, of), SHARED(own_truths, truths), SHARED(format, format), {NULL, 0}};
 const verb verb_truth = {
     "truth",
     "CASE",

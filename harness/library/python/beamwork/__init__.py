@@ -15,6 +15,10 @@ Each exception is one line with the cause and the remedy. Error is the base clas
 of a scene with file, line and column), NotConverged, Singular, NoValue, TimeLimit and Fault. error.result contains
 partial results. Arguments of a wrong type raise TypeError.
 
+Every verb of the program has a function: sweep, bench, stress, motion, element_test, truth, compare, merge, plot, export,
+import_, explain, list_, schema and verify; solve, converge and scene are Scene.solve, Scene.converge and Scene.write.
+They return the data that the program writes as JSON (Document) or CSV (Records).
+
 The library is libbeamwork.so.0. It is searched for in BEAMWORK_LIBRARY, next to this module, in lib of the prefix or
 build of the clone that contains this module, next to the program, and where the system looks (beamwork.path).
 
@@ -22,6 +26,7 @@ Threads: other threads run while the library computes; one scene computes one th
 processes in which converge and verify compute, and raises KeyboardInterrupt; a solution runs to its end first.
 """
 import json as _json
+import os as _os
 
 from .arguments import required as _required
 from .errors import (Error, Fault, Mistake, NotConverged, NoValue, Refused, Singular, TimeLimit)
@@ -29,15 +34,21 @@ from .library import call as _call
 from .library import path, version
 from .library import text_of as _text_of
 from .outline import outline
-from .records import Convergence, Records, Verdicts
+from .program import LOADED as _LOADED
+from .program import program
+from .records import Convergence, Document, Records, Verdicts
 from .result import Curve, Result, Shapes
 from .scene import Scene
 from .scene import verified as _verified
+from .verbs import (Comparison, bench, compare, element_test, explain, export, import_, list_, merge, motion, plot,
+                    schema, stress, sweep, truth)
 
 __version__ = version
-__all__ = ["Convergence", "Curve", "Error", "Fault", "Mistake", "NoValue", "NotConverged",
-           "Records", "Refused", "Result", "Scene", "Shapes", "Singular", "TimeLimit", "Verdicts",
-           "cases", "formulations", "load", "outline", "path", "truths", "verify", "version"]
+__all__ = ["Comparison", "Convergence", "Curve", "Document", "Error", "Fault", "Mistake", "NoValue",
+           "NotConverged", "Records", "Refused", "Result", "Scene", "Shapes", "Singular", "TimeLimit",
+           "Verdicts", "bench", "cases", "compare", "element_test", "explain", "export", "formulations",
+           "import_", "list_", "load", "merge", "motion", "outline", "path", "plot", "program", "schema",
+           "stress", "sweep", "truth", "truths", "verify", "version"]
 
 
 def _listed(what):
@@ -58,7 +69,9 @@ def load(element):
     """Loads your formulation, "./mine.so" or "exec:python3 my_beam.py", and returns its name. The formulation remains
     loaded until the process ends. A shared object runs inside the process. If it crashes in solve, Python crashes as
     well."""
-    return _text_of("formulation_load", _required(element, "element"))
+    name = _text_of("formulation_load", _required(element, "element"))
+    _LOADED[name] = _os.fspath(element)
+    return name
 
 
 def truths(path):
@@ -70,9 +83,9 @@ def verify(*formulations, select=None, results=None, **options):
     """Computes the verdicts of formulations (none named: all) on the built-in cases.
 
     select: words with and, or, not, such as "c_column and not beamw_first"; None: all, which takes minutes.
-    results: an HDF5 file to write.
+    results: an HDF5 file to write. progress: a function of (done, of, share, what).
     options: tolerance (relative; replaces the tolerances of the cases), not_worse_than (results of a previous run:
     larger errors of meshes and changed limits fail), jobs, time_limit [s] of a run, refine (number of additional meshes
     of each series, each with twice the elements), shapes, stop (a file descriptor: when it becomes readable, the work
-    ends with TimeLimit)."""
+    ends with TimeLimit), and those of `beamwork help verify`, with _ for -, such as imported="theirs.h5"."""
     return _verified(None, formulations, select, results, options)

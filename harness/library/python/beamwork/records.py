@@ -36,6 +36,34 @@ class Records(list):
         return display.table(keys, ([display.plain(r.get(k)) for k in keys] for r in self))
 
 
+class Document(dict):
+    """What a verb writes as JSON: a dict in which lists of records are Records; these are its tables.
+
+    tables: {name: Records}.  status: exit status of the program.  passed: it is 0, everything is as expected."""
+
+    def __init__(self, document, status=0):
+        super().__init__({key: Records(value) if isinstance(value, list) and all(
+            isinstance(one, dict) for one in value) else value for key, value in document.items()})
+        self.status, self.passed = status, status == 0
+
+    @property
+    def tables(self):
+        return {key: value for key, value in self.items() if isinstance(value, Records)}
+
+    def frame(self, table=None):
+        """Returns a table as a pandas.DataFrame; None: the longest one."""
+        tables = self.tables
+        if table is None:
+            table = max(tables, key=lambda name: len(tables[name]))
+        if table not in tables:
+            raise KeyError(f"no table {table!r}: {', '.join(tables)}")
+        return tables[table].frame()
+
+    def _repr_html_(self):
+        return "".join(display.folded(f"{name}: {len(table)} records", table._repr_html_())
+                       for name, table in self.tables.items())
+
+
 class Convergence(Records):
     """Runs of all formulations and meshes: a record for each quantity of each run.
 

@@ -14,8 +14,16 @@ from .result import Result
 from .writing import ENTRIES, HEAD, LISTS, number, scene_text
 
 
-def verified(scene, formulations, select, results, options, lines=()):
-    """Returns the verdicts that the library computes. scene: pointer to the scene; None: all built-in cases."""
+# Options of verify in the library; with others, and to see the progress, the program computes.
+_OF_LIBRARY = {"tolerance", "not_worse_than", "jobs", "time_limit", "refine", "shapes", "stop"}
+
+
+def verified(scene, formulations, select, results, options, lines=(), case=None):
+    """Returns the verdicts that the library computes. scene: its pointer, or None for all built-in cases; case: the
+    scene, for the program."""
+    if not _OF_LIBRARY.issuperset(options):
+        from .verbs import verified_by_program  # pylint: disable=import-outside-toplevel,cyclic-import
+        return verified_by_program(case, formulations, select=select, output=results, **options)
     chosen, words = arguments.names(formulations, "formulation"), utf8(select, "select")
     into = utf8(results, "results")
     return Verdicts(json.loads(stoppable(
@@ -45,19 +53,20 @@ class Scene:
     Invalid entries raise Refused with all errors together (error.mistakes). Threads that share a scene wait for each
     other."""
     __slots__ = ("summary", "source", "plane", "_name", "_make", "_written", "_entries", "_values",
-                 "_handle", "_lines", "_lock", "__weakref__")
+                 "_handle", "_lines", "_lock", "_origin", "__weakref__")
 
     def __init__(self, name="scene", *, summary="", source="", plane=""):
         self._name, self.summary, self.source, self.plane = name, summary, source, plane
+        self._origin = None
         self._make = None  # for scenes that are not built from dicts: the function that creates the handle
         self._entries = {key: [] if key in LISTS else {} for key in ENTRIES}
         self._values, self._written, self._handle, self._lines = {}, None, None, ()
         self._lock = threading.RLock()
 
     @classmethod
-    def _made(cls, name, make):
+    def _made(cls, name, make, origin):
         scene = cls(name)
-        scene._make = make
+        scene._make, scene._origin = make, origin
         scene._ready()
         return scene
 
@@ -65,20 +74,22 @@ class Scene:
     def case(cls, name):
         """Makes a scene from a built-in case (see beamwork.cases())."""
         raw = required(name, "case")
-        return cls._made(name, lambda: owned_by("scene", "scene_case", raw))
+        return cls._made(name, lambda: owned_by("scene", "scene_case", raw), ("case", name))
 
     @classmethod
     def open(cls, path):
         """Reads a scene file in its present state."""
         raw = required(path, "path")
-        return cls._made(os.fspath(path), lambda: owned_by("scene", "scene_open", raw))
+        return cls._made(os.fspath(path), lambda: owned_by("scene", "scene_open", raw),
+                         ("file", os.fspath(path)))
 
     @classmethod
     def text(cls, text, name="scene"):
         """Reads the text of a scene file. name: its name in error messages."""
         content, label = required(text, "text"), required(name, "name")
         return cls._made(name,
-                         lambda: owned_by("scene", "scene_read", content, len(content), label))
+                         lambda: owned_by("scene", "scene_read", content, len(content), label),
+                         ("text", text))
 
     def __getattr__(self, key):
         if key not in ENTRIES:
@@ -143,6 +154,15 @@ class Scene:
                 raise
         return self
 
+    def origin(self):
+        """Returns where the scene comes from, for the program: "case", "file" or "text", its name, path or text, and
+        {name: value} of the values that were set."""
+        with self._lock:
+            self._ready()
+            kind, where = self._origin or ("text", self._written)
+            values = (raw.decode().partition("=") for raw in self._values.values())
+            return kind, where, {name: value for name, _, value in values}
+
     @property
     def about(self):
         """Returns the description, as `beamwork list CASE --format json`: a dict of case, summary, source and
@@ -184,12 +204,16 @@ class Scene:
                     error.result, error.partial = Result(error.partial), None
                 raise
 
-    def converge(self, *formulations, meshes=None, **options):
+    def converge(self, *formulations, meshes=None, progress=None, **options):
         """Returns the Convergence of formulations (none named: all that support the scene) over meshes (None: those of
         the scene): errors, limits with their uncertainty, orders, and the formulations ranked by cost.
 
+        progress: a function of (done, of, share, what) that is called at least once a second.
         options: error (0.01: the error target of `answers`), select ("C_zz or C_xx"), jobs (processes), stop (a file
         descriptor: when it becomes readable, the call raises TimeLimit)."""
+        if progress is not None:
+            from .verbs import converged_by_program  # pylint: disable=import-outside-toplevel,cyclic-import
+            return converged_by_program(self, formulations, meshes, progress, options)
         chosen = arguments.names(formulations, "formulation")
         sizes = arguments.whole_list(meshes, "meshes")
         with self._lock:
@@ -202,7 +226,7 @@ class Scene:
         """Returns the Verdicts on formulations for this scene, from its reference values (see beamwork.verify)."""
         with self._lock:
             return verified(self._ready().pointer, formulations, select, results, options,
-                            self._lines)
+                            self._lines, self)
 
     def copy(self):
         """Returns a copy with the same entries and values."""
@@ -213,6 +237,7 @@ class Scene:
     def __deepcopy__(self, memo):
         made = Scene(self._name, summary=self.summary, source=self.source, plane=self.plane)
         made._make, made._values = self._make, dict(self._values)
+        made._origin = self._origin
         made._entries = copy.deepcopy(self._entries, memo)
         return made
 
