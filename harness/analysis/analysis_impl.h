@@ -495,6 +495,12 @@ struct harmonic_modes {
     double complex *y, *inverse, *half; /* [count]; [kept x kept] */
     double *work;                       /* [2 n] */
     double w, positive; /* circular frequency w; positive: lower bound of the real part at w */
+    /* loops of feedback: [(count + loops)^2] factored matrix; work space */
+    double complex *closed, *closing;
+    int *closed_pivot;
+    double *loop_parts;        /* [loops x 2 x count] V^T P and V^T S */
+    double *balance;           /* [loops x 2] scales of rows and columns */
+    double *felt, *lag, damps; /* [loops] |P| and q; 1 - |P| q: see harmonic_closed.c */
 };
 
 /* Extracts the free blocks of K, M, C and B. */
@@ -529,6 +535,28 @@ void harmonic_modes_solve(vibration *, double complex f[], double complex x[]);
  * no bound is known. */
 double harmonic_modes_bound(vibration *, const double complex left_of_f[],
                             const double complex left_of_o[]);
+/* Returns the norm of a residual r[free], sqrt(r^H K^-1 r). */
+double harmonic_modes_left(vibration *, const double complex r[]);
+/* Returns NOT_CONVERGED: more modes are needed for a bound. */
+status harmonic_modes_few(const vibration *, fault *);
+
+/* Modes with closed loops (harmonic_closed.c). Without loops, harmonic_closed_alloc does nothing.
+ */
+
+status harmonic_closed_alloc(vibration *, fault *);
+/* Factors the matrix of the modes and loops from the scaled D. SINGULAR: as in a direct solution.
+ */
+status harmonic_closed_factor(vibration *, fault *);
+/* Prepares error bounds, with the factored D. NOT_CONVERGED: no bound is known. */
+status harmonic_closed_judge(vibration *, fault *);
+/* f[free]: forces. x[all + loops] contains the right-hand sides b of the loops on entry, and the
+ * solution and the factors of the loops on return. */
+void harmonic_closed_solve(vibration *, const double complex f[], double complex x[]);
+/* Like harmonic_modes_bound, with the factors u[loops], and the residual of the output with its
+ * coefficients of u, output[all + loops], and its solution dual[free] without loops. */
+double harmonic_closed_bound(vibration *, const double complex left_of_f[],
+                             const double complex u[], const double complex output[],
+                             const double complex dual[]);
 
 status harmonic_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Computes the matrices about the state in all coordinates, and finds the closed loops. */

@@ -76,7 +76,10 @@ static void solve_by_modes(vibration *v, const scene_response *r, double w, doub
         for (size_t i = 0; i < (size_t)more; i++)
             for (size_t k = 0; k < n; k++)
                 left[k] += I * w * v->x[i] * U[i * n + k];
-    harmonic_modes_solve(v, left, x);
+    if (v->loops > 0)
+        harmonic_closed_solve(v, left, x);
+    if (v->loops == 0 || !v->modes->complete) /* the bound needs the residual without loops */
+        harmonic_modes_solve(v, left, v->loops > 0 ? v->dual : x);
 }
 
 /* Solves for the input of a quantity. */
@@ -159,9 +162,15 @@ static void read_quantity(vibration *v, int quantity, double w, double *value, d
     *value = part_of(r, z);
     *bound = 0;
     if (s->analysis[v->analysis].by_modes && s->analysis[v->analysis].modes > 0) {
+        const double complex *left = v->left + (size_t)quantity * n,
+                             *u = v->found + (size_t)quantity * all + v->all;
+        if (v->loops > 0 && v->modes->complete)
+            return;
         harmonic_modes_solve(v, v->output, v->dual);
-        *bound = bound_of(
-            r, z, cabs(times) * harmonic_modes_bound(v, v->left + (size_t)quantity * n, v->output));
+        *bound = bound_of(r, z,
+                          cabs(times) * (v->loops > 0
+                                             ? harmonic_closed_bound(v, left, u, v->output, v->dual)
+                                             : harmonic_modes_bound(v, left, v->output)));
     }
 }
 
@@ -252,7 +261,8 @@ static status find_modes_of(vibration *v, fault *f)
     if (!a->by_modes)
         return STATUS_OK;
     const size_t n = (size_t)v->free;
-    double *loads = calloc((size_t)s->quantities * HARMONIC_SHAPES * n + 1, sizeof *loads);
+    double *loads = calloc(((size_t)s->quantities * HARMONIC_SHAPES + 2 * (size_t)v->loops) * n + 1,
+                           sizeof *loads);
     if (loads == NULL)
         return no_memory(f);
     int count = 0;
@@ -260,6 +270,10 @@ static status find_modes_of(vibration *v, fault *f)
         if (scene_asks(&s->quantity[i], v->analysis, SCENE_RESPONSE))
             count +=
                 harmonic_shapes(v, &s->quantity[i].what.of.response, loads + (size_t)count * n);
+    for (int l = 0; l < v->loops; l++) {
+        memcpy(loads + (size_t)count++ * n, v->loop[l].push, n * sizeof *loads);
+        memcpy(loads + (size_t)count++ * n, v->loop[l].measured, n * sizeof *loads);
+    }
     const status outcome = harmonic_modes_project(v, count, loads, f);
     free(loads);
     return outcome;

@@ -23,9 +23,11 @@ void harmonic_modes_free(harmonic_modes *m)
         return;
     sparse *const matrix[] = {&m->K, &m->M, &m->C, &m->B};
     void *const block[] = {
-        m->square, m->V,           m->U,           m->carried,     m->Kp,   m->Mp,    m->Cp,
-        m->Bp,     m->coupling[0], m->coupling[1], m->coupling[2], m->D,    m->entry, m->scale,
-        m->pivot,  m->y,           m->inverse,     m->half,        m->work, m->of,    m};
+        m->square, m->V,     m->U,           m->carried,     m->Kp,           m->Mp,
+        m->Cp,     m->Bp,    m->coupling[0], m->coupling[1], m->coupling[2],  m->D,
+        m->entry,  m->scale, m->pivot,       m->y,           m->inverse,      m->half,
+        m->work,   m->of,    m->closed,      m->closing,     m->closed_pivot, m->loop_parts,
+        m};
     factor_free(m->factor);
     for (size_t i = 0; i < sizeof matrix / sizeof matrix[0]; i++)
         sparse_free_values(matrix[i]);
@@ -61,6 +63,9 @@ static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
                      factor_count(m->factor).negative_pivots < 0
                          ? "undamped modes require a symmetric stiffness, but follower loads or "
                            "springs make it unsymmetric; remove 'solution' and 'ratios'"
+                     : v->loops > 0
+                         ? "the state is unstable without its loops of feedback, so it has "
+                           "no undamped modes; remove 'solution' and 'ratios'"
                          : "the state is unstable, so there are no steady vibrations about it");
 }
 
@@ -221,11 +226,6 @@ status harmonic_modes_lowest(vibration *v, harmonic_modes *m, int wanted, fault 
 static status check_damping(const vibration *v, fault *f)
 {
     const scene *s = v->c->scene;
-    if (v->loops > 0 && s->analysis[v->analysis].by_modes)
-        return fault_set(f, STATUS_REFUSED,
-                         "a solution by modes needs symmetric matrices, and the loop of %s "
-                         "(feedback) is unsymmetric; remove 'solution', or add loops: open",
-                         scene_called(s, SCENE_LOADS, v->loop[0].load).text);
     for (int i = 0; i < s->springs && s->analysis[v->analysis].by_modes; i++)
         if (scene_spring_gyrates(&s->spring[i]))
             return fault_set(f, STATUS_REFUSED,

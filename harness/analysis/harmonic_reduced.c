@@ -210,7 +210,7 @@ status harmonic_modes_project(vibration *v, int count, const double f[], fault *
     const status outcome = enough ? project_all(v, m, X, f_) : no_memory(f_);
     free(X[0]);
     free(X[1]);
-    return outcome;
+    return outcome == STATUS_OK ? harmonic_closed_alloc(v, f_) : outcome;
 }
 
 /* Returns entry k of D of the projected matrices. */
@@ -273,6 +273,14 @@ static double positive_part(vibration *v, harmonic_modes *m, double w)
     return beyond > 0 ? beyond - coupled(v, m, w) : beyond;
 }
 
+status harmonic_modes_few(const vibration *v, fault *f)
+{
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "at %g Hz the first %d modes give no error bound; use more modes, up to "
+                     "well above this frequency, or remove solution: modal",
+                     v->modes->w / (2 * PI), v->modes->kept);
+}
+
 status harmonic_modes_factor(vibration *v, double w, fault *f)
 {
     harmonic_modes *m = v->modes;
@@ -288,10 +296,11 @@ status harmonic_modes_factor(vibration *v, double w, fault *f)
             m->D[i * count + j] = m->scale[i] * m->scale[j] * projected(v, m, w, i * count + j);
     m->positive = m->complete ? 1 : positive_part(v, m, w);
     if (!(m->positive > 0))
-        return fault_set(f, STATUS_NOT_CONVERGED,
-                         "at %g Hz the first %d modes give no error bound; use more modes, up to "
-                         "well above this frequency, or remove solution: modal",
-                         w / (2 * PI), m->kept);
+        return harmonic_modes_few(v, f);
+    if (v->loops > 0)
+        TRY(harmonic_closed_factor(v, f));
+    if (v->loops > 0 && m->complete)
+        return STATUS_OK;
     v->c->run->counters.dense_operations += (double)count * (double)count * (double)count;
     if (size == 0)
         return STATUS_OK;
@@ -300,7 +309,9 @@ status harmonic_modes_factor(vibration *v, double w, fault *f)
     const int info = LAPACKE_zgetrf(LAPACK_ROW_MAJOR, size, size, m->D, size, m->pivot);
     if (info == 0)
         LAPACKE_zgecon(LAPACK_ROW_MAJOR, '1', size, m->D, size, norm, &condition);
-    return condition > 1e-14 ? STATUS_OK : fault_set(f, STATUS_SINGULAR, "a mode has no damping");
+    if (!(condition > 1e-14))
+        return fault_set(f, STATUS_SINGULAR, "a mode has no damping");
+    return v->loops > 0 ? harmonic_closed_judge(v, f) : STATUS_OK;
 }
 
 /* Subtracts D x from y. */
@@ -362,4 +373,9 @@ double harmonic_modes_bound(vibration *v, const double complex left_of_f[],
 {
     const harmonic_modes *m = v->modes;
     return m->complete ? 0 : sqrt(size_of(v, left_of_f) * size_of(v, left_of_o)) / m->positive;
+}
+
+double harmonic_modes_left(vibration *v, const double complex r[])
+{
+    return sqrt(size_of(v, r));
 }

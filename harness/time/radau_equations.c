@@ -555,7 +555,7 @@ static void add_element(radau *r, int element, double h, int i)
         if (i == k)
             spread_times(m, &p, p.place, place, K);
         spread_rows(&p, K);
-        spread_swing(m, &p, rates[0].plain, i == k, K);
+        spread_swing(m, &p, r->B[STAGES * i + k] / h, i == k, K);
         stages_add_element(&r->S, i, k, assemble_of(r->of.c->run->patterns, &r->K), element, K);
     }
 }

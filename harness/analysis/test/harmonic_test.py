@@ -254,6 +254,27 @@ class ByModesTest(ProgramTest):
         for damping in (", modes: 5, damping: {ratio: 0.02}", ", modes: 5, damping: {ratios: [0.1], mass: 2}"):
             self.close(lambda k: text(damping + k), ", solution: modal", most=1e-4, least=1e-9)
 
+    def test_loops(self):
+        """Closed loops of feedback, with all modes and with few; also undamped, with an integral, and with a loop that
+        drives a component that it does not measure."""
+        acts = "path: [0, 1], factor: [0, 0], feedback: {node: tip, component:"
+        for loops, commanded in ((f"servo: {{force: [0, 1, 0], on: tip, {acts} uy, proportional: 2000, derivative: 20, integral: 3000}}}}", 1),
+                                 (f"servo: {{moment: [0, 0, 1], on: tip, {acts} uy, proportional: 9, derivative: 0.05}}}}, "
+                                  f"other: {{force: [0, 1, 0], on: tip, {acts} rz, proportional: 40, derivative: 0.7}}}}", 1),
+                                 (f"servo: {{force: [0, 1, 0], on: tip, {acts} uy, proportional: 300, derivative: 1}}}}", 0)):
+            shake = f"motions: {{shake: {{unit: m, path: [0, 1], value: [0, 0]}}}}\nloads: {{{loops}}}"
+            pull = f"loads: {{pull: {{force: [2000, 0, 0], on: tip}}, {loops}}}"
+            by_reference = reading("u", component="uy", reference="servo")
+            scenes = [lambda k: BEAM % ("hold: all", f"loads: {{{loops}}}", "", k, FORCED + (by_reference.replace("  u_", "  c_"))),
+                      lambda k: BEAM % ("hold: [ux, uz, rx, ry, rz], drive: {uy: shake}", shake, "", k, SHAKEN + reading("f", component="uy", drive="shake", of="reaction").replace("node: tip", "node: root")),
+                      lambda k: BEAM % ("hold: all", pull, "  before: {static: {stations: [1]}}", ", about: before" + k, FORCED)]
+            for text in scenes:
+                for damping in ("", ", damping: {mass: 7, stiffness: 1e-3}", ", damping: {ratio: 0.02}"):
+                    one = text if commanded else lambda k, text=text: text(k).replace("c: 15", "c: 0")
+                    self.assertEqual(self.close(lambda k: one(damping + k), ", solution: modal"), 0)
+                for modes, most in ((5, 1e-2), (8, 1e-4), (14, 1e-5)):
+                    self.assertLess(self.close(text, f", solution: modal, modes: {modes}", most=most), 100*most)
+
     def test_too_few(self):
         path = self.folder/"scene.yaml"
         path.write_text(BEAM % ("hold: all", "", "", ", solution: modal, modes: 1", FORCED), encoding="utf-8")
