@@ -12,6 +12,7 @@ static const entry_field fields[] = {
     {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS,
      .summary = "released component, in the member's axes",
      ENTRY_IN(scene_quantity, what.of.reading.component[COMPONENT])},
+    QUANTITY_ACTING,
     QUANTITY_TAKEN,
     {.name = NULL}};
 
@@ -58,7 +59,7 @@ const quantity_type quantity_hinge = {
     .summary = "rotation or displacement of a released end of a member relative to its node",
     .kind = SCENE_READING,
     .field = fields,
-    .analyses = QUANTITY_ALL_STATES,
+    .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,
     .between = 1,
     .unit = unit,
     .meaning = meaning,

@@ -871,6 +871,10 @@ static inline const mesh_release *release_of(const model *m, int vertex)
  * component; 0: the component is not released. For three released rotations, this is the rotation
  * vector, which is NAN beyond 3 rad. */
 double release_value(const model *, const model_state *, int member, int end, int component);
+/* Returns the same value for small motions x about the undeformed state `rest`, without the part
+ * that is the scalar product of `node` and the rotation of the node. */
+double release_linear_value(const model *, const model_state *rest, const double x[], int member,
+                            int end, int component, double node[3]);
 /* Changes the released coordinates of the end by dx. Returns the largest change [1, rad]. */
 double release_advance(const model *, model_state *, int vertex, const double dx[]);
 

@@ -269,13 +269,18 @@ void release_jacobian(const model *m, const model_state *s, int vertex, int coun
             T[i * count + own + r->turns + k] = along[k][i];
 }
 
+/* Returns the vertex of a member's end. */
+static int end_vertex(const model *m, int member, int end)
+{
+    const int *first = m->mesh.first_element;
+    const mesh_element *el = &m->mesh.element[end ? first[member + 1] - 1 : first[member]];
+    return el->vertex[end ? el->nodes - 1 : 0];
+}
+
 double release_value(const model *m, const model_state *s, int member, int end, int component)
 {
     const double most = 3;
-    const mesh_element *el =
-        &m->mesh
-             .element[end ? m->mesh.first_element[member + 1] - 1 : m->mesh.first_element[member]];
-    const int vertex = el->vertex[end ? el->nodes - 1 : 0];
+    const int vertex = end_vertex(m, member, end);
     const mesh_release *r = release_of(m, vertex);
     double back[4], q[4], t[3];
     if (r == NULL)
@@ -294,6 +299,32 @@ double release_value(const model *m, const model_state *s, int member, int end, 
         return vec3_norm(t) <= most ? vec3_dot(t, r->turn[k]) : NAN;
     }
     return 0;
+}
+
+double release_linear_value(const model *m, const model_state *rest, const double x[], int member,
+                            int end, int component, double node[3])
+{
+    const int vertex = end_vertex(m, member, end);
+    const mesh_release *r = release_of(m, vertex);
+    const int *coordinate = m->mesh.vertex[vertex].coordinate;
+    double sum = 0;
+    memset(node, 0, 3 * sizeof *node);
+    for (int k = 0; r != NULL && k < r->slides; k++)
+        if (r->slide_of[k] == component)
+            return x[coordinate[k]];
+    for (int k = 0; r != NULL && k < r->turns; k++) {
+        if (r->turn_of[k] != component)
+            continue;
+        if (r->turns < BALL)
+            return x[coordinate[3 + k]];
+        double b[3][3];
+        release_turn_axes(m, rest, vertex, b);
+        for (int i = 0; i < 3; i++) {
+            node[i] = -r->turn[k][i];
+            sum += x[coordinate[3 + i]] * vec3_dot(b[i], r->turn[k]);
+        }
+    }
+    return sum;
 }
 
 double release_advance(const model *m, model_state *s, int vertex, const double dx[])

@@ -101,6 +101,20 @@ static double linear_component(const quantity_state *s, int node, int component)
     return sum;
 }
 
+/* Returns the motion of a released end in linear statics. */
+static double linear_released(const quantity_state *s, int member, int end, int component)
+{
+    const model *m = model_of(s);
+    const scene_member *of_member = &model_scene(m)->member[member];
+    double by[3];
+    double value =
+        release_linear_value(m, kinematics_rest(m), of(s)->from->x, member, end, component, by);
+    for (int i = 0; i < 3; i++)
+        if (by[i] != 0)
+            value += by[i] * linear_component(s, end ? of_member->q : of_member->p, SCENE_RX + i);
+    return value;
+}
+
 /* Returns the value if the outcome is OK. Otherwise records the outcome if it is the first failure.
  * */
 static double known(const quantity_state *s, status outcome, const double *value)
@@ -248,7 +262,7 @@ static quantity_state places_of(const reading *from)
                             .rate = moves ? rate_of : NULL,
                             .acceleration = moves ? acceleration_of : NULL,
                             .driver = driver_of,
-                            .released = linear ? NULL : released_of};
+                            .released = linear ? linear_released : released_of};
 }
 
 double reading_of(const model *m, const scene_quantity *q, const model_state *s, const double v[],

@@ -92,6 +92,23 @@ quantities:
   gone:  {hinge: {analysis: sta, member: rod, end: to, component: ux}}
 omit: [shear, trapeze, wagner_moments, wagner_torque]
 """
+# A cantilever with a release beside a beam that turns about its far end, both on axes askew in space.
+RELEASED = """beamwork: 1
+sections: {s: {constants: {A: 1e-3, Iy: 2e-7, Iz: 1e-7, It: 1e-7}, young: 2e11, shear_modulus: 8e10}}
+nodes: {a: {at: [0, 0, 0], hold: all}, m: {at: [0.6, 0.8, 0]}, b: {at: [1.2, 1.6, 0], hold: [ux, uy, uz]}}
+springs: {k: {to: b, stiffness: [0, 0, 0, 3e3, 2e3, 4e3]}}
+members:
+  l: {from: a, to: m, section: s, y: [-0.48, 0.36, 0.8], release: {to: [%s]}}
+  r: {from: m, to: b, section: s, y: [-0.48, 0.36, 0.8]}
+combinations: {both: {one: 2, two: 1}}
+loads:
+  p: {force: [40, 10, 60], on: m, case: one}
+  t: {moment: [7, 5, -3], on: m, case: two}
+analyses: {li: {linear: {}}, st: {static: {stations: [1e-6], combination: both}}}
+quantities:
+%s
+omit: [shear, trapeze, wagner_moments, wagner_torque]
+"""
 
 
 class Deflections(ProgramTest):
@@ -120,6 +137,23 @@ class Deflections(ProgramTest):
                 self.assertEqual(got[name]["status"], "ok", (formulation, got[name]["reason"]))
                 within = 1e-3 if name in ("warmed", "turned", "along") and formulation != "collocation" else 1e-7
                 self.assertLess(abs(got[name]["value"]/value - 1), within, (formulation, name))
+
+    def test_hinge_in_linear_analyses(self):
+        """A hinge has the closed form of a pinned beam; all releases agree with static paths under small loads."""
+        pinned = RELEASED.replace("[40, 10, 60]", "[48, -36, -80]").replace("[0, 0, 0, 3e3, 2e3, 4e3]", "[0, 0, 0, 1e-4, 0, 0]")
+        text = pinned % ("rz", "  h: {hinge: {analysis: li, member: l, end: to, component: rz, case: one}}")
+        for formulation in FORMULATIONS:
+            got, _ = self.solved(text, formulation, 1)
+            self.assertAlmostEqual(got["h"]["value"], -100*(1/2 + 1/3)/2e4, delta=1e-9)
+        for released in (["rz"], ["ry", "rz"], ["rz", "ry"], ["rx", "ry", "rz"], ["ux"], ["ux", "rx", "ry", "rz"]):
+            lines = "\n".join(f"  {c}_{a}: {{hinge: {{analysis: {a}, member: l, end: to, component: {c}{more}}}}}"
+                              for c in released for a, more in (("li", ", combination: both"), ("st", "")))
+            got, _ = self.solved(RELEASED % (", ".join(released), lines), "collocation", 1)
+            for c in released:
+                with self.subTest(released=released, component=c):
+                    value = got[f"{c}_li"]["value"]
+                    self.assertGreater(abs(value), 1e-7)
+                    self.assertAlmostEqual(got[f"{c}_st"]["value"], 1e-6*value, delta=1e-10*abs(value) + 3e-16)
 
     def test_far(self):
         for formulation, n, within in (("collocation", 8, 4e-3), ("geometrically_exact", 12, 4e-3), ("beamw", 12, 1e-2)):
