@@ -1,5 +1,5 @@
-/* Derivatives by finite differences agree with those that the formulations compute themselves:
- * for each formulation, J, H, forces or tangents are removed and replaced. */
+/* Derivatives by finite differences must agree with those that the formulations compute. For each
+ * formulation, J, H, forces or tangents are removed and replaced. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -38,7 +38,7 @@ static void start(const element_type *given, const section *c, adapters_subject 
              given->name, f.text);
 }
 
-/* Energy, forces [n] and stiffness [n x n] of the nodes. */
+/* Computes energy, forces [n] and stiffness [n x n] of the nodes. */
 static status assemble(const adapters_subject *s, const node_state x[], double *energy, double F[],
                        double K[])
 {
@@ -54,7 +54,7 @@ static status assemble(const adapters_subject *s, const node_state x[], double *
     return STATUS_OK;
 }
 
-/* The formulation that supplies the force of the adapted one. */
+/* The formulation that supplies the force of the adapted formulation. */
 static adapters_subject source;
 
 static status force_of_source(const element_data *d, const node_state x[], force_output *out)
@@ -72,8 +72,8 @@ static status force_of_source(const element_data *d, const node_state x[], force
     return STATUS_OK;
 }
 
-/* Returns the largest difference relative to the largest entry, in the unit of each node's
- * coordinates (force, moment, bimoment). */
+/* Returns the largest difference relative to the largest entry, in the unit of the coordinates of
+ * each node (force, moment, bimoment). */
 static double departure(int n, const double a[], const double b[], const double unit[])
 {
     double apart = 0, most = 0;
@@ -136,7 +136,7 @@ static void compare(const adapters_subject *whole, const adapters_subject *part,
              what, worst[0], worst[1], worst[2]);
 }
 
-/* Computes the geometric stiffness [n x n] of linear buckling: about the undeformed element,
+/* Computes the geometric stiffness [n x n] of linear buckling about the undeformed element,
  * prestressed by small motions v[n] of its nodes. */
 static double prestressed(const adapters_subject *s, const double v[], double K[])
 {
@@ -158,8 +158,8 @@ static double prestressed(const adapters_subject *s, const double v[], double K[
     return F[n - NODE_COORDINATES];
 }
 
-/* Compares the effect of an axial force on the stiffness against twist [N m], which depends only on
- * the formulation's terms for the stretching of fibres. */
+/* Compares the effect of an axial force on the torsional stiffness [N m], which depends only on the
+ * terms of the formulation for the stretching of fibres. */
 static void twists_as(const adapters_subject *whole, const adapters_subject *part, const char *what,
                       double bound)
 {
@@ -190,7 +190,6 @@ static void without(const element_type *given, const section *c, unsigned leaves
     free(part.data);
 }
 
-/* Computes the stresses and nodal forces due to a uniform load along the undeformed element. */
 static void loaded(const adapters_subject *s, double out[M + ELEMENT_ALONG_COORDINATES])
 {
     const double none[N] = {0};
@@ -207,7 +206,7 @@ static void loaded(const adapters_subject *s, double out[M + ELEMENT_ALONG_COORD
     memcpy(out + M, load.ends, sizeof load.ends);
 }
 
-/* Functions other than strain and stress receive the data of their own type. */
+/* Functions other than strain and stress must receive the data of their own type. */
 static void passes_on(const element_type *given, const section *c)
 {
     const double sigma[M] = {2.385};
@@ -317,8 +316,8 @@ static void adapters_tests(void)
     refusals(registry_formulations[0]);
 }
 
-/* For types that evaluate many elements in one call, finite differences are bit-for-bit equal to
- * those of the same type with one element per call, also for states that fail. */
+/* For types that evaluate many elements in one call, finite differences must be bit-for-bit equal
+ * to those of the type with one element per call, even for states that fail. */
 
 enum { ELEMENTS = 5, GATHER_M = ELEMENT_MAX_STRAINS, GATHER_N = ELEMENT_MAX_COORDINATES };
 
@@ -342,7 +341,8 @@ static void strain_many(int count, const element_data *const data[], const node_
                               &out[i]);
 }
 
-/* An energy of the strains and its derivatives; fails if the first node warps in one direction. */
+/* An energy of the strains and its derivatives, which fails if the first node warps in one
+ * direction. */
 static status force(const element_data *d, const node_state x[], force_output *out)
 {
     double e[GATHER_M] = {0}, J[GATHER_M * GATHER_N], C[GATHER_M * GATHER_M] = {0},
@@ -470,7 +470,8 @@ static void strains(unsigned leaves)
     end(&b);
 }
 
-/* Compares energy, stresses and stiffness, likewise. */
+/* Compares energy, stresses and stiffness of all elements, evaluated in one call, with those of
+ * each element alone. */
 static void stresses(unsigned leaves)
 {
     both b;

@@ -1,4 +1,4 @@
-"""Compares a formulation in another process with the same formulation in C."""
+"""A formulation in another process compared with the same formulation in C."""
 import json
 
 from harness.cli.test.plugin import EXAMPLES, compile_shared
@@ -15,7 +15,7 @@ class BesideC(ProgramTest):
         return json.loads(record.read_text(encoding="utf-8"))["verdicts"]
 
     def like_timoshenko(self, element, name, cases):
-        """Requires the same verdicts and limits as those of timoshenko.c. Returns the cases that pass."""
+        """Requires the verdicts and limits of timoshenko.c. Returns the cases that pass."""
         there = compile_shared(EXAMPLES / "timoshenko.c", self.folder / "timoshenko.so")
         here = self.verdicts(element, name, cases)
         there = self.verdicts(there, "timoshenko", cases)

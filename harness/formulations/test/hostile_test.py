@@ -1,5 +1,5 @@
-"""Malicious or faulty processes. Each of them leads to one line that names the formulation and what happened, in
-`solve` and in every cell of `verify`, and no process remains."""
+"""Malicious or faulty processes. Each of them must lead to one line that names the formulation and what happened, in
+`solve` and in every cell of `verify`, and no process may remain."""
 import json
 import textwrap
 
@@ -60,7 +60,6 @@ class Refused(Speaker):
                     "more than an answer", "standard error")
 
     def test_own_words(self):
-        """If the process rejects a beam, its message is printed unchanged."""
         self.refuse(self.speaker(at="answer(b'no sections\\nof wood', 3); continue"),
                     "formulation speaker: no sections.of wood")
 
@@ -139,7 +138,6 @@ class Evaluated(Speaker):
         self.one_line(["too far"], "answer(b'too far', 3); continue")
 
     def test_others_go_on(self):
-        """A crash in every cell of a formulation does not affect the cells of others."""
         element = self.speaker(at="if what == 2: os._exit(7)")
         self.answered("verify", "-f", "speaker", "-f", "collocation", "--element", element, "-k",
                       "elastica/default", "-j", "2", code=1)

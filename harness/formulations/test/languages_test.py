@@ -10,7 +10,7 @@ STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Werror
 MODULE = ROOT / "elements" / "examples" / "timoshenko.f90"
 # Code that an author may write before or after including the headers.
 STANDARD = "#include <cmath>\n#include <complex>\n#include <string>\n#include <vector>\n"
-# A formulation that is never called; `beamwork_element` is visible and has C linkage.
+# A formulation that is never called, whose `beamwork_element` is visible and has C linkage.
 EXPORTED = """#include "elements/element.h"
 static int of(void)
 {
@@ -28,7 +28,7 @@ def public_headers():
 
 
 class Headers(ProgramTest):
-    """Each header compiles alone, even if it is included twice."""
+    """Each header must compile alone, even if it is included twice."""
 
     def compiles(self, compiler, standard, ending):
         if shutil.which(compiler) is None:
@@ -66,8 +66,8 @@ class Headers(ProgramTest):
         self.compiles_beside("clang++-19")
 
     def test_exports(self):
-        """The symbol has C linkage in C++, although constants have internal linkage there, and is visible even if
-        symbols are hidden."""
+        """The symbol must have C linkage in C++, although constants have internal linkage there, and must be visible even
+        if symbols are hidden."""
         for compiler in ("g++", "clang++-19"):
             if shutil.which(compiler) is None:
                 self.skipTest(f"needs {compiler}")
@@ -81,7 +81,7 @@ class Headers(ProgramTest):
 
 @unittest.skipIf(shutil.which("gfortran") is None, "needs gfortran")
 class Fortran(ProgramTest):
-    """The module of the example has the same constants and the same layout as the header."""
+    """The module of the example must have the constants and the layout of the header."""
 
     @classmethod
     def setUpClass(cls):

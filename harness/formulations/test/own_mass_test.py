@@ -1,4 +1,4 @@
-"""A formulation in another process that computes its inertia agrees with the same formulation in C and satisfies the
+"""A formulation in another process that computes its inertia must agree with the same formulation in C and satisfy the
 interface requirements."""
 import json
 import sys
@@ -47,7 +47,6 @@ class OwnMass(Speaker):
         return self.solved(made, "own_mass", case, n, point)[1]
 
     def test_frequencies(self):
-        """The frequencies are those of the same element in C, and differ from those with the default mass."""
         for case, point in FREQUENCIES:
             there = self.in_c(case, 4, point)
             _, here = self.solved(self.python(), "own_mass_py", case, 4, point)
@@ -63,7 +62,6 @@ class OwnMass(Speaker):
         return f"--scene {path}"
 
     def test_motions(self):
-        """The motions of two leaves that swing by about their length are those of the element in C."""
         for how in HOW:
             there = self.in_c(self.swing(how), 1)
             cell, here = self.solved(self.python(), "own_mass_py", self.swing(how), 1)
@@ -73,7 +71,6 @@ class OwnMass(Speaker):
                 self.assertLessEqual(abs(here[q] - value), 1e-7, (how, q))
 
     def test_vibration_alone(self):
-        """If the inertia is for vibration only, motions have the mass at the nodes, and the output says so."""
         changed = ("mass=mass,", 'mass=mass, inertia="vibration",')
         cell, here = self.solved(self.python(*changed), "own_mass_py", self.swing(HOW[1]), 1)
         self.assertIn("mass and weight of analysis run: at nodes", cell["lumped"])
@@ -110,7 +107,6 @@ class OwnMass(Speaker):
             self.assertIn(words, self.contract(self.python(before, after), code=1)[1])
 
     def test_mistakes(self):
-        """Each error of an author is reported in one sentence."""
         for before, after, words in (
                 ("    return M.reshape(-1, 14, 14)", "    return M", "mass returned (N, 2, 7, 2, 7), nodes=2 wants"),
                 ("    c, l = kind.section, kind.length\n    M", "    1 / 0\n    M", "ZeroDivisionError: division by"),
@@ -125,7 +121,6 @@ class OwnMass(Speaker):
         self.refuse(self.speaker(first="said.update(inertia='motion', nodes=3)"), "motion is for two nodes")
 
     def test_asked_only_where_it_is_brought(self):
-        """Request 5 is not sent to a process that does not declare inertia."""
         for first, asked in (("", False), ("said['inertia'] = 'vibration'", True)):
             done = run("solve", "deep_beam", "-f", "speaker", "-n", 2, "--element",
                        self.speaker(first=first, at="if what == 5: os._exit(3)"))

@@ -11,8 +11,6 @@ from harness.formulations.test.beside_c import BesideC
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, broken, environment, run
 
 
-# Formulations in another process: the example in Python gets verdicts like the built-in formulations, and is compared
-# with the same formulation in C.
 EXAMPLES = ROOT / "elements" / "examples"
 PYTHON = f"exec:'{sys.executable}' '{EXAMPLES / 'timoshenko.py'}'"
 CASES = ("tapered_cantilever", "deep_beam", "weighted_column", "tip_body", "sprung_beam",
@@ -66,7 +64,6 @@ class Energy(ProgramTest):
         self.assertAlmostEqual(self.value("chord"), 0.30172, delta=1e-3)  # 0.2 % from the reference value
 
     def test_options(self):
-        """A number and a choice reach the process as given."""
         self.assertLess(self.value("chord:times=2"), 0.6 * self.value("chord"))
         done = self.solve(formulation="chord:law=other,times=1.5", code=2)
         self.assertIn("chord: law other, times 1.5", done.stderr)
@@ -81,7 +78,6 @@ class Example(BesideC):
         self.assertLessEqual(len((EXAMPLES / "timoshenko.py").read_text("utf-8").splitlines()), 60)
 
     def test_judged_like_the_others(self):
-        """In ten cases, the verdicts are those of the same beam in C, and so are the limits."""
         passed = self.like_timoshenko(PYTHON, "timoshenko_py", CASES)
         self.assertEqual(passed - {"shear_elastica"}, set(CASES))
 
@@ -93,7 +89,6 @@ class Example(BesideC):
                          r"geometrically_exact n = \d+ .*timoshenko_py n = \d+ \(in another proc")
 
     def test_every_verb(self):
-        """The formulation is available in list, solve and bench, and with several workers."""
         out = self.answered("list", "timoshenko_py", "--element", PYTHON).stdout
         self.assertIn("Reissner", out)
         for verb in (("solve", "-n", "2"), ("bench", "-n", "2"), ("converge", "-j", "2")):
@@ -102,7 +97,7 @@ class Example(BesideC):
             self.assertIn("timoshenko_py", out)
 
 
-# The Python module reports each error of an author in one sentence.
+# The Python module must report each error of an author in one sentence.
 class InPython(ProgramTest):
 
     def example(self, before, after):
@@ -132,7 +127,6 @@ class InPython(ProgramTest):
         self.assertIn("timoshenko_py: only steel\n", done.stderr)
 
     def test_print(self):
-        """Printed output is shown and does no harm."""
         done = self.solve(self.example("    chord = (", "    print('hello')\n    chord = ("))
         self.assertEqual(done.returncode, 0, done)
         self.assertIn("hello", done.stderr)
@@ -146,7 +140,6 @@ class InPython(ProgramTest):
         return done
 
     def test_wrong_shapes(self):
-        """The message gives both shapes, and no line of the module or of numpy."""
         back = "return np.hstack([e - [kind.length, 0, 0], kind.length * psi])"
         due = "strains=6 wants (N, 6)"
         for after, words in ((f"{back}[:, :5]", ("strain returned (N, 5)", due)),
@@ -197,12 +190,10 @@ class InPython(ProgramTest):
                   code=2)
 
     def test_not_analytic(self):
-        """An error is reported even if value and derivative are correct in the undeformed state."""
         self.told("np.sqrt((psi * psi).sum(1))", "np.linalg.norm(psi, axis=1)",
                   "strain is not analytic", "gives='e'")
 
     def test_no_words_of_numpy(self):
-        """States with NaN are evaluated too; they cause no numpy warnings."""
         element = self.example("chord = (", "np.float64(0) / np.zeros(1)\n    chord = (")
         done = self.solve(element)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done)
@@ -215,7 +206,6 @@ class InPython(ProgramTest):
         return " ".join(done.stdout.partition("measured:")[0].split())
 
     def test_one_cause_in_the_contract(self):
-        """A failure in every call is reported as the cause in each family of checks, without other messages."""
         out = self.contract("chord = (", "chord = 1 / 0 + (")
         self.assertRegex(out, r"derivatives of the strains \(1 compared\) ✘ formulation "
                               r"timoshenko_py: ZeroDivisionError: division by zero "
@@ -224,7 +214,6 @@ class InPython(ProgramTest):
         self.assertNotIn("crashed", out)
 
     def test_fails_for_some(self):
-        """If an element cannot be prepared again, this is reported, and the element with the previous data is used."""
         out = self.contract(
             "    chord = (", "    longer = prepare.__dict__.setdefault('longer', set())\n"
             "    if kind.length > 0.4:\n        longer.add(id(kind))\n"
@@ -235,7 +224,6 @@ class InPython(ProgramTest):
         self.assertNotIn("crashed", out)
 
     def test_finds_the_module(self):
-        """The module is found from an empty folder, even if the user's PYTHONPATH contains other folders."""
         if pathlib.Path(PROGRAM).resolve().parents[1] != ROOT:
             self.skipTest("needs the program of build/, whose examples it is about")
         element = self.example("strains=6", "strains=6")
@@ -246,11 +234,9 @@ class InPython(ProgramTest):
             self.assertEqual(done.returncode, 0, done)
 
 
-# Formulations in Octave, in another process: the example is compared with the same formulation in C. Other functions of
-# its module, and errors of authors, are tested.
 EXAMPLE = OCTAVE_EXAMPLES / "timoshenko.m"
 NAME = "timoshenko_m"
-# Some of the cases of process_test.py: they take 4 s of processor time, and all ten would take 28 s.
+# some of the cases of process_test.py, which take 4 s of processor time, whereas all ten would take 28 s
 OCTAVE_CASES = ("tapered_cantilever", "deep_beam", "sprung_beam", "bend_45")
 HERE = "addpath(fileparts(mfilename('fullpath')));"
 
@@ -263,7 +249,7 @@ def command(script):
 class OctaveTest(ProgramTest):
 
     def altered(self, *changes):
-        """Writes the example with parts of its text replaced; each part must exist."""
+        """Writes the example with parts of its text replaced. Each part must exist."""
         text = EXAMPLE.read_text(encoding="utf-8")
         for before, after in ((HERE, f"addpath('{OCTAVE_EXAMPLES}');"), *changes):
             self.assertIn(before, text)
@@ -279,16 +265,12 @@ class OctaveExample(OctaveTest, BesideC):
         self.assertLessEqual(len(EXAMPLE.read_text("utf-8").splitlines()), 70)
 
     def test_judged_like_the_others(self):
-        """The verdicts are those of the same beam in C, and so are the limits."""
         self.assertEqual(self.like_timoshenko(command(EXAMPLE), NAME, OCTAVE_CASES), set(OCTAVE_CASES))
 
     def test_keeps_the_contract(self):
-        """The example satisfies all interface requirements; its derivatives are those of its strains in the rotation
-        chart."""
         self.answered("element-test", "--element", command(EXAMPLE))
 
     def test_from_an_empty_folder(self):
-        """The module is found next to the script."""
         done = self.answered("converge", "elastica", "-f", NAME, "--element", command(EXAMPLE),
                              cwd=self.folder)
         text = " ".join(done.stdout.split())
@@ -336,13 +318,11 @@ class Module(OctaveTest):
         self.same(self.altered(("'strains', 6", "'strains', 6, 'gives', 'e,J'")), 1e-7)
 
     def test_stresses(self):
-        """A stress function replaces a constant stiffness; data that prepare stores in its kind are available."""
         element = self.altered(*KEPT, ("@strain,", "@strain, 'stress', @stress,"))
         self.same(element, 1e-10)
         self.same(element, 1e-10, "tapered_cantilever")  # with several kinds of elements
 
     def test_energy(self):
-        """The formulation computes the energy of whole elements, and all derivatives come from finite differences."""
         self.same(self.altered(*KEPT, ("'strain', @strain, 'strains', 6,",
                                        "'force', @force, 'gives', 'energy',")), 1e-5)
 
@@ -356,7 +336,6 @@ class Module(OctaveTest):
 
 
 class Mistakes(OctaveTest):
-    """Each error leads to one line that names the formulation and contains Octave's own message."""
 
     def told(self, code, words, *changes):
         self.refused(code, words, "solve", "elastica", "-f", NAME, "-n", "2", "--element",
@@ -393,14 +372,12 @@ class Mistakes(OctaveTest):
         self.told(2, ["'limitz' in its first line"], ("'limits'", "'limitz'"))
 
     def test_printed(self):
-        """Output printed during an answer is shown and does no harm."""
         done = self.answered("solve", "elastica", "-f", NAME, "-n", "2", "--element",
                              self.altered(("c = cos(angle / 2);", "1 + 1\nc = cos(angle / 2);")))
         self.assertIn("ans = 2", done.stderr)
         self.assertNotIn("ans", done.stdout)
 
     def test_printed_before(self):
-        """Output printed before beamwork_element is called cannot be diverted; the message quotes it."""
         self.told(2, ["began with 'x = 3', which is not a line of JSON"], ("1;", "x = 3"))
 
     def test_ends(self):
@@ -408,19 +385,17 @@ class Mistakes(OctaveTest):
                   ("c = cos(", "exit(3);\nc = cos("))
 
     def test_does_not_begin(self):
-        """Octave's message appears on standard error, before that of beamwork."""
         done = run("list", "--element", self.altered(("c = cos(angle / 2)", "c = (")))
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r"error: .*mine\.m")
         self.assertIn("ended with status 1 before its first line", done.stderr.splitlines()[-1])
 
 
-# `element-test` of a formulation in another process that evaluates many elements in one request.
 CONTRACT_EXAMPLES = ROOT / "elements" / "examples"
 
 
 class ManyAtOnce(ProgramTest):
-    """An error is reported if the first element's value is used for all elements, and not if each element has its
+    """An error is reported if the value of the first element is used for all elements, and not if each element has its
     own value."""
 
     def test_one_value_for_all(self):

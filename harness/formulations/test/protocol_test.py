@@ -1,5 +1,5 @@
-"""The page on the protocol: its client, its bytes and its table of a section agree with the program, and a client in
-another language that was written from the page alone computes the same results."""
+"""The page on the protocol: its client, its bytes and its table of a section must agree with the program. A client in
+another language that was written from the page alone must compute the same results."""
 import re
 import shutil
 import struct
@@ -52,7 +52,6 @@ class Client(ProgramTest):
                 self.assertAlmostEqual(one / same, 1, delta=1e-7, msg=case)
 
     def recorded(self, *case):
-        """Returns all bytes in both directions, as the page gives them."""
         script = self.folder / "record.sh"
         script.write_text(f"cd '{self.folder}'\ntee requests.bin | {self.command} | tee answers.bin\n",
                           encoding="utf-8")
@@ -64,7 +63,6 @@ class Client(ProgramTest):
 
     @unittest.skipIf(shutil.which("perl") is None, "needs perl")
     def test_client_from_the_page(self):
-        """The client on the page works if stresses are requested too and an option is given."""
         script = ROOT / "harness" / "formulations" / "test" / "client.pl"
         command = f"perl '{script}'"
         self.like_timoshenko("perl_beam", command, "elastica", "bend_45", "deep_beam")
@@ -85,7 +83,6 @@ class Client(ProgramTest):
         self.assertEqual(struct.unpack_from("<qq", answers, 24 + 288 + 8), (0, 96))
 
     def test_section(self):
-        """The numbers of a section have the positions given on the page, for a beam along the global y axis."""
         scene = self.folder / "bar.yaml"
         scene.write_text(RECTANGLE, encoding="utf-8")
         requests, _ = self.recorded("--scene", scene, "-n", "1")

@@ -1,6 +1,6 @@
-/* A formulation of this program that another process serves (this program again, whose first
- * argument names the formulation) gives bit-for-bit the same results as in the process of the
- * solver. */
+/* A formulation of this program that another process serves must give bit-for-bit the results of
+ * the process of the solver. The other process is this program, whose first argument names the
+ * formulation. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,8 +12,6 @@
 #include "harness/tools/kit/cells.h"
 
 enum { KINDS = 65536, M = ELEMENT_MAX_STRAINS, N = ELEMENT_MAX_COORDINATES };
-
-/* ---- the other process ---- */
 
 static const element_type *served;
 static element_data *kind[KINDS];
@@ -151,8 +149,6 @@ static _Noreturn void serve(const char *name)
         fflush(stdout);
     }
 }
-
-/* ---- this one ---- */
 
 static void compare(const char *case_name, const char *name, int elements)
 {

@@ -1,5 +1,5 @@
-/* Selections: the value of random expressions agrees with an independent evaluation, with and
- * without redundant brackets; unknown words are reported. */
+/* The value of random selections must agree with an independent evaluation, with and without
+ * redundant brackets. Unknown words must be reported. */
 #include "harness/formulations/formulations.h"
 
 #include <gsl/gsl_test.h>
@@ -32,7 +32,8 @@ static void add_bracket(sample *s, const char *piece, int needed)
     strncat(s->bracketed, piece, LONGEST - 1 - strlen(s->bracketed));
 }
 
-/* around: precedence of the enclosing operator: 0 or, 1 and, 2 not. */
+/* Appends an expression. `around` is the precedence of the enclosing operator: 0 or, 1 and, 2
+ * not. */
 static int grow(sample *s, uint64_t *seed, int depth, int around)
 {
     enum { OR, AND, NOT, WORD };
@@ -187,7 +188,6 @@ static void unknown_words(void)
     gsl_test_int(all_met(NULL, &f), STATUS_OK, "no selection");
 }
 
-/* "=NAME" matches a whole part. */
 static void exact(void)
 {
     const char *const one = "shear_elastica/GA=10/beamw:mass=lumped/u";

@@ -45,8 +45,8 @@ while True:
 class Speaker(ProgramTest):
 
     def speaker(self, first="", then="", at=""):
-        """Returns exec: of a process with these lines inserted before its first line, after its first line, and before
-        an answer."""
+        """Returns exec: of a process with these lines inserted before its first line, after its first line, and before an
+        answer."""
         path = self.folder / "speaker.py"
         path.write_text(SPEAKER.format(pids=str(self.folder / "pids"), first=first, then=then,
                                        at=textwrap.indent(at, "    ").strip()), encoding="utf-8")

@@ -1,6 +1,6 @@
-/* Makes and frees scenes, solutions and documents repeatedly: cycles COUNT. Prints the bytes in
- * use after a tenth of the cycles and at the end. It is also run with valgrind (make lab
- * L=valgrind). */
+/* Makes and frees scenes, solutions and documents repeatedly, with the command `cycles COUNT`.
+ * Prints the bytes in use after a tenth of the cycles and at the end. make lab L=valgrind runs the
+ * program with valgrind. */
 #include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>

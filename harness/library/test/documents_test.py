@@ -1,5 +1,5 @@
-"""The documents of the library equal those of the program byte for byte, except times: for every case and every
-example, with the default formulation and mesh, and with a second formulation."""
+"""The documents of the library must equal those of the program byte for byte, except times, for every case and every
+example."""
 import ctypes
 import pathlib
 import re
@@ -9,7 +9,7 @@ from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, read_json, run
 
 LIBRARY = pathlib.Path(PROGRAM).parent / "libbeamwork.so.0"
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# A part of the motion with twelve joints, because the whole motion takes as long as many other cases together.
+# a part of the motion with twelve joints, because the whole motion takes as long as many other cases together
 PART = {"hexapod_motion": "time=0.05"}
 CLOCKS = re.compile(r'"(seconds_\w+|clock)": ("[^"]*"|[^,\n]+)')
 
@@ -57,6 +57,7 @@ def is_sanitized():
 
 @unittest.skipIf(is_sanitized(), "Python is not built with sanitizers")
 class Documents(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         cls.library = Library()
@@ -112,8 +113,6 @@ class Documents(ProgramTest):
                   "w_over_L")
 
     def test_verify(self):
-        """Compares the verdicts on all cases, on one case, and on a file with its own reference values; also
-        results.h5."""
         path = self.folder / "verdicts.json"
         stored = self.folder / "ours.h5"
         file = EXAMPLES[0]

@@ -1,5 +1,5 @@
-/* The host's settings change no bit of the results and are restored afterwards. Threads use
- * their own handles. */
+/* The settings of the host must change no bit of the results and must be restored afterwards.
+ * Threads use their own handles. */
 #include <fenv.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_gamma.h>
@@ -15,7 +15,7 @@
 
 enum { THREADS = 4, ROUNDS = 6 };
 
-/* Returns the document of a solution without its times; the caller frees it. */
+/* Returns the document of a solution without its times, which the caller frees. */
 static char *solved(const char *name, const char *formulation, int elements)
 {
     char *why = NULL, *json = NULL;
@@ -117,7 +117,6 @@ static void handlers(const char *expected)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }
 
-/* The library prints nothing, even after errors. */
 static void silence(void)
 {
     char *text = NULL, *why = NULL;
@@ -185,8 +184,8 @@ static void *converge(void *argument)
     return NULL;
 }
 
-/* The allocator of gcc 12's address sanitizer deadlocks in a process that was forked while another
- * thread held its lock; glibc's does not. */
+/* The allocator of the address sanitizer of gcc 12 deadlocks in a process that was forked while
+ * another thread held its lock. That of glibc does not. */
 #ifdef __SANITIZE_ADDRESS__
 enum { BESIDE = 0 };
 #else
@@ -229,7 +228,6 @@ static void *solve_shared(void *scene)
     return value;
 }
 
-/* Several threads share a scene that no thread changes. */
 static void shared_scene(void)
 {
     pthread_t thread[THREADS];
@@ -251,8 +249,8 @@ static void shared_scene(void)
     bw_scene_free(s);
 }
 
-/* 1: the program has reached its end. A numerical library may end the program early with status
- * 0, as LAPACK does for a wrong argument. */
+/* 1: the program has reached its end. A numerical library may end the program early with status 0,
+ * as LAPACK does for a wrong argument. */
 static int ended;
 
 static void mind_the_end(void)

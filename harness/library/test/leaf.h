@@ -20,7 +20,7 @@ static const char leaf[] =
     "loads:\n"
     "  push: {force: [0, 1, 0], on: tip}\n";
 
-/* Checks the status, and that the message contains the word; frees the message. */
+/* Checks the status, and that the message contains the word. Frees the message. */
 static inline void leaf_fails(bw_status got, bw_status expected, char *why, const char *word)
 {
     const int told = why != NULL && strstr(why, word) != NULL;
@@ -37,7 +37,7 @@ static inline void leaf_is_well(bw_status got, char *why, const char *what)
     bw_free_text(why);
 }
 
-/* The call is evaluated before its message is read. */
+/* Evaluates the call before its message is read. */
 #define FAILS(call, expected, word)                                                                \
     do {                                                                                           \
         const bw_status got_ = (call);                                                             \

@@ -1,4 +1,5 @@
-/* Every failing call returns a status and a message of one line; handles keep each other alive. */
+/* Every failing call must return a status and a message of one line. Handles keep each other
+ * alive. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -90,7 +91,6 @@ static void options(void)
     bw_scene_free(s);
 }
 
-/* NULL arguments are rejected or have no effect. */
 static void nothing(void)
 {
     char *why = NULL, *text = NULL;
@@ -135,7 +135,7 @@ static void nothing(void)
              "and no curves, steps and shapes");
 }
 
-/* A result keeps the data on which it depends; missing data are reported. */
+/* A result keeps the data on which it depends. Missing data are reported. */
 static void results(void)
 {
     char *why = NULL, *before = NULL, *after = NULL;
@@ -189,7 +189,6 @@ static void results(void)
     bw_result_free(second);
 }
 
-/* A solution that does not converge still returns a result. */
 static void not_converged(void)
 {
     static const char text[] =
@@ -233,9 +232,6 @@ static void library_tests(void)
     results();
     not_converged();
 }
-
-/* A motion through the interface: values and when they were reached, curves, every step with its
- * energies, and frames. */
 
 /* A tip mass on an arm that falls from rest. */
 static const char falling[] =

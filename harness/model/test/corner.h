@@ -1,4 +1,4 @@
-/* Two members that form a corner, with arms of 1 m and 2 m, clamped at one end; no drives. */
+/* Two members that form a corner, with arms of 1 m and 2 m, clamped at one end, without drives. */
 #ifndef BEAMWORK_TEST_CORNER_H
 #define BEAMWORK_TEST_CORNER_H
 
@@ -7,8 +7,8 @@
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 
-/* Builds the corner. attached 1: adds a node on a rigid arm at the tip. Returns 0 if the test has
- * failed. */
+/* Builds the corner. If attached is 1, adds a node on a rigid arm at the tip. Returns 0 if the test
+ * has failed. */
 static int corner(const char *formulation_name, int elements, int attached, scene *s, model **m)
 {
     const double y[3] = {0, 0, 1}, end = 1;

@@ -1,6 +1,6 @@
 /* Cost of one evaluation of every formulation: kinematics (strains, gradient, second derivatives),
- * stress with stiffness, and the update of an element's own unknowns. The times are in
- * microseconds, the smallest of many repetitions, for a sheet bent by 3 % of its length. */
+ * stress with stiffness, and the update of the inner unknowns. The times are in microseconds, the
+ * smallest of many repetitions, for a sheet bent by 3 % of its length. */
 #include <stdio.h>
 
 #include "elements/test/chain.h"
@@ -9,7 +9,7 @@
 
 enum { REPEATS = 40, CALLS = 300, TIMED = 4 };
 
-/* Returns the seconds of one call of a phase. */
+/* Returns the time of one call of a phase [s]. */
 static double lap(chain *c, chain_linearised *w, int phase)
 {
     const element_type *type = c->type;
@@ -70,8 +70,8 @@ int main(void)
         const element_type *type = registry_formulations[i];
         measure(type, NULL, type->name, &s);
         for (int k = 0; k < parameter_count(type->options); k++) {
-            const int shapes = type->inner != NULL ||
-                               type->nodes != NULL; /* this option changes the element's size */
+            /* this option changes the size of the element */
+            const int shapes = type->inner != NULL || type->nodes != NULL;
             for (int v = 0;
                  shapes && k == 0 && v < parameter_choices(parameter_at(type->options, k)); v++) {
                 char label[64];

@@ -1,5 +1,4 @@
-"""Initial shapes of members compared with closed forms: magnified moments, frequencies of a shallow arch, no
-stress."""
+"""Initial shapes of members compared with closed forms: magnified moments, frequencies of a shallow arch, no stress."""
 import math
 
 from cases.format.test.scene_case import SceneCase, values
@@ -68,7 +67,6 @@ class ImperfectionTest(SceneCase):
             self.assertAlmostEqual(error[0] / error[1], 4, delta=0.4, msg=formulation)
 
     def test_no_stress(self):
-        """Without loads there are no displacements and no stress, however large the bow."""
         for formulation in FORMULATIONS:
             got = self.solve(
                 column("[0.3, 0.2]", 3, area=1e-3) +
@@ -83,8 +81,8 @@ class ImperfectionTest(SceneCase):
                 self.assertLess(abs(value), 1e-3 * (1e-6 if name == "ux" else 1), (formulation, name))
 
     def test_either_order_of_ends(self):
-        """A bow is the same if its ends are exchanged: y is reversed, and so is its component; with an even number of
-        half-waves it begins on the other side."""
+        """If the ends are exchanged, a bow must not change. y and its component are reversed. With an even number of
+        half-waves, the bow begins on the other side."""
         for half_waves in (1, 2):
             sign = 1 if half_waves == 1 else -1
             for formulation in ("collocation", "beamw", "sheet_third"):
@@ -115,8 +113,8 @@ class ImperfectionTest(SceneCase):
             self.assertAlmostEqual(got / exact, 1, delta=2e-3, msg=formulation)
 
     def test_mode(self):
-        """The first buckling mode, for a single load and for two equal loads, is the sine of a bow; so is the first
-        mode of a modal analysis. The critical load remains that of the perfect column."""
+        """The first buckling mode, for a single load and for two equal loads, and the first mode of a modal analysis are
+        the sine of a bow. The critical load remains that of the perfect column."""
         bow, exact = 1e-5, 0.5 * CRITICAL * 1e-5 / 0.5
         for inertia, direction, of in ((f"Iy: {100 * I}, Iz: {I}", "", "{buckling: {}}"),
                                        (f"Iy: {I}, Iz: {I}", ", direction: [0, 1, 0]", "{buckling: {}}"),
@@ -176,7 +174,7 @@ omit: [shear]
 """
 
     def test_mode_of_a_frame(self):
-        """Rigid arms by offsets and by bodies, with a hinge, give the same shape."""
+        """Rigid arms by offsets and by bodies, with a hinge, must give the same shape."""
         offsets = self.FRAME.replace("NODE", "").replace("MORE", "").replace(
             "to: LEFT,", "to: knee, offset: {to: [0, -0.2, 0]},").replace(
                 "from: RIGHT,", "from: top, offset: {from: [0.1, -0.1, 0]},")
@@ -194,8 +192,6 @@ omit: [shear]
             self.assertAlmostEqual(one["later"] / one["uz"], 1, delta=1e-6)
 
     def test_shifts(self):
-        """Shifted nodes are equivalent to nodes given at the shifted positions, even in a written file, and in every
-        analysis."""
         text = self.FRAME.replace("NODE", ", mass: 5").replace("MORE", "").replace("LEFT", "knee").replace(
             "RIGHT", "top")
         shifted = text.replace("{mode_of: buckle, amplitude: 1e-4}",
@@ -218,8 +214,8 @@ omit: [shear]
             self.refused(2, words, "solve", "--scene", self.scene(filed), "-n", 1)
 
     def test_shifted_lengths(self):
-        """Strains refer to the shifted length: a member drawn with 1 m is 0.98 m long after the shift, and its
-        unstressed length is 0.979 m."""
+        """Strains refer to the shifted length. A member drawn with 1 m is 0.98 m long after the shift, and its unstressed
+        length is 0.979 m."""
         def bar(at, length, shift):
             return f"""beamwork: 1
 sections: {{bar: {{rectangle: {{width: 20e-3, thickness: 10e-3}}, young: 200e9, shear_modulus: 77e9}}}}
@@ -238,7 +234,6 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
                       " ".join((done.stdout + done.stderr).split()))
 
     def test_modes_refused(self):
-        """Missing modes, equal modes, a direction that does not distinguish them, and input decks are rejected."""
         for shape, words in (("mode_of: shape, amplitude: 1e-3", "is one of 2 modes with the same value; give its direction"),
                              ("mode_of: shape, amplitude: 1e-3, direction: [0, 1, 1], which: 999", "there is no mode 999"),
                              ("mode_of: shape, amplitude: 1e-3, direction: [1, 0, 0]", "direction")):
@@ -269,8 +264,8 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
         self.assertIn("meshes: [6, 12, 24, 48]", written)
 
     def test_on_a_foundation(self):
-        """Springs of the foundation have the weights of a straight member, whatever the direction of the bow in
-        space: a zero bow changes nothing, and rounding of the element lengths does not matter."""
+        """Springs of the foundation have the weights of a straight member, whatever the direction of the bow in space. A
+        zero bow changes nothing, and rounding of the element lengths does not matter."""
         def founded(bow, tip=(LENGTH, 0, 0), y=(0, 1, 0)):
             return f"""beamwork: 1
 sections:

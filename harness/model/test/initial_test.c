@@ -1,4 +1,4 @@
-/* Initial elongation and shear strains (N Eq. 52): a free member takes them without stress; a held
+/* Initial elongation and shear strains (N Eq. 52). A free member takes them without stress. A held
  * member has the force EA g or GA g. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -75,8 +75,8 @@ static void elongation(const char *name)
     gsl_test_rel(F[0], -EA * 1e-3, 1e-12, "%s: held at both ends it pushes with EA g", name);
 }
 
-/* The sections slide against each other: the axis is inclined to the sections, which do not
- * rotate. */
+/* The cross-sections slide against each other: the axis is inclined to the cross-sections, which do
+ * not rotate. */
 static void shear(const char *name, int direction)
 {
     double g[3] = {0}, u[6] = {0}, F[6] = {0};
@@ -89,7 +89,7 @@ static void shear(const char *name, int direction)
     gsl_test_abs(u[direction == 1 ? 5 : 4] / small, 0, 1e-5, "%s: and does not turn", name);
     solve(name, g, held, u, F);
     /* Timoshenko's clamped beam under the imposed sliding L g has the force 12 EI L g/(L^3 (1 +
-     * Phi)). */
+     * Phi)) */
     const double EI = 2e9 * (direction == 1 ? 0.2 * 0.1 * 0.1 * 0.1 : 0.1 * 0.2 * 0.2 * 0.2) / 12,
                  L = 2;
     const double Phi = 12 * EI / (GA * L * L), expected = -12 * EI * small / (L * L * (1 + Phi));
@@ -110,7 +110,7 @@ static void not_offered(void)
     scene_free(&s);
 }
 
-/* The energy of an element is zero in its stress-free state, whatever its arc. */
+/* The energy of an element is zero in its stress-free state, for any arc. */
 static void no_energy_at_rest(const char *name)
 {
     static const double none[ELEMENT_MAX_STRAINS] = {0};
@@ -144,7 +144,7 @@ static void initial_tests(void)
         no_energy_at_rest(names[i]);
         elongation(names[i]);
         if (strncmp(names[i], "sheet_third", 11) !=
-            0) /* N Eq. 50 has no shear along the thickness: rejected */
+            0) /* N Eq. 50 has no shear along the thickness, so it is rejected */
             shear(names[i], 1);
         shear(names[i], 2);
     }
@@ -224,7 +224,7 @@ static void centreline_tests(void)
     }
 }
 
-/* Tests the start and end of the pieces of members, and the element at a position. */
+/* Start and end of the pieces of members, and the element at a position. */
 
 enum { WHOLE, LOADED, OWN };
 
@@ -316,13 +316,13 @@ static void division_tests(void)
     scene_free(&s);
 }
 
-/* Tests rigid motions about an origin, at a node in a given position. */
+/* Rigid motions about an origin, at a node in a given position. */
 
 static void supports_tests(void)
 {
     enum { N = 6 };
     const double at[3] = {0.3, -0.7, 1.1}, length = 2;
-    /* u = t + w x at / length, and w / length, columns t and w */
+    /* u = t + w x at / length, and w / length, in the columns t and w */
     const double expected[N][N] = {{1, 0, 0, 0, at[2] / length, -at[1] / length},
                                    {0, 1, 0, -at[2] / length, 0, at[0] / length},
                                    {0, 0, 1, at[1] / length, -at[0] / length, 0},

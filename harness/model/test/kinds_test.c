@@ -1,4 +1,4 @@
-/* Elements share their data if they do not differ in any relevant property. */
+/* Elements must share their data if they do not differ in any relevant property. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -23,7 +23,8 @@ typedef struct kinds_link {
     double length, strain, curvature; /* curvature about z; 0: straight */
 } kinds_link;
 
-/* Links in a row along x between two clamped nodes; a force along x at the first joint. */
+/* Builds links in a row along x between two clamped nodes, with a force along x at the first
+ * joint. */
 static void row_of(int count, const kinds_link links[], double force, scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -55,7 +56,8 @@ static void row_of(int count, const kinds_link links[], double force, scene *s)
     }
 }
 
-/* Returns 1 if it was solved. value: reaction at the end, and displacement of the first joint. */
+/* Returns 1 if the scene was solved. `value` contains the reaction at the end, and the displacement
+ * of the first joint. */
 static int solve(const element_type *type, int count, const kinds_link links[], double force,
                  int elements, double value[2], int *kinds)
 {
@@ -80,8 +82,7 @@ static int solve(const element_type *type, int count, const kinds_link links[], 
     return outcome == STATUS_OK;
 }
 
-/* There is one kind for all elements of equal members, however many; each property that differs
- * adds a kind. */
+/* There is one kind for all elements of equal members. Each property that differs adds a kind. */
 static void counts(const element_type *type)
 {
     static const struct {
@@ -107,7 +108,7 @@ static void counts(const element_type *type)
     }
 }
 
-/* Arcs of equal length that are curved to opposite sides differ in their curvature only. */
+/* Arcs of equal length that are curved to opposite sides differ only in their curvature. */
 static void arcs(const element_type *type)
 {
     const kinds_link links[] = {{0, 1, 0, 0.1}, {0, 1, 0, -0.1}};
@@ -185,7 +186,8 @@ static void kinds_tests(void)
 }
 
 /* The metric of arc length is the mean of (displacement/size)^2 + angle^2 over the moving bodies,
- * for any motion in any direction. Small steps and differences of states have the same metric. */
+ * for any motion in any direction. Small steps and differences of states must have the same
+ * metric. */
 
 enum { ELEMENTS = 3, BODIES = 6 }; /* one of seven vertices is held */
 
@@ -277,8 +279,8 @@ static model *meshed(const scene *s, const element_type *type, int elements, fau
     return model_alloc(&what, &m, f) == STATUS_OK ? m : NULL;
 }
 
-/* There is one kind for each element of a taper, however many members have this taper, and one kind
- * for a prismatic member. */
+/* There is one kind for each element of a taper, whatever the number of members with this taper,
+ * and one kind for a prismatic member. */
 static void kinds(const element_type *type)
 {
     static const struct {
@@ -323,7 +325,7 @@ static void middles(const element_type *type)
 }
 
 /* Returns a section with flanges, which are doubly symmetric at both ends of a member but on
- * opposite sides, so that it is a channel in between. */
+ * opposite sides, so the section between is a channel. */
 static section_spec flanges(double upper, double lower)
 {
     const double point[][2] = {{upper, 0.05}, {0, 0.05}, {0, -0.05}, {lower, -0.05}},
@@ -364,9 +366,9 @@ static void profile_tests(void)
     between();
 }
 
-/* A structure whose section is described in axes rotated by any angle about the beam: every
- * formulation gives the same results. The test detects errors in terms of one axis only (a Wagner
- * moment, a distance of the shear centre, an entry of D). */
+/* If the section of a structure is described in axes rotated by any angle about the beam, every
+ * formulation must give the same results. The test detects errors in terms of one axis only (a
+ * Wagner moment, a distance of the shear centre, an entry of D). */
 
 enum { ANGLE = CASE_MAX_PARAMETERS - 1, ORIGINAL = CASE_MAX_PARAMETERS - 2 };
 
@@ -406,8 +408,8 @@ static status turned_solve(int original, double angle, const element_type *eleme
     return cell_run(&request, out, &f);
 }
 
-/* Quantities of the same sign and order are equal, except that a rotation by 180 degrees exchanges
- * the signs of moments. */
+/* Quantities of the same sign and order must be equal, except that a rotation by 180 degrees
+ * exchanges the signs of moments. */
 static int compare(int original, const element_type *element)
 {
     static const double angle[] = {0.5, 1.5707963267948966, -2.2};

@@ -1,5 +1,5 @@
-/* The dimensions of the spaces of motions are those of exact axes, despite round-off and units in
- * the computed axes. */
+/* The dimensions of the spaces of motions must be those of exact axes, despite round-off and units
+ * in the computed axes. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -86,8 +86,8 @@ static void dimensions(void)
     }
 }
 
-/* Two rotations span the plane of x and y up to round-off: the result is whole components, and the
- * third component is excluded exactly. */
+/* Two rotations span the plane of x and y up to round-off. The result must be whole components, and
+ * the third component must be excluded exactly. */
 static void whole_components(void)
 {
     const double c = cos(0.35), s = sin(0.35),
@@ -100,7 +100,7 @@ static void whole_components(void)
         gsl_test(v.span[i] != (double)(i == 6 || i == 9), "unit vectors: %g at %d", v.span[i], i);
 }
 
-/* Columns with one component each, one of them repeated and one zero, give the same motions as
+/* Columns with one component each, one of them repeated and one zero, must give the same motions as
  * without the detection of single components by their zeros. */
 static void components_alone(void)
 {
@@ -117,7 +117,6 @@ static void components_alone(void)
     gsl_test(memcmp(&v, &w, sizeof v) != 0, "the same motions");
 }
 
-/* A driver of two opposite rotations moves nothing. */
 static void nothing(void)
 {
     const double T[6] = {1e-19, 0, 0, 1e-17, -1e-17, 0};
@@ -128,7 +127,7 @@ static void nothing(void)
     gsl_test(v.count != 0, "no coordinates: %d dimensions", v.count);
 }
 
-/* Free rotations transmit no moment: the remaining moment is perpendicular to them, and exactly
+/* Free rotations transmit no moment. The remaining moment is perpendicular to them, and exactly
  * zero if they span space. */
 static void prescribed_moment(void)
 {
@@ -167,8 +166,7 @@ static void movable_tests(void)
 
 enum { MOST = SPECIMEN_COORDINATES };
 
-/* Computes the mass matrix of a scene with `mass: lumped`, which is the same for all
- * formulations. */
+/* Computes the mass matrix of a scene with `mass: lumped`, which is common to all formulations. */
 static void at_nodes(const specimen *s, const node_state x[], double M[])
 {
     const lumped_mass whole = lumped_of(&s->section, s->request.features, s->request.length);
@@ -183,7 +181,7 @@ static void make(const char *name, const specimen_request *what, specimen *out)
 
 /* Lumped masses at the nodes of an element follow the rule for loads: the trapezoidal rule with two
  * nodes, Simpson's rule with three, whose second moment about the end is exact. The twist has the
- * polar inertia of the section, however this is given. */
+ * polar inertia of the section. */
 static void lumped_moments(const char *name)
 {
     formulation chosen;
@@ -245,8 +243,8 @@ static void inertia_moments_tests(void)
     slice("collocation");
 }
 
-/* Springs: derivatives compared with finite differences, for any relative rotation of their ends;
- * no deformation if both ends move as one rigid body; and known deformations. */
+/* Springs: derivatives compared with finite differences, for any relative rotation of their ends,
+ * no deformation if both ends move as one rigid body, and known deformations. */
 
 static void two_ends(const element_data *data, const node_state x[], strain_output *out)
 {
@@ -300,7 +298,7 @@ static void derivatives(int nodes, double angle, uint64_t *seed)
              angle, found.asymmetry);
 }
 
-/* If both ends move as one rigid body, there is no deformation; then one end rotates about an axis
+/* If both ends move as one rigid body, there is no deformation. Then one end rotates about an axis
  * of the other. */
 static void known(uint64_t *seed)
 {

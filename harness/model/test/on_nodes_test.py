@@ -1,4 +1,4 @@
-"""Loads and masses that are lumped at nodes are reported, with their order of convergence in space."""
+"""Loads and masses that are lumped at nodes must be reported, with their order of convergence in space."""
 import json
 import math
 import unittest
@@ -61,6 +61,7 @@ nodes:"""
 
 
 class OnNodes(ProgramTest):
+
     def cell(self, scene, elements=2, formulation="beamw"):
         path = self.folder / "scene.yaml"
         path.write_text(scene, encoding="utf-8")
@@ -130,7 +131,7 @@ class OnNodes(ProgramTest):
             self.assertLess(abs(value / exact - 1), bound, elements)
 
     def test_rigid_rods_have_their_inertia(self):
-        """The weights integrate cubics, so that a rigid rod with two or more elements has the inertia m L^2/12."""
+        """The weights integrate cubics, so a rigid rod with two or more elements has the inertia m L^2/12."""
         for integrator in ("conserving", "explicit"):
             for elements in (2, 3, 4, 5, 6, 9):
                 path = self.folder / "rod.yaml"
@@ -141,8 +142,8 @@ class OnNodes(ProgramTest):
                 self.assertAlmostEqual(json.loads(done.stdout)["quantities"][0]["value"] / right, 1, delta=1e-11)
 
     def test_resultants_beside_masses_at_nodes(self):
-        """Resultants are exact with any number of elements: of a steadily rotating rod, m w^2 (L^2 - x^2)/2, and of a
-        cantilever under its own weight at the start of a conserving motion."""
+        """Resultants are exact with any number of elements: m w^2 (L^2 - x^2)/2 for a steadily rotating rod, and those of
+        a cantilever under its own weight at the start of a conserving motion."""
         for elements in (1, 2, 3, 4, 6, 9):
             for scene, right in ((TURNING, {"N": 7800*1e-4*100*(1 - 0.09)/2}),
                                  (WEIGHED, {"M": -7800*1e-4*0.01*0.49/2, "V": -7800*1e-4*0.01*0.7})):

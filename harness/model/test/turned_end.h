@@ -8,8 +8,8 @@
 #include "elements/math/rotation.h"
 #include "harness/model/model_impl.h"
 
-/* Rotates the last end by a vector, from its present orientation. own: the element's triads from
- * then on. */
+/* Rotates the last end by a vector, from its present orientation. `own` receives the triads of the
+ * element after the rotation. */
 static inline void turned_end(model *m, const double vector[3], mesh_triad own[ELEMENT_MAX_NODES],
                               mesh_triad *before)
 {

@@ -1,5 +1,5 @@
-/* Loads along members and at offsets have the right total force and moment, in the axes of members
- * with any section; an offset acts as a rigid arm. */
+/* Loads along members and at offsets must have the right total force and moment, in the axes of
+ * members with any section. An offset acts as a rigid arm. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -33,8 +33,8 @@ static void to_fixed(const double v[3], double out[3])
         out[i] = along[i] * v[0] + across[i] * v[1] + (i == 2 ? v[2] : 0);
 }
 
-/* Computes the total force of the loads on an undeformed member of length 2, and their moment
- * about its middle. */
+/* Computes the total force of the loads on an undeformed member of length 2, and their moment about
+ * its middle. */
 static void sums_of(const scene_load *load, const char *name, double force[3], double moment[3])
 {
     const double end = 1;
@@ -200,8 +200,8 @@ static void applied_tests(void)
         offset_is_an_arm(registry_formulations[i]);
 }
 
-/* Elements evaluated in lanes, with members of two alternating sections, give the same results
- * as elements evaluated one at a time. An element that cannot be evaluated is named. */
+/* Elements evaluated in lanes, with members of two alternating sections, must give the same results
+ * as elements evaluated one at a time. An element that cannot be evaluated must be named. */
 
 enum { ELEMENTS = 7, MEMBERS = 3, QUANTITIES = 6 };
 
@@ -264,7 +264,7 @@ static void same_answers(const element_type *type)
 static const element_type *inner;
 static int asked; /* processors without AVX2 evaluate one element at a time */
 static const double failing =
-    0.4 + 0.2 * 3 / ELEMENTS; /* [m] start of the fourth element of the last member */
+    0.4 + 0.2 * 3 / ELEMENTS; /* start of the fourth element of the last member [m] */
 
 /* Makes the evaluation of one element fail. */
 static void fail(int count, const node_state x[], int nodes, status outcome[])
@@ -335,10 +335,8 @@ static void chunk_tests(void)
     gsl_test(found == 0, "a formulation with equations in lanes");
 }
 
-/* Reactions at the foot of an arm, for every formulation. */
-
-/* For a beam on an arm, the reactions of the body at the foot are the force at the tip and its
- * moment about the body. */
+/* For a beam on an arm, the reactions of the body at the foot are the force at the tip and the
+ * moment of this force about the body. */
 static void foot_of_an_arm(const element_type *type)
 {
     const double y[3] = {0, 1, 0}, end = 1, P[3] = {0.01, -0.02, 0.03};

@@ -1,5 +1,5 @@
-/* Links and chains agree with dense matrices of all coordinates, and a long chain agrees with
- * the beam that it represents. */
+/* Links and chains must agree with dense matrices of all coordinates, and a long chain must agree
+ * with the beam that it represents. */
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
 #include <math.h>
@@ -16,7 +16,8 @@
 
 enum { LINKS = 5, STRAINS = 18, MOST = CHAIN_JOINT * (2 * LINKS + 1) };
 
-/* Elements with random matrices; indefinite: H makes some of their eigenvalues negative. */
+/* Elements with random matrices. If `indefinite` is 1, H makes some of their eigenvalues
+ * negative. */
 typedef struct chain_row {
     int nodes, joint, joints, all; /* of the whole chain: joints x joint coordinates */
     double J[LINKS][STRAINS * ELEMENT_MAX_COORDINATES], C[LINKS][STRAINS * STRAINS],
@@ -41,7 +42,7 @@ static void fill(int nodes, int joint, double indefinite, uint64_t *seed, chain_
     }
 }
 
-/* K[all x all] */
+/* Assembles K[all x all]. */
 static void assemble(const chain_row *of, double K[])
 {
     const int n = NODE_COORDINATES * of->nodes, c = of->joint;
@@ -94,8 +95,8 @@ static double largest(int n, const double a[], const double b[])
     return most;
 }
 
-/* Compares the number of negative eigenvalues of the inner coordinates in the dense matrix and
- * in the chain. The coordinates of the ends come first and last. */
+/* Compares the number of negative eigenvalues of the inner coordinates in the dense matrix and in
+ * the chain. The coordinates of the ends come first and last. */
 static int held_inside(const chain_row *of, const double K[], const chain *s)
 {
     const int inside = of->all - 2 * of->joint;
@@ -109,8 +110,8 @@ static int held_inside(const chain_row *of, const double K[], const chain *s)
     return negative;
 }
 
-/* Solves for loads on all coordinates, with both ends on springs: with the dense matrix, and
- * with the condensed ends. */
+/* Solves for loads on all coordinates, with both ends on springs, with the dense matrix and with
+ * the condensed ends. */
 static void solutions(const chain_row *of, double K[], chain *s, uint64_t *seed)
 {
     const int c = of->joint, n = of->all;
@@ -166,8 +167,8 @@ static void random_rows(void)
     gsl_test(negative < 20, "%d negative eigenvalues were there to be counted", negative);
 }
 
-/* A link of a clamped beam with unit length and unit stiffnesses. Its strains are the motion of
- * the second joint relative to the first. */
+/* A link of a clamped beam with unit length and unit stiffnesses. Its strains are the motion of the
+ * second joint relative to the first. */
 static void uniform_link(double l, double J[], double C[], double H[], double r[])
 {
     const int n = 2 * NODE_COORDINATES;
@@ -223,12 +224,13 @@ static void chain_tests(void)
     long_chain();
 }
 
-/* The initial guess for the next state of a path is exact for polynomial paths of a degree that
- * the number of stored states allows. It does not extrapolate further than the states support. */
+/* The initial guess for the next state of a path must be exact for polynomial paths of a degree
+ * that the number of stored states allows. It must not extrapolate further than the states
+ * support. */
 
 enum { MOST_DEGREE = MODEL_EXTRAPOLATED };
 
-/* Fills a state of a path that is a polynomial of the given degree in its parameter; every vertex
+/* Fills a state of a path that is a polynomial of the given degree in its parameter. Every vertex
  * rotates about its own axis. */
 static void extrapolate_fill(const model *m, int degree, double path, model_state *s)
 {

@@ -1,4 +1,4 @@
-/* Loads along a member and centrifugal forces have the right resultants at the vertices. */
+/* Loads along a member and centrifugal forces must have the right resultants at the vertices. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -50,7 +50,7 @@ static void forces_along(int what, const char *name, double path, int follows, i
 }
 
 /* The nodal forces have the total and the first moment of the load along a member. The second
- * moment is that of the rule: trapezoidal; or Simpson's, which is exact. */
+ * moment is that of the trapezoidal rule, or of Simpson's rule, which is exact. */
 static void along_a_member(const char *name, int nodes)
 {
     double F[MOST], sum[3] = {0};

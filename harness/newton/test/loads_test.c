@@ -1,4 +1,4 @@
-/* Loads on nodes of a rigid body in a rotated state agree with the derivatives of their work,
+/* Loads on nodes of a rigid body in a rotated state must agree with the derivatives of their work,
  * and with their factors along the path. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -61,7 +61,7 @@ static void follow_stations(scene_load *load, const double path[3], const double
     memcpy(load->factor, value, 3 * sizeof *value);
 }
 
-/* Factors are 0, 2, 1 at path 0, 1, 3. The rate at a station is that of the next piece, and is
+/* The factors are 0, 2, 1 at path 0, 1, 3. The rate at a station is that of the next piece, and is
  * zero outside. */
 static void rates(void)
 {
@@ -165,10 +165,7 @@ static void loads_tests(void)
     reference();
 }
 
-/* Stiffness of loads on nodes of a rigid body in a rotated state: the second derivative of their
- * work, or the derivative of the loads. */
-
-/* A dead force has a potential: its stiffness is the second derivative of its work, with the
+/* A dead force has a potential, so its stiffness is the second derivative of its work, with the
  * sign that it has in K. */
 static void stiffness(int body)
 {
@@ -204,8 +201,8 @@ static void stiffness(int body)
     turned_body_release(&s);
 }
 
-/* If the coordinates are angles, the stiffness is the derivative of the generalised loads, even
- * for moments and follower loads, which have no potential. at [m]: offset from the node. */
+/* If the coordinates are angles, the stiffness is the derivative of the generalised loads, even for
+ * moments and follower loads, which have no potential. `at` [m] is the offset from the node. */
 static void stiffness_of_angles(int body, scene_load_kind kind, int follower, const double at[3])
 {
     turned_body s;

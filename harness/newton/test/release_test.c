@@ -1,5 +1,5 @@
-/* Released ends in a rotated state: the tangent is the derivative of the forces, for any
- * releases, positions of the node and loads on the member, and Newton's method converges
+/* Released ends in a rotated state: the tangent must be the derivative of the forces, for any
+ * releases, positions of the node and loads on the member, and Newton's method must converge
  * accordingly. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -40,7 +40,7 @@ static void soft_spring(scene *s, int node, double k)
     scene_add_spring(s, SCENE_NONE, node, K);
 }
 
-/* A clamped member to a body, and a member from there to a node on a spring; loads of every kind
+/* A clamped member to a body, and a member from the body to a node on a spring. Loads of every kind
  * act on the second member. */
 static void bent(int place, const char *const set[2], scene *s)
 {
@@ -135,8 +135,8 @@ static void linearised(release_subject *t, const model_state *s, double path)
             t->A[t->K.row[k] * t->n + j] = t->K.value[k];
 }
 
-/* Finds equilibrium under a fraction of the load. Returns 1 when the corrections decrease as
- * with an exact tangent. */
+/* Finds equilibrium under a fraction of the load. Returns 1 if the corrections decrease as with an
+ * exact tangent. */
 static int solve(release_subject *t, double path, const char *what)
 {
     int pivot[MOST];
@@ -232,11 +232,11 @@ static void release_tests(void)
 
 /* The size of a correction includes every coordinate: translations relative to the size of the
  * scene, rotations in radians, warping amplitudes times that size. The rigid motion that is
- * reported is one that the supports allow. */
+ * reported must be one that the supports allow. */
 
 static const double length = 2;
 
-/* A member along x with warping; components first to last of its far end are fixed. */
+/* Makes a member along x with warping. The components first to last of its far end are fixed. */
 static int warping_member(const element_type *type, int first, int last, scene *s, model **m)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -290,7 +290,7 @@ static void corrections(const element_type *type)
             const double size = size_of(m, k, step) / step;
             const int translation = fabs(size * length - 1) < 1e-9, turn = fabs(size - 1) < 1e-9,
                       warp = fabs(size - length) < 1e-9;
-            /* inner unknowns of an element count too */
+            /* inner unknowns of an element are included */
             gsl_test(type->inner != NULL ? !(size > 0.4 / length) : translation + turn + warp != 1,
                      "%s: coordinate %d counts as %g", type->name, k, size);
             gsl_test(!isnan(size_of(m, k, NAN)), "%s: coordinate %d may be no number", type->name,
@@ -336,9 +336,9 @@ static void advance_tests(void)
     loose_about_the_far_end(registry_formulations[0]);
 }
 
-/* Condensed members give the same results as the assembled tangent, for every case and for released
- * ends, with formulations of each family. They also give results where an assembled tangent has no
- * digits left. */
+/* Condensed members must give the same results as the assembled tangent, for every case and for
+ * released ends, with formulations of each family. They must give results where an assembled
+ * tangent has no digits left. */
 
 static const char *const formulations[] = {"beamw", "sheet_third", "geometrically_exact",
                                            "collocation"};
@@ -362,7 +362,7 @@ static status test_condensation_solve(const case_type *type, const char *of, int
     return cell_run(&request, out, &f);
 }
 
-/* Returns the largest value of quantities with the same unit, as a scale for zeros. */
+/* Returns the largest value of quantities with the same unit, which is the scale for zeros. */
 static double scale_of(const cell_result *r, const char *unit)
 {
     double largest = 0;
@@ -415,7 +415,7 @@ static void cases(void)
     gsl_test(compared < 500, "%d values of cases were compared", compared);
 }
 
-/* Two leaves joined by a hinge, the second one starting from a body; the tip slides in its
+/* Two leaves joined by a hinge, the second one starting from a body. The tip slides in its
  * holder. */
 static status hinged(const double value[], scene *s, fault *f)
 {
@@ -456,8 +456,8 @@ static void released(void)
     gsl_test(compared < 12, "%d values with released ends were compared", compared);
 }
 
-/* With 4000 elements and condition 1e16 of the assembled tangent, Newton's method converges as with
- * few elements. */
+/* With 4000 elements and a condition of 1e16 of the assembled tangent, Newton's method must
+ * converge as with few elements. */
 static void many(const case_type *type)
 {
     cell_result few, more;
@@ -487,7 +487,7 @@ static void condensation_tests(void)
     gsl_test(!found, "c_cantilever is there");
 }
 
-/* An analysis passes on all eigenvalues, and the reason why there are no more. Results of one
+/* An analysis must pass on all eigenvalues, and the reason why there are no more. Results of one
  * kind of analysis cannot be read as those of another kind. */
 
 static void handed_over(status outcome, int rounding, const char *reason, const char *said)

@@ -1,5 +1,5 @@
 /* A beam that ends at a rigid body, in a state rotated about a general axis, with a load at a
- * distance from the body's own node, and the work of that load. */
+ * distance from the node of the body, and the work of that load. */
 #ifndef BEAMWORK_TEST_TURNED_BODY_H
 #define BEAMWORK_TEST_TURNED_BODY_H
 
@@ -22,7 +22,7 @@ enum { FREE_TURNS, THREE_ANGLES, TWO_ANGLES, FORK, BODIES };
 static const char *const turned_body_name[] = {"free turns", "three angles", "two angles",
                                                "a fork"};
 
-/* A beam from a clamp to a body, with a load at a distance from the body's node. */
+/* A beam from a clamp to a body, with a load at a distance from the node of the body. */
 static inline void beam_and_body(int body, scene_load_kind kind, scene *s)
 {
     const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1}, end = 1;
@@ -123,7 +123,7 @@ static inline void turned_body_motion(const turned_body *s, const double dx[], d
     rotation_between(from, q, turn);
 }
 
-/* Returns the work of the load to first order; for a force, the exact work. */
+/* Returns the work of the load to first order, which is exact for a force. */
 static inline double turned_body_work(const turned_body *s, const double dx[])
 {
     const scene_load *load = &s->scene.load[0];

@@ -1,5 +1,5 @@
-/* Buckling loads and frequencies of a simply supported beam with many elements, with the accuracy
- * that round-off allows. */
+/* Buckling loads and frequencies of a simply supported beam with many elements must have the
+ * accuracy that round-off allows. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -63,9 +63,9 @@ static double beam_energy(void *context, const double x[])
     return sum;
 }
 
-/* Returns mu of the mesh: w = W sin(k pi j h) and slope = S cos(k pi j h) at node j leave two
- * unknowns, W and S. This is for coarse meshes, because the determinants lose digits like (k pi
- * h)^4. */
+/* Returns mu of the mesh: w = W sin(k pi j h) and slope = S cos(k pi j h) at node j leave the two
+ * unknowns W and S. The function is for coarse meshes, because the determinants lose digits in
+ * proportion to (k pi h)^4. */
 static double mesh_value(const beam *b, int k, int vibration)
 {
     double K[16], G[16], M[16], form[2][3];
@@ -78,7 +78,7 @@ static double mesh_value(const beam *b, int k, int vibration)
         form[which][1] = (e[6] - e[3]) * sin(phase);
         form[which][2] = e[5] + e[15] + 2 * e[7] * cos(phase);
     }
-    /* det(form[1] - mu form[0]) = 0, the larger root */
+    /* the larger root of det(form[1] - mu form[0]) = 0 */
     const double *c = form[0], *d = form[1];
     const double p = c[0] * c[2] - c[1] * c[1], q = d[0] * c[2] + d[2] * c[0] - 2 * d[1] * c[1],
                  r = d[0] * d[2] - d[1] * d[1];
@@ -86,7 +86,7 @@ static double mesh_value(const beam *b, int k, int vibration)
 }
 
 /* Returns the expected value from Euler's loads and frequencies (k pi)^2. The loads of the mesh are
- * too high by a factor 1 + (k pi h)^4/720, its frequencies by half of this difference. */
+ * too high by a factor 1 + (k pi h)^4/720, and its frequencies by half of this difference. */
 static double expected_value(const beam *b, int k, int vibration)
 {
     if (b->elements <= 20)
@@ -158,8 +158,8 @@ static void spoilt_product(void *context, const double x[], double y[])
     sparse_mul(((const spoilt *)context)->K, x, y);
 }
 
-/* Whatever the assembly of K has changed, the result is that of the elements, and the reported
- * error is the actual error. */
+/* Whatever the assembly of K has changed, the result must be that of the elements, and the reported
+ * error must be the actual error. */
 static void test_spoilt(double part)
 {
     enum { ELEMENTS = 60, WANTED = 5 };
@@ -217,9 +217,6 @@ static void eigen_beam_tests(void)
     test_beam(600, 1e-12);
     test_beam(2000, 3e-9);
 }
-
-/* Candidates for eigenvalues: sorted, counted by the inertia, and completed in the complement of
- * the known ones. */
 
 /* If the iteration has found one copy of a repeated eigenvalue, the inertia shows it, and the
  * others are found in the complement of that copy. */
@@ -290,9 +287,7 @@ static void candidates_tests(void)
     test_missed_copies();
 }
 
-/* Lost eigenvalues: on one side only, after a missing one, or in rounding. */
-
-/* Returns x^T A x, but fails for one sign within a range of magnitudes. */
+/* Data of a function that returns x^T A x, but fails for one sign within a range of magnitudes. */
 typedef struct broken {
     const sparse *A;
     double sign, least, most;
@@ -306,7 +301,7 @@ static double broken_energy(void *context, const double x[])
 }
 
 /* Values of both signs, where those of one sign are lost as soon as they are found. The other side
- * is still found, as if it alone had been requested, and the lost side is reported. */
+ * must be found as if it alone had been requested, and the lost side must be reported. */
 static void test_sides_apart(void)
 {
     enum { N = 800, WANTED = 4 };
@@ -379,7 +374,7 @@ static double much(void *context, const double x[])
     return *(const double *)context;
 }
 
-/* The caller's estimate of rounding determines whether a value is significant, and to how many
+/* The estimate of rounding by the caller determines if a value is significant, and to how many
  * digits. */
 static void test_rounding(int masses)
 {
@@ -463,7 +458,6 @@ static void compare_sides(const eigen_result *sparse_way, const eigen_result *de
     }
 }
 
-/* With an indefinite A, the sparse method agrees with the dense one. */
 static void test_both_signs(void)
 {
     enum { NODES = 60, SIZE = 3, WANTED = 7 };
@@ -500,7 +494,7 @@ static void test_both_signs(void)
     matrices_free(&A);
 }
 
-/* Two strings are coupled only by A, each with the slope of the other: every value is double and
+/* Two strings are coupled only by A, each with the slope of the other, so every value is double and
  * occurs with both signs. */
 static void test_coupled_strings(int masses)
 {

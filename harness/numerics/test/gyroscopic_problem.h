@@ -12,7 +12,7 @@
 
 enum { WANTED = 8 };
 
-/* Dense matrices, row-major [n x n]; G is skew. */
+/* Dense matrices, row-major [n x n]. G is skew. */
 typedef struct problem {
     int n;
     double *K, *M, *G;
@@ -73,8 +73,8 @@ static inline int gyroscopic_problem_ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Finds all frequencies (lambda almost imaginary), ascending, and the largest real part. Returns
- * the number of frequencies. */
+/* Finds all frequencies (lambda almost imaginary) in ascending order, and the largest real part.
+ * Returns the number of frequencies. */
 static inline int gyroscopic_problem_by_lapack(const problem *p, double frequency[], double *growth)
 {
     const int n = p->n, m = 2 * n;
@@ -123,7 +123,7 @@ static inline void gyroscopic_problem_product(void *context, const double x[], d
     }
 }
 
-/* Solves with K_of as the matrix and, if given, the product and its rounding error. */
+/* Solves with K_of as the matrix. If given, the product and its rounding error are used. */
 static inline status gyroscopic_problem_solve_by(problem *p, const double K_of[],
                                                  eigen_product *product, eigen_form *rounding,
                                                  gyroscopic_result *r, fault *f)

@@ -56,7 +56,7 @@ static void definite(void)
         }
 }
 
-/* In two uncoupled copies every frequency occurs twice. */
+/* In two uncoupled copies, every frequency occurs twice. */
 static void equal_frequencies(void)
 {
     static const int size[] = {5, 50};
@@ -117,7 +117,7 @@ static void indefinite(void)
 }
 
 /* For K = -diag(1, 4), gyroscopic forces stabilise the motion if g >= sqrt(1) + sqrt(4). Real parts
- * due to rounding do not count as growth there. */
+ * due to rounding must not count as growth. */
 static void held_from(void)
 {
     static const double g[] = {2.999, 3.001};
@@ -139,8 +139,8 @@ static void held_from(void)
     }
 }
 
-/* With heavy, light and massless coordinates and an indefinite K, the requested modes with mass are
- * found, and no others. */
+/* With heavy, light and massless coordinates and an indefinite K, the requested modes with mass
+ * must be found, and no others. */
 static void light_and_massless(void)
 {
     for (int decade = 0; decade <= 16; decade += 2)
@@ -175,7 +175,7 @@ static void light_and_massless(void)
         }
 }
 
-/* If the matrix has lost digits that the product retains, the frequencies are those of the
+/* If the matrix has lost digits that the product retains, the frequencies must be those of the
  * product. */
 static void spoilt_matrix(void)
 {
@@ -234,8 +234,8 @@ static double large_rounding(void *context, const double x[])
     return part_of_rounding * sum;
 }
 
-/* The error of every frequency includes the effect of rounding in K: without gyroscopic terms
- * it is at least half of the relative change and at most ten times that. */
+/* The error of every frequency includes the effect of rounding in K. Without gyroscopic terms it is
+ * at least half of the relative change and at most ten times that. */
 static void rounding_is_told(void)
 {
     static const double strength[] = {0, 2};
@@ -283,11 +283,8 @@ static void gyroscopic_tests(void)
     indefinite();
 }
 
-/* Count of frequencies in a rotating frame. The count agrees with LAPACK, and missing frequencies
- * are found or reported. */
-
 /* Compares the number of frequencies below a given one with LAPACK: between all neighbours, below
- * the first and above the last. */
+ * the first and above the last. Missing frequencies must be found or reported. */
 static void compare_counts(const problem *p, const char *name)
 {
     double *frequency = calloc(2 * (size_t)p->n, sizeof *frequency), growth;
@@ -329,8 +326,8 @@ static void counts(void)
             }
 }
 
-/* `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, followed by others of stiffness 1e6; the
- * first two of the latter form a top whose slow precession is `slow` [rad/s]. */
+/* Makes `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, followed by others of stiffness 1e6.
+ * The first two of the latter form a top whose slow precession is `slow` [rad/s]. */
 static void oscillators_and_top(int masses, int behind, double slow, problem *p)
 {
     const double k = 1e6, g = (k / slow) - slow; /* root of w^2 + g w - k */
@@ -343,9 +340,9 @@ static void oscillators_and_top(int masses, int behind, double slow, problem *p)
     p->G[(masses + 1) * p->n + masses] = g;
 }
 
-/* `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, and a top. Without gyroscopic terms the top
- * is by far the stiffest part; with them its precession lies 0.5 rad/s above oscillator number
- * `behind`. Neither a start without these terms nor any residual reveals it. */
+/* `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, and a top. Without gyroscopic terms, the top
+ * is by far the stiffest part. With them, its precession is 0.5 rad/s above oscillator number
+ * `behind`. Neither a start without these terms nor any residual reveals the precession. */
 static void hidden_precession(int masses, int behind, int wanted_outcome)
 {
     const double slow = behind + 0.5;

@@ -179,9 +179,9 @@ static void random_matrices(kind what, const char *name, double allowed)
     gsl_test(!(worst < allowed), "%s: as LAPACK within %.1f eps times the condition", name, worst);
 }
 
-/* The upper triangle and the full symmetric matrix have the same condition number: the exact one in
- * the 1-norm for a chain of n springs held at one end, with rows and columns scaled to a unit
- * diagonal. */
+/* The upper triangle and the full symmetric matrix have the same condition number. For a chain of n
+ * springs held at one end, it is the exact one in the 1-norm, with rows and columns scaled to a
+ * unit diagonal. */
 static void condition_of_a_triangle(void)
 {
     enum { N = 6 };
@@ -344,8 +344,8 @@ static void singular_matrix_tests(void)
     beams_that_are_not_held();
 }
 
-/* Threads that share a loop process every index once, whatever their number. There are thousands of
- * rounds, and sleeping threads are woken. */
+/* Threads that share a loop must process every index once, whatever their number. There are
+ * thousands of rounds, and sleeping threads are woken. */
 
 enum { TEST_TEAM_MOST = 1000 };
 
@@ -419,8 +419,8 @@ static int read_piece(void *context, int piece, int slot)
     return piece != log->last;
 }
 
-/* Pieces are taken in order, each once, with their contents intact; none after the last requested
- * piece. */
+/* Pieces must be taken in order, each once, with their contents intact, and none after the last
+ * requested piece. */
 static void relays(int threads)
 {
     thread_team *t = NULL;
@@ -460,8 +460,8 @@ static void team_tests(void)
     team_free(NULL);
 }
 
-/* Rows computed in groups and solutions for several right-hand sides agree bitwise with
- * SuiteSparse's LDL, with and without AVX2. */
+/* Rows computed in groups and solutions for several right-hand sides must agree bitwise with LDL of
+ * SuiteSparse, with and without AVX2. */
 
 enum {
     TRIANGULAR_MOST = 90,

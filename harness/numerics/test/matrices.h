@@ -105,7 +105,7 @@ static inline void matrices_add(sparse *s, int i, int j, double value)
             s->value[k] += value;
 }
 
-/* Adds element matrices k[2 size x 2 size] of all pairs of neighbouring nodes; the first `left_out`
+/* Adds element matrices k[2 size x 2 size] of all pairs of neighbouring nodes. The first `left_out`
  * unknowns do not exist. */
 static inline void matrices_add_elements(sparse *s, int elements, int size, int left_out,
                                          const double k[])

@@ -9,13 +9,13 @@ TABLES = "cases/warping_torsion"
 
 
 def of_cell(table):
-    """Returns which rows of a table belong to one cell."""
+    """Returns a function that selects the rows of a table that belong to one cell."""
     return (table["point"] == b"default") & (table["formulation"] == b"beamw") & (table["elements"]
                                                                                   == 4)
 
 
 def change_rows(file, name, change):
-    """Applies change(rows of the cell) to a table; removes the rows if it returns False."""
+    """Applies change(rows of the cell) to a table. Removes the rows if it returns False."""
     group, rows = file[TABLES], file[TABLES][name][()]
     own = of_cell(rows)
     part = rows[own]
@@ -53,7 +53,6 @@ class Compare(ProgramTest):
                 "error=0,floor=0,work=0").returncode, 0)
 
     def test_jobs(self):
-        """One process and several give the same bits."""
         path = {}
         for jobs in ("1", "2", "5"):
             path[jobs] = self.folder / f"j{jobs}.h5"
@@ -66,8 +65,6 @@ class Compare(ProgramTest):
             self.assertIn("0 worse, 0 better, 0 changed, 0 gone, 0 new", done.stdout)
 
     def test_lost_value(self):
-        """A lost value is worse, and a gained value is better; the same applies to quantities."""
-
         def lose(file):
 
             def nothing(rows):
@@ -152,8 +149,6 @@ class Compare(ProgramTest):
         self.assertIn("new      warping_torsion/default/beamw n=4", done.stdout)
 
     def test_quantities(self):
-        """A renamed quantity counts as one lost and one new."""
-
         def rename(file):
 
             def other(rows):
@@ -227,8 +222,6 @@ class Compare(ProgramTest):
         self.assertIn("warping_torsion/quantities is missing or damaged", done.stderr)
 
     def test_strange_tables(self):
-        """Missing columns, columns of a different type, and rows that belong to nothing are rejected."""
-
         def drop(name, column):
 
             def change(file):
@@ -261,7 +254,6 @@ class Compare(ProgramTest):
             self.assertIn("damaged", done.stderr)
 
     def test_versions(self):
-        """A file of a different version is rejected with one line."""
         for version in (1, 4):
             done = self.compared(lambda file: file.attrs.modify("schema_version", version))
             self.assertEqual(done.returncode, 2, done.stdout)

@@ -1,5 +1,5 @@
-/* Every column contains the data that its name states: a constructed sweep with distinct numbers is
- * read field by field. */
+/* Every column must contain the data that its name states. A constructed sweep with distinct
+ * numbers is read field by field. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -96,7 +96,7 @@ static void make(fields_bench *b)
     b->j = (judgement){.verdicts = 1, .verdict = &b->v};
 }
 
-/* Returns number k of a field of a record; NAN: the field does not exist. */
+/* Returns number k of a field of a record, or NAN if the field does not exist. */
 static double number_of(const record_type *type, const subject *s, const char *name, int k)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -201,7 +201,7 @@ static void errors(const gathering *g)
     gather_free(&list);
 }
 
-/* The times of every round are stored, for the cell as it is and with all coordinates kept; none
+/* The times of every round are stored, for the cell as it is and with all coordinates kept. None
  * are stored if nothing was timed. */
 static void timings(void)
 {
@@ -245,7 +245,6 @@ static element_order order_of(element_analysis a, const double options[])
     return (element_order){10 * (int)a + 1, 10 * (int)a + 2};
 }
 
-/* Checks the declared orders for every analysis. */
 static void declarations(void)
 {
     static const element_type ordered = {.name = "ordered", .order = order_of};
@@ -303,8 +302,8 @@ typedef struct reach_line_bench {
     truths t;
 } reach_line_bench;
 
-/* Adds a series with values limit (1 + 0.1 n^-2), and `work` evaluations on the coarsest mesh;
- * their number doubles on each finer mesh. */
+/* Adds a series with values limit (1 + 0.1 n^-2), and `work` evaluations on the coarsest mesh.
+ * Their number doubles on each finer mesh. */
 static void add(reach_line_bench *b, double limit, long work)
 {
     const int i = b->s.seriess++;
@@ -400,7 +399,7 @@ static void line_expect(const reach_line_bench *b, double level, const char *rig
     gsl_test(strcmp(line, right) != 0, "'%s', not '%s'", line, right);
 }
 
-/* Quantities without a reference are named together; curves are excluded. */
+/* Quantities without a reference are named together. Curves are excluded. */
 static void not_every_quantity(void)
 {
     reach_line_bench b;
@@ -426,7 +425,7 @@ static void not_every_quantity(void)
     finish(&b);
 }
 
-/* The model error of passing formulations is on a separate line; an agreement is not a different
+/* The model error of passing formulations is on a separate line. An agreement is not a different
  * model. */
 static void other_models(void)
 {

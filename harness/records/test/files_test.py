@@ -20,9 +20,8 @@ from harness.tools.kit.program import PROGRAM, ProgramTest, TRUTHS, read_json, r
 from reference.pack import seal
 
 
-# Files written by the program: complete or absent, and readable by other programs.
 SELECTION = ("verify", "-k", "warping_torsion/default")
-# Many cells; the first ones are the most expensive and end early.
+# Many cells, of which the first are the most expensive and end early.
 QUICK = " and ".join(f"not {word}" for word in ("_motion", "leaf_guide", "flight", "rigid_body", "release",
                                                 "pendulum", "spin_up", "lee_frame"))
 
@@ -34,6 +33,7 @@ def small_files():
 
 
 class Folder(ProgramTest):
+
     def path(self, name):
         return str(self.folder / name)
 
@@ -42,9 +42,8 @@ class Folder(ProgramTest):
 
 
 class Complete(Folder):
+
     def test_full_disk(self):
-        """On a full disk, each kind of file leads to one line and exit status 4, and the previous file is
-        unchanged."""
         wanted = {"-o": "r.h5", "--json": "v.json", "--junit": "j.xml"}
         for option, name in wanted.items():
             pathlib.Path(self.path(name)).write_bytes(b"before")
@@ -55,7 +54,6 @@ class Complete(Folder):
         self.assertEqual(sorted(os.listdir(self.folder)), sorted(wanted.values()))
 
     def test_killed(self):
-        """Whenever a run is killed (before the work, during writing, or after it), its file is complete or absent."""
         run(*SELECTION, "-o", self.path("whole.h5"))
         whole = os.path.getsize(self.path("whole.h5"))
         for look in range(24):
@@ -86,7 +84,7 @@ class Complete(Folder):
 
 
 class Interrupted(Folder):
-    """After a request to end (Ctrl-C, SIGTERM) the results so far are stored under names that mark them as partial."""
+    """After a request to end (Ctrl-C, SIGTERM), the results so far are stored under names that mark them as partial."""
 
     def started(self, cells, *arguments):
         """Returns a run that, according to its terminal output, has solved this number of cells."""
@@ -125,8 +123,7 @@ class Interrupted(Folder):
             os.remove(self.path(name))
 
     def check_content(self, summary):
-        """Checks that values agree with those of an uninterrupted run; limits lack the noise, which is measured
-        last."""
+        """Checks that values agree with those of an uninterrupted run. Limits lack the noise, which is measured last."""
         self.assertGreater(summary["unfinished_cells"], 0)
         self.assertGreater(len(summary["verdicts"]), 0)
         with h5py.File(self.path("r.partial.h5")) as file:
@@ -150,7 +147,6 @@ class Interrupted(Folder):
         self.check_partial(signal.SIGTERM, group=False)
 
     def test_ignored(self):
-        """nohup: an ignored signal does not end the run."""
         process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
@@ -161,6 +157,7 @@ class Interrupted(Folder):
 
 
 class Readable(Folder):
+
     def test_results(self):
         done = run(*SELECTION, "-o", self.path("r.h5"), "--json", self.path("v.json"), "--junit",
                    self.path("j.xml"))
@@ -188,7 +185,6 @@ class Readable(Folder):
             self.assertEqual(finest["unit"], b"1")
 
     def test_reached(self):
-        """The number of elements from which every error is within a level agrees with the errors in the same file."""
         run("verify", "-k", "elastica/default or warping_torsion/default", "-o", self.path("r.h5"))
         seen = set()
         with h5py.File(self.path("r.h5")) as file:
@@ -227,7 +223,6 @@ class Readable(Folder):
             self.assertAlmostEqual((value - truth) / truth, error, delta=1e-12)
 
     def test_quantity(self):
-        """A selection can name single quantities."""
         done = run("verify", "-k", "c_column/default and buckling_load", "--json",
                    self.path("v.json"))
         self.assertEqual(done.returncode, 0, done.stdout)
@@ -242,6 +237,7 @@ class Readable(Folder):
 
 
 class Gate(Folder):
+
     def altered(self, change):
         """Returns the exit status and the output of a run of one case with a changed copy of the reference values."""
         pathlib.Path(self.path("t.h5")).write_bytes(pathlib.Path(TRUTHS).read_bytes())
@@ -272,19 +268,17 @@ class Gate(Folder):
         self.assertIn("warping_torsion", done.stderr)
 
     def test_other_parameters(self):
-        """Reference values for other points are not used here."""
         def change(file):
             del file["truths/warping_torsion"]
         self.assertEqual(self.altered(change).returncode, 3)
 
 
-# Frames of a motion: evenly spaced in time, in the arrays for pictures and as a temporal
-# unstructured grid (VTKHDF file format 2.0, section on temporal data).
 MOTION = ("solve", "elbow", "-f", "collocation", "-n", "2", "--set", "step=0.07",
           "--set", "tolerance=0", "--set", "integrator=alpha")
 
 
 class Frames(ProgramTest):
+
     def solved(self, name, *more):
         path = self.folder / name
         self.answered(*MOTION, *more, "-o", path)
@@ -295,7 +289,6 @@ class Frames(ProgramTest):
         return only
 
     def test_times(self):
-        """There are as many frames as requested, by default sixty, from start to end."""
         for option, count in (("--shapes", 60), ("--shapes=3", 60), ("--shapes=8", 8)):
             with self.solved("times.h5", option, "--set", "time=2") as file:
                 g = self.shapes(file)
@@ -306,7 +299,6 @@ class Frames(ProgramTest):
                                            atol=1e-15)
 
     def test_places(self):
-        """A frame between the ends of steps shows the motion at that time."""
         with self.solved("places.h5", "--shapes=9", "--set", "time=2") as file:
             nodes, first = self.shapes(file)["nodes"][()], self.shapes(file)["nodes"][0]
             np.testing.assert_array_equal(nodes[1], first)
@@ -320,14 +312,12 @@ class Frames(ProgramTest):
                 self.assertGreater(abs(place[2]), 0.03)
 
     def test_resultants(self):
-        """Stresses are interpolated between the ends of steps: the moment at the root does not jump."""
         with self.solved("forces.h5", "--shapes=40", "--set", "time=2") as file:
             moment = self.shapes(file)["moment"][1:, 0, 1]
             self.assertGreater(np.ptp(moment), 50)
             self.assertLess(np.abs(np.diff(moment)).max(), 0.15 * np.ptp(moment))
 
     def test_temporal_grid(self):
-        """Every data set that the format requires for a temporal grid exists, with its length and type."""
         frames = 7
         with self.solved("grid.h5", f"--shapes={frames}", "--set", "time=1") as file:
             grid, steps = file["VTKHDF"], file["VTKHDF/Steps"]

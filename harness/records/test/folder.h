@@ -23,7 +23,6 @@ static inline int folder_entries(const char *folder)
     return count;
 }
 
-/* A separate folder for every test. */
 typedef struct test_folder {
     char path[64];
 } test_folder;

@@ -110,7 +110,7 @@ static tree read_tree(const char *text)
     return t;
 }
 
-/* One point, one series, and any judgement. */
+/* One point, one series, and any verdicts. */
 typedef struct junit_bench {
     sweep s;
     sweep_point p;
@@ -261,8 +261,8 @@ static void junit_tests(void)
     mixtures();
 }
 
-/* Lines of CSV, read back according to RFC 4180: whatever a text contains, every field is in the
- * column of its name. */
+/* Lines of CSV, read back according to RFC 4180. Whatever a text contains, every field must be in
+ * the column of its name. */
 
 enum { MOST_FIELDS = 8, ROOM = 256, LINES = 2 };
 
@@ -330,7 +330,6 @@ static void compare(const char *first, const char *last)
     free(text);
 }
 
-/* A value that is not a number leaves its field empty. */
 static void no_number(void)
 {
     static const double none[] = {NAN, INFINITY, -INFINITY};
@@ -360,9 +359,7 @@ static void csv_tests(void)
     no_number();
 }
 
-/* Outlines at both ends of a tapered member: walls and corners correspond. */
-
-/* A section that is high at one end and wide at the other: its corners stay in their quadrants. */
+/* A section that is high at one end and wide at the other. Its corners stay in their quadrants. */
 static void rectangles(void)
 {
     const section_spec high = section_spec_rectangle(2e11, 8e10, 0.1, 0.2),
@@ -411,10 +408,8 @@ static void outline_tests(void)
     matrices();
 }
 
-/* Targets of paths: links, the same target under many names, and invalid targets for an output. */
-
-/* The target of a link is replaced, not the link: in the same folder, in another folder, through
- * several links, and if the target does not exist. */
+/* The target of a link must be replaced, not the link: in the same folder, in another folder,
+ * through several links, and if the target does not exist. */
 static void links(void)
 {
     const test_folder of = folder_make();
@@ -446,7 +441,7 @@ static void links(void)
     folder_remove(&of);
 }
 
-/* An invalid target of an output is reported in one line before anything is computed. */
+/* An invalid target of an output must be reported in one line before anything is computed. */
 static void no_places(void)
 {
     const test_folder of = folder_make();
@@ -470,7 +465,7 @@ static void no_places(void)
     folder_remove(&of);
 }
 
-/* One target under many names: other spellings, links and hard links, also for files that do not
+/* One target under many names: other spellings, links and hard links, even for files that do not
  * exist yet. */
 static void same_places(void)
 {

@@ -14,7 +14,7 @@
 
 enum { WRITERS = 6, TIMES = 10, KILLS = 60, COUNT = 20000 };
 
-/* Writes `mark` into the group of this name, as an attribute and COUNT times in a data set. */
+/* Writes `mark` to the group of this name, as an attribute and COUNT times in a data set. */
 static status leave(const char *path, const char *name, double mark)
 {
     static double all[COUNT];
@@ -36,7 +36,7 @@ static status leave(const char *path, const char *name, double mark)
     return kept_close(&r, name, path, &f);
 }
 
-/* Returns the mark of a group if the group is complete; -1: it is missing or incomplete. */
+/* Returns the mark of a group if the group is complete, or -1 if it is missing or incomplete. */
 static long mark_of(const char *path, const char *name)
 {
     static double all[COUNT];

@@ -1,4 +1,4 @@
-"""Matrices written by `solve --matrices`: results of scipy with them agree with those of the program."""
+"""Results of scipy with the matrices written by `solve --matrices` must agree with those of the program."""
 import csv
 import os
 import resource
@@ -18,8 +18,8 @@ FORMULATIONS = ("beamw_first", "beamw", "beamw_vlasov", "beamw_consistent", "she
                 "sheet_second_consistent", "sheet_third", "sheet_third_printed",
                 "geometrically_exact", "geometrically_exact:nodes=3", "collocation")
 
-# Stocky, so that the matrices have twelve digits; rigid in shear, so that every formulation
-# supports it.
+# A bar that is stocky, so that the matrices have twelve digits, and rigid in shear, so that every formulation supports
+# it.
 BAR = """beamwork: 1
 sections:
   bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8,
@@ -72,14 +72,14 @@ members:
 
 
 def scaled(K, *others):
-    """Scales all matrices by the square roots of K's diagonal, because rows are in metres and in radians."""
+    """Scales all matrices by the square roots of the diagonal of K, because rows are in metres and in radians."""
     d = 1 / numpy.sqrt(numpy.diag(K))
     return [A * d[:, None] * d for A in (K, *others)]
 
 
 def frequencies(K, M, inside=None):
-    """Returns the frequencies [Hz] of K x = omega^2 M x, ascending; M may be singular. With `inside`, each mode
-    satisfies x.K x = omega^2 x.M x + omega^4 x.inside x."""
+    """Returns the frequencies [Hz] of K x = omega^2 M x in ascending order. M may be singular. If `inside` is given, each
+    mode satisfies x.K x = omega^2 x.M x + omega^4 x.inside x."""
     K, M, inside = scaled(K, M, 0*K if inside is None else inside)
     mu, x = scipy.linalg.eigh(M, K)
     mu, x = mu[mu > 1e-14 * mu[-1]], x[:, mu > 1e-14 * mu[-1]]
@@ -88,8 +88,8 @@ def frequencies(K, M, inside=None):
 
 
 def turning_frequencies(K, M, G):
-    """Returns the frequencies [Hz] of (K + i omega G - omega^2 M) x = 0, which is Hermitian in 1/omega with K = L L^T
-    and M = R^T R."""
+    """Returns the frequencies [Hz] of (K + i omega G - omega^2 M) x = 0, which is Hermitian in 1/omega with K = L L^T and
+    M = R^T R."""
     K, M, G = scaled(K, M, G)
     L = scipy.linalg.cholesky(K, lower=True)
     size, vectors = scipy.linalg.eigh(M)
@@ -143,8 +143,8 @@ class Matrices(ProgramTest):
 class Frequencies(Matrices):
 
     def test_loaded(self):
-        """The matrices are checked at rest, prestressed, and bent by a quarter of the length, with a rigid body; at
-        rest the frequencies also include the internal motions of elements."""
+        """The matrices are checked at rest, prestressed, and bent by a quarter of the length, with a rigid body. At rest,
+        the frequencies include the internal motions of elements."""
         checked = with_inside = 0
         for formulation in FORMULATIONS:
             folder, values = self.solved(LOADED, formulation)
@@ -185,8 +185,8 @@ class Frequencies(Matrices):
                          [("1", "tip", 40), ("2", "tip", 5)])
 
     def test_loads_on_members(self):
-        """The table states the part of the member on which each load acts; the columns of B are the loads, and K x =
-        B 1 is the linear solution."""
+        """The table states the part of the member on which each load acts. The columns of B are the loads, and K x = B 1
+        is the linear solution."""
         loads = """  part: {distributed: [0, 6, 0], on: bar, from: 0.25, to: 0.75, to_value: [0, 0, 3]}
   point: {force: [1, 2, 3], on: bar, where: 0.5}
   halves: {distributed: [0, 0, 4], on: bar, lumped: yes}
@@ -206,7 +206,6 @@ class Frequencies(Matrices):
         self.assertLess(abs(tip[0] / values["uz"] - 1), 1e-11)
 
     def test_turning(self):
-        """In a rotating frame there are matrices for two stations, the last of which has the frequencies."""
         checked = 0
         for formulation in FORMULATIONS:
             folder, values = self.solved(TURNING, formulation)
@@ -222,7 +221,6 @@ class Frequencies(Matrices):
         self.assertEqual(checked, len(FORMULATIONS))
 
     def test_newton(self):
-        """Each form of Newton's method gives the same matrices to round-off."""
         scene = BAR + "analyses:\n  path: {static: {stations: [1]}}\n"
         K = self.read(self.solve(scene, "collocation"), "path_station_0", "K")
         for newton in ("displacement", "dense"):
@@ -317,8 +315,7 @@ class StateSpace(Matrices):
         return folder, {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_responses(self):
-        """Responses agree at rest with a mass and dashpots, about a bent state, with a follower load, and with all
-        kinds of damping; the poles are the damped modes."""
+        """The poles are the damped modes."""
         bent = "  path: {static: {stations: [1]}}\n"
         checked = 0
         for formulation in FORMULATIONS:
@@ -351,8 +348,8 @@ class StateSpace(Matrices):
         self.assertLess(max(poles.real), 1e-3)
 
     def test_without_mass(self):
-        """Massless coordinates with damping are of first order, others are eliminated; an output rate that follows its
-        force instantaneously is rejected."""
+        """Massless coordinates with damping are of first order, and others are eliminated. An output rate that follows
+        its force instantaneously is rejected."""
         scene = BENT.replace("  modes: {modal: {damped: yes%s}}\n", "%.0s")
         scene = scene[:scene.index("  f_$n")] + scene[scene.index("mass: lumped"):]
         holds = (0, SHAKEN, "", "", "", "", "")
@@ -369,7 +366,6 @@ class StateSpace(Matrices):
                      "-f", "beamw", "-n", 2, "--matrices", self.folder/"none", "--state-space", silent=False)
 
     def test_turning(self):
-        """In a rotating frame the frequencies are those of the rotation."""
         folder, values = self.solved(TURNING, "collocation", n=2)
         folder = self.folder/"with"
         self.answered("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 2, "--matrices", folder,
@@ -379,7 +375,6 @@ class StateSpace(Matrices):
         self.agree(values, "turning", found, "poles", 1e-10)
 
     def test_reduced(self):
-        """Craig-Bampton and modal reduction agree with the same basis from scipy; errors.csv contains their errors."""
         choices = ("node: tip, component: uy, force: tip, along: uy", "node: tip, component: rx, of: velocity, drive: shake",
                    "node: root, component: uy, of: reaction, force: tip, along: uz",
                    "node: root, component: uy, of: reaction, drive: shake")
@@ -458,7 +453,6 @@ quantities: {r: {response: {analysis: ha, node: mid, component: uy, force: tip, 
                     self.refused(1, [f"--reduce {modes}{nodes}: {words}"], *work, silent=False)
 
     def test_feedback(self):
-        """The feedback loop is open, which one line and the files state."""
         scene = BAR + """  motor: {force: [1, 0, 0], on: tip, feedback: {node: tip, component: uz, proportional: 3}}
 analyses: {run: {motion: {stations: 0..1e-3, step: 1e-3}}}
 quantities: {uz: {displacement: {analysis: run, node: tip, component: uz}, unit: m}}
@@ -475,7 +469,6 @@ omit: [shear, trapeze, wagner_moments, wagner_torque]
                 self.assertEqual("loops of feedback open" in held, loop == 1, name)
 
     def test_inside(self):
-        """The state space excludes the mass inside elements, and the resulting error is reported."""
         scene = (BENT % (2700, SHAKEN, "", "", "", "", "", ALL)).replace("mass: lumped\n", "")
         (self.folder/"scene.yaml").write_text(scene, encoding="utf-8")
         said = run("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 4, "--matrices",
@@ -503,7 +496,6 @@ class Contents(Matrices):
             sorted([s["folder"] for s in states] + ["dofs.csv", "loads.csv", "states.csv"]))
 
     def test_follower(self):
-        """A load that rotates with its node has an unsymmetric tangent, which is reported."""
         folder = self.solve(FOLLOWER, "collocation")
         head = (folder / "path_station_0/K.mtx").read_text().splitlines()[0]
         self.assertEqual(head, "%%MatrixMarket matrix coordinate real general")
@@ -511,7 +503,6 @@ class Contents(Matrices):
         self.assertGreater(numpy.abs(K - K.T).max(), 1e-6 * numpy.abs(K).max())
 
     def test_rows(self):
-        """Rows are nodes, interior nodes, released ends, angles of a sequence and warping amplitudes."""
         folder = self.solve(PORTAL, "beamw_consistent")
         rows = self.rows(folder)
         count = {}
@@ -536,7 +527,6 @@ class Places(Matrices):
     WORK = ("solve", "warping_torsion", "-f", "beamw", "-n", "20", "--matrices")
 
     def test_refused(self):
-        """An output that cannot be written is reported before anything is computed."""
         there = self.folder / "there"
         there.mkdir()
         (there / "mine").write_text("mine", encoding="utf-8")
@@ -550,7 +540,6 @@ class Places(Matrices):
         self.assertEqual(os.listdir(there), ["mine"])
 
     def test_empty_folder(self):
-        """An empty folder is accepted, even through a link and with a trailing slash."""
         there, link = self.folder / "there", self.folder / "link"
         there.mkdir()
         link.symlink_to("there")
@@ -560,7 +549,6 @@ class Places(Matrices):
         self.assertEqual(sorted(os.listdir(self.folder)), ["link", "there"])
 
     def test_signals(self):
-        """A run that is ended while it writes leaves no files."""
         for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT):
             ended = 0
             for _ in range(20):
@@ -578,8 +566,6 @@ class Places(Matrices):
             self.assertEqual(ended, 1)
 
     def test_full_disk(self):
-        """On a full disk the folder is complete or absent."""
-
         def small():
             resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
 

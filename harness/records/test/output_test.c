@@ -1,4 +1,4 @@
-/* Files that appear complete or not at all: replaced files, files written directly, permissions,
+/* Files must appear complete or not at all: replaced files, files written directly, permissions,
  * full disks. */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
@@ -59,7 +59,7 @@ static void write_failures(void)
     struct rlimit kept, small;
     getrlimit(RLIMIT_FSIZE, &kept);
     small = kept;
-    small.rlim_cur = 1000; /* [bytes]; a compressed file needs more, as on a full disk */
+    small.rlim_cur = 1000; /* bytes; a compressed file needs more, as on a full disk */
     signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
     write_record(path, folder, 0, "no room");
@@ -85,7 +85,6 @@ static void write_word(FILE *to, const void *word)
     fputs(word, to);
 }
 
-/* Incomplete files of this process are deleted, and complete ones remain. */
 static void abandoned(void)
 {
     const test_folder of = folder_make();
@@ -116,7 +115,6 @@ static void abandoned(void)
     folder_remove(&of);
 }
 
-/* If writing fails, the previous file remains, and the status is that of the failure. */
 static void finished(void)
 {
     const test_folder of = folder_make();
@@ -142,7 +140,6 @@ static void finished(void)
              "standard output is flushed %s", f.text);
 }
 
-/* Permissions follow the umask, or the replaced file. */
 static void permissions(void)
 {
     static const mode_t mode[] = {0600, 0640, 0664, 0755};
@@ -164,7 +161,7 @@ static void permissions(void)
     folder_remove(&of);
 }
 
-/* A link planted under a temporary name would be followed, so temporary names are unpredictable. */
+/* A link with a temporary name would be followed, so temporary names are unpredictable. */
 static void temporary_names(void)
 {
     enum { NAMES = 50 };
@@ -190,7 +187,7 @@ static void temporary_names(void)
     folder_remove(&of);
 }
 
-/* Text can be written to pipes and devices, which are not replaced; a whole file cannot. */
+/* Text can be written to pipes and devices, which are not replaced. A whole file cannot. */
 static void streams(void)
 {
     const test_folder of = folder_make();

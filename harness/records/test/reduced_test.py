@@ -8,7 +8,7 @@ import scipy.io
 
 from harness.tools.kit.program import ProgramTest
 
-# uy and rz are independent of uz. Where the member is inclined, functions that are zero contain round-off.
+# uy and rz are independent of uz. If the member is inclined, functions that are zero contain round-off.
 CANTILEVER = """beamwork: 1
 sections: {s: {%(section)s, young: 70e9, shear_modulus: 26e9, density: 2700}}
 nodes:
@@ -21,7 +21,7 @@ STRAIGHT = {"mid": "0.5, 0, 0", "tip": "0.9, 0, 0", "y": "0, 1, 0"}
 INCLINED = {"mid": "0.3, 0, 0.4", "tip": "0.54, 0, 0.72", "y": "0, 1, 0"}
 SKEW = {"mid": "0.3, 0.4, 0", "tip": "0.54, 0.72, 0", "y": "-0.48, 0.36, 0.8"}
 RECTANGLE, TUBE = "rectangle: {width: 20e-3, thickness: 8e-3}", "tube: {diameter: 30e-3, thickness: 2e-3}"
-# Three equal springs: a triple frequency. The member moves on its own.
+# Three equal springs, which have a triple frequency.
 SPRINGS = """beamwork: 1
 sections: {s: {rectangle: {width: 20e-3, thickness: 8e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}}
 nodes:

@@ -1,5 +1,5 @@
-/* The tables of fields are well formed, and every stored field is transferred unchanged between
- * processes. */
+/* The tables of fields must be well formed, and every stored field must be transferred unchanged
+ * between processes. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -44,7 +44,6 @@ static void well_formed(const record_type *type)
     }
 }
 
-/* Parameters are also columns of the points. */
 static void parameters_differ(const case_type *type)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -202,7 +201,7 @@ static int lines_with(const char *text, const char *part)
     return count;
 }
 
-/* At most fifty rows of a list are written, with the number of the remaining ones; if there are
+/* At most fifty rows of a list are written, with the number of the remaining ones. If there are
  * more cases than rows, those that pass are named, and separately those without a verdict. */
 static void long_lists(void)
 {

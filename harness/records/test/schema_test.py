@@ -1,4 +1,4 @@
-"""Every format contains the fields listed by `beamwork schema`, under the same names."""
+"""Every format must contain the fields listed by `beamwork schema`, under the same names."""
 import csv
 import io
 import json
@@ -25,6 +25,7 @@ def text(value):
 
 
 class Schema(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         cls.schema = json.loads(run("schema", "--format", "json"))
@@ -75,7 +76,6 @@ class Schema(ProgramTest):
                     self.check_table(file[table], self.records[table])
 
     def test_declarations(self):
-        """Each formulation is listed once, with the declarations of its type."""
         with h5py.File(self.results) as file:
             rows = file["declarations"][()]
             run_here = {text(s["formulation"]) for case in file["cases"].values()
@@ -89,7 +89,6 @@ class Schema(ProgramTest):
         self.assertEqual(stages[:3], ["stages", "3|4|5|6|7|8", "5"])
 
     def test_every_table_is_seen(self):
-        """The tables that the other tests use are not empty."""
         with h5py.File(self.results) as file:
             for table in self.records:
                 if table not in (*JSON_ONLY, *OF_THE_RUN, "timings", "agreements", "matrices", "imports", "assumptions"):
@@ -100,7 +99,6 @@ class Schema(ProgramTest):
             self.assertEqual(len(file["experiments/bench/cases/elastica/timings"]), 2)
 
     def test_references(self):
-        """Rows belong to existing cells; points of curves lie within the arrays."""
         with h5py.File(self.results) as file:
             for case in file["cases"].values():
                 cells = {tuple(c[k] for k in KEYS) for c in case["cells"][()]}
@@ -146,7 +144,6 @@ class Schema(ProgramTest):
         self.assertEqual(set(jumps[0]), set(self.names("events", keys=False)))
 
     def test_parameters(self):
-        """The columns of points are the parameters of the case, with units and values."""
         path = self.folder / "s.h5"
         sets = ("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1",
                 "--set", "width=0.07", "--set", "tip_warping=1")
@@ -163,7 +160,6 @@ class Schema(ProgramTest):
         self.assertEqual((units["length"], row["width"]), (b"m", 0.07))
 
     def test_scenes(self):
-        """Every point is stored as the scene file that `beamwork scene` writes."""
         with h5py.File(self.results) as file:
             for name, case in file["cases"].items():
                 scenes = {text(row["point"]): text(row["scene"]) for row in case["scenes"][()]}
@@ -171,7 +167,6 @@ class Schema(ProgramTest):
                 self.assertEqual(scenes["default"], run("scene", name))
 
     def test_what_can_be_set(self):
-        """The table of parameters has the columns of the points, with their defaults."""
         with h5py.File(self.results) as file:
             for case in file["cases"].values():
                 table, points = case["parameters"][()], case["points"]
@@ -186,7 +181,6 @@ class Schema(ProgramTest):
                     self.assertTrue(p["summary"])
 
     def test_meanings(self):
-        """Every quantity with values is described as in `list`."""
         with h5py.File(self.results) as file:
             for name, case in file["cases"].items():
                 told = {(m["point"], m["quantity"]): text(m["meaning"])
@@ -221,7 +215,6 @@ class Schema(ProgramTest):
             self.assertEqual(head, names + ["omitted", "assumed"] * (verb == "solve"))
 
     def test_experiments(self):
-        """The groups and the JSON of the experiments have exactly the described tables."""
         path = self.folder / "results.h5"
         csv_of = {"stress": "outcomes", "motion": "runs"}
         for verb, *asked in (("stress", "-k", "thin", "-f", "sheet_third"),
@@ -247,7 +240,6 @@ class Schema(ProgramTest):
                 self.assertEqual(head, [f["name"] for f in own[csv_of[verb]]])
 
     def test_text(self):
-        """The description names every field."""
         told = run("schema")
         for fields in (*self.records.values(), *self.groups.values()):
             for f in fields:

@@ -1,4 +1,4 @@
-"""The short table of a run: a change in any position is detected, and all contents are checked."""
+"""The short table of a run: a change in any position must be detected, and all contents are checked."""
 import csv
 import unittest
 
@@ -25,6 +25,7 @@ def change_rows(file, table, change):
 
 
 class ShortTable(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()
@@ -50,7 +51,7 @@ class ShortTable(ProgramTest):
             self.assertTrue(all(word in line for line in lines), lines)
 
     def plant(self, table, allowed, alter, words):
-        """Applies alter(rows, i) to the k-th row of every series, for every k, and returns the number of changes."""
+        """Applies alter(rows, i) to the k-th row of every series, for every k. Returns the number of changes."""
         total = 0
         for k in range(1000):
             planted = []
@@ -78,7 +79,6 @@ class ShortTable(ProgramTest):
         return alter
 
     def test_errors(self):
-        """An error changed beyond the thresholds, upwards or downwards, is detected in every value of every mesh."""
         has = lambda row: np.isfinite(row["error"])
         least = lambda row: has(row) and abs(row["error"]) > 10 * FLOOR
         self.assertGreater(self.plant("quantities", has, self.errors(1), ["worse", "error"]), 60)
@@ -98,8 +98,8 @@ class ShortTable(ProgramTest):
         )
 
     def test_work(self):
-        """Detects one more iteration or factorisation in any mesh, and 50 % more evaluations in any mesh except the
-        coarse ones, whose share of the sum is small."""
+        """One more iteration or factorisation in any mesh must be detected, and 50 % more evaluations in any mesh except
+        the coarse ones, whose share of the sum is small."""
 
         def one(column):
             def more(rows, i):
@@ -118,7 +118,6 @@ class ShortTable(ProgramTest):
         self.assertGreater(self.plant("cells", fine, half, ["worse", "evaluations"]), 30)
 
     def test_limits(self):
-        """Detects every limit of the default points that has moved by more than round-off, is lost or is new."""
         has = lambda row: np.isfinite(row["limit"])
 
         def move(rows, i):
@@ -146,7 +145,6 @@ class ShortTable(ProgramTest):
         self.assertGreater(self.plant("cells", lambda row: True, fail, ["worse", ": ok -> x"]), 60)
 
     def test_columns(self):
-        """Sums, extremes and limits agree with those of the complete run."""
         with h5py.File(self.old, "r") as file:
             for row in self.row:
                 case, _, formulation = row["series"].split("/")
@@ -190,7 +188,6 @@ class ShortTable(ProgramTest):
         self.assertAlmostEqual(abs(of["error"][0]), size, delta=1e-5 * size)
 
     def test_other_points(self):
-        """Only rows of default points have limits."""
         path = verify("warping_torsion and beamw_vlasov", self.folder / "points.h5")
         text = table_of(path, self.bad).read_text(encoding="utf-8")
         rows = list(csv.DictReader(text.splitlines()))
@@ -200,7 +197,6 @@ class ShortTable(ProgramTest):
             self.assertEqual(row["limits"] != "", "/default/" in row["series"], row)
 
     def test_missing(self):
-        """Detects rows that are missing on either side."""
         lines = self.text.splitlines(keepends=True)
         self.bad.write_text("".join(lines[:2] + lines[3:]), encoding="utf-8")
         for pair, word in (((self.table, self.bad), "gone"), ((self.bad, self.old), "new")):
@@ -216,7 +212,6 @@ class ShortTable(ProgramTest):
         self.assertIn(word, done.stderr)
 
     def test_damaged(self):
-        """Every field is damaged in several ways, and there are too few or too many fields."""
         lines = self.text.splitlines()
         fields = next(csv.reader([lines[3]]))
         spoilt = {
@@ -243,7 +238,6 @@ class ShortTable(ProgramTest):
         )
 
     def test_cut(self):
-        """Tables truncated within a row, and headers of other tables, are rejected."""
         rows = self.text.count("\n")
         for end in (1, 5, 40):
             self.damaged(self.text[:-end], f"{self.bad}:{rows}: the row is damaged or cut short")

@@ -29,7 +29,7 @@ def table_of(stored, path):
 
 
 def altered(old, new, change):
-    """Writes a sealed copy to which change(file) was applied."""
+    """Writes a copy with a valid checksum to which change(file) was applied."""
     shutil.copy(old, new)
     with h5py.File(new, "r+") as file:
         change(file)
@@ -39,7 +39,7 @@ def altered(old, new, change):
 
 @contextlib.contextmanager
 def group_of(path, name="sweep"):
-    """Returns the contents of an experiment's group."""
+    """Returns the contents of the group of an experiment."""
     with h5py.File(path) as file:
         yield file["experiments"][name]
 
@@ -50,7 +50,7 @@ def replace(group, name, rows):
 
 
 def of_dtype(values):
-    """Converts a column of texts, flags or numbers; absent numbers become None."""
+    """Converts a column of texts, flags or numbers. Absent numbers become None."""
     if isinstance(values[0], str):
         return numpy.array([value.encode() for value in values] or [b""])
     return numpy.array([math.nan if value is None else value for value in values])

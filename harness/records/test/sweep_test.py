@@ -7,8 +7,6 @@ from harness.records.test.stored import altered, group_of, replace, table_of, ve
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, run
 
 
-# beamwork compare of two sweeps: points are matched by their parameters; thresholds and exit
-# statuses are those of runs.
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 SAME = "0 worse, 0 better, 0 changed, 0 gone, 0 new"
 OPTIONS = ("-f", "beamw", "-f", "sheet_third", "-n", "1,2,4")
@@ -25,6 +23,7 @@ def altered_sweep(old, new, change):
 
 
 class Sweeps(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()
@@ -51,7 +50,6 @@ class Sweeps(ProgramTest):
         self.assertEqual((lines, pairs), ([], f"24 cells in both: {SAME}"))
 
     def test_errors(self):
-        """There is a row for each quantity and formulation beyond the threshold."""
         def grow(by):
             def change(file):
                 file["error"][1, 0, 2, 1] = 0.01 * by
@@ -107,8 +105,8 @@ class Sweeps(ProgramTest):
         self.refused(2, "nothing was compared", "compare", self.old, one, silent=False)
 
     def test_formulations_and_meshes(self):
-        """There is one line for each formulation or mesh, whatever the number of points; the references come from
-        other formulations."""
+        """There is one line for each formulation or mesh, whatever the number of points. The references come from other
+        formulations."""
         new = sweep(self.new, "elastica", "--vary", "load=0.5..2/3", "-f", "sheet_third", "-f", "collocation", "-n", "1,4,8")
         lines, _ = self.compared(1, new)
         self.assertEqual(sorted(line for line in lines if "gone" in line or "new" in line),
@@ -117,7 +115,6 @@ class Sweeps(ProgramTest):
         self.refused(2, "nothing was compared", "compare", self.old, new, "-k", "beamw", silent=False)
 
     def test_quantities(self):
-        """A quantity that the other run did not request is not missing."""
         new = sweep(self.new, "elastica", "--vary", "load=0.5..2/3", "-k", "theta", *OPTIONS)
         with group_of(self.old) as old, group_of(new) as file:
             self.assertEqual((len(old["quantities"]), len(file["quantities"])), (3, 1))
@@ -154,8 +151,6 @@ class Sweeps(ProgramTest):
                      altered_sweep(self.old, self.new, lambda file: file.attrs.modify("beamwork_sweep", 7)))
 
 
-# compare of a partial run: series that were not requested are counted; requested series without
-# results are missing.
 CASE = "warping_torsion"
 SCENE = ROOT / "cases" / "examples" / "euler_column.yaml"
 
@@ -182,7 +177,7 @@ class Part(ProgramTest):
         folder = cls.class_folder()
         cls.whole, cls.table = folder / "whole.h5", folder / "whole.csv"
         verify(f"{CASE}/default or elastica/default or c_column/default", cls.whole)
-        with h5py.File(cls.whole) as file:  # like a complete run
+        with h5py.File(cls.whole) as file:  # treated as a complete run
             cls.series = sum(len({(r["point"], r["formulation"]) for r in group["cells"][()]})
                              for group in file["cases"].values())
         cls.whole = altered(cls.whole, folder / "all.h5", lambda f: f.attrs.pop("selection"))
@@ -221,7 +216,6 @@ class Part(ProgramTest):
         self.compared(new, 0, f"2 series of {new} are outside the selection of ")
 
     def test_a_scene(self):
-        """A run of one scene is compared with a run of all cases and that scene."""
         old, new = self.folder / "o.h5", self.folder / "n.h5"
         self.answered("verify", "--built-in", "--scene", SCENE, "-o", old, "-k",
                       "euler_column or elastica/default")
@@ -230,7 +224,6 @@ class Part(ProgramTest):
             old, self.folder / "all.h5", lambda f: f.attrs.pop("selection")))
 
     def test_quantities(self):
-        """Limits of selected quantities are compared; those of other quantities do not count as missing."""
         new = verify("c_column/default and buckling_load", self.folder / "n.h5")
         self.compared(new, 0, " 0 gone, 0 new")
         done = self.answered("compare", self.table, new)
@@ -257,7 +250,6 @@ class Part(ProgramTest):
                 self.assertIn(f"gone     {CASE}/default/beamw", done.stdout)
 
     def test_new_formulations_are_told(self):
-        """A formulation that exists in one run only is a change, unless it is new."""
         old = altered(self.whole, self.folder / "o.h5", lambda file: without(file, "beamw"))
         for new in (False, True):
             run_of = altered(self.whole, self.folder / "n.h5",
@@ -273,7 +265,6 @@ class Part(ProgramTest):
         self.assertIn("selection is missing or damaged", done.stderr)
 
 
-# compare --hash: the hash is independent of times and machines, and changes with all other data.
 TABLES = "cases/snap_through"
 
 
@@ -303,7 +294,6 @@ class Hash(ProgramTest):
         self.assertEqual(ours, theirs)
 
     def test_the_last_bit(self):
-        """Changes the last bit of one number in every table with rows."""
         for table, column in (("quantities", "value"), ("cells", "iterations"),
                               ("verdicts", "limit"), ("steps", "path")):
             def change(file, table=table, column=column):

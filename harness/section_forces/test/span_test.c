@@ -1,6 +1,6 @@
-/* A rod is integrated from one end as an initial value problem (GSL, 1e-13), which gives the
- * frames and forces at both ends and the values between them. Values recovered from the ends
- * must agree with the integrated ones, for rods with bending, shear, warping and loads. */
+/* A rod is integrated from one end as an initial value problem (GSL, 1e-13), which gives the frames
+ * and forces at both ends and the values between them. Values recovered from the ends must agree
+ * with the integrated values, for rods with bending, shear, warping and loads. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <gsl/gsl_test.h>
@@ -29,8 +29,8 @@ static int has(const rod *b, unsigned bit)
     return (b->features & bit) != 0;
 }
 
-/* Computes the resultants in section axes, and the twist rate, from the state and the
- * constitutive law of the section. */
+/* Computes the resultants in section axes, and the twist rate, from the state and the constitutive
+ * law of the section. */
 static void law(const rod *b, const double y[], double N[3], double M[3], double *rate, double *Mw,
                 double *wagner)
 {

@@ -27,8 +27,8 @@ static const case_type made_up = {.name = "made_up",
                                   .build = no_build};
 static const element_type element = {.name = "element", .abi = ELEMENT_ABI};
 
-/* One point, one series of five meshes, one quantity; the reference value is 3, tolerance 1e-4,
- * minimum order 2. */
+/* One point, one series of five meshes, and one quantity. The reference value is 3, the tolerance
+ * 1e-4, and the minimum order 2. */
 typedef struct judge_bench {
     sweep s;
     sweep_point p;
@@ -99,7 +99,7 @@ static inline void bench_make(judge_bench *b)
     b->t = (truths){.rows = 1, .row = b->row};
 }
 
-/* Adds a second row, equal to the first one except for its value and the caller's changes. */
+/* Adds a second row, equal to the first one except for its value and the changes by the caller. */
 static inline truth *bench_add_row(judge_bench *b, double value)
 {
     b->row[1] = b->row[0];
@@ -108,7 +108,7 @@ static inline truth *bench_add_row(judge_bench *b, double value)
     return &b->row[1];
 }
 
-/* Adds a second row: the limit derived for the formulation. */
+/* Adds a second row, which is the limit derived for the formulation. */
 static inline truth *bench_add_prediction(judge_bench *b, double limit)
 {
     truth *row = bench_add_row(b, limit);

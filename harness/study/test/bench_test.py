@@ -1,5 +1,5 @@
-"""The verb bench: rows, rejected input, comparison of two programs or formulations. The times themselves are not
-checked; see make lab L=bench-check."""
+"""The verb bench: rows, rejected input, comparison of two programs or formulations. make lab L=bench-check checks the
+times."""
 import csv
 import io
 import re
@@ -13,6 +13,7 @@ LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
 class Bench(ProgramTest):
+
     def test_rows(self):
         done = self.answered("bench", "elastica", "-f", "collocation", "-f", "beamw", "-n", "1,2",
                              "--format", "csv")
@@ -31,7 +32,6 @@ class Bench(ProgramTest):
         self.assertIn("twist_ratio within 10, 1, 0.1, 0.01 %: ", text)
 
     def test_errors_of_one_quantity(self):
-        """A table of errors names its quantity and contains no errors of other quantities."""
         work = ("bench", "c_column", "-f", "beamw", "-f", "collocation", "-n", "2")
         text = self.answered(*work, "-k", "buckling_load").stdout
         self.assertIn("\n  errors of buckling_load\n", text)
@@ -43,7 +43,6 @@ class Bench(ProgramTest):
         self.assertRegex(other, r"(?m)^  collocation +2 +\+0\.189\d* %$")
 
     def test_selection(self):
-        """Quantities and formulations are selected as in converge, in all formats."""
         work = ("bench", "c_column", "-n", "2", "-k", "=frequency_3 and (beamw or collocation)", "--format", "csv")
         rows = list(csv.DictReader(io.StringIO(self.answered(*work).stdout)))
         self.assertEqual({r["quantity"] for r in rows}, {"frequency_3"})
@@ -53,7 +52,7 @@ class Bench(ProgramTest):
         self.refused(2, "selects no quantity of elastica", "bench", "warping_torsion", "elastica", "-k", "warping_torsion")
 
     def test_ranks_as_converge(self):
-        """Without a reference value, bench ranks like converge: by errors with respect to the agreement, including a
+        """Without a reference value, bench ranks as converge does: by errors with respect to the agreement, including a
         formulation that omits physics without effect."""
         text = self.answered("bench", "--scene", LEAF, "--set", "stroke=0.009", "-n", "1,2,4").stdout
         self.assertNotIn("no reference value", text)
@@ -120,7 +119,7 @@ class Bench(ProgramTest):
         self.refused(2, "selects only one formulation", *work, "1%", "-k", "beamw")
 
     def least(self, case, formulation, level):
-        """Returns the number of elements of the coarsest mesh such that its error and those of all finer meshes are
+        """Returns the number of elements of the coarsest mesh for which its error and those of all finer meshes are
         within the level, from converge."""
         series = self.record("converge", *case, "-f", formulation)["series"][0]
         meshes = [m["elements"] for m in series["quantities"][0]["meshes"]]
@@ -130,7 +129,6 @@ class Bench(ProgramTest):
         return meshes[first] if first < len(meshes) else None
 
     def test_equal_error(self):
-        """The meshes follow the rule of equal error, and the times are those of these meshes."""
         answer = self.record("bench", "elastica", "-f", "collocation", "--against", "beamw",
                              "--error", "0.15%,0.001%")
         self.assertEqual(answer["quantities"], ["w_over_L", "u_over_L", "theta"])
@@ -149,7 +147,7 @@ class Bench(ProgramTest):
         self.assertIsNone(missed["elements_b"])
 
     def test_equal_error_of_a_scene(self):
-        """By default, the compared errors are those that both formulations reach; if one of them converges to a different
+        """By default, the compared errors are those that both formulations reach. If one of them converges to a different
         limit, this is stated."""
         text = self.answered("bench", "--scene", LEAF, "-f", "sheet_third", "--against",
                              "collocation", "-k", "k_pushed").stdout
@@ -157,8 +155,6 @@ class Bench(ProgramTest):
         self.assertRegex(text, r"(?m)^sheet_third, k_pushed: converges to its derived limit")
 
     def test_another_build(self):
-        """A case and a scene are compared with another build, for equal n. Formulation and elements are chosen if
-        they are not given."""
         answer = self.record("bench", "--scene", LEAF, "-f", "collocation", "-n", "1", "--against",
                              PROGRAM)
         self.assertEqual({w["a"] for w in answer["work"]}, {w["b"] for w in answer["work"]})

@@ -1,7 +1,7 @@
-/* reference/defaults.csv, which the programs of reference/derive read, agrees with the parameter
- * tables of the cases: it has the same parameters in the same order, with the same numbers and
- * words. It excludes the last parameters, for omitted physics and the position of mass, which
- * the original source does not have. */
+/* reference/defaults.csv, which the programs of reference/derive read, must agree with the
+ * parameter tables of the cases: the same parameters in the same order, with the same numbers and
+ * words. It excludes the last parameters, for omitted physics and the position of mass, which the
+ * original source does not have. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,7 +28,7 @@ static const case_type *case_of(const char *name)
     return NULL;
 }
 
-/* at: index of the parameter within its case. */
+/* Checks a row. `at` is the index of the parameter within its case. */
 static void check_row(const char *line, const case_type *type, int at, const char *name,
                       const char *number, const char *choices)
 {
@@ -45,7 +45,7 @@ static void check_row(const char *line, const case_type *type, int at, const cha
              "defaults.csv: %s: its words", line);
 }
 
-/* Checks all rows; returns their number. */
+/* Checks all rows. Returns their number. */
 static int check_table(FILE *table)
 {
     char line[LINE], before[LINE] = "";

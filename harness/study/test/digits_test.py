@@ -1,7 +1,7 @@
 """Predicted limits of which the usual meshes give fewer than four digits, computed on finer meshes.
 
-The usual meshes cannot resolve them: a compliance nearly cancelled by shear, elements longer than the sheet is
-thick, a rapidly rotating channel, a high mode. More elements show the predicted limit."""
+The usual meshes cannot resolve a compliance nearly cancelled by shear, elements longer than the thickness of the
+sheet, a rapidly rotating channel, or a high mode. More elements show the predicted limit."""
 import unittest
 
 from harness.tools.kit.program import ProgramTest
@@ -24,8 +24,8 @@ POINTS = (
     ("bend_45", "sheet_third", ("force=300", ), "u_tangent", "8,16,32,64,128"),
     ("bend_45", "sheet_third_printed", ("force=300", ), "u_tangent", "8,16,32,64,128"),
 )
-# 64 elements of these sheets are as long as the thickness of the sheet. They show orders of 3.2 and 3.7, which are not
-# true orders: the limit seems more accurate than it is.
+# 64 elements of these sheets are as long as the thickness of the sheet. They show orders of 3.2 and 3.7, which are
+# not true orders, so the limit seems more accurate than it is.
 AS_THICK = (("tip_deflection=0.05", ), ("tip_warping=1", ))
 # undecided or biased on the usual meshes (rules meshes-hexapod, meshes-roll-up); these meshes pass
 PASSES = (
@@ -66,8 +66,8 @@ class Digits(ProgramTest):
                 self.assertGreater(found["order"], 1.9)
 
     def test_orders_that_rise(self):
-        """With 128 elements, two orders agree on a value below the minimum, but the order before them does not, so
-        that the verdict is not a low order. 1024 elements show second order."""
+        """With 128 elements, two orders agree on a value below the minimum, but the order before them does not, so the
+        verdict is not a low order. 1024 elements show second order."""
         for quantity, given in SLOW:
             with self.subTest(quantity=quantity, given=given):
                 what = "unsymmetric_column", "beamw", given, quantity
@@ -85,7 +85,7 @@ class Digits(ProgramTest):
             self.assertEqual(fine["verdict"], "wrong limit, as predicted")
 
     def test_shorter_than_the_sheet_is_thick(self):
-        """C_uz_My: up to 128 elements, orders of 4.5 and 4.7 agree although four is the highest possible order. The
+        """Up to 128 elements, orders of 4.5 and 4.7 of C_uz_My agree although four is the highest possible order. The
         limit has a correspondingly larger uncertainty, and 1024 elements agree with the derived limit."""
         what = "sheet_cantilever", "sheet_second", ("tip_warping=1", ), "C_uz_My"
         coarse = self.limit(*what, "1,2,3,4,8,16,32,64,128")
@@ -104,8 +104,8 @@ class Digits(ProgramTest):
         }
 
     def test_joints(self):
-        """From 32 elements per sheet on, elements are shorter than the thickness of the sheet: the distance from the
-        derived limit decreases with every mesh, at least in proportion to the element length."""
+        """From 32 elements per sheet on, elements are shorter than the thickness of the sheet. The distance from the
+        derived limit must decrease with every mesh, at least in proportion to the element length."""
         for formulation in PRINTED:
             with self.subTest(formulation=formulation):
                 apart = self.from_prediction("spherical_joint", formulation, JOINT,
@@ -115,7 +115,7 @@ class Digits(ProgramTest):
                 self.assertLess(apart[128], 0.6 * apart[64])
 
     def test_hexapod(self):
-        """The same holds for the twelve joints of the hexapod at the end of the stroke."""
+        """The twelve joints of the hexapod are checked at the end of the stroke."""
         for formulation in PRINTED:
             with self.subTest(formulation=formulation):
                 apart = self.from_prediction("hexapod", formulation, ("wagner=0", ),

@@ -38,7 +38,7 @@ static inline formulation ending_good(void)
     return chosen;
 }
 
-/* The same formulation, but preparing an element ends the process of the cell in the given way. */
+/* A formulation for which preparing an element ends the process of the cell in the given way. */
 static struct {
     element_type type;
     status (*prepare)(const element_request *, element_data *, fault *);

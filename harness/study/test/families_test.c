@@ -114,7 +114,7 @@ static void two_families(void)
     finish(&b);
 }
 
-/* If the limit of a third family is poorly known, it worsens neither the agreed limit nor its
+/* If the limit of a third family is poorly known, it must worsen neither the agreed limit nor its
  * uncertainty. */
 static void known_badly(void)
 {
@@ -133,8 +133,8 @@ static void known_badly(void)
     finish(&b);
 }
 
-/* If two families agree on one limit and two on another, there is no agreement; with three
- * against two, the three decide. */
+/* If two families agree on one limit and two on another, there is no agreement. With three against
+ * two, the three decide. */
 static void disputes(void)
 {
     families_bench b;
@@ -152,8 +152,8 @@ static void disputes(void)
     finish(&b);
 }
 
-/* The most accurate formulation is the centre. A formulation whose distance from it exceeds its
- * uncertainty is named. */
+/* The most accurate formulation is the centre. A formulation whose distance from the centre exceeds
+ * its uncertainty is named. */
 static void known_best(void)
 {
     families_bench b;
@@ -196,7 +196,6 @@ static void known_wrong(void)
     finish(&b);
 }
 
-/* A formulation whose limit is uncertain agrees with no other. */
 static void uncertain(void)
 {
     families_bench b;
@@ -209,8 +208,8 @@ static void uncertain(void)
     finish(&b);
 }
 
-/* Returns the index of the coarsest mesh such that the series is within 1 % in all quantities on
- * it and on all finer meshes; or -1. */
+/* Returns the index of the coarsest mesh for which the series is within 1 % in all quantities on it
+ * and on all finer meshes, or -1. */
 static int every(const families_bench *b, int series_index)
 {
     reach_question q = {.s = &b->s, .quantity = REACH_EVERY, .level = 0.01};
@@ -305,7 +304,7 @@ static void who_has_prices(void)
     gsl_test_int(price_own(rows, &f), 1, "prices of its own");
 }
 
-/* The committed table gives the cost of a cell, also for a new formulation. */
+/* The committed table must give the cost of a cell, even for a new formulation. */
 static void committed(void)
 {
     const cell_result cell = counted();
@@ -350,8 +349,8 @@ typedef struct reach_bench {
     int count;
 } reach_bench;
 
-/* Makes four formulations without cost coefficients of their own, exact on every mesh; the
- * reference value is 1. The work of each is ten times that of the previous one. */
+/* Makes four formulations without cost coefficients of their own, which are exact on every mesh.
+ * The reference value is 1. The work of each is ten times that of the previous one. */
 static void reach_make(reach_bench *b)
 {
     static const char *const key[SERIES] = {"cheap", "dear", "other", "last"};
@@ -398,15 +397,15 @@ static void by_work(void)
     expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "by work");
     gsl_test_int(reach_ties(b.list, b.count), 1, "one is the cheapest");
     gsl_test_int(b.list[0].mesh, 0, "on the least mesh");
-    for (int i = 0; i < SERIES; i++) /* the first one took the longest time */
+    for (int i = 0; i < SERIES; i++) /* the first formulation took the longest time */
         for (int k = 0; k < REACH_MESHES; k++)
             b.cell[i][k].solve.seconds_solve = 1.0 / (1 + i) + k;
     ask(&b, 0, 0.01);
     expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "whatever the clock says");
 }
 
-/* A formulation that is within 1 % on the coarsest mesh, but not on the next one, is ranked by
- * the third mesh, with the work on that mesh. */
+/* A formulation that is within 1 % on the coarsest mesh, but not on the next one, is ranked by the
+ * third mesh, with the work on that mesh. */
 static void by_accident(void)
 {
     reach_bench b;
@@ -465,8 +464,8 @@ static void ties(void)
     gsl_test_int(reach_ties(b.list, 0), 0, "nothing ties");
 }
 
-/* A formulation that does not run, or that has no reference value of its theory for some
- * quantity, is excluded from the ranking over all quantities. */
+/* A formulation that does not run, or that has no reference value of its theory for some quantity,
+ * is excluded from the ranking over all quantities. */
 static void not_asked(void)
 {
     reach_bench b;

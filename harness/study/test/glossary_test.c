@@ -1,4 +1,4 @@
-/* The packed glossary: damaged files are rejected, and words are found whatever their spelling. */
+/* The packed glossary: damaged files must be rejected, and words must be found for any spelling. */
 #include "harness/study/test/truths_file.h"
 
 #include <ctype.h>

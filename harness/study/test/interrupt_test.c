@@ -1,6 +1,6 @@
-/* No process outlives the one that started it, and an interrupted run keeps its finished
- * results. Nothing here depends on the speed of the machine: every step waits for an event. END
- * and WAIT only stop a test that would never end. */
+/* No process may outlive the process that started it, and an interrupted run must keep its finished
+ * results. The tests do not depend on the speed of the machine, because every step waits for an
+ * event. END and WAIT only stop a test that would never end. */
 #include <gsl/gsl_test.h>
 #include <poll.h>
 #include <signal.h>
@@ -14,14 +14,14 @@
 
 enum { END = 900, WAIT = 120 }; /* [s] */
 
-/* A process that runs a sweep of endless cells, and a descriptor on which they report. */
+/* A process that runs a sweep of endless cells, and a descriptor on which the cells report. */
 typedef struct family {
     pid_t parent;
     int says;
 } family;
 
-/* Runs in the child: exits with 0 if `sound` cells, followed by endless ones, gave the expected
- * results. */
+/* Runs in the child process. Exits with 0 if `sound` cells, followed by endless ones, gave the
+ * expected results. */
 static int run_endless(const sweep_request *request, int sound, int says)
 {
     static const int mesh[] = {1, 2, 3};
@@ -63,8 +63,8 @@ static family begin_family(const sweep_request *request, int sound)
     return out;
 }
 
-/* Returns the process of a cell that has started. 0: no process can report any more; -1: nothing
- * happens. */
+/* Returns the process of a cell that has started, 0 if no process can report any more, or -1 if
+ * nothing happens. */
 static pid_t next_cell(const family *of)
 {
     struct pollfd end = {.fd = of->says, .events = POLLIN};
@@ -80,7 +80,7 @@ static int exit_code(pid_t process)
     return waitpid(process, &how, 0) == process && WIFEXITED(how) ? WEXITSTATUS(how) : -1;
 }
 
-/* If a process is killed, its workers end too. */
+/* If a process is killed, its workers must end. */
 static void orphans(void)
 {
     const sweep_request request = {.jobs = 2};
@@ -110,7 +110,7 @@ static char state_of(pid_t process)
     return state;
 }
 
-/* A worker enforces its own time limit while its parent is stopped. */
+/* A worker must enforce its own time limit while its parent is stopped. */
 static void own_limit(void)
 {
     const sweep_request request = {.jobs = 1, .time_limit = 1};
@@ -131,7 +131,7 @@ static void own_limit(void)
     close(of.says);
 }
 
-/* On a request to stop, a run keeps the finished series, and only those. */
+/* On a request to stop, a run must keep the finished series, and only those. */
 static void interrupted(int number)
 {
     const sweep_request request = {.jobs = 1, .interruptible = 1};

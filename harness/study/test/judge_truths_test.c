@@ -78,8 +78,8 @@ static void publications(void)
     bench_free(&b);
 }
 
-/* If a limit was derived, the distance from the derived limit must be within the range of the
- * rule, however far away the reference value is. */
+/* If a limit was derived, the distance from the derived limit must be within the range of the rule,
+ * whatever the reference value. */
 static void bound_by_the_derived_limit(void)
 {
     static char kind[] = "wrong limit, as predicted|undecided";
@@ -192,8 +192,8 @@ static void expectations(void)
     bench_free(&b);
 }
 
-/* A reference value of a motion at an instant that the run does not evaluate is not used. It
- * does not count as unmet; a reference value of a case without a motion does. */
+/* A reference value of a motion at a time that the run does not evaluate is not used and does not
+ * count as unmet. A reference value of a case without a motion does. */
 static void other_instants(void)
 {
     static const parameter_type both[] = {{"length", "m", 2, 1, 9, NULL, "some length"},
@@ -257,7 +257,7 @@ static void stored_values(void)
     bench_free(&b);
 }
 
-/* Stored values are compared with their own series, even if this follows a series of another
+/* Stored values must be compared with their own series, even if this series follows one of another
  * formulation with other values on the same meshes. */
 static void of_its_own_series(void)
 {
@@ -304,7 +304,7 @@ static void judge_truths_tests(void)
     of_its_own_series();
 }
 
-/* Verdicts on artificial series: every kind, and whether it counts. */
+/* Verdicts on artificial series: every kind, and if the verdict counts. */
 
 static void limits(void)
 {
@@ -460,7 +460,7 @@ static void doubtful_noise(void)
     bench_free(&b);
 }
 
-/* Counts how many limits are within their uncertainty of exact reference values, also without
+/* Counts how many limits are within their uncertainty of exact reference values, with and without
  * the finest meshes. */
 static void coverages(void)
 {

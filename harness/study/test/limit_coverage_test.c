@@ -1,5 +1,5 @@
-/* Measures how often the limit of a sequence is within its own uncertainty of the known limit,
- * for families of sequences and under noise. Seeds are fixed. */
+/* Measures how often the limit of a sequence is within its own uncertainty of the known limit, for
+ * families of sequences and under noise. Seeds are fixed. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_test.h>
@@ -11,12 +11,12 @@ enum { FEWEST = 4, MOST = 7, DRAWS = 500, GRIDS = 5 };
 
 static const double value = 3; /* the limit of all families */
 
-static const int grid[GRIDS][MOST] = {{1, 2, 4, 8, 16, 32, 64},
-                                      {2, 4, 8, 16, 32, 64, 128},
-                                      {5, 10, 20, 40, 80, 160, 320},
-                                      {1, 2, 3, 4, 8, 16, 32}, /* mesh 3 is dropped by thinning
-                                                                  if mesh 4 is used */
-                                      {2, 4, 8, 16, 30, 32, 64}};
+static const int grid[GRIDS][MOST] = {
+    {1, 2, 4, 8, 16, 32, 64},
+    {2, 4, 8, 16, 32, 64, 128},
+    {5, 10, 20, 40, 80, 160, 320},
+    {1, 2, 3, 4, 8, 16, 32}, /* thinning drops mesh 3 if mesh 4 is used */
+    {2, 4, 8, 16, 30, 32, 64}};
 
 /* Parameters of one random sequence. */
 typedef struct draw {
@@ -84,8 +84,8 @@ static double plateau(const draw *d, int i, double n)
     return 1 / (1 + pow(n / d->bend, d->order));
 }
 
-/* Mean of a function that decays from an end over 1/bend of the length: first order before this is
- * resolved, then second order. */
+/* Mean of a function that decays from an end over 1/bend of the length. The order is one before
+ * this length is resolved, then two. */
 static double layer(const draw *d, int i, double n)
 {
     (void)i;
@@ -193,10 +193,8 @@ static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
     const draw d = draw_from(r, f, n, meshes);
     const double round_off = 1e-14,
                  first = sign(r) * between_log(r, 1e-3, 0.3) * value / f->error(&d, 0, n[0]);
-    const double usual =
-        fmin(first, 0.3 * value / fabs(f->error(&d, 1, n[1]))); /* position where the first two
-                                                                   terms cancel on the coarsest
-                                                                   mesh */
+    /* position where the first two terms cancel on the coarsest mesh */
+    const double usual = fmin(first, 0.3 * value / fabs(f->error(&d, 1, n[1])));
     double v[MOST];
     for (int i = 0; i < meshes; i++)
         v[i] = value + usual * f->error(&d, i, n[i]) + value * gsl_ran_gaussian(r, round_off);
@@ -204,7 +202,7 @@ static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
     return limit_of(&s);
 }
 
-/* Returns 1 when the limit is within its uncertainty. */
+/* Returns 1 if the limit is within its uncertainty. */
 static int is_covered(gsl_rng *r, const coverage_family *f, int meshes)
 {
     const mesh_limit l = shown(r, f, meshes);
@@ -259,12 +257,12 @@ static void coverage_under_noise(void)
 }
 
 /* The verdict "low order" requires two orders below the minimum and, before them, an order below
- * the nominal one, and the three must be monotonic (study/verdict.c). In families with a low order
- * this criterion finds as many as two orders alone. Where terms of opposite sign cancel it still
- * finds most of them, since these cannot be distinguished from an accident. Of all passes of verify
- * with the 0 to 3 finest meshes omitted, two orders alone would call four low. Their orders with
- * more elements, each time doubled: bend_45 force=300 sheet_third_printed u_tangent 0.88 1.71 1.90
- * 1.98 2.04 (512); sheet_wagner wagner=0 sheet_second_consistent C_thy_My 0.98 0.80 1.43 1.82 1.95
+ * the nominal one. The three orders must be monotonic (study/verdict.c). In families with a low
+ * order, this criterion finds as many series as two orders alone. If terms of opposite sign cancel,
+ * it finds most of them, because these cannot be distinguished from an accident. Of all passes of
+ * verify with the 0 to 3 finest meshes omitted, two orders alone would give four low orders. Their
+ * orders on doubled meshes are: bend_45 force=300 sheet_third_printed u_tangent 0.88 1.71 1.90 1.98
+ * 2.04 (512); sheet_wagner wagner=0 sheet_second_consistent C_thy_My 0.98 0.80 1.43 1.82 1.95
  * (512); unsymmetric_column beamw frequency_1, lumped mass, 1.03 1.08 0.48 1.00 1.63 (256), and
  * frequency_2, averaged mass, 1.29 1.19 0.60 1.04 1.64 (256): above the least, 1.5, not yet 2. */
 static void low_orders(void)
@@ -300,13 +298,13 @@ static void limit_coverage_tests(void)
     coverage_under_noise();
 }
 
-/* Limits of sequences agree with results worked out by hand, including special cases. */
+/* Limits of sequences must agree with results computed by hand, including special cases. */
 
 enum { LIMIT_MOST = 7, DOUBLED = 6 };
 static const double limit_value = 3; /* the limit of all one-term sequences */
 static const int mesh[LIMIT_MOST] = {1, 2, 4, 8, 16, 32, 64};
 
-/* Computes the limit from values on 1, 2, 4, ... elements. Round-off was not measured; the
+/* Computes the limit from values on 1, 2, 4, ... elements. Round-off was not measured, and the
  * nominal order is 2. */
 static mesh_limit doubled(int count, const double v[])
 {
@@ -352,7 +350,7 @@ static mesh_limit of_changes(int changes, const double change[], double noise)
     return limit_of(&(limit_sequence){changes + 1, mesh, v, noise, 2, 4, 0});
 }
 
-/* Sequences worked out by hand on meshes that double: with the ratio r of two changes, the limit is
+/* Sequences computed by hand on meshes that double. With the ratio r of two changes, the limit is
  * change/(r - 1) beyond the last value. */
 static void worked(void)
 {
@@ -362,13 +360,13 @@ static void worked(void)
     gsl_test_abs(of_changes(3, pure, 0).limit_uncertainty, 0, 1e-12, "are of one term");
     gsl_test_rel(of_changes(3, pure, NAN).limit_uncertainty, 1.25 * 0.02 / 3, 1e-6,
                  "2 % of a step is doubted without a measure of noise");
-    /* Ratios 5, 4, 4: the limits are -24 - 4/4 = -25, then twice -25.3333. The uncertainty is 1/3
-     * of the former change, reduced by orders 2 + 2. */
+    /* ratios 5, 4, 4: the limits are -24 - 4/4 = -25, then twice -25.3333; the uncertainty is 1/3
+     * of the former change, reduced by orders 2 + 2 */
     gsl_test_rel(of_changes(4, agreeing_by_accident, 0).limit_uncertainty,
                  1.25 * (1.0 / 3 - 0) / 16, 1e-9,
                  "a change of the limit that is small by accident");
-    /* Ratios 4, 4, 4.1667: the limits are twice -21.3333, then -21.24 - 0.24/3.1667 = -21.31579:
-     * they do not settle. */
+    /* ratios 4, 4, 4.1667: the limits are twice -21.3333, then -21.24 - 0.24/3.1667 = -21.31579, so
+     * they do not settle */
     const double change = 4.0 / 3 - 1 - 0.24 * (1 + 6.0 / 19);
     gsl_test_rel(of_changes(4, unsettled, 0).limit_uncertainty, 1.25 * change, 1e-9,
                  "the change of the limit");
@@ -381,8 +379,8 @@ static void worked(void)
     gsl_test(isfinite(slow.order), "is not believed");
 }
 
-/* Two values show no order: order 1 is assumed, and the uncertainty is three times the change
- * plus four times the noise. Three values never suffice to estimate two orders. */
+/* Two values show no order. Order 1 is assumed, and the uncertainty is three times the change plus
+ * four times the noise. Three values never suffice to estimate two orders. */
 static void few_meshes(void)
 {
     const double v[] = {1, 1.5, 1.75};
@@ -423,15 +421,15 @@ static void settled(void)
              l.limit_uncertainty);
     double v[DOUBLED];
     fill(DOUBLED, mesh, 0.3, 8,
-         v); /* the last change is 0.3/16^8 = 7e-11 of 3, the one before 2e-8 */
+         v); /* the last change is 0.3/16^8 = 7e-11 of 3, and the preceding one is 2e-8 */
     l = limit_of(&(limit_sequence){DOUBLED, mesh, v, NAN, 2, 8, 0});
     is_kind(l, LIMIT_SETTLED, "a high order that has reached the noise");
     gsl_test_rel(l.order, 8, 0.02, "shows its order above it");
 }
 
-/* C_uz_My of sheet_second (sheet_cantilever, tip_warping=1) [1e-7/N]. From 64 elements on,
- * another term contributes: orders of 4.5 and 4.7 agree although four is the highest possible,
- * and the limits seem to settle. The value on 1024 elements shows the limit. */
+/* C_uz_My of sheet_second (sheet_cantilever, tip_warping=1) [1e-7/N]. From 64 elements on, another
+ * term contributes. Orders of 4.5 and 4.7 agree although four is the highest possible, and the
+ * limits seem to settle. The value on 1024 elements shows the limit. */
 static void orders_beyond_the_highest(void)
 {
     static const double v[] = {-7.541557376815, -7.572498677944, -7.749537235739, -7.764447957971,
@@ -467,7 +465,7 @@ static void out_of_order(void)
     is_kind(doubled(DOUBLED, v), LIMIT_SETTLED, "alternating beyond interest");
 }
 
-/* Failed meshes and meshes too close to each other are ignored; the order of the meshes does not
+/* Failed meshes and meshes too close to each other are ignored. The order of the meshes does not
  * matter. */
 static void gaps(void)
 {

@@ -1,7 +1,7 @@
 /* Memory exhaustion: every allocation of a few small cells, of the reference values and of a
- * results file fails once. Each time the result is FAULT with a one-line message, or the correct
- * result if the memory was not essential, and nothing leaks. Linked with --wrap, which intercepts
- * calls in this program's code. */
+ * results file fails once. The result must be FAULT with a one-line message, or the correct result
+ * if the memory was not essential, and nothing may leak. The test is linked with --wrap, which
+ * intercepts calls in the code of this program. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -77,7 +77,6 @@ char *__wrap_strdup(const char *text)
     return __wrap_strndup(text, strlen(text));
 }
 
-/* The caller frees what the stream writes. */
 FILE *__wrap_open_memstream(char **text, size_t *size)
 {
     FILE *file = refuse() ? NULL : __real_open_memstream(text, size);
@@ -85,7 +84,7 @@ FILE *__wrap_open_memstream(char **text, size_t *size)
     return file;
 }
 
-/* A tested operation. *value: a sum over its results. Returns STATUS_OK after *value has been
+/* A tested operation. *value is a sum over its results. Returns STATUS_OK after *value has been
  * set. */
 typedef status memory_attempt(const void *what, double *value, fault *f);
 
@@ -166,7 +165,7 @@ static status read_truths(const void *what, double *value, fault *f)
     return outcome;
 }
 
-/* Reads a scene file, its scene and its reference values. *value: number of reference values
+/* Reads a scene file, its scene and its reference values. *value is the number of reference values
  * plus a weighted sum over the positions of nodes. */
 static status read_scene(const void *what, double *value, fault *f)
 {

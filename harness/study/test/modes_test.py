@@ -1,5 +1,5 @@
-"""Modes that cross between coarse meshes (rule meshes-high-modes). On the coarse meshes another mode has the number
-of a high mode, so that the limit is uncertain; with one more mesh, the verdict is a pass."""
+"""Modes that cross between coarse meshes (rule meshes-high-modes). On the coarse meshes, another mode has the number of a
+high mode, so the limit is uncertain. With one more mesh, the verdict is a pass."""
 import unittest
 
 from harness.tools.kit.program import ProgramTest
@@ -24,6 +24,7 @@ COARSE = (
 
 
 class Modes(ProgramTest):
+
     def series(self, case, formulation, given, meshes):
         """Returns {quantity: record} of a series."""
         words = [word for one in given for word in ("--set", one)]
@@ -42,8 +43,8 @@ class Modes(ProgramTest):
                 self.assertLess(abs(found["order"] - 2), 0.01)
 
     def test_modes_cross(self):
-        """Extrapolation with order 2 from the finer meshes gives the frequency of this mode on the coarsest mesh.
-        There it is the value of another quantity."""
+        """Extrapolation with order 2 from the finer meshes gives the frequency of this mode on the coarsest mesh, where
+        it is the value of another quantity."""
         for case, formulation, given, quantity, other, meshes in CROSSINGS:
             with self.subTest(case=case, formulation=formulation, quantity=quantity):
                 found = self.series(case, formulation, given, meshes)

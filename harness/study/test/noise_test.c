@@ -1,5 +1,5 @@
-/* Noise on a finest mesh: it is measured on request, is twice the larger difference, and is due
- * to rounding only. */
+/* Noise on a finest mesh is measured on request, is twice the larger difference, and is due only to
+ * rounding. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -10,8 +10,8 @@
 
 static const sweep_request request = {.jobs = 2};
 
-/* Runs all formulations on one case, with meshes of one and two elements and the given follower;
- * series of formulations that do not run stay empty. */
+/* Runs all formulations on one case, with meshes of one and two elements and the given follower.
+ * Series of formulations that do not run stay empty. */
 static int measure(const case_type *type, const sweep_follower *follower, sweep *s)
 {
     static const int mesh[] = {1, 2};
@@ -39,7 +39,7 @@ static int all_but_the_first(void *context, const sweep *s, int series_index)
     return series_index > 0;
 }
 
-/* Noise is due to rounding only, even for formulations that depend on the order of nodes. */
+/* Noise is due only to rounding, even for formulations that depend on the order of nodes. */
 static void rounding(const case_type *type)
 {
     sweep s;
@@ -114,7 +114,7 @@ static double in_other_words(const case_type *type, const formulation *chosen, s
     return out;
 }
 
-/* The larger of the two differences counts, from whichever repetition it comes. */
+/* The larger of the two differences counts, for either repetition. */
 static void larger_of_two(const case_type *type)
 {
     sweep s;
@@ -194,8 +194,8 @@ static void noise_tests(void)
     larger_of_two(case_find("elastica", &f));
 }
 
-/* Every cell occurs once among the tasks. Cells of the most expensive series come first, the
- * others follow in order. Within a series the finest mesh comes first. */
+/* Every cell occurs once among the tasks. Cells of the most expensive series come first, and the
+ * others follow in order. Within a series, the finest mesh comes first. */
 
 static const int mesh[] = {1, 2, 4};
 
@@ -223,7 +223,7 @@ static double expense_of(const sweep *s, int index)
     return all;
 }
 
-/* Returns 1 when the cost of the series is less than a hundredth of the work of one process. */
+/* Returns 1 if the cost of the series is less than a hundredth of the work of one process. */
 static int is_small(const sweep *s, int jobs, int index)
 {
     double all = 0;
@@ -292,8 +292,7 @@ static void counted(const char *name, expense_kind kind, double wanted)
     scene_free(&s);
 }
 
-/* The number of adaptive steps follows from the tolerance: it is a power of the tolerance, and
- * Radau's steps are longer. */
+/* The number of adaptive steps is a power of the tolerance, and the steps of Radau are longer. */
 static void adapts(void)
 {
     const double instant = 3;
@@ -316,7 +315,7 @@ static void adapts(void)
     scene_free(&s);
 }
 
-/* Every cost coefficient is known, and at least one formulation has a row of its own. */
+/* Every cost coefficient is known, and at least one formulation has a separate row. */
 static void prices(void)
 {
     double all = 0;

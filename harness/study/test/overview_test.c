@@ -1,5 +1,5 @@
-/* The overview shows the worst verdict of each case and formulation, with unexpected verdicts
- * first. The sentence at the end of a run summarises it. */
+/* The overview must show the worst verdict of each case and formulation, with unexpected verdicts
+ * first. The sentence at the end of a run summarises the verdicts. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 
 enum { VERDICTS = 40 };
 
-/* Two cases, three formulations; the verdicts are artificial. */
+/* Two cases and three formulations with artificial verdicts. */
 typedef struct run {
     sweep s;
     sweep_point point[2];
@@ -150,7 +150,6 @@ static void sentences(void)
     says(&r, "");
 }
 
-/* A count of one is written in the singular. */
 static void single_ones(void)
 {
     run r;
@@ -201,7 +200,6 @@ static void single_ones(void)
          "none needs a known deviation.");
 }
 
-/* Formulations with options share columns if there are many of them. */
 static void columns(void)
 {
     enum { MANY = 30 };
@@ -223,7 +221,6 @@ static void columns(void)
     }
 }
 
-/* New formulations are listed after the others, whatever their order in the run. */
 static void new_ones(void)
 {
     static const element_type mine = {.name = "mine"};
@@ -260,9 +257,6 @@ static void overview_tests(void)
     columns();
     new_ones();
 }
-
-/* The exit status depends on the counts as defined, and so do the tables of "reached with n
- * elements". */
 
 /* Counts each of which makes the run fail. */
 static const size_t failing[] = {
@@ -322,9 +316,9 @@ static void exit_codes(void)
         }
         judgement none = {0};
         set(&none, at, 1);
-        const int broken = at == offsetof(judgement, breaches) ||
-                           at == offsetof(judgement, regressions); /* these make the run fail
-                                                                      even if there is no verdict */
+        /* these make the run fail even if there is no verdict */
+        const int broken =
+            at == offsetof(judgement, breaches) || at == offsetof(judgement, regressions);
         gsl_test_int(judgement_exit(&none),
                      is_among(at, CHECKING, checking) ? 0
                      : broken                         ? 1
@@ -334,7 +328,6 @@ static void exit_codes(void)
     gsl_test(walked < FAILING + CHECKING + VERDICT_KINDS, "%d counts", walked);
 }
 
-/* No two failures cancel each other. */
 static void failures_together(void)
 {
     for (unsigned chosen = 0; chosen < 1u << FAILING; chosen++) {
@@ -370,7 +363,7 @@ static double uniform(void)
     return rand() / (RAND_MAX + 1.0);
 }
 
-/* Random errors of every size and sign, some exactly at a level, some missing. */
+/* Makes random errors of every size and sign, some exactly at a level, some missing. */
 static void throw_errors(double error[MESHES])
 {
     for (int i = 0; i < MESHES; i++) {
@@ -382,7 +375,7 @@ static void throw_errors(double error[MESHES])
     }
 }
 
-/* Returns the index of the coarsest mesh such that the error on it and on all finer meshes is
+/* Returns the index of the coarsest mesh for which the error on it and on all finer meshes is
  * within the level, by a test of each mesh in turn. */
 static int by_definition(const double error[MESHES], double level)
 {
@@ -422,7 +415,6 @@ static void meshes_reached(void)
     bench_free(&t.b);
 }
 
-/* The levels are those that every table names. */
 static void levels(void)
 {
     for (int k = 0; k < REACH_LEVELS; k++)
@@ -460,11 +452,11 @@ static void gate_tests(void)
     unreached();
 }
 
-/* Determines when a limit counts as the derived one: at the edges given by the uncertainties, on
- * either side of the reference value, and whatever the source of the uncertainty. */
+/* Determines if a limit counts as the derived limit: at the edges given by the uncertainties, on
+ * either side of the reference value, and for any source of the uncertainty. */
 
-static const double just = 3e-3; /* distance inside or outside an edge, relative to the distance of
-                                    the edge */
+/* Distance inside or outside an edge, relative to the distance of the edge. */
+static const double just = 3e-3;
 
 /* Returns the verdict if the derived limit is at the distance `apart` above the limit (negative:
  * below). */
@@ -474,7 +466,7 @@ static verdict_kind judged(judge_bench *b, double limit, double apart)
     return bench_judge(b)->kind;
 }
 
-/* A limit counts as the derived one up to the distance `edge` between them, but not beyond. */
+/* A limit counts as the derived limit up to the distance `edge` between them, but not beyond. */
 static void edges(judge_bench *b, double edge, verdict_kind beyond, const char *what)
 {
     const double limit = bench_judge(b)->fit.limit;
@@ -499,8 +491,8 @@ static void with_prediction(judge_bench *b, double limit)
     bench_add_prediction(b, limit);
 }
 
-/* For an accurately known limit, the uncertainty of the derived limit decides, whatever the size
- * and sign of the error. A distance of even a small fraction of the error is too large. */
+/* For an accurately known limit, the uncertainty of the derived limit decides, for any size and
+ * sign of the error. A distance of even a small fraction of the error is too large. */
 static void sharp_limits(void)
 {
     static const double error[] = {0.003, -0.003, 0.3, -0.03};
@@ -539,7 +531,7 @@ static void uncertain_limits(void)
 }
 
 /* An accurately known, different limit within the tolerance is biased, unless it is the derived
- * one. */
+ * limit. */
 static void biases(void)
 {
     static const double error[] = {2e-4, -2e-4};
@@ -563,7 +555,7 @@ static void biases(void)
     }
 }
 
-/* A limit that has not settled does not count as the derived one, even if both agree. */
+/* A limit that has not settled does not count as the derived limit, even if both agree. */
 static void undecided(void)
 {
     judge_bench b;
@@ -590,7 +582,7 @@ int main(void)
 {
     gate_tests();
     predicted_tests();
-    overview_tests(); /* must be the last test, because it loads a formulation, after which
-                         verdicts on other formulations do not affect the exit status */
+    overview_tests(); /* must be the last test, because it loads a formulation, after which verdicts
+                         on other formulations do not affect the exit status */
     return gsl_test_summary();
 }

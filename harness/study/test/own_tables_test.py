@@ -7,8 +7,6 @@ import unittest
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT
 
 
-# Known deviations and reference values of a user's project, in addition to the built-in ones. A private repository can
-# use them in its CI.
 EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
 RULES = "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,cause,proof"
 ROWS = ("case,parameters,formulation,theory,elements,quantity,at,value,unit,uncertainty,kind,model,"
@@ -82,7 +80,6 @@ class Own(ProgramTest):
 class Findings(Own):
 
     def test_what_is_proposed_explains(self):
-        """A fault is unexpected with an empty table, and explained by the proposed rules."""
         empty = self.write("empty.csv", RULES)
         self.verified("right", "--deviations", empty)
         out = self.verified("wrong", "--deviations", empty, code=1).stdout
@@ -104,8 +101,8 @@ class Findings(Own):
         self.assertIn("of known deviation", self.verified("wrong", "--deviations", small, code=1).stdout)
 
     def test_a_rule_nobody_shows(self):
-        """A rule that is not observed is reported with its position in the file, if everything to which it applies
-        was run."""
+        """A rule that is not observed is reported with its position in the file, if everything to which it applies was
+        run."""
         rule = "old,collocation,leaf,,*,wrong limit,0.1,,once,paper"
         truths = self.write("t.csv", ROWS, self.dip(1))
         run = ("verify", "-f", "collocation", "--scene", self.scene(), "--truths", truths)
@@ -118,7 +115,6 @@ class Findings(Own):
             self.answered(*run, "--deviations", other)
 
     def test_a_rule_nobody_shows_of_a_selected_case(self):
-        """If a case is selected only by its name, it is run completely."""
         path = self.write("f.csv", RULES,
                           "old,timoshenko,tapered_cantilever,,*,undecided,0.1,,once,paper")
         for select, code in (("tapered_cantilever", 1), ("elastica or tapered_cantilever", 1),
@@ -163,7 +159,6 @@ class Findings(Own):
 
 
 class Repository(Own):
-    """The commands of a documentation page work in the folder of a project."""
 
     def test_gate_of_a_repository(self):
         page = (ROOT / "docs" / "tutorials" / "element_in_c.md").read_text(encoding="utf-8")
@@ -197,7 +192,6 @@ class Truths(Own):
     row = "elastica,{at},,,,w_over_L,,{value},1,1e-9,independent,same,,my program"
 
     def test_beside(self):
-        """A point with a user's reference value is run and evaluated only if this value is given."""
         for value, code in ((0.5, 1), (0.1923502802, 0)):
             path = self.write("t.csv", ROWS, self.row.format(at="load=0.6", value=value))
             out = self.answered("verify", "-k", "elastica/load=0.6 and w_over_L", "-f",
@@ -243,12 +237,10 @@ class Truths(Own):
         self.refused(2, "packed reference values", "verify", "--truths", "a.h5", "--truths", "b.h5")
 
 
-# Modes followed over a parameter: their numbers do not change where frequencies cross, exact laws hold along each
-# curve, and veering is detected.
 FORMULATIONS = ("beamw", "beamw_vlasov", "beamw_consistent", "sheet_second", "sheet_third",
                 "geometrically_exact", "collocation")
 
-# Bending in both planes: f is proportional to the thickness and to the width; the frequencies cross where the section
+# Bending in both planes: f is proportional to the thickness and to the width. The frequencies cross where the section
 # is square.
 CANTILEVER = """beamwork: 1
 parameters:
@@ -275,12 +267,13 @@ omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 PLAIN = CANTILEVER.replace("MASS", "").replace("WANTED", "4")
 COUPLED = CANTILEVER.replace("WANTED", "2").replace(
     "MASS", ", mass: 1e-3, inertia: [2e-5, 2e-5, 2e-5, 0, coupling, 0]")
-# Torsional frequencies are proportional to 1/length, bending frequencies to 1/length^2; the modes are not coupled.
+# Torsional frequencies are proportional to 1/length, and bending frequencies to 1/length^2. The modes are not coupled.
 TWIST = PLAIN.replace("It: 1e-3*width*thickness", "It: 1e-12").replace("1..4", "1..6").replace(
     "wanted: 4", "wanted: 6")
 
 
 class Follow(ProgramTest):
+
     def follow(self, scene, formulation, over, *more, n=2):
         file = self.folder / "scene.yaml"
         file.write_text(scene, encoding="utf-8")
@@ -291,8 +284,8 @@ class Follow(ProgramTest):
         self.assertLess(max(curve) / min(curve) - 1, tolerance, what)
 
     def test_crossing(self):
-        """With every formulation, the modes cross at the square section and obey their laws before and after it,
-        even if the crossing itself is one of the values."""
+        """The modes cross at the square section and obey their laws before and after it, even if the crossing itself is
+        one of the values."""
         for formulation in FORMULATIONS:
             for over in ("width=5e-3..12e-3/7", "width=12e-3..4.5e-3/3"):
                 got = self.follow(PLAIN, formulation, over)
@@ -330,8 +323,8 @@ class Follow(ProgramTest):
             self.assertLess(abs(found[0] / known[0] - 1), 1e-8)
 
     def test_veering(self):
-        """A body with oblique axes couples the two planes: the frequencies no longer cross, however coarse the
-        requested values, and are closest near the square section."""
+        """A body with oblique axes couples the two planes. The frequencies no longer cross, however coarse the requested
+        values, and are closest near the square section."""
         for parts in (1, 2, 9):
             got = self.follow(COUPLED, "collocation", f"width=6e-3..10e-3/{parts}", "--set",
                               "coupling=1e-5")

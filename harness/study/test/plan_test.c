@@ -1,6 +1,6 @@
-/* The cells of a verification: each point of the reference values occurs once, with the meshes
- * of these values. A row that is valid for any value of a parameter (*) adds no point and
- * applies to all points. */
+/* The cells of a verification: each point of the reference values must occur once, with the meshes
+ * of these values. A row that is valid for any value of a parameter (*) adds no point and applies
+ * to all points. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -37,7 +37,7 @@ static truth row_of(const case_type *type)
     return row;
 }
 
-/* Counts the points of one case. *own: number of series of that formulation that contain the
+/* Counts the points of one case. *own is the number of series of that formulation that contain the
  * mesh of a row. */
 static int count_points(const sweep *s, const case_type *type, int *own)
 {
@@ -91,8 +91,8 @@ static void points(const case_type *type, const int number[2])
     expect(type, 3, row, 2, 0, "of one that holds at none of them");
 }
 
-/* Each series has the given number of additional meshes. The last one has 2^n times the
- * elements; the other meshes do not change. */
+/* Each series has the given number of additional meshes. The last one has 2^n times the elements,
+ * and the other meshes do not change. */
 static void doublings(void)
 {
     const truths none = {.rows = 0};
@@ -115,8 +115,8 @@ static void doublings(void)
     sweep_free(&two);
 }
 
-/* Builds the first case of the registry, with as many meshes as a scene can have, or with the
- * given number of elements. */
+/* Builds the first case of the registry, with as many meshes as a scene can have, or with the given
+ * number of elements. */
 static status with_meshes(const double value[], scene *s, fault *f)
 {
     double defaults[CASE_MAX_PARAMETERS] = {0};
@@ -149,7 +149,6 @@ static void refuses(double elements, int doublings, const char *refusal)
     sweep_free(&s);
 }
 
-/* Too many meshes or elements are rejected, and no mesh is omitted. */
 static void too_many(void)
 {
     refuses(0, 0, NULL);
@@ -175,9 +174,9 @@ static void plan_tests(void)
     gsl_test(cases < 10, "%d cases have two numbers", cases);
 }
 
-/* Effect of omitted physics. Bounds agree with fine meshes, for beams of any thickness under any
- * load, and for every case at its defaults. If there is no bound, the model counts as another
- * one. */
+/* Effect of omitted physics: bounds must agree with fine meshes, for beams of any thickness under
+ * any load, and for every case at its defaults. If there is no bound, the model counts as another
+ * model. */
 
 static const double length = 0.1, young = 2e11, shear_modulus = 8e10;
 
@@ -288,7 +287,6 @@ static int of_case(const case_type *type)
     return seen;
 }
 
-/* Without supports there is no solution and no bound. */
 static void loose(void)
 {
     scene s;

@@ -43,7 +43,7 @@ static rule made_up(char *formulations, char *cases, char *verdicts)
                   .largest_error = 1};
 }
 
-/* The chosen formulation supports the whole scene, and a known deviation changes the choice. */
+/* The chosen formulation must support the whole scene, and a known deviation changes the choice. */
 static void of_case(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -74,7 +74,7 @@ static void of_case(const case_type *type)
     scene_free(&s);
 }
 
-/* The chosen mesh is one of the scene's meshes or the finest of them doubled. It has converged
+/* The chosen mesh is one of the meshes of the scene or the finest of them doubled. It has converged
  * unless stated otherwise. */
 static void of_meshes(const case_type *type)
 {
@@ -157,8 +157,8 @@ static void preference_tests(void)
     no_new_one();
 }
 
-/* Results of a cell that are transferred between processes arrive bit for bit as they were sent.
- * Truncated data are rejected. */
+/* Results of a cell that are transferred between processes must arrive bit for bit as they were
+ * sent. Truncated data must be rejected. */
 
 static void round_trips(dice *d)
 {
@@ -173,8 +173,8 @@ static void round_trips(dice *d)
             unwritten += serialise_write(file, &sent[i]) != 0;
         }
     rewind(file);
-    for (int i = 0; i < CELLS; i++) { /* several cells one after the other, as a worker sends
-                                         them */
+    for (int i = 0; i < CELLS;
+         i++) { /* several cells one after the other, as a worker sends them */
         cell_result got;
         unread += serialise_read(file, &got) != 0;
         const difference here = compare_cells(&sent[i], &got);
@@ -213,7 +213,7 @@ static int is_empty(const cell_result *c)
            s->shapes.state == NULL && s->shapes.point == NULL && s->shapes.node == NULL;
 }
 
-/* Every truncation is detected and leaves no data, whichever part comes last. */
+/* Every truncation must be detected and leave no data, whichever part comes last. */
 static void truncated(dice *d, int pictured)
 {
     cell_result sent = random_cell(d), got;
@@ -251,10 +251,8 @@ static void serialise_tests(void)
         truncated(&d, i % 2);
 }
 
-/* Cells with equal results are solved once, other cells separately. Compared with solving all
- * cells, only the times differ. */
-
-/* Runs all formulations at two points of a case, on meshes of one and two elements. */
+/* Runs all formulations at two points of a case, on meshes of one and two elements. Cells with
+ * equal results are solved once. */
 static void run(const case_type *type, const char *const text[2], int share, sweep *s)
 {
     static const int mesh[] = {1, 2};
@@ -280,8 +278,8 @@ static double seconds(const cell_result *c)
     return c->solve.seconds_setup + c->solve.seconds_solve;
 }
 
-/* Returns the number of cells whose time is bit-for-bit equal to that of another cell, which
- * shows that they share its results. */
+/* Returns the number of cells whose time is bit-for-bit equal to that of another cell, which shows
+ * that they share its results. */
 static int shared(const sweep *s)
 {
     int out = 0;

@@ -64,7 +64,7 @@ static inline void fill_counts(dice *d, cell_result *c)
     for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
         *size[i] = whole(d, 1 << 30);
     c->size.features = (unsigned)roll(d);
-    /* any bits: also of counters that are new */
+    /* any bits, even of counters that are new */
     for (size_t at = 0; at < sizeof c->counters; at += sizeof(uint64_t)) {
         const uint64_t bits = roll(d);
         memcpy((char *)&c->counters + at, &bits, sizeof bits);
@@ -211,8 +211,8 @@ static inline cell_result random_cell(dice *d)
     return c;
 }
 
-/* Checks that every member is filled. If a struct has grown (padding included), its new member
- * must be added here. */
+/* Checks that every member is filled. If a struct has grown (padding included), its new member must
+ * be added here. */
 static inline void random_cell_complete(void)
 {
     gsl_test_int((int)(sizeof(counters) % sizeof(uint64_t)), 0, "counters are filled by words");

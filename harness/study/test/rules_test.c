@@ -9,7 +9,7 @@
 #include "harness/study/study_impl.h"
 #include "harness/study/test/truths_file.h"
 
-/* Returns 1 when the rule with this condition applies to a point of the first case. */
+/* Returns 1 if the rule with this condition applies to a point of the first case. */
 static int holds(const char *path, const char *condition, const rule_subject *s)
 {
     truths t;
@@ -24,7 +24,6 @@ static int holds(const char *path, const char *condition, const rule_subject *s)
     return out;
 }
 
-/* A rule applies only if every part of it matches. */
 static void subjects(const char *path)
 {
     const case_type *type = registry_cases[0];
@@ -49,7 +48,7 @@ static void subjects(const char *path)
     gsl_test(holds(path, "", &s), "another case");
 }
 
-/* first: index of a numeric parameter of the case. */
+/* Checks conditions. `first` is the index of a numeric parameter of the case. */
 static void conditions(const char *path)
 {
     const case_type *type = registry_cases[0];

@@ -10,7 +10,6 @@
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 
-/* Points hashed one after the other have the same hash as each point alone. */
 static void hashes_of_neighbours(void)
 {
     fault f;
@@ -100,7 +99,6 @@ static void texts(void)
     }
 }
 
-/* Meshes of a series are sorted and have no duplicates, in whatever order they are given. */
 static void meshes(void)
 {
     static const int given[] = {8, 1, 4, 8, 2, 1}, right[] = {1, 2, 4, 8};
@@ -117,7 +115,7 @@ static void meshes(void)
     sweep_free(&s);
 }
 
-/* Random combinations of pieces of valid input are accepted, or rejected in one line; there is
+/* Random combinations of pieces of valid input are accepted, or rejected in one line. There is
  * never a crash or another status. */
 static void random_input(void)
 {
@@ -217,9 +215,7 @@ static void run_tests(void)
     truth_files();
 }
 
-/* Scales below which changes of a value are round-off, for every kind of quantity, in its unit. */
-
-/* Size 5 m, E = 2e11 Pa, A = 0.02 m^2. */
+/* Makes a scene with the size 5 m, E = 2e11 Pa and A = 0.02 m^2. */
 static void make(scene *s)
 {
     const double y[3] = {0, 0, 1};
@@ -342,10 +338,8 @@ static void rounding_tests(void)
     every_size();
 }
 
-/* The progress line: the remaining time follows from the work, not from the number of cells, and
- * the line is removed at the end. */
-
-/* Returns the output of a run, which the caller frees. */
+/* Returns the output of a run, which the caller frees. The remaining time is computed from the
+ * work, not from the number of cells. */
 static char *shown(double now, int done, double share, int ends)
 {
     char *text = NULL;

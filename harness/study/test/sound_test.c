@@ -1,6 +1,6 @@
 /* The check of run records. One cell is artificial and consistent, and each of its numbers is
- * changed separately. Others are real, with every kind of analysis and form of Newton's method,
- * and their elements count their own evaluations. */
+ * changed separately. Others are real, with every kind of analysis and form of Newton's method, and
+ * their elements count their own evaluations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -32,7 +32,8 @@ static void add_analysis(scene_analysis_kind kind, scene *s)
         scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){{0}, {0}});
 }
 
-/* Three steps of four iterations; each step of a continuation starts with the existing tangent. */
+/* Makes three steps of four iterations. Each step of a continuation starts with the existing
+ * tangent. */
 static void make(scene_analysis_kind kind, sound_bench *b)
 {
     memset(b, 0, sizeof *b);
@@ -62,8 +63,8 @@ static void expect(const sound_bench *b, int sound, const char *what)
     gsl_test(!sound && why[0] == '\0', "%s: it says why", what);
 }
 
-/* A count that is too small is always inconsistent. A count that is too large is inconsistent
- * only if the solution does no other work. */
+/* A count that is too small is always inconsistent. A count that is too large is inconsistent only
+ * if the solution does no other work. */
 static void counts(scene_analysis_kind kind)
 {
     const struct {
@@ -159,7 +160,7 @@ static status counted_inertia(const element_data *d, const node_state x[],
     return inner->inertia(d, x, frame, out);
 }
 
-/* Likewise for several elements. */
+/* Counts the evaluations of several elements. */
 static void counted_strains(int count, const element_data *const data[], const node_state x[],
                             strain_output out[])
 {
@@ -183,7 +184,7 @@ static void counted_equations(int count, const element_data *const data[], const
     inner->equations_many(count, data, x, e, own, s, out, outcome);
 }
 
-/* For a real cell, the counters agree with the counts of the elements. Strains evaluated for
+/* For a real cell, the counters must agree with the counts of the elements. Strains evaluated for
  * reactions are not counted. */
 static void actual(const char *name, int elements, const char *formulation_name,
                    const char *parameters, newton_form newton, int reactions, int looks)
@@ -254,8 +255,8 @@ static void sound_tests(void)
     actual("hexapod", 3, "sheet_third", "steps=3", NEWTON_MIXED, 1, 0);
 }
 
-/* Times of the parts of a solution and of the whole come from the same clock. Idle time is
- * included in neither, and no part is missing. */
+/* Times of the parts of a solution and of the whole come from the same clock. Idle time is included
+ * in neither, and no part is missing. */
 
 static const element_type *sleepy_type;
 
@@ -266,7 +267,7 @@ static void sleep_and_strain(const element_data *data, const node_state x[], str
     sleepy_type->strain(data, x, out);
 }
 
-/* Sleeps for a millisecond in each evaluation, which itself takes microseconds. */
+/* Makes a type that sleeps for a millisecond in each evaluation, which takes microseconds. */
 static element_type make_sleepy(const element_type *type)
 {
     element_type sleepy = *type;
@@ -305,7 +306,6 @@ static void parts_of(const char *name, const char *key, int elements)
     parts_are_the_whole(&request, "asleep at times");
 }
 
-/* Times of the parts are measured only on request. */
 static void nothing_unasked(void)
 {
     const cell_request request = cells_of(case_find("elastica", NULL), "collocation", 2);

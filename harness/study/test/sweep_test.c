@@ -1,5 +1,5 @@
-/* Sweeps in several processes give the same results for any number of jobs. Crashes and endless
- * cells count as results. END only stops a test that would never end. */
+/* Sweeps in several processes must give the same results for any number of jobs. Crashes and
+ * endless cells count as results. END only stops a test that would never end. */
 #include <gsl/gsl_test.h>
 #include <signal.h>
 #include <string.h>
@@ -32,8 +32,8 @@ static void crashes(int end, int jobs, const char *reason)
     sweep_free(&s);
 }
 
-/* With `together`, a killed worker ends the process that requested the sweep. A worker that
- * crashes or exceeds the time limit still counts as a result. */
+/* With `together`, a killed worker ends the process that requested the sweep. A worker that crashes
+ * or exceeds the time limit counts as a result. */
 static void together(int end, int dies)
 {
     static const int mesh[] = {1};
@@ -118,7 +118,7 @@ static status is_told(void *context, const sweep *s, int series_index, fault *f)
     return log->told <= log->most ? STATUS_OK : fault_set(f, STATUS_REFUSED, "enough");
 }
 
-/* The follower receives every series in order, with its cells and its noise, while other cells
+/* The follower must receive every series in order, with its cells and its noise, while other cells
  * run. */
 static void followed(int jobs, int most)
 {

@@ -1,4 +1,4 @@
-/* The index finds the same rows as a search of all rows. */
+/* The index must find the rows that a search of all rows finds. */
 #include <gsl/gsl_test.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +20,7 @@ static void fill(truths *t, int from, int to)
     t->rows = to;
 }
 
-/* Requires the same rows of one case and quantity as a full search finds, in the same order. */
+/* Requires the rows of one case and quantity that a full search finds, in the same order. */
 static void compare(const truths *t, const case_type *type, const char *quantity)
 {
     int i = truth_index_first(t, type, quantity), wrong = 0;

@@ -13,7 +13,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 
-/* Contents of the file; the defaults are valid. */
+/* Contents of the file. The defaults are valid. */
 typedef struct recipe {
     const char *schema, *case_group, *kind, *model, *theory, *convention, *formulation, *parameters,
         *left_out_column, *rule_cases, *condition, *predicted, *accepted;
@@ -158,7 +158,7 @@ static inline void truths_file_refused(const char *path, const char *word, recip
              "%s: %s", what, f.text);
 }
 
-/* Runs every test with the path of its own file; returns the result of main. */
+/* Runs every test with the path of its own file. Returns the result of main. */
 static int truths_file_run(int count, void (*const test[])(const char *path))
 {
     char path[] = "/tmp/beamwork-truths-XXXXXX";

@@ -1,4 +1,4 @@
-/* Files of reference values: a valid one is read, and files that are invalid in any way are
+/* Files of reference values: a valid file is read, and files that are invalid in any way are
  * rejected. */
 #include <gsl/gsl_test.h>
 #include <hdf5.h>
@@ -97,8 +97,8 @@ static void wrong_files(const char *path)
     truths_file_refused(path, "at", r, "infinite abscissa");
 }
 
-/* Rows that are not used for limits: those of one formulation, of a curve, or without effect on
- * the exit status. */
+/* Rows that are not used for limits: those of one formulation, of a curve, or without effect on the
+ * exit status. */
 static void rows_that_do_not_judge(const char *path)
 {
     recipe of_formulation = right, of_curve = right, agreed = right, unrepeatable = right;
@@ -166,7 +166,6 @@ static void new_columns(const char *path)
     truths_free(&t);
 }
 
-/* Files that are truncated at any of many lengths, and files with flipped bits, are rejected. */
 static void damaged_files(const char *path)
 {
     static char bytes[1 << 20];
@@ -209,7 +208,7 @@ static void damaged_files(const char *path)
     gsl_test_int(broken, 0, "damaged files without a clear refusal");
 }
 
-/* The verdicts on formulations in the table affect the exit status, those on other built-in
+/* The verdicts on formulations in the table affect the exit status, and those on other built-in
  * formulations do not. Until a table is read, all verdicts do. */
 static void accepted_ones(const char *path)
 {

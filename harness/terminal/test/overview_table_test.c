@@ -1,5 +1,5 @@
-/* The matrix on a screen: no line exceeds its width, whatever the names; every name and every mark
- * is shown; if there are many cases, those that pass share lines. */
+/* The matrix on a screen: no line may exceed its width, for any names. Every name and every mark is
+ * shown. If there are many cases, those that pass share lines. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -70,8 +70,6 @@ static int count(const char *text, const char *word)
     return n;
 }
 
-/* Any number of columns with long and short names fits on the screen, in several blocks if
- * necessary. */
 static void widths(void)
 {
     static const char *const names[] = {"a", "geometrically_exact",
@@ -95,7 +93,6 @@ static void widths(void)
         }
 }
 
-/* In one block, the header shows each name in full, divided only within long words. */
 static void heads(void)
 {
     static table_bench b;
@@ -106,7 +103,6 @@ static void heads(void)
     free(text);
 }
 
-/* New formulations are marked above their names, and the mark is explained once. */
 static void new_ones(void)
 {
     static table_bench b;
@@ -121,7 +117,7 @@ static void new_ones(void)
     free(text);
 }
 
-/* If there are many cases, those that pass share lines; other cases never do. */
+/* If there are many cases, those that pass share lines. Other cases never do. */
 static void passing(void)
 {
     static table_bench b;
@@ -306,12 +302,12 @@ static void unexpected_tests(void)
     holds(&b, "\n 6. reference values for 2 unknown cases, the first: gone\n");
 }
 
-/* Describes the stable ranges of a path: runs of steps, for several analyses. */
+/* Descriptions of the stable ranges of a path: runs of steps, for several analyses. */
 
 enum { STABILITY_MOST = 16 };
 
 /* Checks the description of a path with a letter for each step: o open, d no divergence, s stable,
- * u unstable, h held; the steps end at 0.5, 1, ... */
+ * u unstable, h held. The steps end at 0.5, 1, ... */
 static void is(const char *letters, scene_analysis_kind kind, const char *expected)
 {
     static const char letter[] = "odsugh";

@@ -1,6 +1,5 @@
-/* The energy balance is checked: an allowed error is accepted, and a larger one ends the motion
- * with a one-line message. Work of external loads of every kind is included, with every
- * integrator. */
+/* The energy balance: an allowed error is accepted, and a larger one ends the motion with a
+ * one-line message. Work of external loads of every kind is included, with every integrator. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -27,7 +26,7 @@ static const struct {
                     {"goes on", "parts=2;middle=0.6"}};
 enum { DAMPED = 3, FOLLOWER = 6, KINDS = sizeof account_kind / sizeof account_kind[0] };
 
-/* Returns the largest energy-balance error of the motion, relative to account_size. *turned:
+/* Returns the largest energy-balance error of the motion, relative to account_size. *turned is the
  * work relative to the energy. */
 static double missing(const solve_result *r, double *turned)
 {
@@ -67,8 +66,8 @@ static void balanced(scene_scheme by, double step, double most)
     }
 }
 
-/* A motion with energy 10 J, and work of 2 J that alternates `turned` times; `drift` [J] of the
- * energy is unexplained. */
+/* A motion with an energy of 10 J, and work of 2 J that alternates `turned` times. `drift` [J] of
+ * the energy is unexplained. */
 static const struct {
     double drift, turned, rounding, rho, tolerance;
     scene_scheme by;
@@ -134,7 +133,7 @@ static status run(const case_type *type, const char *parameters, int elements, c
     return cell_run(&request, out, &f);
 }
 
-/* Steps that do not resolve axial waves gain energy: the motion ends, or continues with shorter
+/* Steps that do not resolve axial waves gain energy. The motion must end, or continue with shorter
  * steps. */
 static void made(void)
 {
@@ -168,7 +167,7 @@ static void account_tests(void)
 }
 
 /* Strains from stresses: a member that is a million times stiffer in elongation than in bending
- * gets strains that match its stresses, even if Newton's method does not find them at once.
+ * must get strains that match its stresses, even if Newton's method does not find them at once.
  * Elements that already agree keep all bits, and types with linear stresses do not change. */
 
 extern const element_type element_beamw_consistent, element_beamw, element_geometrically_exact,
@@ -286,7 +285,7 @@ static void take(const element_type *type, double angle)
     scene_free(&s);
 }
 
-/* Strains do not change if there are none with the given stresses. */
+/* Strains do not change if no strains have the given stresses. */
 static void keep(void)
 {
     scene s;
@@ -349,7 +348,7 @@ static void complement_tests(void)
 
 enum { MASSLESS_MOST = 80 };
 
-/* A free member with an I-section. omit: physics to be omitted. */
+/* A free member with an I-section. `omit` contains physics to be omitted. */
 static void warps(unsigned omit, int heavy)
 {
     static const double y[3] = {0, 1, 0}, point[][2] = {{-0.03, 0.05},  {0, 0.05},  {0.03, 0.05},

@@ -1,4 +1,4 @@
-"""Combinations of keys of scene files in one structure; each key alone has its own tests."""
+"""Combinations of keys of scene files in one structure. Each key alone has separate tests."""
 from cases.format.test.scene_case import SceneCase, values
 
 HEAD = """beamwork: 1
@@ -45,7 +45,7 @@ class CombinedTest(SceneCase):
         return values(self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", 8, *more))
 
     def test_formulations_agree(self):
-        """Formulations agree to one part in a thousand; chords and lumped foundations have errors of second order."""
+        """Formulations agree to one part in a thousand. Chords and lumped foundations have errors of second order."""
         text = HEAD + STATIC + "omit: [wagner_torque]\n"
         one = self.solve(text, "collocation")
         self.assertGreater(abs(one["uz"]), 1e-3)
@@ -55,8 +55,7 @@ class CombinedTest(SceneCase):
                 self.assertAlmostEqual(other[name] / value, 1, delta=3e-3, msg=(formulation, name))
 
     def test_integrators_agree(self):
-        """Motions from the heated, pretensioned state agree between integrators, and only the dashpot dissipates
-        energy."""
+        """Motions from the heated, pretensioned state agree between integrators, and only the dashpot dissipates energy."""
         runs = {"radau": "tolerance: 1e-6", "alpha": "step: 2.5e-4", "conserving": "step: 2.5e-4"}
         got = {name: self.solve(MOVED + MOTION.format(integrator=name, steps=steps), "collocation")
                for name, steps in runs.items()}
@@ -69,12 +68,10 @@ class CombinedTest(SceneCase):
             self.assertLess(abs(got[name]["drift"]), bound * abs(got[name]["energy"]), name)
 
     def test_explicit(self):
-        """The explicit integrator rejects an offset of a member, and the message gives a remedy."""
         text = MOVED.replace(", pretension: 3e3", "") + MOTION.format(integrator="explicit", steps="step: 1e-5")
         self.refused(2, ["member second has an offset", "part_of"], "solve", "--scene", self.scene(text), "-n", 1)
 
     def test_another_order_of_ends(self):
-        """Members given in the reverse direction, with y reversed too, give the same results at the opposite ends."""
         there = HEAD.replace(
             "from: foot, to: middle, section: ipe, y: [0, 1, 0], warping: free, imperfection: {amplitude: [4e-3, 0]}",
             "from: middle, to: foot, section: ipe, y: [0, -1, 0], warping: free, imperfection: {amplitude: [-4e-3, 0]}"

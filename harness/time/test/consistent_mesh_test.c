@@ -1,6 +1,6 @@
-/* Meshes with consistent mass converge to the same limit as meshes with lumped mass. For a
- * released structure that oscillates, coarse meshes are more accurate with consistent mass,
- * whose order is higher. */
+/* Meshes with consistent mass must converge to the limit of meshes with lumped mass. For a released
+ * structure that oscillates, coarse meshes are more accurate with consistent mass, whose order is
+ * higher. */
 #include <math.h>
 
 #include "harness/time/test/moving.h"
@@ -29,9 +29,9 @@ static double value_of(const case_type *type, const char *parameters, const char
     return answer_of(&a, quantity);
 }
 
-/* Checks the errors of the coarsest and the third mesh with respect to the finest one. Their
- * order must be `order`, and they must be at most the fraction `part` of the errors with lumped
- * mass, which must converge to the same limit within `near`. */
+/* Checks the errors of the coarsest and the third mesh with respect to the finest one. Their order
+ * must be `order`, and they must be at most the fraction `part` of the errors with lumped mass,
+ * which must converge to the same limit within `near`. */
 static void meshes(const case_type *type, const char *parameters, const char *quantity,
                    double order, double part, double near)
 {

@@ -1,7 +1,8 @@
-/* Motions with consistent mass. In free flights, momenta and energy are conserved with the order
- * of the scheme. Reactions at a fixed or prescribed base equal the rate of change of momentum,
- * also with rigid offsets, bodies and released ends. Newton's method takes as many iterations as
- * with lumped mass, even if members are stiff. Unsupported combinations are rejected by name. */
+/* Motions with consistent mass. In free flights, momenta and energy must be conserved with the
+ * order of the scheme. Reactions at a fixed or prescribed base must equal the rate of change of
+ * momentum, with rigid offsets, bodies and released ends. Newton's method must take as many
+ * iterations as with lumped mass, even if members are stiff. Unsupported combinations must be
+ * rejected by name. */
 #include <math.h>
 
 #include "harness/analysis/analysis.h"
@@ -76,8 +77,8 @@ static void end_of(const element_type *type, scene_scheme scheme, double step, d
     gsl_test(out->outcome != ASK_ANSWERED, "%s flies freely (%s)", type->name, out->reason);
 }
 
-/* Returns the largest changes of the momenta after 0.5 s, when no load acts, and the
- * energy-balance error relative to the energy. */
+/* Returns the largest changes of the momenta after 0.5 s, when no load acts, and the energy-balance
+ * error relative to the energy. */
 static consistent_flight fly(const element_type *type, scene_scheme scheme, double step)
 {
     static const double end[] = {0.8, 1.1, 1.4, 2};
@@ -117,7 +118,7 @@ static void free_flight(const element_type *type)
 }
 
 /* A base that is moved along two axes and rotated about two. A rod with a body at its end is
- * attached to it with an offset, and a second rod is attached to a node of that body. */
+ * attached to the base with an offset, and a second rod is attached to a node of that body. */
 static void add_driven(scene *s, int released, double step, double end)
 {
     scene_init(s, "driven base");
@@ -268,9 +269,9 @@ static void consistent_tests(void)
     refuse();
 }
 
-/* The energy gained equals the work done, for loads that rise and end, gravity, and a prescribed
- * motion. The difference decreases with the order of the scheme; for the conserving scheme it is
- * zero. */
+/* The energy gained must equal the work done, for loads that rise and end, gravity, and a
+ * prescribed motion. The difference decreases with the order of the scheme, and is zero for the
+ * conserving scheme. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_spin_up, case_elbow, case_pendulum;
@@ -323,17 +324,17 @@ static void drift_tests(void)
     }
 }
 
-/* In free flight the momentum is the time integral of the load, to round-off, with every
- * integrator, since the loads are piecewise linear. (Generalized-alpha averages accelerations
- * over two steps. While a load rises, the momentum therefore lags by a fraction of h^2, which
- * vanishes when the load has ended.) Unsupported options of motion cases are rejected. */
+/* In free flight, the momentum is the time integral of the load, to round-off, with every
+ * integrator, because the loads are piecewise linear. Generalized-alpha averages accelerations over
+ * two steps. Therefore, while a load rises, the momentum lags by a fraction of h^2, which vanishes
+ * when the load has ended. Unsupported options of motion cases must be rejected. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_free_flight_plane, case_release,
     case_leaf_guide, case_rigid_body, case_pendulum;
 
-/* Impulse of the force along x. The triangle rises at 8 N/s for 2.5 s and then falls back; the
- * step is 8 N for the same time. */
+/* Impulse of the force along x. The triangle rises at 8 N/s for 2.5 s and then falls back. The step
+ * is 8 N for the same time. */
 static double impulse_of_triangle(double t)
 {
     const double rise = fmin(t, 2.5), fall = fmin(fmax(t - 2.5, 0), 2.5);
@@ -405,8 +406,8 @@ static void flight_tests(void)
     refused(&case_release, "tolerance=1", "tolerance");
 }
 
-/* Members that are stiff in elongation need no additional iterations, with any formulation.
- * Example: a swing of the pendulum with EA times 1, 1e3 and 1e6, in long steps, none of which is
+/* Members that are stiff in elongation must need no additional iterations, with any formulation.
+ * The test is a swing of the pendulum with EA times 1, 1e3 and 1e6, in long steps, none of which is
  * halved. */
 
 extern const case_type case_pendulum;
@@ -466,8 +467,7 @@ static void compare(const element_type *type, scene_scheme by, double step, doub
     }
 }
 
-/* Solves with one element. Its forces have no more digits than eps EA allows, but its moments
- * do. */
+/* One element, whose forces have no more digits than eps EA allows, but whose moments do. */
 static void one_element(void)
 {
     const int steps = 60;

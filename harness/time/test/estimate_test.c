@@ -1,6 +1,6 @@
 /* Error estimates of integrators for one step, which determine the next step size. A mass on a
- * spring has a step in closed form; for prescribed, rotating and damped masses the order of the
- * estimate is checked. All tests take milliseconds. */
+ * spring has a step in closed form. For prescribed, rotating and damped masses, the order of the
+ * estimate is checked. */
 #include <math.h>
 
 #include "elements/math/dense.h"
@@ -31,7 +31,7 @@ static void add_motion(scene *s, scene_scheme by, const scene_alpha *alpha, doub
                                     .start = {.velocity = {vx}}});
 }
 
-/* A mass on a spring. eta: damping [s]; the force is 2 + 3 t. */
+/* A mass on a spring. `eta` is the damping [s], and the force is 2 + 3 t. */
 static void add_oscillator(scene *s, scene_scheme by, const scene_alpha *alpha, double eta,
                            int forced)
 {
@@ -153,8 +153,8 @@ static void explicit_one(void)
     gsl_test(!(log2(error[0] / error[1]) > 7.5), "explicit: estimates %g, %g", error[0], error[1]);
 }
 
-/* Returns the estimate for a rod on a body that is lifted and rotates freely. Its centre of mass
- * is at a distance from the lifted point. */
+/* Returns the estimate for a rod on a body that is lifted and rotates freely. The centre of mass of
+ * the body is at a distance from the lifted point. */
 static double of_lifted(double eta, double h)
 {
     const section_spec spec = timed_profile(&(timed_section){
@@ -209,9 +209,9 @@ static void estimate_tests(void)
 }
 
 /* Bending rotations have no inertia, but the twist has: the gyroscopic moment of the twist loads
- * them. Rods with an oblique spin start in equilibrium with that moment and are integrated with
- * the order of each integrator. They are the limit of rods whose bending inertia decreases. A
- * restart in equilibrium changes nothing. */
+ * them. Rods with an oblique spin start in equilibrium with that moment and are integrated with the
+ * order of each integrator. They are the limit of rods whose bending inertia decreases. A restart
+ * in equilibrium changes nothing. */
 
 extern const element_type element_geometrically_exact;
 
@@ -224,8 +224,8 @@ static struct {
     int joint, thrown;
 } how;
 
-/* A rod oblique to all axes. With a joint, another rod at its end rotates about a single axis.
- * Thrown: the rods start at rest, under a force and a moment that rise and end. */
+/* A rod oblique to all axes. With a joint, another rod at its end rotates about a single axis. If
+ * thrown, the rods start at rest, under a force and a moment that rise and end. */
 static void build(scene *s, scene_scheme by, double step)
 {
     scenes_read(s, RODS,
@@ -295,7 +295,7 @@ static void limit(void)
              "less inertia of bending turns: %g, %g, then %g m from none", coarse, fine, rest);
 }
 
-/* A restart in the middle of a motion changes neither positions nor inertia forces. */
+/* A restart in the middle of a motion must change neither positions nor inertia forces. */
 static void start_again(void)
 {
     scene s;
@@ -335,7 +335,8 @@ static void start_again(void)
     scene_free(&s);
 }
 
-/* The spin is so fast that bending cannot balance the gyroscopic moments: the start is rejected. */
+/* The spin is so fast that bending cannot balance the gyroscopic moments, so the start must be
+ * rejected. */
 static void refuse(void)
 {
     scene s;
@@ -354,7 +355,7 @@ static void motion_massless_tests(void)
     for (how.joint = 0; how.joint < 2; how.joint++)
         for (int i = 0; i < 2; i++) {
             how.spin = spins[i];
-            if (how.joint) { /* the modes of the second rod are not resolved by these steps */
+            if (how.joint) { /* these steps do not resolve the modes of the second rod */
                 agree(SCENE_ALPHA, 0.01, 3e-3);
             } else {
                 converge(SCENE_ALPHA, 0.02, 4);
@@ -371,9 +372,9 @@ static void motion_massless_tests(void)
     limit();
 }
 
-/* Steps of all integrators: the trapezoidal rule is reversible, a rigid body without torque
- * follows its exact motion with the order of the scheme, and steps end at slope discontinuities
- * of loads. */
+/* Steps of all integrators: the trapezoidal rule is reversible, a rigid body without torque follows
+ * its exact motion with the order of the scheme, and steps end at slope discontinuities of
+ * loads. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space;
@@ -420,8 +421,8 @@ static void reverse(void)
     scene_free(&s);
 }
 
-/* Checks a body with J = diag(1, 2, 3) and w(0) = (0.5, 0.2, 2) at 10 s against Jacobi's
- * elliptic functions. */
+/* Compares a body with J = diag(1, 2, 3) and w(0) = (0.5, 0.2, 2) at 10 s with Jacobi's elliptic
+ * functions. */
 static double turn_body(scene_scheme by, double h)
 {
     static const double w[3] = {0.069492061156576, 0.5340139075307, 1.9794636602342},
@@ -471,7 +472,8 @@ static void check_body(scene_scheme by, double h, double order, double least)
              log2(first / second));
 }
 
-/* The impulse of 50 N s is exact. Only steps that are shortened end at a slope discontinuity. */
+/* The impulse of 50 N s must be exact. Only steps that are shortened end at a slope
+ * discontinuity. */
 static void impulse(scene_scheme by)
 {
     scene s;

@@ -1,5 +1,5 @@
-/* The explicit integrator: it agrees with the exact motion of a body without torque and with the
- * implicit integrator of order 5, has its order, and rejects models without inertia. */
+/* The explicit integrator must agree with the exact motion of a body without torque and with the
+ * implicit integrator of order 5, have its order, and reject models without inertia. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sf_ellint.h>
 #include <gsl/gsl_sf_elljac.h>
@@ -196,7 +196,7 @@ static void explicit_tests(void)
     refused("geometrically_exact", "released ends");
 }
 
-/* The tangent operator of rotations, its inverse and its derivative agree with finite
+/* The tangent operator of rotations, its inverse and its derivative must agree with finite
  * differences of the rotations, on both sides of the angle below which series are used. */
 
 static const double along[3] = {0.48, -0.6, 0.64}, other[3] = {0.7, 0.4, -0.9}, step = 1e-4;
@@ -212,7 +212,7 @@ static void between(const double t[3], const double s[3], double out[3])
     rotation_log(q, out);
 }
 
-/* Computes the derivative of f along d at t by finite differences of fourth order: out[3]. */
+/* Computes the derivative out[3] of f along d at t by finite differences of fourth order. */
 static void differ(void (*f)(const double t[3], double out[3]), const double t[3],
                    const double d[3], double out[3])
 {
@@ -275,7 +275,8 @@ static void turn(double angle)
     check("one turn behind another", angle, back, other);
 }
 
-/* The series are exact to rounding at the angle below which they are used; there is no jump. */
+/* The series must be accurate to rounding error at the angle below which they are used, without a
+ * jump. */
 static void seam(double angle)
 {
     static const char *const what[] = {"Jr", "its inverse", "its derivative"};

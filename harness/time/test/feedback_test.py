@@ -8,7 +8,7 @@ from scipy.linalg import expm
 
 from harness.tools.kit.program import ProgramTest, run, values
 
-M1, M2, K = 1.0, 0.5, 100.0  # [kg] of the cart and of the tool; [N/m] of the bar
+M1, M2, K = 1.0, 0.5, 100.0  # masses of the cart and of the tool [kg]; stiffness of the bar [N/m]
 SCENE = """beamwork: 1
 sections:
   bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}
@@ -45,6 +45,7 @@ def exact(kp, kd, ki, damping, place, end, measured=2):
 
 
 class Feedback(ProgramTest):
+
     def solved(self, gains, analyses, more="time: 0.01,", eta=0.0):
         path = self.folder / "scene.yaml"
         text = SCENE % {"gains": gains, "analyses": analyses, "more": more, "eta": eta}
@@ -55,7 +56,7 @@ class Feedback(ProgramTest):
         return found, [s["iterations"] for s in said["steps"]]
 
     def test_exponential(self):
-        """Proportional, derivative and integral gains, at the cart and across the bar, give the exact motion, stable
+        """Proportional, derivative and integral gains, at the cart and across the bar, must give the exact motion, stable
         or unstable, in few iterations."""
         for scheme, step, near in (("radau", 0.01, 1e-6), ("alpha", 1e-3, 2e-3),
                                    ("explicit", 0.02, 1e-9)):
@@ -73,7 +74,6 @@ class Feedback(ProgramTest):
                     self.assertLess(np.mean(steps), 2.1)
 
     def test_order(self):
-        """Generalized-alpha has order two with all gains."""
         errors = []
         for step in (2e-3, 1e-3):
             found, _ = self.solved(
@@ -83,7 +83,6 @@ class Feedback(ProgramTest):
         self.assertAlmostEqual(errors[0] / errors[1], 4, 1)
 
     def test_limit(self):
-        """The force is constant while it is at its limit."""
         for scheme in ("radau", "alpha", "explicit"):
             found, _ = self.solved(
                 "node: tool, component: ux, proportional: 1e6, derivative: 20, limit: 3",
@@ -104,7 +103,6 @@ class Feedback(ProgramTest):
             self.assertAlmostEqual(whole["tool"] / parts["tool"], 1, 8)
 
     def test_units(self):
-        """The scene gives the same results in mm, N and MPa, with gains in N/mm."""
         gains = "node: tool, component: ux, proportional: %g, derivative: %g, integral: %g"
         found, _ = self.solved(gains % (20, 3, 5), MOTION % (0.01, "radau"))
         text = SCENE % {"gains": gains % (20e-3, 3e-3, 5e-3), "more": "time: 10,", "eta": 0,
@@ -166,7 +164,7 @@ class Driven(ProgramTest):
     """A scene with placeholders for the parts that tests vary."""
 
     def solved(self, *words, code=0):
-        """Returns the values of quantities or, with an exit code, the printed text."""
+        """Returns the values of quantities or, if an exit code is given, the printed text."""
         path = self.folder / "scene.yaml"
         path.write_text(self.scene % words, encoding="utf-8")
         done = self.answered("solve", "--scene", path, "-f", "collocation", "-n", self.elements, "--format", "json",
@@ -231,7 +229,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
 
 
 class Tension(Driven):
-    """A rigid boom on a spring is pulled towards a fixed point; it has one degree of freedom."""
+    """A rigid boom on a spring, which is pulled towards a fixed point and has one degree of freedom."""
 
     scene, elements = BOOM, 1
 
@@ -248,8 +246,6 @@ class Tension(Driven):
             2 - 2 * np.sin(angle)), 5)
 
     def test_motion(self):
-        """A load as a function of time, and feedback of the angle, agree with an integrator of ordinary differential
-        equations."""
         for words, force in (
                 (", time: 1 + 0.2*sin(3*t)", lambda t, y: 800 * (1 + 0.2 * np.sin(3 * t))),
                 (", time: 0.5, feedback: {node: hinge, component: rz, proportional: 3, derivative: 1, "

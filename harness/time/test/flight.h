@@ -1,4 +1,4 @@
-/* A scene in motion, advanced step by step: for tests of the conserving scheme. */
+/* A scene in motion, advanced step by step, for tests of the conserving scheme. */
 #ifndef BEAMWORK_TEST_FLIGHT_H
 #define BEAMWORK_TEST_FLIGHT_H
 
@@ -55,8 +55,8 @@ static inline status flight_prepare(flight *f, const char *with, int elements)
     return instant_alloc(f->m, &f->next, &f->why);
 }
 
-/* build: function of a case without parameters. The flight starts at rest in the undeformed
- * state. */
+/* Prepares the flight. `build` is the function of a case without parameters. The flight starts at
+ * rest in the undeformed state. */
 static inline status flight_ready(flight *f,
                                   status (*build)(const double value[], scene *, fault *),
                                   const char *with, int elements)
@@ -89,7 +89,7 @@ static inline void flight_end(flight *f)
     scene_free(&f->scene);
 }
 
-/* Makes one step of h [s]; h < 0: backwards. */
+/* Makes one step of h [s], backwards if h < 0. */
 static inline status flight_step(flight *f, double h)
 {
     double error;

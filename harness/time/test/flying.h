@@ -1,4 +1,4 @@
-/* Motions advanced step by step, for tests of the integrators themselves. */
+/* Motions advanced step by step, for tests of the integrators. */
 #ifndef BEAMWORK_TEST_FLYING_H
 #define BEAMWORK_TEST_FLYING_H
 
@@ -28,7 +28,6 @@ typedef struct flying {
     fault why;
 } flying;
 
-/* Starts the first motion of the scene. */
 static inline status flying_begin(const scene *s, const element_type *type, int elements, flying *f)
 {
     memset(f, 0, sizeof *f);
@@ -69,7 +68,7 @@ static inline void flying_end(flying *f)
     model_free(f->m);
 }
 
-/* Makes one step of h [s], backwards if negative, to `next`. */
+/* Makes one step of h [s], backwards if h < 0, and stores the result in `next`. */
 static inline status flying_try(flying *f, double h)
 {
     step_record record = {.path = f->now.time + h, .increment = h};
@@ -80,7 +79,7 @@ static inline status flying_try(flying *f, double h)
     return outcome;
 }
 
-/* As flying_try; `now` becomes `next` unless the step fails. */
+/* Makes the step of flying_try. `now` becomes `next` unless the step fails. */
 static inline status flying_step(flying *f, double h)
 {
     const status outcome = flying_try(f, h);
@@ -89,8 +88,7 @@ static inline status flying_step(flying *f, double h)
     return outcome;
 }
 
-/* Copies all numbers of an instant, and returns how many there are. numbers NULL: only counts
- * them. */
+/* Copies all numbers of an instant, unless `numbers` is NULL. Returns their number. */
 static inline size_t flying_numbers(const flying *f, const instant *at, double *numbers)
 {
     const size_t n = (size_t)model_all_coordinates(f->m), size = at->state->size,

@@ -1,6 +1,6 @@
-/* Inertia forces are the rates of change of momenta and of kinetic energy along a motion, for
- * everything with mass: off-centre bodies, beams at offsets from their nodes, sequences of
- * angles, released ends, warping. Kinetic energy is the sum over all masses. */
+/* Inertia forces must be the rates of change of momenta and of kinetic energy along a motion, for
+ * off-centre bodies, beams at offsets from their nodes, sequences of angles, released ends and
+ * warping. Kinetic energy is the sum over all masses. */
 #include "elements/math/rotation.h"
 #include "elements/test/kit.h"
 #include "harness/model/model.h"
@@ -77,7 +77,7 @@ static void forces(const moving_one *o)
     near("power", power, (after.kinetic - before.kinetic) / (2 * dt), 4e-7);
 }
 
-/* For any virtual velocity, the inertia forces do the same work on the frames as on the
+/* For any virtual velocity, the inertia forces must do the same work on the frames as on the
  * coordinates. */
 static void virtual_work(const moving_one *o)
 {
@@ -102,8 +102,8 @@ static void virtual_work(const moving_one *o)
     near("virtual work", given, found, 1e-11);
 }
 
-/* Returns the energy of a mass whose centre is at a distance from the frame, from the motion of
- * the frame. J: about the centre. */
+/* Returns the energy of a mass whose centre is at a distance from the frame, from the motion of the
+ * frame. J is about the centre of mass. */
 static double energy_of(double of, const double beside[3], const double J[9], const double W[3],
                         const double v[3])
 {
@@ -183,9 +183,9 @@ static void inertia_tests(void)
     }
 }
 
-/* Interpolation between two instants reproduces both of them: positions, shifts, angles,
- * warping, rates and accelerations, for bodies, sequences of angles and released ends that
- * rotate by half a radian. */
+/* Interpolation between two instants must reproduce both of them: positions, shifts, angles,
+ * warping, rates and accelerations, for bodies, sequences of angles and released ends that rotate
+ * by half a radian. */
 
 static void rates_of(const moving_one *o, uint64_t seed, instant *at)
 {
@@ -292,10 +292,8 @@ static void between_tests(void)
     }
 }
 
-/* The tangent of inertia forces is their derivative in the exponential chart, where the rates
- * follow the increments of a step with finite rotations. */
-
-/* Rates follow the increments: v = g inc, a = b inc. */
+/* Factors for which the rates follow the increments: v = g inc, a = b inc. The tangent of inertia
+ * forces is their derivative in the exponential chart. */
 static const double b = 7, g = 3;
 
 static void force_at(const moving_one *o, const double inc[], const double from[], double out[])
@@ -314,7 +312,7 @@ static void force_at(const moving_one *o, const double inc[], const double from[
     kinematics_state_free(s);
 }
 
-/* Transforms moments to the exponential chart: adds half of their vector product with the
+/* Transforms moments to the exponential chart by adding half of their vector product with the
  * increment. */
 static void add_chart(const moving_one *o, const double out[], int column, double slope[])
 {
@@ -388,8 +386,8 @@ static void tangent_tests(void)
     }
 }
 
-/* A rotation prescribed by its vector along any path. From any state, increments lead to the
- * prescribed orientation, and rates and their derivatives are those of the frame. */
+/* A rotation prescribed by its vector along any path. From any state, increments must lead to the
+ * prescribed orientation, and rates and their derivatives must be those of the frame. */
 
 static void build_driven(scene *s)
 {
@@ -412,7 +410,6 @@ static void build_driven(scene *s)
     scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
 }
 
-/* Moves from a state to a time. */
 static void go(const equations *eq, const model_state *from, double time, model_state *to,
                frame_rates *r)
 {

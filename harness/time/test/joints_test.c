@@ -1,6 +1,6 @@
 /* Two bars with every kind of joint are loaded by a follower force and a moment with fixed axes,
- * and then move without loads. The energy gained is the work of the loads and then remains
- * constant, and so do both momenta if nothing is fixed. */
+ * and then move without loads. The energy gained must be the work of the loads and then remain
+ * constant. If nothing is fixed, both momenta must remain constant. */
 #include <stdio.h>
 
 #include "harness/model/model.h"
@@ -178,14 +178,14 @@ static void joints_tests(void)
     }
 }
 
-/* Bodies without torque with the conserving scheme: one node; two bodies connected by a stiff
- * rod; and a flexible rod between two bodies, at offsets from its ends. */
+/* Bodies without torque with the conserving scheme: one node, two bodies connected by a stiff rod,
+ * and a flexible rod between two bodies, at offsets from its ends. */
 
 static const double bodies_y_axis[] = {0, 1, 0};
 
 static struct {
     double stiffness;
-    int rod; /* 0: one body; 1: two bodies that together are the same one; 2: bodies at offsets */
+    int rod; /* 0: one body; 1: two bodies that together equal the one body; 2: bodies at offsets */
 } how;
 
 static int profile_of(scene *s, double E, double mass)
@@ -262,7 +262,7 @@ static void bodies_fly(flight *f, int steps, double h, double *drift, double *an
     gsl_test(outcome != STATUS_OK, "steps of %g s: %s", h, f->why.text);
 }
 
-/* Returns the error of R at 10 s as the largest error of an entry. The exact value comes from
+/* Returns the error of R at 10 s as the largest error of an entry. The exact value is computed by
  * quadrature of the precession. */
 static double error_of_body(double h)
 {
@@ -340,10 +340,10 @@ static void bodies_tests(void)
     offsets();
 }
 
-/* Rotations without inertia with the conserving scheme. Conserved quantities remain constant,
- * the rates follow the motion without changing sign in every step, and a node may rotate by
- * several angles. A scene in which no rotation has inertia is rejected, and so is a node that
- * rotates by two free angles. */
+/* Rotations without inertia with the conserving scheme. Conserved quantities must remain constant,
+ * the rates must follow the motion without changing sign in every step, and a node may rotate by
+ * several angles. Two scenes must be rejected: one in which no rotation has inertia, and one in
+ * which a node rotates by two free angles. */
 
 static const double massless_y_axis[] = {0, 1, 0};
 
@@ -424,7 +424,6 @@ static void refused(const char *words)
     flight_end(&f);
 }
 
-/* A node that rotates by three successive angles conserves energy. */
 static void by_angles(void)
 {
     flight f;

@@ -1,5 +1,5 @@
 /* Rods and bodies in motion, for tests of masses: bodies at offsets from their nodes, sections with
- * eccentric centre of mass, a channel with warping, and on request a sequence of angles and
+ * an eccentric centre of mass, a channel with warping, and on request a sequence of angles and
  * released ends. */
 #ifndef BEAMWORK_TEST_MASSES_H
 #define BEAMWORK_TEST_MASSES_H
@@ -28,8 +28,8 @@ static inline void turn_in_sequence(scene *s, int node)
     memcpy(scene_node_at(s, node)->axis, axis, sizeof axis);
 }
 
-/* Properties per metre of the rods: mass, position of its centre relative to the line, and
- * inertia about that centre. */
+/* Properties per metre of the rods: mass, position of its centre relative to the line, and inertia
+ * about that centre. */
 static const double mass = 1.5, centre[3] = {0, 0.06, -0.1}, about[3] = {0.04, 0.025, 0.015};
 
 static inline section_spec heavy(void)
@@ -106,7 +106,7 @@ static inline void some(int n, double size, uint64_t *seed, double out[])
         out[i] = size * random_number(seed);
 }
 
-/* add: adds further parts to the scene; NULL: nothing. */
+/* Begins a motion. `add` adds further parts to the scene, or is NULL. */
 static inline void begin_with(moving_one *o, const element_type *type, int released,
                               void (*add)(scene *))
 {

@@ -1,6 +1,6 @@
 /* Motions of all formulations. The results must not depend on the direction of a member, on the
  * axes of the scene, on whether the base moves or the equivalent inertia field acts, or on the
- * stiffness of modes that are not examined. A small motion has the frequency of its mode. */
+ * stiffness of modes that are not examined. A small motion must have the frequency of its mode. */
 #include <math.h>
 
 #include "elements/math/scalar.h"
@@ -13,10 +13,10 @@ extern const case_type case_free_flight_space;
 
 static const double length = 1;
 
-/* Motion of a cantilever after a small static force is removed at 0 s. The cantilever is along x or
- * along another axis (turn 1: x, y, z become y, z, x), from its root to its tip or (back 1) in the
- * opposite direction. early, late: deflection of the tip at a sixteenth of a period and at two
- * periods; f: frequency from a modal analysis. */
+/* Motion of a cantilever after a small static force is removed at 0 s. If `turn` is 1, the axes x,
+ * y, z become y, z, x. If `back` is 1, the member runs from its tip to its root. `early` and `late`
+ * are the deflections of the tip at a sixteenth of a period and at two periods, and f is the
+ * frequency from a modal analysis. */
 static void swing(const element_type *type, scene_scheme by, int turn, int back, answer *a)
 {
     const double one[1] = {1}, first = 1.875104 * 1.875104 * sqrt(EI / mass);
@@ -100,8 +100,8 @@ static motion_rod add_rod(scene *s, const char *name)
     return out;
 }
 
-/* A body at the tip of a nearly massless rod: there is one mode, whose frequency is known from a
- * modal analysis. */
+/* A body at the tip of a nearly massless rod. The frequency of the only mode is known from a modal
+ * analysis. */
 static void check_frequency(scene_scheme by, double step, double tolerance)
 {
     const double one[1] = {1}, first = sqrt(3 * EI / 50);

@@ -12,7 +12,8 @@
 
 enum { MOVING_STATIONS = 20 };
 
-/* The structure of a case at parameters "name=value;...", without its analyses and quantities. */
+/* Makes the structure of a case at parameters "name=value;...", without its analyses and
+ * quantities. */
 static inline void moving_case(const case_type *type, const char *parameters, scene *s)
 {
     double value[CASE_MAX_PARAMETERS];
@@ -49,8 +50,7 @@ static inline int motion_added(scene *s, scene_scheme by, double step, double en
                             (scene_motion){.scheme = by,
                                            .alpha = scene_alpha_of_radius(0.9),
                                            .step = step,
-                                           .mass = SCENE_LUMPED}); /* supported by all
-                                                                      integrators */
+                                           .mass = SCENE_LUMPED}); /* all integrators support it */
 }
 
 /* Adds the quantities NAME_max and NAME_min over the stations. */

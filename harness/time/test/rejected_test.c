@@ -1,6 +1,6 @@
-/* A rejected step has no effect: it changes no bit of the instant from which it started, nor of
- * the following steps, with inner unknowns, springs, damping and prescribed motions. It does not
- * affect watched quantities, stations and records either. */
+/* A rejected step must have no effect: it must change no bit of the instant from which it started,
+ * nor of the following steps, with inner unknowns, springs, damping and prescribed motions. It must
+ * not affect watched quantities, stations and records. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -31,7 +31,7 @@ static void shake_rods(scene *s, scene_scheme by)
 {
     scenes_read(s, REJECTED_SWUNG, "base=shaken;second=%s;integrator=%s;step=0.02",
                 by == SCENE_EXPLICIT ? "joined" : "slides", scenes_integrator[by]);
-    /* the reader would not accept this body, since no such body exists */
+    /* the reader would not accept this body, because no such body exists */
     scene_set_body(s, scenes_find(s, SCENE_NODES, "tip_free"),
                    (scene_body){0.3, {0, 0.1, 0.1}, {0.1, 0.2, 0.3, 0, 0.01, 0}});
 }
@@ -41,8 +41,8 @@ static int same(const flying *f, const double a[], const double b[])
     return memcmp(a, b, flying_numbers(f, &f->now, NULL) * sizeof *a) == 0;
 }
 
-/* Returns 1 when two instants are equal. Pivots of an unsymmetric tangent are kept from step to
- * step; those of a rejected step may differ. */
+/* Returns 1 if two instants are equal. Pivots of an unsymmetric tangent are kept from step to step,
+ * and those of a rejected step may differ. */
 static int is_close(const flying *f, const double a[], const double b[])
 {
     const double rounding = 1e-11;
@@ -116,8 +116,8 @@ static void near(int by, const char *what, double found, double expected)
              found, expected);
 }
 
-/* Each crossing is counted once, whatever steps were tried before. Stations are those of the
- * accepted steps: they agree within `close` [m] with the motion of the tip for short steps. */
+/* Each crossing must be counted once, whatever steps were tried before. Stations are those of the
+ * accepted steps: they must agree within `close` [m] with the motion of the tip for short steps. */
 static void pass(int by, double step, double tolerance, double close, const cell_result *exact)
 {
     cell_result r;
@@ -168,8 +168,8 @@ static void rejected_tests(void)
 }
 
 /* A damped leaf without rotary inertia is bent far by an impulse, or rotated by a moment that is
- * applied suddenly. Energies, reactions and resultants are checked for all integrators, with
- * linear and nonlinear stresses. */
+ * applied suddenly. Energies, reactions and resultants are checked for all integrators, with linear
+ * and nonlinear stresses. */
 
 extern const element_type element_geometrically_exact, element_beamw, element_beamw_consistent,
     element_collocation;
@@ -177,7 +177,7 @@ extern const element_type element_geometrically_exact, element_beamw, element_be
 static const double y_axis[3] = {0, 1, 0};
 
 typedef struct blow {
-    double force[3], moment[3]; /* load at the tip [N, N m]; only one of the two is nonzero */
+    double force[3], moment[3]; /* load at the tip [N, N m], of which only one is nonzero */
     const char *first;          /* factor of the load until 0.0205 s */
     const char *then;
 } blow;
@@ -283,7 +283,7 @@ static double changed(const flying *f, const double before[])
     return most / size;
 }
 
-/* After a moment reverses instantly, the rates are in equilibrium with it, and nothing has
+/* After a moment reverses instantly, the rates must be in equilibrium with it, and nothing has
  * moved. A moment that continues changes nothing. */
 static void launch_there(const char *then, double least, double most)
 {
@@ -297,8 +297,8 @@ static void launch_there(const char *then, double least, double most)
     motion_added(&s, SCENE_RADAU, 0.0005, 0.1);
     gsl_test(flying_begin(&s, &element_geometrically_exact, 4, &f) != STATUS_OK, "begins: %s",
              f.why.text);
-    for (int i = 0; i < steps; i++) /* ends exactly at the jump; otherwise the load after it would
-                                       act */
+    for (int i = 0; i < steps;
+         i++) /* ends exactly at the jump, because otherwise the load after it would act */
         gsl_test(flying_step(&f, (0.0205 - f.now.time) / (steps - i)) != STATUS_OK, "step %d: %s",
                  i, f.why.text);
     for (int k = 0; k < model_elements(f.m) * model_strains(f.m); k++)
@@ -346,9 +346,9 @@ static void damped_kick_tests(void)
              ratio);
 }
 
-/* Strain rates of a beam after a large rotation are the time derivatives of its strains. This
- * also holds for the rates that generalized-alpha carries from step to step. The energy lost in
- * a step is their power. */
+/* Strain rates of a beam after a large rotation must be the time derivatives of its strains, even
+ * those that generalized-alpha carries from step to step. The energy lost in a step is their
+ * power. */
 
 #define RATES_SWUNG "harness/time/test/swung.yaml"
 
@@ -404,15 +404,15 @@ static void damped_rates_tests(void)
     scene_free(&s);
 }
 
-/* Initial rates of a motion are those of the requested velocity field about its centre, at all
- * frames. If the first angle of a sequence with oblique axes is prescribed, the other angles
- * take the remaining components. */
+/* Initial rates of a motion must be those of the requested velocity field about its centre, at all
+ * frames. If the first angle of a sequence with oblique axes is prescribed, the other angles take
+ * the remaining components. */
 
 #define LAUNCH_SWUNG "harness/time/test/swung.yaml"
 
 static const double driven_rate = 0.4, none = 1e-10;
 
-/* A beam whose tip rotates by angles about oblique axes. driven 1: the first angle is
+/* A beam whose tip rotates by angles about oblique axes. If `driven` is 1, the first angle is
  * prescribed. */
 static void launched(int driven)
 {

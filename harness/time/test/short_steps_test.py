@@ -1,4 +1,4 @@
-"""Constant steps end at the stations without a very short step, the rates of which would be rounding errors."""
+"""Constant steps must end at the stations without a very short step, whose rates would be rounding errors."""
 import math
 import unittest
 
@@ -21,7 +21,7 @@ quantities:
 JERK = """  j: {rate: {analysis: go, node: n, component: ux, of: jerk}}
   early: {rate: {analysis: go, node: n, component: ux, of: jerk, at: 0.4}}
 """
-# Jumps of two loads, and the end of the first motion, at instants that differ by rounding.
+# Jumps of two loads, and the end of the first motion, at times that differ by rounding.
 JUMPS = HEAD + """loads:
   p: {force: [1, 0, 0], on: n, pieces: [{until: 0.3, is: 0}, {is: 30}]}
   q: {force: [1, 0, 0], on: n, pieces: [{until: 3*0.1, is: 0}, {is: 30}]}
@@ -43,7 +43,7 @@ class ShortStepsTest(SceneCase):
         return values(record), [one["step"] for one in record["motion"] if one["step"] > 0]
 
     def test_long_sum(self):
-        """The number of steps is exact although their sum is rounded in each step."""
+        """The number of steps must be exact although their sum is rounded in each step."""
         for scheme, most in SCHEMES:
             for end in (1.1, 2.0):
                 got, steps = self.solve(FREE % (end, scheme, "1e-4") + (JERK if scheme != "alpha" else ""))
@@ -57,7 +57,7 @@ class ShortStepsTest(SceneCase):
                     self.assertAlmostEqual(got["early"], -100*math.cos(4), delta=0.05, msg=why)
 
     def test_remainder(self):
-        """A tiny remainder is added to the last step; a short one is shared by the last two steps."""
+        """A tiny remainder is added to the last step. The last two steps share a short one."""
         for scheme, _ in SCHEMES:
             for beyond, count, last in ((1e-9, 10, 0.1), (1e-4, 11, 0.05), (0.03, 11, 0.03)):
                 _, steps = self.solve(FREE % (1 + beyond, scheme, "0.1"))

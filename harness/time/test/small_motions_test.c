@@ -1,5 +1,5 @@
-/* K, C + G and M of small motions about a state with rates are the derivatives of all forces, by
- * finite differences. The structures have bodies, sequences of angles, released ends, warping,
+/* K, C + G and M of small motions about a state with rates must be the derivatives of all forces,
+ * by finite differences. The structures have bodies, sequences of angles, released ends, warping,
  * damped members, dashpots, follower loads and prescribed motions, with lumped and consistent
  * mass. */
 #include "elements/math/rotation.h"
@@ -81,7 +81,7 @@ static void to_rates(const way *w, const double dx[], const double more[], doubl
     }
 }
 
-/* Computes all forces where positions, rates and accelerations differ by h times d[3 x all]. */
+/* Computes all forces for positions, rates and accelerations that differ by h times d[3 x all]. */
 static void forces(way *w, double h, const double *const d[3], double out[])
 {
     const moving_one *o = &w->o;
@@ -185,9 +185,9 @@ static void case_of(const element_type *type, int released, int spread)
         memset(&w.o.masses, 0, sizeof w.o.masses);
         gsl_test(carried_alloc_spread(w.o.m, &w.o.masses, &f) != STATUS_OK, "%s", f.text);
     }
+    /* small increments, for which the equations inside the element have a solution */
     for (int c = 0; c < w.o.all && type == &element_collocation; c++)
-        w.o.inc[c] *= 0.1; /* small increments, for which the element's own equations have a
-                              solution */
+        w.o.inc[c] *= 0.1;
     increment_apply(w.o.m, w.o.rest, w.o.inc, 0, w.o.now);
     w.o.masses.damping = 0.3;
     gsl_test(run_state_begin(&w.run, w.o.m, 1, &f) != STATUS_OK, "%s", f.text);

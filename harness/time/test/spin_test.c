@@ -1,5 +1,5 @@
 /* Steady spin of a rod that is stretched by 2 %, bent by 0.8 rad and twisted by 0.6 rad between
- * prescribed ends. The shape in equilibrium at the rate w = (2/h) tan(turn/2) remains constant
+ * prescribed ends. The shape in equilibrium at the rate w = (2/h) tan(turn/2) must remain constant
  * for every formulation, about any axis, up to 3 rad per step. */
 #include <stdio.h>
 
@@ -23,7 +23,7 @@ static struct {
     double h;             /* rate = (2/h) tan(turn/2) */
 } present;
 
-/* Prescribes the motion of a node at r around the origin; its end is displaced by d at the
+/* Prescribes the motion of a node at r around the origin. Its end is displaced by d at the
  * start. */
 static void drive(scene *s, int node, const int vector[3], const double r[3], const double d[3])
 {
@@ -105,8 +105,8 @@ static void turn_rates(const flight *f)
     }
 }
 
-/* Finds the state in equilibrium with the inertia forces of that rotation. Returns the largest
- * component of the last correction. */
+/* Finds the state in equilibrium with the inertia forces of the steady rotation. Returns the
+ * largest component of the last correction. */
 static double settle_flight(flight *f)
 {
     model *m = f->m;
@@ -223,15 +223,15 @@ static void spin_tests(void)
                 check(registry_formulations[i]->name, axes[a], turns[t]);
 }
 
-/* Free flights with the conserving scheme. Energy and momenta are constant over 40 s for any
- * stiffness of the rod in tension and shear, the order is 2, and steps are reversible. Results
- * depend neither on the axes nor on the direction of the member. */
+/* Free flights with the conserving scheme. Energy and momenta must be constant over 40 s for any
+ * stiffness of the rod in tension and shear, the order must be 2, and steps must be reversible.
+ * Results must depend neither on the axes nor on the direction of the member. */
 
 static struct {
     double stiffening, turn[4]; /* turn: axes of the scene, as a quaternion */
 } how = {1, {1, 0, 0, 0}};
 
-static const double flights_h = 0.05, thrown = 5; /* [s] step size, and end of the loads */
+static const double flights_h = 0.05, thrown = 5; /* step size, and end of the loads [s] */
 
 /* The rod of free_flight_space. */
 static status flights_build(const double value[], scene *s, fault *f)
@@ -274,7 +274,7 @@ static status reversed(const double value[], scene *s, fault *f)
     return scene_edit_apply(s, &edit, f);
 }
 
-/* Makes the given number of steps; a failure fails the test. */
+/* Makes the given number of steps. A failure fails the test. */
 static void fly(flight *f, int steps, double step)
 {
     status outcome = STATUS_OK;
@@ -348,7 +348,7 @@ static void stiff_flights(const char *with)
              least, most);
 }
 
-/* Differences of results decrease by a factor of 4 when steps are halved. */
+/* Differences of results must decrease by a factor of 4 when steps are halved. */
 static void order(const char *with)
 {
     double r[4][6];
@@ -420,8 +420,8 @@ static void flights_tests(void)
 }
 
 /* Every formulation flies freely with the conserving scheme: sheets, thin-walled sections with
- * warping and an eccentric shear centre, curved members, and members of two sections, spinning
- * and swinging. Energy and both momenta are constant, and steps are reversible. */
+ * warping and an eccentric shear centre, curved members, and members of two sections, spinning and
+ * swinging. Energy and both momenta must be constant, and steps must be reversible. */
 
 enum { FORMULATIONS_STEPS = 60 };
 
@@ -431,8 +431,7 @@ typedef struct look {
     section_kind kind;
     double curvature[3]; /* [1/m] */
     int tapers;
-    double h, speed, spin; /* step size [s]; velocity of the swing [m/s]; angular velocity of the
-                              spin [rad/s] */
+    double h, speed, spin; /* step size [s], speed of the swing [m/s], rate of the spin [rad/s] */
 } look;
 
 static const look looks[] = {
@@ -462,7 +461,7 @@ static section_spec profile_of(double thickness)
     return spec;
 }
 
-/* A member of unit length; the initial axes are those of the scene. */
+/* A member of unit length, whose initial axes are those of the scene. */
 static status formulations_build(const double value[], scene *s, fault *f)
 {
     static const double y_axis[] = {0, 1, 0}, axis[] = {0.36, 0.48, -0.8}, end = 1;
@@ -485,7 +484,7 @@ static status formulations_build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Starts a bending motion: transverse velocities, which have no momentum for a straight rod. */
+/* Starts a bending motion by transverse velocities, which have no momentum for a straight rod. */
 static void swing(flight *f)
 {
     const model *m = f->m;

@@ -1,4 +1,4 @@
-/* Initial states of motions, and quantities read from them. A beam in steady rotation keeps its
+/* Initial states of motions, and quantities read from them. A beam in steady rotation must keep its
  * shape in the motion that follows. Reactions are those of the steady rotation. Section forces
  * balance the inertia of the parts beyond the section. A state at rest oscillates when its load
  * ends. */
@@ -22,8 +22,8 @@ static void check(const answer *a, const char *name, double expected, double tol
              expected);
 }
 
-/* Compares the motion with the steady rotation, at nodes and between them. tolerance [m]; force:
- * tolerance relative to the largest force. */
+/* Compares the motion with the steady rotation, at nodes and between them. `tolerance` is in m, and
+ * `force` is the tolerance relative to the largest force. */
 static void keep_turning(scene_scheme scheme, double step, double tolerance, double force)
 {
     static const char *const place[] = {"ux", "uy", "uz"}, *const inside[] = {"inside_N",
@@ -81,10 +81,10 @@ static void start_tests(void)
     release("0", 1);
 }
 
-/* Resultants between nodes in a motion agree with a closed form. A rod along x spins about z
- * through its end: r = sin(k X)/(k cos(k L)), N = EA (cos(k X)/cos(k L) - 1), k^2 = m w^2/EA,
- * which for small strains is m w^2 (L^2 - X^2)/2. The order is 2 at nodes and between them, like
- * that of the lumped masses. */
+/* Resultants between nodes in a motion must agree with a closed form. A rod along x spins about z
+ * through its end: r = sin(k X)/(k cos(k L)) and N = EA (cos(k X)/cos(k L) - 1) with k^2 = m
+ * w^2/EA. For small strains, N is m w^2 (L^2 - X^2)/2. The order is 2 at nodes and between them, as
+ * for lumped masses. */
 
 extern const element_type element_geometrically_exact, element_collocation;
 
@@ -100,7 +100,8 @@ static double expected(int i)
     return EA * (cos(k * place[i] * length) / cos(k * length) - 1);
 }
 
-/* order: minimum order between the two finest meshes; if it is 2, it is also the maximum. */
+/* Checks a formulation. `order` is the minimum order between the two finest meshes. If it is 2, it
+ * is also the maximum. */
 static void spin(const element_type *type, scene_scheme scheme, double order)
 {
     double error[MESHES][PLACES];
@@ -128,13 +129,12 @@ static void between_nodes_tests(void)
 {
     spin(&element_collocation, SCENE_CONSERVING, 2);
     spin(&element_collocation, SCENE_RADAU, 2);
-    spin(&element_geometrically_exact, SCENE_CONSERVING, 3); /* with three nodes; the order at
-                                                                nodes is 4 */
+    spin(&element_geometrically_exact, SCENE_CONSERVING, 3); /* three nodes, order 4 at nodes */
     spin(&element_geometrically_exact, SCENE_RADAU, 3);
 }
 
 /* Two rods swing on a ball joint in space, with released rotations or shifts between them. The
- * inertia of released ends must move with them; otherwise energy is gained. */
+ * inertia of released ends must move with them, because energy would otherwise be gained. */
 
 extern const element_type element_geometrically_exact;
 
@@ -177,8 +177,8 @@ static void linked_tests(void)
 }
 
 /* Ends that are released from their nodes have their inertia at their own position, with every
- * integrator. All integrators give the same motion and reaction, with errors of second order or
- * smaller. */
+ * integrator. All integrators must give the same motion and reaction, with errors of second order
+ * or smaller. */
 
 extern const element_type element_geometrically_exact;
 
@@ -188,8 +188,8 @@ enum { COMPONENTS = 3, ASKED = COMPONENTS + 2 };
 
 static const char *const ends_joints[] = {"hinge", "universal", "ball", "slide", "sliding_hinge"};
 
-/* Computes the position of the tip, the reaction of the node from which the other rod is
- * released, and the energy-balance error. */
+/* Computes the position of the tip, the reaction of the node from which the other rod is released,
+ * and the energy-balance error. */
 static void ends_solve(const char *of, scene_scheme by, double step, double found[ASKED])
 {
     static const char *const name[] = {"C_ux", "C_uy", "C_uz", "held", "drift"};
@@ -235,8 +235,8 @@ static void ends_tests(void)
     }
 }
 
-/* Stiffness-proportional damping. A slow mode decays at the rate eta w/2, a rigid rotation does
- * not decay, and the lost energy is accounted for. */
+/* Stiffness-proportional damping. A slow mode decays at the rate eta w/2, a rigid rotation does not
+ * decay, and the lost energy is accounted for. */
 
 extern const element_type element_geometrically_exact;
 
@@ -250,7 +250,7 @@ static double lowest(void)
     return 2 * PI * answer_of(&a, "f");
 }
 
-/* h: step size as a fraction of the period. */
+/* Checks the decay. h is the step size as a fraction of the period. */
 static void decay(scene_scheme scheme, double h, double drift)
 {
     const double w = lowest(), ratio = 0.03, eta = 2 * ratio / w, period = 2 * PI / w;
@@ -266,7 +266,7 @@ static void decay(scene_scheme scheme, double h, double drift)
              moving_largest(&a, "drift"), moving_largest(&a, "energy"));
 }
 
-/* A free rod rotates and is bent only by its inertia: the energy loss remains small. Returns the
+/* A free rod rotates and is bent only by its inertia, so the energy loss remains small. Returns the
  * energy-balance error. */
 static double turn(scene_scheme scheme, double eta, double h)
 {

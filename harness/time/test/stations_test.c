@@ -1,5 +1,5 @@
-/* Stations at any times. Values inside steps are as accurate as at the ends of steps, with any
- * number of stations in one step and at the start. Stations do not affect the motion. */
+/* Stations at any times. Values inside steps must be as accurate as at the ends of steps, with any
+ * number of stations in one step and at the start. Stations must not affect the motion. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -54,8 +54,8 @@ static void errors_of(int scheme, double step, int asked, int last, double out[2
     cell_result_free(&exact);
 }
 
-/* Results inside and at the ends of steps have the order of the scheme, and the errors inside
- * are not larger. Order 8 is an exception, because the polynomial inside a step has order 6. */
+/* Results inside and at the ends of steps have the order of the scheme, and the errors inside are
+ * not larger. Order 8 is an exception, because the polynomial inside a step has order 6. */
 static void orders(const char *name, int scheme, double step, double order)
 {
     double inside[2], at_ends[2], forces[2];
@@ -73,8 +73,8 @@ static void orders(const char *name, int scheme, double step, double order)
     gsl_test(!(inside[0] > 1e-9), "%s: nothing to be seen, %.1e", name, inside[0]);
 }
 
-/* The steps are bit-for-bit the same as without stations, and values from a side step are close to
- * those of the polynomial. */
+/* The steps must be bit-for-bit the same as without stations, and values from a side step must be
+ * close to those of the polynomial. */
 static void undisturbed(const char *name, int scheme, double step)
 {
     cell_result with[ASKED_KINDS];
@@ -107,8 +107,8 @@ static void stations_tests(void)
     undisturbed("explicit", SCENE_EXPLICIT, 0.04);
 }
 
-/* Step sizes: without a tolerance, they are halved when a step fails, and doubled after
- * successful steps up to the requested size; with a tolerance, error estimates determine them. */
+/* Step sizes. Without a tolerance, they are halved if a step fails, and doubled after successful
+ * steps up to the requested size. With a tolerance, error estimates determine them. */
 
 #define CONTROL_SWUNG "harness/time/test/swung.yaml"
 
@@ -119,7 +119,7 @@ static void turn(scene_scheme by, double step, double tolerance, double spin, ce
                  scenes_integrator[by], step, tolerance, spin);
 }
 
-/* A step may rotate by at most one radian. At 3 rad/s, a step of 0.5 s is therefore halved
+/* A step may rotate by at most one radian. Therefore, at 3 rad/s, a step of 0.5 s is halved
  * whenever it is tried. */
 static void halve(void)
 {
@@ -158,7 +158,7 @@ static void follow(scene_scheme by, double order, double tolerance)
 }
 
 /* If errors of steps add up, the allowed error of a step is proportional to its size. The total
- * error is below the tolerance, but not by more than a factor of ten. */
+ * error must be below the tolerance, but not by more than a factor of ten. */
 static void share(scene_scheme by, double tolerance)
 {
     cell_result r;
@@ -184,13 +184,13 @@ static void control_tests(void)
     follow(SCENE_RADAU, 4, 1e-8);
 }
 
-/* Motions that continue each other equal one motion, bit for bit. If errors are estimated, they
- * are equal up to the round-off of a factorisation with new pivots. */
+/* Motions that continue each other must equal one motion, bit for bit. If errors are estimated,
+ * they are equal up to the round-off of a factorisation with new pivots. */
 
 #define RESUME_SWUNG "harness/time/test/swung.yaml"
 
-/* A load jumps at 0.5 s. Steps end there, whether or not a motion ends there too. joint 1: a rod
- * at the tip is attached by a joint. */
+/* A load jumps at 0.5 s. Steps end at the jump, even if no motion ends there. If `joint` is 1, a
+ * rod at the tip is attached by a joint. */
 static void same_linked(const char *name, int scheme, double tolerance, int parts, int joint)
 {
     cell_result one, more;
@@ -235,8 +235,8 @@ static void resume_tests(void)
     same_linked("conserving with a joint", SCENE_CONSERVING, 0, 3, 1);
 }
 
-/* If a load is not finite for some time, the motion ends before: every accepted step has a
- * finite state. */
+/* If a load is not finite for some time, the motion must end before this time, and every accepted
+ * step must have a finite state. */
 
 #define FINITE_SWUNG "harness/time/test/swung.yaml"
 
@@ -269,13 +269,13 @@ static void not_finite_tests(void)
     stop(SCENE_EXPLICIT);
 }
 
-/* Largest and smallest values of quantities that are known at the ends of steps. A peak is found
- * between stations and, with the order of the cubic, between steps; in a time window; and at a
- * jump of the loads. */
+/* Largest and smallest values of quantities that are known at the ends of steps. A peak must be
+ * found between stations and, with the order of the cubic, between steps, in a time window, and at
+ * a jump of the loads. */
 
 #define PEAKS_SWUNG "harness/time/test/swung.yaml"
 
-/* The only station is at the end, so that all earlier extrema are between stations. */
+/* The only station is at the end, so all earlier extrema are between stations. */
 static void peaks_tests(void)
 {
     static const double step[] = {0.04, 0.02, 0.00125};
@@ -303,9 +303,9 @@ static void peaks_tests(void)
     }
 }
 
-/* Extrema, crossings, periods and means. For a known, prescribed motion they are exact to
- * round-off. For a free motion they have the order of the scheme, with an estimate of the error
- * of the polynomial inside steps. */
+/* Extrema, crossings, periods and means. For a known, prescribed motion they must be accurate to
+ * round-off. For a free motion they have the order of the scheme, with an estimate of the error of
+ * the polynomial inside steps. */
 
 #define WATCHES_SWUNG "harness/time/test/swung.yaml"
 
@@ -360,8 +360,8 @@ static void fly(int scheme, double step, int watched, cell_result *out)
                  watched ? "crossings" : "way", scenes_integrator[scheme], step);
 }
 
-/* Errors decrease with the order of the scheme, and estimates of the interpolation error decrease
- * as fast. */
+/* Errors must decrease with the order of the scheme, and estimates of the interpolation error must
+ * decrease as fast. */
 static void freely(const char *name, int scheme, double step, double order)
 {
     cell_result exact, r[2], unwatched;

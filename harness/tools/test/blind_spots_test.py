@@ -1,4 +1,4 @@
-"""Tests the faults that `make verify` detects: the tables are complete and within the required bounds, and samples are
+"""The faults that `make verify` detects: the tables must be complete and within the required bounds, and samples are
 confirmed by runs."""
 import csv
 import json
@@ -9,7 +9,7 @@ from harness.tools.kit.program import PROGRAM, ROOT, environment, run
 from harness.tools import blind_spots
 
 PLANTED = pathlib.Path(PROGRAM).parent / "planted"
-MOST = 40  # quantities for which a fault of 0.1 % remains undetected in some formulation
+MOST = 40  # number of quantities for which a fault of 0.1 % remains undetected in some formulation
 
 
 def table(name):
@@ -25,7 +25,6 @@ class BlindSpots(unittest.TestCase):
     rows, faults = table("blind_spots.csv"), table("planted_faults.csv")
 
     def test_every_quantity(self):
-        """There is a row for every quantity of every case and of every scene with verdicts."""
         here = {(r["case"], r["quantity"]) for r in self.rows}
         for case in listed()["cases"]:
             told = listed(case["case"])
@@ -40,8 +39,6 @@ class BlindSpots(unittest.TestCase):
             self.assertEqual(bool(row["reason"]), row in passing, row)
 
     def test_every_constant_of_every_formulation(self):
-        """A verdict detects a fault of 0.1 % in every constant that affects a result; for an option, in the cases that
-        it affects."""
         keys = {(f["formulation"], f["constant"]) for f in self.faults}
         for name in (f["formulation"] for f in listed()["formulations"]):
             for constant in blind_spots.CONSTANTS:
@@ -52,8 +49,8 @@ class BlindSpots(unittest.TestCase):
                 self.assertEqual(fault["noticed"], "", fault)
 
     def seen(self, row, constant, size, *options):
-        """Returns whether a run with a fault of this size fails. The run is selected by -k, because a formulation
-        given by -f would also be checked against the interface requirements, which detect faults in masses."""
+        """Returns True if a run with a fault of this size fails. The run is selected by -k, because a formulation given
+        by -f would also be checked against the interface requirements, which detect faults in masses."""
         select = f"={row['case']} and =default and ={row['formulation']} and ={row['quantity']}"
         done = run("verify", "-k", select, "-j", 1, *options, program=PLANTED,
                    env=environment(BEAMWORK_PLANT=f"{constant}={size}"))
@@ -67,7 +64,7 @@ class BlindSpots(unittest.TestCase):
         return quick[::max(1, len(quick) // 6)]
 
     def test_quantities_measured(self):
-        """Twice the smallest detected fault is detected for both signs, and a third of it is not."""
+        """Twice the smallest detected fault must be detected for both signs, and a third of it must not."""
         former = ("--not-worse-than", ROOT / "harness" / "baseline.csv")
         rows = self.sample(self.rows)
         self.assertEqual({row["by"] for row in rows}, {"verdict", "baseline"})
@@ -82,7 +79,6 @@ class BlindSpots(unittest.TestCase):
                     self.assertIn(False, small)
 
     def test_constants_measured(self):
-        """A verdict detects the fault without the committed table."""
         for fault in self.sample([f for f in self.faults if f["noticed"]]):
             with self.subTest(fault=fault):
                 self.assertFalse(self.seen(fault, fault["constant"], 0))

@@ -1,4 +1,4 @@
-"""Tests the causes of known deviations and their bounds."""
+"""Causes of known deviations and their bounds."""
 import pathlib
 import re
 import unittest
@@ -7,8 +7,6 @@ from unittest import mock
 from harness.tools import bounds, causes
 
 
-# Experiments on causes: the code of paired formulations differs in one feature. The selection of experiments and their
-# conclusions are tested.
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 ABOUT = {
     "name",
@@ -48,7 +46,7 @@ def members(formulation):
 
 
 def words_of_prepare(formulation):
-    """Returns the words of the formulation's own function prepare."""
+    """Returns the words of the function prepare of the formulation."""
     body = re.search(r"static status prepare\(.*?\n\}\n", source(formulation), re.S).group(0)
     return re.findall(r"\w+|[^\w\s]", body)
 
@@ -65,8 +63,8 @@ class OneThing(unittest.TestCase):
                 for name in one.keys() | other.keys() if one.get(name) != other.get(name)} - ABOUT
 
     def test_formulations(self):
-        """Paired formulations differ in one word of `prepare`, or in the whole stress function with the same strains
-        and inertia."""
+        """Paired formulations differ in one word of `prepare`, or in the whole stress function with the same strains and
+        inertia."""
         for a, b in self.pairs(False):
             differing = self.differing(a, b)
             if differing:
@@ -81,7 +79,6 @@ class OneThing(unittest.TestCase):
         self.assertFalse(self.differing("beamw", "beamw_consistent") <= STRESS_FUNCTION)
 
     def test_options(self):
-        """Paired options differ in one option of the same formulation, with an existing choice."""
         choices = (ROOT / "elements" / "beamw" / "prepare.c").read_text(encoding="utf-8")
         for a, b in self.pairs(True):
             name, _, option = b.partition(":")
@@ -180,7 +177,6 @@ class Outcome(unittest.TestCase):
         self.assertEqual(causes.newton_of("a:b=c")[0], "a:b=c,newton=displacement")
 
     def test_time_is_bounded(self):
-        """No experiment starts after the time limit; those that did not start are recorded."""
         found = causes.Laboratory("/nowhere/program", 0).limit("x", "beamw", (), "load", 1.0)
         self.assertIn("not run", found["why"])
 
@@ -189,7 +185,6 @@ class Outcome(unittest.TestCase):
         self.assertNotIn("findings.csv", text)
 
 
-# Bounds in the list of known deviations: the rule that determines them, and the message if they differ from it.
 def verdict_of_bounds(error, limit=1.0, predicted=None, kind="biased", rule="a"):
     truth = None if limit is None or error is None else limit / (1 + error)
     return {"finding": rule, "error": error, "limit": limit, "predicted": predicted,
@@ -197,8 +192,8 @@ def verdict_of_bounds(error, limit=1.0, predicted=None, kind="biased", rule="a")
 
 
 class Bounds(unittest.TestCase):
+
     def test_rule(self):
-        """A bound is 1, 2 or 5 times a power of ten, never below the observed error."""
         for seen, bound in ((0.74, "1"), (0.2, "0.2"), (0.2001, "0.5"), (2.1e-5, "5e-05"),
                             (1e-9, "1e-09"), (2.966, "5"), (5.0001, "10"), (None, "")):
             self.assertEqual(bounds.bound_of(seen), bound)
@@ -217,8 +212,7 @@ class Bounds(unittest.TestCase):
             self.assertIn("should allow 0.0003", bounds.text_of(one))
 
     def test_loose(self):
-        """A bound is loose beyond ten times the observed error with a derived limit, and beyond 1.5 times without
-        one."""
+        """A bound is loose beyond ten times the observed error with a derived limit, and beyond 1.5 times without one."""
         derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}  # by 1e-3
         for allowed, verdicts, loose in (("1e-2", [derived], False), ("1.1e-2", [derived], True),
                                          ("1.5e-3", [verdict_of_bounds(1e-3)], False), ("1.6e-3", [verdict_of_bounds(1e-3)], True),

@@ -1,4 +1,4 @@
-"""Tests the cost of work: instruction counts, and coefficients fitted to measured times."""
+"""Cost of work: instruction counts, and coefficients fitted to measured times."""
 import csv
 import math
 import os
@@ -17,8 +17,6 @@ from harness.tools.instructions import Profile, operations, parts_of
 from harness.tools.kit.program import ProgramTest, ROOT
 
 
-# Predicted costs: known cost coefficients and factors are recovered, the work of the analyses of a scene is counted,
-# and the committed table has a row for each kind of work.
 def planted():
     """Returns runs with artificial costs: a modal analysis costs 1 us and 20 us per element, a load step 5 us and 3 us
     per element. One formulation is three times as expensive per element."""
@@ -57,7 +55,7 @@ class Fit(unittest.TestCase):
                                        "loaded_buckling": 1, "buckling": 1})
 
     def test_steps_of_motions(self):
-        """The number of equal steps follows from the time span; the number of adaptive steps is estimated from their
+        """The time span determines the number of equal steps. The number of adaptive steps is estimated from their
         tolerance."""
         swing = {"stations": [1, 3], "integrator": "alpha", "step": 0.7}
         for more, kind, count in (({}, "alpha_step", 5),
@@ -86,8 +84,6 @@ class Table(unittest.TestCase):
         self.assertTrue(all(float(row["element"]) >= 0 for row in rows))
 
 
-# Cost coefficients of counted work: known coefficients are recovered from times with noise and outliers, the stated
-# accuracy is correct, and the committed table is the output of the tool.
 NAMES = ("red", "blue", "green")
 
 
@@ -161,10 +157,8 @@ class PricesTable(unittest.TestCase):
         self.assertTrue({"", "*"} < names)
 
 
-# Parts of a profile: each instruction belongs to one part, whatever the calls; operations are counted by address.
-
-# Newton's loop calls strain twice and a factorisation once. strain calls a product. The set-up also evaluates a
-# strain, which belongs to the set-up.
+# Newton's loop calls strain twice and a factorisation once. strain calls a product. The set-up evaluates a strain,
+# which belongs to the set-up.
 PROFILE = """# callgrind format
 positions: instr line
 events: Ir
@@ -226,6 +220,7 @@ calls=1 0x200 1
 
 
 class Parts(ProgramTest):
+
     def setUp(self):
         super().setUp()
         self.path = self.folder / "profile"
@@ -243,7 +238,6 @@ class Parts(ProgramTest):
                          4 * 50 + 16 + 2 * 7)
 
 
-# Stored values of motions compared with limits: the requests of a scene, and the criterion for agreement.
 SCENE = {
     "analyses": {"a": {"static": {}}, "b": {"motion": {"stations": ["9"]}}},
     "quantities": {

@@ -1,4 +1,4 @@
-"""Tests the generated faults: the code that is edited, the code that is never edited, and reproducibility."""
+"""Generated faults: the code that is edited, the code that is never edited, and reproducibility."""
 import pathlib
 import subprocess
 import sys
@@ -54,6 +54,7 @@ EDITS = {
 
 
 class Faults(unittest.TestCase):
+
     def test_edits(self):
         found = mutate.faults(SOURCE)
         self.assertEqual({(line, edit) for line, _, _, edit, _ in found} ^ EDITS, set())
@@ -117,6 +118,7 @@ class Sample(unittest.TestCase):
 
 
 class Touched(unittest.TestCase):
+
     def test_lines_of_commits(self):
         """For a range of commits, only lines that these commits wrote and that have not changed since are edited."""
         with tempfile.TemporaryDirectory() as folder:
@@ -142,6 +144,7 @@ class Touched(unittest.TestCase):
 
 
 class Equivalent(unittest.TestCase):
+
     def test_each_has_its_place_and_reason(self):
         """If a line changes, its equivalent faults must be removed from the table."""
         made = {}

@@ -1,4 +1,4 @@
-"""Tests paces.py: every case with a motion is in its table; a row is run, and its reference is checked."""
+"""paces.py: every case with a motion is in its table, a row is run, and its reference is checked."""
 import csv
 import json
 import sys
@@ -49,7 +49,6 @@ class Words(unittest.TestCase):
         self.assertEqual(paces.word_of(check), "not checked: no inertia")
 
     def test_soonest(self):
-        """An error that no scheme reaches is reported, not omitted."""
         ways = [{"error": paces.LEVEL, "cost": cost, "integrator": name}
                 for name, cost in (("slow", 2), ("quick", 1))]
         ways += [{"error": 1e2 * paces.LEVEL, "cost": 0.1, "integrator": "rough"}]
@@ -58,7 +57,6 @@ class Words(unittest.TestCase):
         self.assertEqual(paces.soonest(tables), "quick 2, none 1")
 
     def test_refused(self):
-        """Formulations that support no run are listed with the first reason."""
         runs = [{"formulation": name, "status": status, "reason": reason}
                 for name, status, reason in (("a", "refused", "no inertia"), ("a", "refused", "no"),
                                              ("b", "refused", "implicit"), ("b", "ok", ""))]

@@ -1,4 +1,4 @@
-"""Tests documentation: statements in READMEs, and words to avoid."""
+"""Statements in READMEs, and words to avoid."""
 import pathlib
 import re
 import subprocess
@@ -9,9 +9,6 @@ import unittest
 from harness.tools import words
 from harness.tools.kit.program import ROOT
 
-
-# Statements in READMEs about files and folders are true, and names that only one file may use do not occur in other
-# files.
 
 # Names to be filled in, and a table inside results.h5.
 PATTERNS = ("NAME", "my_beam", "*", "cases/elastica/quantities")
@@ -30,13 +27,14 @@ def files(*endings):
 
 
 class Readme(unittest.TestCase):
+
     def test_paths_exist(self):
         found = 0
         for readme in files(".md"):
             if readme.match("docs/index.md"):  # generated pages; Sphinx checks them
                 continue
             text = readme.read_text(encoding="utf-8")
-            if readme.name == "CHANGELOG.md":  # because releases name folders of their time
+            if readme.name == "CHANGELOG.md":  # releases name folders of their time
                 text = "## ".join(text.split("\n## ")[:2])
             for name in PATH.findall(text):
                 if any(part in name for part in PATTERNS):
@@ -47,7 +45,7 @@ class Readme(unittest.TestCase):
         self.assertGreater(found, 50)
 
     def test_walk_goes_down(self):
-        """No file includes a header of a folder that is listed after its own folder."""
+        """No file may include a header of a folder that is listed after its own folder."""
         text = (ROOT / "docs" / "project" / "source.md").read_text(encoding="utf-8")
         walked = [name for _, name in WALK.findall(text)]
         self.assertGreater(len(walked), 8)
@@ -59,14 +57,14 @@ class Readme(unittest.TestCase):
                 self.assertFalse(below & set(included))
 
 
-# Files that may use the unions: each file of `quantities` belongs to one kind, and the builder checks the kind first.
+# Files that may use the unions. Each file of `quantities` belongs to one kind, and the builder checks the kind first.
 THEIRS = (ROOT / "cases" / "scene", ROOT / "cases" / "quantities",
           ROOT / "cases" / "format" / "builder_members.c")
 
 
 class Unions(unittest.TestCase):
+
     def test_only_their_files_name_them(self):
-        """The unions of a scene are read only through functions that know the kind."""
         for path in files(".c"):
             if path.parent.name == "test" or path.parent in THEIRS or path in THEIRS:
                 continue
@@ -76,7 +74,7 @@ class Unions(unittest.TestCase):
                                             path.read_text(encoding="utf-8")))
 
 
-# The check of words finds a word to avoid in each kind of text, with its line, and ignores names.
+# The check of words must find a word to avoid in each kind of text, with its line, and ignore names.
 TEXTS = {
     "shown.c": ('#include "ledger of.h"\nint a;\nconst char *b = "it is "\n    "told here";\n', 4, "told"),
     "comment.c": ("int a; /* Sums.\n * A cell is told. */\n", 2, "told"),

@@ -1,5 +1,5 @@
-"""Tests the requirements of each command on a machine without installed packages, and the counts of the test runner
-with artificial tests."""
+"""Requirements of each command on a machine without installed packages, and the counts of the test runner with artificial
+tests."""
 import json
 import os
 import pathlib
@@ -26,7 +26,7 @@ class Folder(ProgramTest):
 class Loading(unittest.TestCase):
 
     def test_few_libraries(self):
-        """If HDF5 exists as a static archive, the program loads none of the thirty libraries on which the shared
+        """If HDF5 exists as a static archive, the program must load none of the thirty libraries on which the shared
         library depends."""
         places = run("--libs-only-L", "hdf5", program="pkg-config").stdout.split()
         archive = next((path for path in (pathlib.Path(place[2:], "libhdf5.a") for place in places)
@@ -45,8 +45,7 @@ class Loading(unittest.TestCase):
 
 
 class Dependencies(Folder):
-    """All programs that search for packages find none, and apt-get records the packages that it is requested to
-    install."""
+    """All programs that search for packages find none, and apt-get records the packages that it is requested to install."""
 
     def setUp(self):
         super().setUp()
@@ -95,7 +94,6 @@ class Dependencies(Folder):
             self.assertEqual(self.needs(command, 1000)[1], "")
 
     def test_every_import_is_asked_for(self):
-        """Every module imported by the packer, the derivations and the reports belongs to a known package."""
         own = {"reference", "reports", "harness"}
         for command, folders in (("verify", ["reference/pack.py"]),
                                  ("truths", ["reference/derive"]), ("report", ["reports"])):
@@ -190,7 +188,6 @@ class Runner(Folder):
         self.assertIn("needs a lake", done.stdout)
 
     def test_spaces(self):
-        """Everything works below a path with spaces."""
         self.folder = self.folder / "a b"
         self.folder.mkdir()
         self.script("a_test", "echo PASS: one")
@@ -236,7 +233,6 @@ class Circles(Folder):
         self.assertIn("three.o: three", said.stdout)
 
     def test_folders_that_call_each_other(self):
-        """Folders that call each other form a circle even if no two files call each other."""
         said = self.objects(**{
             "harness/low/one": "int one(void) { return 1; }",
             "harness/low/two": "int three(void); int two(void) { return three(); }",
@@ -248,7 +244,6 @@ class Circles(Folder):
         self.assertNotIn("apart", said.stdout)
 
     def test_folders_that_include_each_other(self):
-        """Folders that include each other form a circle even if neither calls the other."""
         for name, other in (("harness/low/one.c", "harness/high/two.h"),
                             ("harness/high/two.c", "harness/low/one.h")):
             path = self.folder / name
@@ -340,7 +335,6 @@ class Mutants(Folder):
         self.assertEqual(done.returncode, 1)
 
 
-
 class Make(Folder):
     """The Makefile with additional targets of the test."""
 
@@ -388,7 +382,6 @@ class Make(Folder):
             "truths", "install", "clean", "help", "lab", "words"})
 
     def test_laboratory(self):
-        """Experiments are listed and run in the requested order, and unknown experiments are rejected."""
         listed = [line.split(maxsplit=3)[2:] for line in self.make("lab") if line]
         names = [name.removeprefix("L=") for name, _ in listed]
         self.assertIn("motions", names)
@@ -426,7 +419,6 @@ class Make(Folder):
         self.assertRegex(told, f" -O0 -g3 -O0 .*-o {name}")
 
     def test_compile_commands(self):
-        """There is one command for each source and each test, and these commands compile."""
         told = self.make("-Bnk", "V=1", "QUIET=", f"BUILD={self.folder}", "all", "tests")
         done = subprocess.run(["/usr/bin/python3", TOOLS / "compile_commands.py"],
                               input="\n".join(told), text=True, capture_output=True, check=True,

@@ -1,4 +1,4 @@
-"""Tests the installed files, and the documentation pages of the interfaces."""
+"""The installed files, and the documentation pages of the interfaces."""
 import importlib
 import importlib.util
 import json
@@ -16,23 +16,20 @@ from docs.commands import reader_file
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, run
 
 
-# The installed copy, used from an empty folder. User programs build against it in every way, it finds its data, its
-# examples compile, and no files are left over.
 HERE = pathlib.Path(__file__).parent
 BUILD = pathlib.Path(PROGRAM).parent
 SECONDS = re.compile(r'"seconds_\w+": [^,\n]+')
 
 
 def variables():
-    """Returns the variables of make for the same program as these tests. The file names are the same; otherwise
+    """Returns the variables of make for the same program as these tests. The file names are the same, because otherwise
     everything would be linked again while other tests run it."""
     given = shlex.split(os.environ.get("MAKEFLAGS", "").partition(" -- ")[2])
     return [f"BUILD={os.path.relpath(BUILD, ROOT)}", *(word for word in given if "=" in word)]
 
 
 def clean():
-    """Returns the environment without the variables of make, whose job slots are counted separately, and of
-    beamwork."""
+    """Returns the environment without the variables of make, whose job slots are counted separately, and of beamwork."""
     return {name: value for name, value in os.environ.items()
             if not name.startswith(("MAKE", "BEAMWORK"))}
 
@@ -49,6 +46,7 @@ def is_sanitized():
 
 @unittest.skipIf(is_sanitized(), "programs of others are built without sanitizers")
 class Installed(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         cls.place = cls.class_folder() / "a place"
@@ -117,7 +115,6 @@ class Installed(ProgramTest):
         self.check(BEAMWORK_TRUTHS=str(self.data / "truths.h5"))
 
     def test_page(self):
-        """The program in the documentation compiles with the command given there."""
         text = (ROOT / "docs" / "howto" / "c_and_python.md").read_text(encoding="utf-8")
         self.assertIn("cc column.c $(pkg-config --cflags --libs beamwork) -o column", text)
         (self.folder / "column.c").write_text(reader_file("howto/c_and_python.md", "column.c"),
@@ -142,7 +139,6 @@ class Installed(ProgramTest):
         self.check("build/consumer_static", BEAMWORK_TRUTHS=str(self.data / "truths.h5"))
 
     def test_symbols(self):
-        """The library exports exactly the functions of beamwork.h."""
         header = (self.root / "include" / "beamwork" / "beamwork.h").read_text(encoding="utf-8")
         declared = set(re.findall(r"\b(bw_\w+)\(", header))
         for path, options in (("libbeamwork.so.0", ["-D"]), ("libbeamwork.a", ["-g"])):
@@ -161,7 +157,6 @@ class Installed(ProgramTest):
         self.assertIn("PASS", self.installed("verify", "-k", "elastica/default and collocation"))
 
     def test_elements_compile(self):
-        """The example elements compile in a user's folder with the commands that they contain."""
         for source in sorted((self.data / "examples" / "elements").iterdir()):
             shutil.copy(source, self.folder)
         sources = [path for path in sorted(self.folder.iterdir()) if path.suffix in (".c", ".cpp", ".f90")]
@@ -183,7 +178,6 @@ class Installed(ProgramTest):
             self.assertIn("w_over_L", text)
 
     def test_python(self):
-        """The installed module finds the library and its reference values."""
         module, = self.root.glob("lib/python3*/dist-packages")
         text = self.installed("-B", "-c", "import beamwork as bw; print(bw.Scene.case('c_column')"
                               ".solve('beamw', 4).errors['buckling_load'])",
@@ -191,8 +185,6 @@ class Installed(ProgramTest):
         self.assertGreater(abs(float(text)), 0)
 
     def test_formulation_in_python(self):
-        """A formulation in Python finds its module, the files named in the manual exist, and no compiled file is
-        left."""
         shutil.copy(self.data / "examples" / "elements" / "timoshenko.py", self.folder / "mine.py")
         text = self.installed("solve", "elastica", "-f", "timoshenko_py", "-n", "2", "--element",
                               "exec:/usr/bin/python3 mine.py")
@@ -214,7 +206,6 @@ class Installed(ProgramTest):
         self.assertEqual((done.returncode, len(done.stderr.splitlines())), (4, 1), done.stderr)
 
     def test_without_data(self):
-        """Without its data, the program states in one line what is missing."""
         if pathlib.Path("/usr/local/share/beamwork").exists():
             self.skipTest("a copy is installed in /usr/local, which has its data")
         alone = self.folder / "beamwork"
@@ -241,7 +232,6 @@ class Installed(ProgramTest):
         self.assertEqual(list(self.place.rglob("*.pyc")), [])
 
 
-# The wheel, installed by pip without a network into a folder, and the source distribution.
 sys.path.insert(0, str(HERE.parent))
 backend = importlib.import_module("build_backend")
 
@@ -249,6 +239,7 @@ backend = importlib.import_module("build_backend")
 @unittest.skipIf(is_sanitized(), "Python is not built with sanitizers")
 @unittest.skipIf(importlib.util.find_spec("pip") is None, "needs pip")
 class Wheel(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         cls.place = cls.class_folder() / "a place"
@@ -259,7 +250,6 @@ class Wheel(ProgramTest):
         cls.settings = {**clean(), "PYTHONPATH": str(cls.place), "PYTHONDONTWRITEBYTECODE": "1"}
 
     def test_module_and_program(self):
-        """Both find their data, and give the same bits as the program of the build."""
         theirs = self.record("solve", "c_column", "-f", "beamw", "-n", "2")["quantities"]
         code = ("import beamwork as bw, json; r = bw.Scene.case('c_column').solve('beamw', 2);"
                 "print(json.dumps([bw.__version__, bw.path.parent.name, r.document['quantities']]))")
@@ -280,7 +270,6 @@ class Wheel(ProgramTest):
         self.assertIn("usage", self.answered(program=program, env=self.settings, code=2).stdout)
 
     def test_files(self):
-        """The record lists every file with its hash; nothing of the build's machine is among them."""
         lines = (next(self.place.glob("*.dist-info")) / "RECORD").read_text("utf-8").splitlines()
         names = {line.rsplit(",", 2)[0] for line in lines}
         for name in ("beamwork/__init__.py", "beamwork/bin/beamwork", "beamwork/lib/libbeamwork.so.0",
@@ -290,7 +279,6 @@ class Wheel(ProgramTest):
         self.assertFalse([name for name in names if name.endswith((".a", ".pc", ".o"))])
 
     def test_source_distribution(self):
-        """It holds the files that git tracks, and packs the same files again where there is no git."""
         name = backend.build_sdist(self.folder)
         with tarfile.open(self.folder / name) as archive:
             archive.extractall(self.folder)
@@ -303,13 +291,13 @@ class Wheel(ProgramTest):
         self.assertEqual(set(done.stdout.splitlines()), packed - {"PKG-INFO"}, done.stderr)
 
 
-# Documentation pages of the C interfaces: everything public is documented, and the examples compile.
 API_HERE = ROOT / "harness" / "library" / "packaging" / "api"
 LIBRARY = ROOT / "harness" / "library" / "beamwork.h"
 
 
 @unittest.skipUnless(shutil.which("doxygen"), "needs doxygen")
 class Pages(ProgramTest):
+
     def drawn(self):
         return run("0.1.0", self.folder / "api", program=API_HERE / "pages.sh")
 
@@ -332,6 +320,7 @@ class Pages(ProgramTest):
 
 
 class Example(ProgramTest):
+
     def test_compiles(self):
         text = (API_HERE / "index.md").read_text(encoding="utf-8")
         path = self.folder / "mine.c"
@@ -342,13 +331,13 @@ class Example(ProgramTest):
 
 
 class Filter(ProgramTest):
+
     def filtered(self, text):
         path = self.folder / "one.h"
         path.write_text(text, encoding="utf-8")
         return run(path, program=API_HERE / "filter.py").stdout
 
     def test_comments(self):
-        """The first comment documents the file; the others document the declarations next to them."""
         self.assertEqual(self.filtered("/* A <file>. */\n/* x */\nint a; /* of --set */\n"),
                          "/** @file\n * A \\<file\\>. */\n/** x */\nint a; /**< of \\--set */\n")
 

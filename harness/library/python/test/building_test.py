@@ -1,4 +1,4 @@
-"""Tests scenes built in Python, their motions, and the display of results in notebooks."""
+"""Scenes built in Python, their motions, and the display of results in notebooks."""
 import copy
 import importlib.util
 import math
@@ -13,7 +13,6 @@ import numpy
 from harness.library.python.test.module import ModuleTest, bw, leaf
 
 
-# Scenes built from dicts: their text, equal bits, and reports of errors.
 def written(scene):
     """Returns the text of the scene without its head."""
     return bw.scene.scene_text({}, scene._entries)[0]  # pylint: disable=protected-access
@@ -22,7 +21,6 @@ def written(scene):
 class Building(ModuleTest):
 
     def test_solves_like_its_file(self):
-        """A scene built from dicts, its text, and its file read by the program give the same bits."""
         scene = leaf()
         result = scene.solve("beamw", 2)
         path = self.folder / "leaf.yaml"
@@ -34,8 +32,6 @@ class Building(ModuleTest):
         self.assertEqual(values, dict(bw.Scene.text(text).solve("beamw", 2).values))
 
     def test_plane(self):
-        """A scene restricted to a plane stays in the plane, also as a copy; entries that leave the plane are
-        rejected."""
         scene = leaf()
         space = scene.solve("beamw", 2)
         scene.plane = "xy"
@@ -48,7 +44,6 @@ class Building(ModuleTest):
             scene.solve("beamw", 2)
 
     def test_bits_of_numbers(self):
-        """The library returns numbers of any size with unchanged bits."""
         draw = random.Random(1)
         numbers = [math.ldexp(draw.uniform(0.5, 1), draw.randint(-30, 30)) for _ in range(60)]
         numbers += [0.1, 1 / 3, 5e-7, 123456789.0, numpy.nextafter(1, 2)]
@@ -71,7 +66,6 @@ class Building(ModuleTest):
                       'f: [1, 2.5], g: 7, from: x, h: "2*pi/3", i: [{is: t}]}', written(scene))
 
     def test_loads_on_parts_of_members(self):
-        """Loads on parts of members work as in a scene file; an invalid load is reported with its entry."""
         scene = leaf()
         scene.loads["row_$i"] = {"for_": {"i": "0..1"}, "force": [0, 1, 0], "on": "leaf",
                                  "where": "1/4 + i/2", "follower": True}
@@ -90,8 +84,6 @@ class Building(ModuleTest):
         self.assertIn("loads['wind']", str(caught.exception))
 
     def test_entries_may_change(self):
-        """Entries that are changed after a solution take effect in the next solution; parameter values that were set
-        are kept."""
         scene = leaf()
         scene.parameters["push"] = {"value": 1, "unit": "N"}
         scene.loads["push"]["force"] = [0, "push", 0]
@@ -107,7 +99,6 @@ class Building(ModuleTest):
         self.assertEqual(scene.solve("beamw", 1)["tip_uy"], thicker)
 
     def test_loops_of_python(self):
-        """A chain of ten leaves made by a loop equals one leaf of ten elements."""
         whole, chain = leaf(), leaf()
         del chain.members["leaf"]
         chain.nodes["n0"] = chain.nodes.pop("base")
@@ -120,7 +111,6 @@ class Building(ModuleTest):
             chain.solve("beamw", 1)["tip_uy"] / whole.solve("beamw", 10)["tip_uy"], 1, 9)
 
     def test_mistakes_have_places(self):
-        """All errors are reported together, each with its line, its column and its entry."""
         scene = leaf(thicknes=1)
         scene.nodes["tip"] = {"at": [0.1, 0]}
         error = self.one_line(bw.Refused, "sections['leaf']|thicknes|thickness|1 more", scene.solve)
@@ -158,7 +148,6 @@ class Building(ModuleTest):
         self.assertEqual((parameters["length"], parameters["thickness"]), (0.1, 0.5e-3))
 
 
-# Motions built from dicts, solved, and read with their steps.
 def swing():
     """Returns a tip mass on an arm that a driver rotates by 30 degrees."""
     scene = bw.Scene("swing")
@@ -213,7 +202,6 @@ class Motion(ModuleTest):
         self.assertEqual(dict(result.at), {})
 
 
-# Notebooks display escaped text, as many digits as are known, and short tables.
 HOSTILE = "<script>alert(1)</script>"
 ESCAPED = "&lt;script&gt;alert(1)&lt;/script&gt;"
 
@@ -252,8 +240,6 @@ class Shown(ModuleTest):
             self.assertNotIn("<script", html)
 
     def test_digits(self):
-        """A limit is displayed with the digits that its uncertainty allows, a value with those that its error
-        allows."""
         known = bw.display.known
         self.assertEqual(known(3.14159265358979, 1e-4), "3.14159")
         self.assertEqual(known(3.14159265358979, 2e-2), "3.142")
@@ -274,7 +260,6 @@ class Shown(ModuleTest):
         self.assertLess(len(html), 6000)
 
     def test_scene(self):
-        """Displays parameters with their values, and errors if there are any."""
         html = self.shown(bw.Scene.case("sheet_cantilever").set(thickness=0.00175))
         for words in ("clamped sheet flexure", "<td>thickness</td><td>0.00175</td><td>m</td>",
                       "25 quantities", "beamwork: 1"):
@@ -325,7 +310,6 @@ class Tables(ModuleTest):
         self.assertEqual(len(bw.cases().frame()), len(bw.cases()))
 
     def test_frame(self):
-        """A data frame is returned if pandas is installed; otherwise this is reported in one line."""
         records = bw.Records([{"n": 1, "error": 0.5}, {"n": 2, "error": None}])
         made = mock.MagicMock()
         with mock.patch.dict(sys.modules, pandas=made):

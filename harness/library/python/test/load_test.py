@@ -1,4 +1,4 @@
-"""Tests how Python finds, loads and installs the module, and the documentation of the module."""
+"""How Python finds, loads and installs the module, and the documentation of the module."""
 import json
 import os
 import re
@@ -11,10 +11,9 @@ from harness.library.python.test.module import (LIBRARY, ModuleTest, ROOT, SETTI
 from harness.tools.kit.program import environment
 
 
-# User-defined formulations, loaded in both ways, give the same bits as the program.
 EXAMPLES = ROOT / "elements" / "examples"
 CASE = "tapered_cantilever"
-# A formulation stays loaded for the life of a process, so that each test needs its own Python process.
+# A formulation stays loaded for the life of a process, so each test needs its own Python process.
 SOLVE = """
 import json, sys
 import beamwork as bw
@@ -57,7 +56,6 @@ class Doors(ModuleTest):
         return done.stdout
 
     def test_bits(self):
-        """A shared object and a process give the same values as the program with the same element."""
         for kind in ("object", "process"):
             with self.subTest(kind):
                 door = self.door(kind)
@@ -67,7 +65,6 @@ class Doors(ModuleTest):
                 self.assertEqual(cell["value"], values[cell["quantity"]])
 
     def test_threads(self):
-        """Four threads can use the element at the same time."""
         for kind in ("object", "process"):
             with self.subTest(kind):
                 self.asked(THREADS, self.door(kind))
@@ -83,11 +80,9 @@ class Doors(ModuleTest):
                 self.assertIn(words, done.stdout)
 
 
-# The module finds its library, or states in one line what to do.
 class Finding(ModuleTest):
 
     def test_missing(self):
-        """Without a library, a one-line error states what to do."""
         settings = {**SETTINGS, "BEAMWORK_LIBRARY": str(self.folder / "none.so")}
         done = python("import beamwork", env=environment(**settings))
         last = done.stderr.strip().splitlines()[-1]
@@ -103,7 +98,6 @@ class Finding(ModuleTest):
         self.assertIn("ImportError: beamwork: ", done.stderr.strip().splitlines()[-1])
 
     def test_another_library(self):
-        """A library of another project is rejected with the names of the missing functions."""
         path = self.folder / "other.so"
         subprocess.run(["cc", "-shared", "-o", path, "-xc", "/dev/null"], check=True)
         done = python("import beamwork",
@@ -111,7 +105,6 @@ class Finding(ModuleTest):
         self.assertIn("bw_", done.stderr.strip().splitlines()[-1])
 
     def test_beside_and_installed(self):
-        """Without BEAMWORK_LIBRARY, the library is found next to the module, and in lib of the installation prefix."""
         source = os.path.dirname(bw.__file__)
         for module, library in (("here/beamwork", "here"), ("here2/beamwork", "here2/beamwork"),
                                 ("w/beamwork", "w/beamwork/lib"),
@@ -134,16 +127,13 @@ class Finding(ModuleTest):
                                  str(self.folder / library / LIBRARY.name), done.stderr)
 
 
-# The module reports the version of the program and documents every public name.
 class Said(ModuleTest):
 
     def test_version(self):
-        """The citation, which is that of a wheel, and the library have the same version."""
         cited = re.search(r"^version: (\S+)", (ROOT / "CITATION.cff").read_text("utf-8"), re.M)
         self.assertEqual(cited.group(1), bw.version)
 
     def test_help(self):
-        """Every public name has documentation."""
         done = python("import beamwork; help(beamwork)")
         for name in bw.__all__:
             self.assertIn(name, done.stdout)

@@ -1,4 +1,4 @@
-"""Tests wrong use of the module, and the memory that it uses."""
+"""Wrong use of the module, and the memory that it uses."""
 import copy
 import ctypes
 import gc
@@ -18,7 +18,6 @@ from harness.library.python.test.module import ModuleTest, SETTINGS, bw, leaf, p
 from harness.tools.kit.program import environment
 
 
-# Any wrong use raises an exception with a one-line message and never crashes.
 CASE = "sheet_cantilever"
 
 
@@ -54,7 +53,6 @@ class Arguments(ModuleTest):
                 self.one_line(kind, words, call)
 
     def test_entries(self):
-        """An entry that a scene file cannot express is reported with its name."""
         endless = {}
         endless["at"] = endless
         for words, entry in (
@@ -196,7 +194,6 @@ class Memory(ModuleTest):
 class Processes(ModuleTest):
 
     def test_threads(self):
-        """Eight threads with their own scenes and with one shared scene get the same bits."""
         shared, found = bw.Scene.case(CASE), []
         expected = solved_here(2)
 
@@ -213,7 +210,6 @@ class Processes(ModuleTest):
         self.assertEqual(found, [expected] * 40)
 
     def test_fork(self):
-        """Processes forked after threads and BLAS were used can run verify."""
         numpy.linalg.inv(numpy.eye(300) + 1)
         keep = threading.Event()
         waiting = threading.Thread(target=keep.wait)
@@ -228,7 +224,6 @@ class Processes(ModuleTest):
             waiting.join()
 
     def test_fork_beside_threads(self):
-        """Processes that are forked while other threads solve do not inherit locked locks."""
         expected, done = solved_here(2), threading.Event()
 
         def work():
@@ -257,7 +252,6 @@ class Processes(ModuleTest):
                 thread.join()
 
     def test_stop(self):
-        """If the descriptor `stop` becomes readable, converge and verify end before they finish."""
         readable, writable = os.pipe()
         self.addCleanup(os.close, readable)
         self.addCleanup(os.close, writable)
@@ -271,7 +265,7 @@ class Processes(ModuleTest):
         self.one_line(bw.Refused, "stop", scene.converge, stop=-1)
 
     def test_interrupt(self):
-        """Ctrl-C ends verify and converge with their processes; a solution runs to its end first."""
+        """Ctrl-C ends verify and converge with their processes. A solution runs to its end first."""
         for call in ("bw.verify(refine=3)", "while True: s.solve('collocation', 16)",
                      "bw.Scene.case('hexapod').converge(meshes=[16, 32, 64])"):
             code = ("import beamwork as bw\ns = bw.Scene.case('sheet_cantilever')\n"
@@ -286,7 +280,6 @@ class Processes(ModuleTest):
                 self.assertEqual(process.returncode, -signal.SIGINT)
 
 
-# Memory after a thousand scenes, solutions and results.
 CYCLES = 1000
 BOUND = 300 * CYCLES  # bytes: a third of a leak of 1 kB per cycle
 
@@ -324,7 +317,7 @@ def cycle(built):
 class Leaks(ModuleTest):
 
     def grown(self, work):
-        """Returns by how many bytes the memory in use grows in a thousand repetitions."""
+        """Returns the number of bytes by which the memory in use grows in a thousand repetitions."""
         for _ in range(50):
             work()
         before = in_use()
@@ -337,7 +330,6 @@ class Leaks(ModuleTest):
         self.assertLess(self.grown(lambda: cycle(built)), BOUND)
 
     def test_a_leak_is_noticed(self):
-        """The same measurement detects a leak of 1 kB per cycle."""
         kept = []
         self.assertGreater(self.grown(lambda: kept.append(bytearray(1024))), BOUND)
 

@@ -45,7 +45,6 @@ def leaf(scene=None, **changes):
 
 @unittest.skipIf(sanitized(), "needs a library without sanitizers")
 class ModuleTest(ProgramTest):
-    """A test of the module with its own empty folder."""
 
     def one_line(self, kind, words, call, *arguments, **options):
         """Checks that the call raises an exception of that kind whose text is one line and contains all the words."""

@@ -1,4 +1,4 @@
-"""The notebook on sheet flexures runs in Jupyter and as a script, and reproduces its statements."""
+"""The notebook on sheet flexures must run in Jupyter and as a script, and reproduce its statements."""
 import importlib.util
 import json
 import os
@@ -35,7 +35,6 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
     def test_in_jupyter(self):
-        """In Jupyter without a display, the notebook draws its figures and confirms the statements of the paper."""
         import nbclient  # pylint: disable=import-outside-toplevel
         import nbformat  # pylint: disable=import-outside-toplevel
         notebook = nbformat.read(NOTEBOOK, as_version=4)
@@ -58,8 +57,8 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
     def test_interrupted(self):
-        """A kernel, which has its own threads, runs verify in processes. An interrupt ends these processes, and the
-        scene can still be used."""
+        """A kernel, which has its own threads, runs verify in processes. An interrupt must end these processes, and the
+        scene must remain usable."""
         from jupyter_client.manager import run_kernel  # pylint: disable=import-outside-toplevel
         with mock.patch.dict(os.environ, self.settings()), run_kernel() as client:
             self.assertEqual(self.asked(client, "import beamwork as bw, numpy, os\n"
@@ -93,7 +92,6 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf("matplotlib" in NEEDS, "needs matplotlib")
     def test_as_a_script(self):
-        """The code of the cells, one after the other, runs as a script."""
         stored = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
         path = self.folder / "sheet_flexures.py"
         path.write_text("\n".join("".join(cell["source"]) for cell in stored["cells"]

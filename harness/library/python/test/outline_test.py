@@ -1,4 +1,4 @@
-"""Compares constants of outlines (sectionproperties) with exact values and with beamwork's thin-walled sections."""
+"""Compares constants of outlines (sectionproperties) with exact values and with the thin-walled sections of beamwork."""
 import importlib.util
 import math
 import unittest
@@ -54,8 +54,7 @@ loads:
 
     @unittest.skipUnless(INSTALLED, "needs sectionproperties")
     def test_thin_channel(self):
-        """As the walls become thinner, the shear centre, warping and torsion constants approach those of thin
-        walls."""
+        """As the walls become thinner, the shear centre, warping and torsion constants must approach those of thin walls."""
         apart = []
         for t in (4e-3, 2e-3):
             got, _ = bw.outline(channel(0.2, 0.1, t), parts=6000, **MATERIAL)
@@ -69,7 +68,7 @@ loads:
 
     @unittest.skipUnless(INSTALLED, "needs sectionproperties")
     def test_turned(self):
-        """A rotated and displaced outline has the same constants, and the angle of its axes is that of the
+        """A rotated and displaced outline must have the same constants, and the angle of its axes must be that of the
         rotation."""
         points, turn = channel(0.2, 0.1, 0.02), 0.3
         c, s = math.cos(turn), math.sin(turn)
@@ -84,7 +83,6 @@ loads:
 
     @unittest.skipUnless(INSTALLED, "needs sectionproperties")
     def test_tube_and_solution(self):
-        """A square tube given by its outline bends and twists like the same tube given by constants."""
         got, _ = bw.outline(rectangle(0.1, 0.1), [rectangle(0.08, 0.08)], **MATERIAL)
         c = got["constants"]
         self.assertAlmostEqual(c["Iy"] / ((0.1**4 - 0.08**4) / 12), 1, delta=1e-9)

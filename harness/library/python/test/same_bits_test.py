@@ -1,4 +1,4 @@
-"""The program, the library and Python give the same bits for every case and every example."""
+"""The program, the library and Python must give the same bits for every case and every example."""
 import json
 import math
 import unittest
@@ -8,12 +8,12 @@ from harness.library.python.test.module import ROOT, ModuleTest, bw
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
 
 
-# A part of the motion with twelve joints, because the whole motion takes as long as many other cases together.
+# a part of the motion with twelve joints, because the whole motion takes as long as many other cases together
 PART = {"hexapod_motion": {"time": 0.05}}
 
 
 def bits(value):
-    """Returns a string that distinguishes a float from every other; all NaNs are equal."""
+    """Returns a string that distinguishes a float from every other. All NaNs are equal."""
     return "nan" if value is None or math.isnan(value) else float(value).hex()
 
 
@@ -38,7 +38,6 @@ class SameBits(ModuleTest):
             self.assertEqual(bits(step["path"]), bits(result.steps["path"][step["step"]]))
 
     def test_every_case(self):
-        """Compares every value, error, curve and load step, for the default formulation and mesh."""
         names = [case["case"] for case in bw.cases()]
         self.assertGreater(len(names), 20)
         for name in names:
@@ -57,7 +56,6 @@ class SameBits(ModuleTest):
                 self.same(record, bw.Scene.text(content, path.stem).solve())
 
     def test_chosen(self):
-        """Compares runs with formulation options, a mesh, a parameter and load steps chosen by the user."""
         record = self.record("solve", "sheet_cantilever", "-f", "sheet_third:newton=displacement",
                              "-n", 2, "--set", "tip_deflection=0.01", "--steps", 3)
         scene = bw.Scene.case("sheet_cantilever").set(tip_deflection=0.01)

@@ -1,5 +1,5 @@
-"""Tests beamwork as a model of UM-Bridge: values equal those of the module, and errors have the types of protocol 1.0.
-Their own client is used where it is installed."""
+"""beamwork as a model of UM-Bridge: values must equal those of the module, and errors must have the types of protocol
+1.0. The UM-Bridge client is used if it is installed."""
 import importlib
 import json
 import threading
@@ -51,7 +51,6 @@ class Served(ModuleTest):
                          {"Evaluate": True, "Gradient": False, "ApplyJacobian": False, "ApplyHessian": False})
 
     def test_values(self):
-        """Values are bit-equal to those of the module; no request changes the next one."""
         for config in ({}, {"elements": 4}, {"formulation": "beamw", "shear": 0}, {}):
             others = {k: v for k, v in config.items() if k == "shear"}
             scene = self.scene.copy().set(**VALUES, **others)
@@ -75,7 +74,6 @@ class Served(ModuleTest):
             self.assertIn(words, found[1]["error"]["message"])
 
     def test_no_value(self):
-        """A quantity without a value is an error of the output, not a NaN."""
         model = umbridge.Model(self.scene, ["length"], ["frequency_13"], "sheet_second", 2)
         with self.assertRaises(umbridge.Invalid) as caught:
             model.evaluate([[1.0]], {"width": 1.0, "height": 1.0})
