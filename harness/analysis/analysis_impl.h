@@ -540,15 +540,14 @@ double harmonic_modes_left(vibration *, const double complex r[]);
 /* Returns NOT_CONVERGED: more modes are needed for a bound. */
 status harmonic_modes_few(const vibration *, fault *);
 
-/* Modes with closed loops (harmonic_closed.c). Without loops, harmonic_closed_alloc does nothing.
+/* Modes with closed loops (harmonic_closed.c). Without loops, the first two functions do nothing.
  */
 
+/* Call after harmonic_modes_project. */
 status harmonic_closed_alloc(vibration *, fault *);
-/* Factors the matrix of the modes and loops from the scaled D. SINGULAR: as in a direct solution.
- */
+/* Factors the matrix of the modes and loops; call after harmonic_modes_factor. SINGULAR: as in a
+ * direct solution. NOT_CONVERGED: no error bound is known. */
 status harmonic_closed_factor(vibration *, fault *);
-/* Prepares error bounds, with the factored D. NOT_CONVERGED: no bound is known. */
-status harmonic_closed_judge(vibration *, fault *);
 /* f[free]: forces. x[all + loops] contains the right-hand sides b of the loops on entry, and the
  * solution and the factors of the loops on return. */
 void harmonic_closed_solve(vibration *, const double complex f[], double complex x[]);

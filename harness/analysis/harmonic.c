@@ -17,9 +17,11 @@ static status no_memory(fault *f)
 static status factor_at(vibration *v, double hertz, fault *f)
 {
     fault why = {""};
-    const status outcome = v->c->scene->analysis[v->analysis].by_modes
-                               ? harmonic_modes_factor(v, 2 * PI * hertz, &why)
-                               : harmonic_factor(v, 2 * PI * hertz, &why);
+    const int by_modes = v->c->scene->analysis[v->analysis].by_modes;
+    status outcome = by_modes ? harmonic_modes_factor(v, 2 * PI * hertz, &why)
+                              : harmonic_factor(v, 2 * PI * hertz, &why);
+    if (by_modes && outcome == STATUS_OK)
+        outcome = harmonic_closed_factor(v, &why);
     if (outcome != STATUS_SINGULAR)
         return outcome == STATUS_OK ? outcome : fault_set(f, outcome, "%s", why.text);
     return fault_set(
@@ -276,7 +278,7 @@ static status find_modes_of(vibration *v, fault *f)
     }
     const status outcome = harmonic_modes_project(v, count, loads, f);
     free(loads);
-    return outcome;
+    return outcome == STATUS_OK ? harmonic_closed_alloc(v, f) : outcome;
 }
 
 static status allocate(vibration *v, outcome_harmonic *o, fault *f)

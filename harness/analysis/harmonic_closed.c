@@ -124,15 +124,13 @@ static status bound_loops(vibration *v, fault *f)
     return m->damps > 0 ? STATUS_OK : harmonic_modes_few(v, f);
 }
 
-status harmonic_closed_factor(vibration *v, fault *f)
+static status factor_closed(vibration *v, fault *f)
 {
     harmonic_modes *m = v->modes;
     const size_t count = (size_t)m->count, all = count + (size_t)v->loops;
     const int size = (int)all;
     double condition = 0;
-    memset(m->closed, 0, all * all * sizeof *m->closed);
-    for (size_t i = 0; i < count; i++)
-        memcpy(m->closed + i * all, m->D + i * count, count * sizeof *m->D);
+    memset(m->closed + count * all, 0, (size_t)v->loops * all * sizeof *m->closed);
     for (int l = 0; l < v->loops; l++)
         put_loop(v, l);
     v->c->run->counters.dense_operations += (double)all * (double)all * (double)all;
@@ -143,18 +141,13 @@ status harmonic_closed_factor(vibration *v, fault *f)
     return condition > 1e-14 ? STATUS_OK : fault_set(f, STATUS_SINGULAR, "a mode has no damping");
 }
 
-status harmonic_closed_judge(vibration *v, fault *f)
+status harmonic_closed_factor(vibration *v, fault *f)
 {
-    int *pivot = v->modes->closed_pivot;
-    const size_t size = (size_t)(v->modes->count + v->loops) * sizeof *pivot;
-    int *before = malloc(size + 1);
-    if (before == NULL)
-        return no_memory(f);
-    memcpy(before, pivot, size);
-    const status outcome = bound_loops(v, f);
-    memcpy(pivot, before, size);
-    free(before);
-    return outcome;
+    if (v->loops == 0)
+        return STATUS_OK;
+    if (!v->modes->complete)
+        TRY(bound_loops(v, f));
+    return factor_closed(v, f);
 }
 
 void harmonic_closed_solve(vibration *v, const double complex f[], double complex x[])

@@ -210,7 +210,7 @@ status harmonic_modes_project(vibration *v, int count, const double f[], fault *
     const status outcome = enough ? project_all(v, m, X, f_) : no_memory(f_);
     free(X[0]);
     free(X[1]);
-    return outcome == STATUS_OK ? harmonic_closed_alloc(v, f_) : outcome;
+    return outcome;
 }
 
 /* Returns entry k of D of the projected matrices. */
@@ -294,12 +294,12 @@ status harmonic_modes_factor(vibration *v, double w, fault *f)
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < count; j++)
             m->D[i * count + j] = m->scale[i] * m->scale[j] * projected(v, m, w, i * count + j);
+    for (size_t i = 0; i < count && v->loops > 0; i++) /* harmonic_closed.c adds the loops */
+        memcpy(m->closed + i * (count + (size_t)v->loops), m->D + i * count, count * sizeof *m->D);
     m->positive = m->complete ? 1 : positive_part(v, m, w);
     if (!(m->positive > 0))
         return harmonic_modes_few(v, f);
-    if (v->loops > 0)
-        TRY(harmonic_closed_factor(v, f));
-    if (v->loops > 0 && m->complete)
+    if (v->loops > 0 && m->complete) /* the factors of D are not needed */
         return STATUS_OK;
     v->c->run->counters.dense_operations += (double)count * (double)count * (double)count;
     if (size == 0)
@@ -309,9 +309,7 @@ status harmonic_modes_factor(vibration *v, double w, fault *f)
     const int info = LAPACKE_zgetrf(LAPACK_ROW_MAJOR, size, size, m->D, size, m->pivot);
     if (info == 0)
         LAPACKE_zgecon(LAPACK_ROW_MAJOR, '1', size, m->D, size, norm, &condition);
-    if (!(condition > 1e-14))
-        return fault_set(f, STATUS_SINGULAR, "a mode has no damping");
-    return v->loops > 0 ? harmonic_closed_judge(v, f) : STATUS_OK;
+    return condition > 1e-14 ? STATUS_OK : fault_set(f, STATUS_SINGULAR, "a mode has no damping");
 }
 
 /* Subtracts D x from y. */
