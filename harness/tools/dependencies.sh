@@ -19,7 +19,7 @@ truths) modules="numpy scipy mpmath yaml" ;;
 test) modules="h5py numpy scipy matplotlib jinja2 markdown mpmath yaml" ;;
 layout) tools=$clang ;;
 ci)
-    tools="$clang c++:g++ cmake gfortran octave-cli:octave ccx:calculix-ccx sphinx-build:python3-sphinx chromium doxygen mandoc zsh"
+    tools="$clang c++:g++ cmake gfortran octave-cli:octave ccx:calculix-ccx sphinx-build:python3-sphinx chromium doxygen mandoc mypy zsh"
     modules="h5py numpy scipy matplotlib jinja2 markdown mpmath yaml pandas myst_parser:python3-myst-parser furo:furo vtk:python3-vtk9 nbclient nbformat ipykernel pip venv:python3-venv"
     ;;
 *) echo "dependencies.sh: unknown command '$command'; give build, verify, report, docs, truths, test, layout or ci" >&2; exit 2 ;;

@@ -25,8 +25,11 @@ build of the clone that contains this module, next to the program, and where the
 Threads: other threads run while the library computes; one scene computes one thing at a time. Ctrl-C ends the
 processes in which converge and verify compute, and raises KeyboardInterrupt; a solution runs to its end first.
 """
+from __future__ import annotations as _annotations
+
 import json as _json
 import os as _os
+from typing import Any as _Any
 
 from .arguments import required as _required
 from .errors import (Error, Fault, Mistake, NotConverged, NoValue, Refused, Singular, TimeLimit)
@@ -51,21 +54,21 @@ __all__ = ["Comparison", "Convergence", "Curve", "Document", "Error", "Fault", "
            "stress", "sweep", "truth", "truths", "verify", "version"]
 
 
-def _listed(what):
+def _listed(what: bytes) -> Records:
     return Records(_json.loads(_text_of("list", what))[what.decode()])
 
 
-def cases():
+def cases() -> Records:
     """Returns records of the built-in cases: case, summary, source."""
     return _listed(b"cases")
 
 
-def formulations():
+def formulations() -> Records:
     """Returns records of the formulations, both built-in and loaded: formulation, summary, source, ..."""
     return _listed(b"formulations")
 
 
-def load(element):
+def load(element: str | _os.PathLike[str]) -> str:
     """Loads your formulation, "./mine.so" or "exec:python3 my_beam.py", and returns its name. The formulation remains
     loaded until the process ends. A shared object runs inside the process. If it crashes in solve, Python crashes as
     well."""
@@ -74,12 +77,13 @@ def load(element):
     return name
 
 
-def truths(path):
+def truths(path: str | _os.PathLike[str]) -> None:
     """Sets the file (truths.h5) from which the reference values of the built-in cases are read from now on."""
     _call("truths", _required(path, "path"))
 
 
-def verify(*formulations, select=None, results=None, **options):
+def verify(*formulations: str, select: str | None = None, results: str | _os.PathLike[str] | None = None,
+           **options: _Any) -> Verdicts:
     """Computes the verdicts of formulations (none named: all) on the built-in cases.
 
     select: words with and, or, not, such as "c_column and not beamw_first"; None: all, which takes minutes.

@@ -1,12 +1,16 @@
 """Converts the user's arguments for the library. Invalid arguments raise a one-line error."""
+from __future__ import annotations
+
 import json
 import operator
 import os
+from collections.abc import Iterable
+from typing import Any
 
 from .errors import Refused
 
 
-def utf8(value, what):
+def utf8(value: Any, what: str) -> bytes | None:
     """Returns the bytes of a text or path, or None for None."""
     if value is None:
         return None
@@ -20,19 +24,21 @@ def utf8(value, what):
     return value.encode("utf-8", "surrogateescape")
 
 
-def required(value, what):
+def required(value: Any, what: str) -> bytes:
     """Returns the bytes of a text that is required."""
     if value is None:
         raise TypeError(f"{what}: a text is expected, not None")
-    return utf8(value, what)
+    found = utf8(value, what)
+    assert found is not None
+    return found
 
 
-def names(values, what):
+def names(values: Iterable[Any], what: str) -> bytes | None:
     """Returns the names of formulations, separated by blanks, or None if there are none."""
     return b" ".join(required(v, what) for v in values) if values else None
 
 
-def whole(value, what):
+def whole(value: Any, what: str) -> int:
     """Returns a whole number, at least 1."""
     try:
         number = operator.index(value)
@@ -43,7 +49,7 @@ def whole(value, what):
     return number
 
 
-def whole_list(values, what):
+def whole_list(values: Any, what: str) -> bytes | None:
     """Returns whole numbers, separated by commas, or None if the argument is None."""
     if values is None:
         return None
@@ -56,7 +62,7 @@ def whole_list(values, what):
     return ",".join(str(whole(v, what)) for v in listed).encode()
 
 
-def options(values):
+def options(values: dict[str, Any]) -> bytes | None:
     """Returns the options as JSON, or None if there are none."""
     try:
         return json.dumps(values, allow_nan=False,

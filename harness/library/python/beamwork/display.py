@@ -1,22 +1,26 @@
 """Display in notebooks: small HTML tables with escaped text. Numbers have as many digits as are known."""
+from __future__ import annotations
+
 import html
 import math
+from collections.abc import Iterable
+from typing import Any
 
 _MOST_ROWS = 40
 
 
-def escape(value):
+def escape(value: object) -> str:
     return html.escape(str(value), quote=True)
 
 
-def significant(value, digits):
+def significant(value: float | None, digits: int) -> str:
     """Returns a number with the given number of digits, or an empty string if it is None or not finite."""
     if value is None or not math.isfinite(value):
         return ""
     return f"{value:.{max(1, digits)}g}"
 
 
-def known(value, uncertainty):
+def known(value: float | None, uncertainty: float | None) -> str:
     """Returns a value with the digits that its uncertainty allows, from 2 to 12, or with 7 digits if the uncertainty is
     unknown."""
     if value is None or not math.isfinite(value):
@@ -29,28 +33,28 @@ def known(value, uncertainty):
     return significant(value, min(12, max(2, math.ceil(-lost) + 1)))
 
 
-def percent(error):
+def percent(error: float | None) -> str:
     """Returns a relative error in percent with its sign and two digits."""
     if error is None or not math.isfinite(error):
         return ""
     return "0 %" if error == 0 else f"{100 * error:+.2g} %"
 
 
-def of_unit(unit):
+def of_unit(unit: str) -> str:
     """Returns the unit for display, or an empty string for plain numbers."""
     return "" if unit == "1" else unit
 
 
-def plain(value):
+def plain(value: Any) -> str:
     if value is None:
         return ""
     return significant(value, 7) if isinstance(value, float) else str(value)
 
 
-def table(head, rows, title=""):
+def table(head: Iterable[str], rows: Iterable[Iterable[str]], title: str = "") -> str:
     """Returns an HTML table for a title, names of columns and rows of strings. The table shows at most 40 rows and the
     number of the other rows."""
-    rows = list(rows)
+    head, rows = list(head), list(rows)
     parts = ["<table>"]
     if title:
         parts.append(f"<caption style='text-align:left'>{escape(title)}</caption>")
@@ -62,11 +66,11 @@ def table(head, rows, title=""):
     return "".join(parts) + "</table>"
 
 
-def folded(title, content):
+def folded(title: str, content: str) -> str:
     return f"<details><summary>{escape(title)}</summary>{content}</details>"
 
 
-def scene(about, text):
+def scene(about: dict[str, Any], text: str) -> str:
     """Returns the HTML of a scene: summary and parameters, and the quantities and the file, which can be unfolded."""
     parameters = [(p["name"], plain(p["value"]), of_unit(p["unit"]), p["summary"])
                   for p in about["parameters"]]
@@ -79,12 +83,12 @@ def scene(about, text):
             folded("scene file", f"<pre>{escape(text)}</pre>"))
 
 
-def mistakes(told):
+def mistakes(told: Iterable[object]) -> str:
     """Returns the HTML of the errors of a scene that cannot be built."""
     return table(("mistakes", ), ((str(m), ) for m in told))
 
 
-def result(shown):
+def result(shown: Any) -> str:
     rows = []
     for name, value in shown.values.items():
         error = shown.errors.get(name)
@@ -95,17 +99,17 @@ def result(shown):
     return table(("quantity", "value", "unit", "error"), rows, str(shown))
 
 
-def convergence(shown):
+def convergence(shown: Any) -> str:
     """Returns an HTML table with a row for each limit: the errors over the meshes, and the message."""
     meshes = sorted({r["elements"] for r in shown})
     errors = {(r["formulation"], r["quantity"], r["elements"]): r for r in shown}
 
-    def cell(limit, elements):
+    def cell(limit: dict[str, Any], elements: int) -> str:
         record = errors.get((limit["formulation"], limit["quantity"], elements))
         if record is None:
             return ""
         if record["status"] != "ok":
-            return record["status"].replace("_", " ")
+            return str(record["status"]).replace("_", " ")
         return percent(record["error"]) or known(record["value"], limit["limit_uncertainty"])
 
     rows = ([r["quantity"], r["formulation"]] + [cell(r, n) for n in meshes] +
@@ -116,14 +120,14 @@ def convergence(shown):
     return table(head, rows, shown.sentence)
 
 
-def outcome(shown):
+def outcome(shown: Any) -> str:
     """Returns PASS or FAIL, or states that there are no verdicts, with the counts."""
     counted = ", ".join(f"{n} {word}" for word, n in shown.counts.items() if n)
     word = {"pass": "PASS", "fail": "FAIL"}.get(shown.outcome, shown.outcome)
     return f"{word}: {counted}"
 
 
-def verdicts(shown):
+def verdicts(shown: Any) -> str:
     title = outcome(shown)
     rows = ((r["case"], r["parameters"], r["formulation"], r["quantity"], r["verdict"],
              known(r["limit"], r["limit_uncertainty"]), percent(r["error"]))

@@ -1,6 +1,14 @@
 """Errors, each with one line that names the cause and the remedy."""
+from __future__ import annotations
+
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .library import Owned
+    from .result import Result
 
 
 @dataclass(frozen=True)
@@ -12,24 +20,24 @@ class Mistake:
     text: str
     entry: str = ""  # for a scene built in Python: the entry with the error, such as nodes['tip']
 
-    def __str__(self):
+    def __str__(self) -> str:
         place = f"{self.file}:{self.line}:{self.column}" if self.line else self.file
         return f"{self.entry or place}: {self.text}"
 
 
 class Error(Exception):
     """Base class of all failures of the library. result: the partial result, or None."""
-    result = None
-    partial = None  # partial result in memory of the library
+    result: Result | None = None
+    partial: Owned | None = None  # partial result in memory of the library
 
-    def __reduce__(self):  # a result cannot be transferred to another process
+    def __reduce__(self) -> tuple[Any, ...]:  # a result cannot be transferred to another process
         state = {k: v for k, v in vars(self).items() if k not in ("result", "partial")}
         return type(self), self.args, state
 
 
 class Refused(Error, ValueError):
     """Invalid input. mistakes: the errors of a scene in their order, each a Mistake."""
-    mistakes = ()
+    mistakes: tuple[Mistake, ...] = ()
 
 
 class NotConverged(Error):
@@ -52,10 +60,10 @@ class NoValue(Error):
     """The requested value does not exist, for example the critical load of a structure that has none."""
 
 
-_OF_STATUS = {1: NotConverged, 2: Singular, 3: Refused, 4: Fault, 5: TimeLimit, 6: NoValue}
+_OF_STATUS: dict[int, type[Error]] = {1: NotConverged, 2: Singular, 3: Refused, 4: Fault, 5: TimeLimit, 6: NoValue}
 
 
-def of_status(status, why, entries=()):
+def of_status(status: int, why: str, entries: Sequence[str] = ()) -> Error:
     """Returns the exception for a status of the library. why: its line, or the JSON of all errors of a scene. entries:
     for each line of the scene's text, the entry that wrote the line."""
     try:
@@ -65,7 +73,7 @@ def of_status(status, why, entries=()):
     if not isinstance(document, dict) or not isinstance(document.get("mistakes"), list):
         return _OF_STATUS.get(status, Fault)(why or f"status {status} of the library")
 
-    def entry(line):
+    def entry(line: int) -> str:
         return entries[line - 1] if 0 < line <= len(entries) else ""
 
     mistakes = tuple(

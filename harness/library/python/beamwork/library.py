@@ -1,17 +1,21 @@
 """The C library: its location, its functions, and objects that must be freed."""
+from __future__ import annotations
+
 import ctypes
 import os
 import pathlib
 import shutil
 import threading
+from collections.abc import Callable, Sequence
 from ctypes import POINTER, c_char_p, c_double, c_int, c_size_t, c_void_p
+from typing import Any, TypeVar
 
 from .errors import Error, of_status
 
 FILE = "libbeamwork.so.0"
 
 
-def places():
+def places() -> list[pathlib.Path]:
     """Yields the places where the library is searched for, in this order."""
     asked = os.environ.get("BEAMWORK_LIBRARY")
     if asked:
@@ -28,7 +32,7 @@ def places():
     return found + [pathlib.Path(FILE)]  # where the system searches
 
 
-def _load():
+def _load() -> tuple[ctypes.CDLL, pathlib.Path]:
     tried = places()
     for path in tried:
         if path.name == str(path) or path.is_file():
@@ -44,7 +48,7 @@ def _load():
 
 _text = POINTER(c_void_p)
 # Arguments after the status; each list ends with 'why'.
-_CALLS = {
+_CALLS: dict[str, list[Any]] = {
     "truths": [c_char_p],
     "list": [c_char_p, _text],
     "formulation_load": [c_char_p, _text],
@@ -61,7 +65,7 @@ _CALLS = {
 }
 _ARRAY = POINTER(POINTER(c_double))
 # Functions without a status: their result and their arguments.
-_OTHERS = {
+_OTHERS: dict[str, tuple[Any, list[Any]]] = {
     "version": (c_char_p, []),
     "free_text": (None, [c_void_p]),
     "scene_free": (None, [c_void_p]),
@@ -83,9 +87,9 @@ _OTHERS = {
 }
 
 
-def _declare(library, path):
+def _declare(library: ctypes.CDLL, path: pathlib.Path) -> dict[str, Any]:
     declared = {}
-    calls = {name: (c_int, [*arguments, _text]) for name, arguments in _CALLS.items()}
+    calls: dict[str, tuple[Any, list[Any]]] = {name: (c_int, [*arguments, _text]) for name, arguments in _CALLS.items()}
     for name, (returns, arguments) in {**calls, **_OTHERS}.items():
         try:
             function = getattr(library, f"bw_{name}")
@@ -99,27 +103,28 @@ def _declare(library, path):
 
 _library, path = _load()
 _functions = _declare(_library, path)
-version = _functions["version"]().decode()
+version: str = _functions["version"]().decode()
+_Found = TypeVar("_Found")
 
 
 class Owned:
     """A pointer that the library allocated and that is freed with this object. lock: allows one thread at a time."""
     __slots__ = ("pointer", "lock", "_free", "__weakref__")
 
-    def __init__(self, kind):
+    def __init__(self, kind: str) -> None:
         self.pointer, self.lock = c_void_p(), threading.RLock()
         self._free = _functions[f"{kind}_free" if kind != "text" else "free_text"]
 
-    def __del__(self):
+    def __del__(self) -> None:
         if self.pointer:
             self._free(self.pointer)
 
-    def text(self):
+    def text(self) -> str:
         """Returns the text, or '' for a null pointer."""
         return ctypes.string_at(self.pointer).decode("utf-8", "replace") if self.pointer else ""
 
 
-def call(name, *arguments, entries=()):
+def call(name: str, *arguments: Any, entries: Sequence[str] = ()) -> None:
     """Calls bw_NAME, and raises the exception for its status. entries: see errors.of_status."""
     why = Owned("text")
     status = _functions[name](*arguments, ctypes.byref(why.pointer))
@@ -127,14 +132,14 @@ def call(name, *arguments, entries=()):
         raise of_status(status, why.text(), entries)
 
 
-def text_of(name, *arguments, entries=()):
+def text_of(name: str, *arguments: Any, entries: Sequence[str] = ()) -> str:
     """Returns the text that bw_NAME returns."""
     text = Owned("text")
     call(name, *arguments, ctypes.byref(text.pointer), entries=entries)
     return text.text()
 
 
-def owned_by(kind, name, *arguments, entries=()):
+def owned_by(kind: str, name: str, *arguments: Any, entries: Sequence[str] = ()) -> Owned:
     """Returns the scene or result that bw_NAME returns. After a failure, a partial result is error.partial."""
     made = Owned(kind)
     try:
@@ -145,16 +150,17 @@ def owned_by(kind, name, *arguments, entries=()):
     return made
 
 
-def stoppable(work, options):
+def stoppable(work: Callable[[dict[str, Any]], _Found], options: dict[str, Any]) -> _Found:
     """Returns the result of work(options), which runs in another thread. Ctrl-C makes a descriptor readable, which is
     passed as the option stop. This ends the library's processes, and the interrupt is then raised in this thread. If
     stop is given, or in another thread, which receives no Ctrl-C, work(options) runs directly."""
     if "stop" in options or threading.current_thread() is not threading.main_thread():
         return work(options)
-    outcome, done = [], threading.Event()  # Thread.join treats an interrupted thread as one that has ended
+    outcome: list[tuple[_Found | None, BaseException | None]] = []
+    done = threading.Event()  # Thread.join treats an interrupted thread as one that has ended
     readable, writable = os.pipe()
 
-    def run():
+    def run() -> None:
         try:
             outcome.append((work({**options, "stop": readable}), None))
         except BaseException as error:  # pylint: disable=broad-exception-caught
@@ -177,9 +183,9 @@ def stoppable(work, options):
     found, error = outcome[0]
     if error is not None:
         raise error
-    return found
+    return found  # type: ignore[return-value]  # of work, without an error
 
 
-def ask(name, *arguments):
+def ask(name: str, *arguments: Any) -> Any:
     """Returns the result of a function that returns no status."""
     return _functions[name](*arguments)

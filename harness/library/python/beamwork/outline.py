@@ -1,5 +1,9 @@
 """Constants of a solid section from its outline, computed with the finite elements of sectionproperties (PyPI)."""
+from __future__ import annotations
+
 import math
+from collections.abc import Callable, Sequence
+from typing import Any
 
 from .errors import Error
 
@@ -7,22 +11,22 @@ from .errors import Error
 _RULE = [(0.445948490915965, 0.223381589678011), (0.091576213509771, 0.109951743655322)]
 
 
-def _integral(mesh, f):
+def _integral(mesh: Any, f: Callable[[Any, Any], Any]) -> float:
     """Returns the integral of f(y, z) over the straight triangles of a mesh."""
     corner = mesh["vertices"][mesh["triangles"][:, :3]]  # [triangles, 3, 2]
     a, b = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
     area = abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
-    total = 0
+    total = 0.0
     for part, weight in _RULE:
         for k in range(3):
-            share = [part, part, part]
+            share: list[float] = [part, part, part]
             share[k] = 1 - 2 * part
             y, z = sum(s * corner[:, i] for i, s in enumerate(share)).T
             total += weight * (area * f(y, z)).sum()
     return float(total)
 
 
-def _meshed(shape, parts):
+def _meshed(shape: Any, parts: int) -> Any:
     """Returns a section of sectionproperties with its mesh. parts: minimum number of triangles."""
     from sectionproperties.analysis import Section  # pylint: disable=import-outside-toplevel
     from sectionproperties.pre import Geometry  # pylint: disable=import-outside-toplevel
@@ -33,7 +37,8 @@ def _meshed(shape, parts):
     return section
 
 
-def outline(points, holes=(), parts=2000, **material):
+def outline(points: Sequence[Sequence[float]], holes: Sequence[Sequence[Sequence[float]]] = (), parts: int = 2000,
+            **material: float) -> tuple[dict[str, Any], float]:
     """Returns a section of a scene, and the angle [rad] from the y axis of the points to its principal y axis, by which
     the member's `y` must be rotated.
 
@@ -68,7 +73,7 @@ def outline(points, holes=(), parts=2000, **material):
     section = _meshed(turned, parts)
     section.calculate_warping_properties()
     p, mesh = section.section_props, section.mesh
-    wagner = [_integral(mesh, lambda y, z, k=k: (y, z)[k] * (y * y + z * z)) for k in range(2)]
+    wagner = [_integral(mesh, lambda y, z: y * (y * y + z * z)), _integral(mesh, lambda y, z: z * (y * y + z * z))]
     mean = (p.ixx_c + p.iyy_c) / p.area
     torque = _integral(
         mesh, lambda y, z: (y * y + z * z - mean - wagner[0] / p.iyy_c * y - wagner[1] / p.ixx_c * z
@@ -79,6 +84,6 @@ def outline(points, holes=(), parts=2000, **material):
                  "Iw": (p.gamma, 6), "ys": (p.x_se - p.cx, 1), "zs": (p.y_se - p.cy, 1),
                  "wagner_y": (wagner[0], 5), "wagner_z": (wagner[1], 5),
                  "wagner_torque": (torque, 6)}
-    scaled = {name: float(value) * size**power for name, (value, power) in constants.items()}
+    scaled: dict[str, Any] = {name: float(value) * size**power for name, (value, power) in constants.items()}
     scaled["F"] = [float(value) / size**2 for value in shear]
     return {"constants": scaled, **material}, angle

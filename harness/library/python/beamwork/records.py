@@ -1,13 +1,20 @@
 """Tables of results: lists of records, as arrays and as pandas data frames."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy
 
 from . import display
 
+if TYPE_CHECKING:
+    import pandas
 
-class Records(list):
+
+class Records(list[dict[str, Any]]):
     """A list of records (dicts with the same keys), with columns as arrays and a data frame."""
 
-    def column(self, key):
+    def column(self, key: str) -> numpy.ndarray[Any, Any]:
         """Returns the array [records] of a key. The array contains floats if all values are numbers (NaN for None),
         otherwise objects."""
         values = [record.get(key) for record in self]
@@ -18,39 +25,40 @@ class Records(list):
             return numpy.array([numpy.nan if v is None else v for v in values], dtype=float)
         return numpy.array(values, dtype=object)
 
-    def where(self, **wanted):
+    def where(self, **wanted: Any) -> Records:
         """Returns the records whose keys have these values, for example where(formulation="beamw", elements=2)."""
         return Records(r for r in self if all(r.get(k) == v for k, v in wanted.items()))
 
-    def frame(self):
+    def frame(self) -> pandas.DataFrame:
         """Returns the records as a pandas.DataFrame. Raises ImportError if pandas is not installed."""
         try:
-            import pandas
+            import pandas  # pylint: disable=import-outside-toplevel
         except ImportError:
             raise ImportError("beamwork: frame() needs pandas; the records are a list of dicts "
                               "without it") from None
-        return pandas.DataFrame.from_records(list(self))
+        found: pandas.DataFrame = pandas.DataFrame.from_records(list(self))
+        return found
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         keys = list(dict.fromkeys(k for record in self for k in record))
         return display.table(keys, ([display.plain(r.get(k)) for k in keys] for r in self))
 
 
-class Document(dict):
+class Document(dict[str, Any]):
     """What a verb writes as JSON: a dict in which lists of records are Records; these are its tables.
 
     tables: {name: Records}.  status: exit status of the program.  passed: it is 0, everything is as expected."""
 
-    def __init__(self, document, status=0):
+    def __init__(self, document: dict[str, Any], status: int = 0) -> None:
         super().__init__({key: Records(value) if isinstance(value, list) and all(
             isinstance(one, dict) for one in value) else value for key, value in document.items()})
         self.status, self.passed = status, status == 0
 
     @property
-    def tables(self):
+    def tables(self) -> dict[str, Records]:
         return {key: value for key, value in self.items() if isinstance(value, Records)}
 
-    def frame(self, table=None):
+    def frame(self, table: str | None = None) -> pandas.DataFrame:
         """Returns a table as a pandas.DataFrame; None: the longest one."""
         tables = self.tables
         if table is None:
@@ -59,7 +67,7 @@ class Document(dict):
             raise KeyError(f"no table {table!r}: {', '.join(tables)}")
         return tables[table].frame()
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         return "".join(display.folded(f"{name}: {len(table)} records", table._repr_html_())
                        for name, table in self.tables.items())
 
@@ -74,7 +82,7 @@ class Convergence(Records):
     answers: Records of formulation, elements, cost, rank: sorted by cost at the error `level`.
     sentence: the conclusion.  document: everything, as `beamwork converge --format json` writes it."""
 
-    def __init__(self, document):
+    def __init__(self, document: dict[str, Any]) -> None:
         super().__init__()
         self.document = document
         self.limits = Records()
@@ -88,10 +96,10 @@ class Convergence(Records):
         self.level = document.get("level")
         self.sentence = document.get("sentence", "")
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<Convergence, {len(self)} records: {self.sentence}>"
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         return display.convergence(self)
 
 
@@ -107,7 +115,7 @@ class Verdicts(Records):
     unexpected: records that differ from the expected ones.  counts: {verdict: number}.
     document: everything, as `beamwork verify --json` writes it."""
 
-    def __init__(self, document):
+    def __init__(self, document: dict[str, Any]) -> None:
         super().__init__(document.get("verdicts", []))
         self.document = document
         self.counts = document.get("counts", {})
@@ -116,8 +124,8 @@ class Verdicts(Records):
         self.passed = self.outcome == "pass"
         self.broken_contracts = document["broken_contracts"]
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<Verdicts, {display.outcome(self)}>"
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         return display.verdicts(self)

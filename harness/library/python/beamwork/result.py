@@ -1,11 +1,14 @@
 """Result: a scene solved with one formulation on one mesh."""
+from __future__ import annotations
+
 import ctypes
 import difflib
 import functools
 import json
 import math
 import types
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 import numpy
 
@@ -15,18 +18,18 @@ from .library import Owned, ask, text_of
 
 class Curve(NamedTuple):
     """Points of a quantity along a path: x and y [points] in SI units."""
-    x: numpy.ndarray
-    y: numpy.ndarray
+    x: numpy.ndarray[Any, Any]
+    y: numpy.ndarray[Any, Any]
 
 
 class Shapes(NamedTuple):
     """Centre lines. position: [states, points, 3] m, the first state undeformed; first: [members + 1] point at which
     each member begins; kinds: [states] kind of each state ("path", "buckling", "motion", ...); values: [states] its path
     parameter, load factor, frequency [Hz] or time [s]."""
-    position: numpy.ndarray
-    first: numpy.ndarray
-    kinds: list
-    values: numpy.ndarray
+    position: numpy.ndarray[Any, Any]
+    first: numpy.ndarray[Any, Any]
+    kinds: list[str]
+    values: numpy.ndarray[Any, Any]
 
 
 MOTION = ("time", "step", "iterations", "rejected", "error", "kinetic", "strain", "work",
@@ -36,7 +39,7 @@ MOTION = ("time", "step", "iterations", "rejected", "error", "kinetic", "strain"
 class _Memory:
     """Memory of a result for numpy. An array that uses it keeps the result alive."""
 
-    def __init__(self, owner, array, *shape):
+    def __init__(self, owner: Owned, array: Any, *shape: int) -> None:
         self.owner = owner
         size = ctypes.sizeof(array._type_)
         kind = "f" if array._type_ is ctypes.c_double else "i"
@@ -56,9 +59,13 @@ class Result:
     Its memory belongs to the library and is freed with the last of the result and the arrays of its curves. It may be
     used from several threads. It cannot be pickled, but result.document can."""
 
-    def __init__(self, handle: Owned):
-        self._handle = handle
-        values, errors, units, curves, at = {}, {}, {}, [], {}
+    def __init__(self, handle: Owned) -> None:
+        self._handle: Owned | None = handle
+        values: dict[str, float] = {}
+        errors: dict[str, float] = {}
+        units: dict[str, str] = {}
+        at: dict[str, float] = {}
+        curves = []
         with handle.lock:
             for i in range(ask("result_quantities", handle.pointer)):
                 raw = ask("result_name", handle.pointer, i)
@@ -79,25 +86,25 @@ class Result:
         self.units = types.MappingProxyType(units)
         self.at = types.MappingProxyType(at)
         self.curves = tuple(curves)
-        self.formulation = ask("result_formulation", handle.pointer).decode()
-        self.elements = ask("result_elements", handle.pointer)
+        self.formulation: str = ask("result_formulation", handle.pointer).decode()
+        self.elements: int = ask("result_elements", handle.pointer)
 
-    def _open(self):
+    def _open(self) -> Owned:
         if self._handle is None:
             raise ValueError("the result is closed")
         return self._handle
 
-    def _points(self, name):
+    def _points(self, name: bytes) -> tuple[int, Any, Any]:
         x, y = ctypes.POINTER(ctypes.c_double)(), ctypes.POINTER(ctypes.c_double)()
         count = ask("result_curve", self._open().pointer, name, ctypes.byref(x), ctypes.byref(y))
         return count, x, y
 
-    def _missing(self, name, among):
+    def _missing(self, name: object, among: list[str]) -> KeyError:
         near = difflib.get_close_matches(str(name), among, 1)
         hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(among) or 'none'}"
         return KeyError(f"no quantity {name!r}: {hint}")
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> float:
         """Returns a value in its SI unit. Raises KeyError for an unknown name or the name of a curve."""
         if name in self.curves:
             raise KeyError(f"{name!r} is a curve: result.curve({name!r})")
@@ -106,25 +113,26 @@ class Result:
         except (KeyError, TypeError):
             raise self._missing(name, list(self.values)) from None
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self.values)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.values)
 
-    def __contains__(self, name):
+    def __contains__(self, name: object) -> bool:
         return name in self.values
 
-    def curve(self, name):
+    def curve(self, name: str) -> Curve:
         """Returns Curve(x, y) of a quantity along its path. The arrays are read-only views of the result's memory."""
         if name not in self.curves:
             raise self._missing(name, list(self.curves))
-        with self._open().lock:
-            count, *arrays = self._points(name.encode())
-        return Curve(*(numpy.asarray(_Memory(self._handle, a, count)) for a in arrays))
+        handle = self._open()
+        with handle.lock:
+            count, x, y = self._points(name.encode())
+        return Curve(numpy.asarray(_Memory(handle, x, count)), numpy.asarray(_Memory(handle, y, count)))
 
     @property
-    def shapes(self):
+    def shapes(self) -> Shapes | None:
         """Returns the shapes of the solution if they were requested (solve(..., shapes=20)), otherwise None."""
         handle, points = self._open(), ctypes.c_size_t()
         position, first = ctypes.POINTER(ctypes.c_double)(), ctypes.POINTER(ctypes.c_int)()
@@ -141,76 +149,89 @@ class Result:
                       numpy.array(values))
 
     @functools.cached_property
-    def document(self):
+    def document(self) -> dict[str, Any]:
         """Returns all data of the run, in the same form as `beamwork solve --format json`."""
-        with self._open().lock:
-            return json.loads(text_of("result_json", self._handle.pointer))
-
-    case = property(lambda self: self.document["case"], doc="name of the case or scene")
-    parameters = property(lambda self: self.document["parameters"], doc="{name: value}")
-    cell = property(lambda self: self.document["cell"], doc="status, unknowns, work, times [s]")
+        handle = self._open()
+        with handle.lock:
+            found: dict[str, Any] = json.loads(text_of("result_json", handle.pointer))
+        return found
 
     @property
-    def steps(self):
+    def case(self) -> str:
+        """Returns the name of the case or scene."""
+        return str(self.document["case"])
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """Returns {name: value}."""
+        return dict(self.document["parameters"])
+
+    @property
+    def cell(self) -> dict[str, Any]:
+        """Returns status, unknowns, work and times [s]."""
+        return dict(self.document["cell"])
+
+    @property
+    def steps(self) -> dict[str, numpy.ndarray[Any, Any]]:
         """Returns {column: [steps] array} of the load steps: path, increment, iterations, rejected, correction, ..."""
         return self._columns("steps")
 
     @property
-    def iterations(self):
+    def iterations(self) -> dict[str, numpy.ndarray[Any, Any]]:
         """Returns {column: [iterations] array} of the iterations: step, iteration, residual, correction, ..."""
         return self._columns("iterations")
 
     @property
-    def motion(self):
+    def motion(self) -> dict[str, numpy.ndarray[Any, Any]]:
         """Returns {column: [steps + 1] array} of a motion, for the start and the end of each step: time and step [s],
         iterations, rejected, error, kinetic, strain, work, dissipated and drift [J] (drift: energy-balance error), px
         to pz [kg m/s], lx to lz [kg m^2/s]. Returns {} if there is no motion. The arrays are read-only views of the
         result's memory."""
-        found = {}
-        with self._open().lock:
+        found, handle = {}, self._open()
+        with handle.lock:
             for name in MOTION:
                 values = ctypes.POINTER(ctypes.c_double)()
-                count = ask("result_motion", self._open().pointer, name.encode(),
+                count = ask("result_motion", handle.pointer, name.encode(),
                             ctypes.byref(values))
                 if count:
-                    found[name] = numpy.asarray(_Memory(self._handle, values, count))
+                    found[name] = numpy.asarray(_Memory(handle, values, count))
         return found
 
-    def _columns(self, key):
+    def _columns(self, key: str) -> dict[str, numpy.ndarray[Any, Any]]:
         rows = self.document.get(key, [])
         return {name: numpy.array([math.nan if row[name] is None else row[name] for row in rows])
                 for name in (rows[0] if rows else ())}
 
     @property
-    def matrices(self):
+    def matrices(self) -> list[dict[str, Any]]:
         """Returns a dict for each state of compliance analyses: node, path, moments, and compliance and stiffness,
         which are [6, 6] arrays in the order ux, uy, uz, rx, ry, rz (None: there is none)."""
-        def array(value):
+        def array(value: Any) -> numpy.ndarray[Any, Any] | None:
             return None if value is None else numpy.array(value, dtype=float)
 
         return [{**m, "compliance": array(m["compliance"]), "stiffness": array(m["stiffness"])}
                 for m in self.document.get("matrices", [])]
 
-    def close(self):
+    def close(self) -> None:
         """Releases the memory of the library. Arrays of curves keep their memory."""
         self._handle = None
 
-    def __enter__(self):
+    def __enter__(self) -> Result:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError("a Result is memory of the library and is not pickled: pickle "
                         "result.document, or dict(result.values)")
 
-    def __str__(self):
+    def __str__(self) -> str:
         d = self.document
         return f"{d['case']}, {d['formulation']}, n = {d['elements']}: {d['cell']['status']}"
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return "<Result, closed>" if self._handle is None else f"<Result {self}>"
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         return display.result(self)

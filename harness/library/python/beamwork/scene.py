@@ -1,24 +1,31 @@
 """Scenes: a built-in case, a scene file, or a scene built from dicts."""
+from __future__ import annotations
+
 import copy
 import json
 import os
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from . import arguments, display
 from .arguments import required, utf8
 from .errors import Error, Refused
-from .library import call, owned_by, stoppable, text_of
+from .library import Owned, call, owned_by, stoppable, text_of
 from .records import Convergence, Records, Verdicts
 from .result import Result
 from .writing import ENTRIES, HEAD, LISTS, number, scene_text
+
+if TYPE_CHECKING:
+    from .program import Progress
 
 
 # Options of verify in the library; with others, and to see the progress, the program computes.
 _OF_LIBRARY = {"tolerance", "not_worse_than", "jobs", "time_limit", "refine", "shapes", "stop"}
 
 
-def verified(scene, formulations, select, results, options, lines=(), case=None):
+def verified(scene: Any, formulations: tuple[str, ...], select: str | None, results: str | os.PathLike[str] | None,
+             options: dict[str, Any], lines: Sequence[str] = (), case: Scene | None = None) -> Verdicts:
     """Returns the verdicts that the library computes. scene: its pointer, or None for all built-in cases; case: the
     scene, for the program."""
     if not _OF_LIBRARY.issuperset(options):
@@ -55,43 +62,50 @@ class Scene:
     __slots__ = ("summary", "source", "plane", "_name", "_make", "_written", "_entries", "_values",
                  "_handle", "_lines", "_lock", "_origin", "__weakref__")
 
-    def __init__(self, name="scene", *, summary="", source="", plane=""):
+    summary: str
+    source: str
+    plane: str
+
+    def __init__(self, name: str = "scene", *, summary: str = "", source: str = "", plane: str = "") -> None:
         self._name, self.summary, self.source, self.plane = name, summary, source, plane
-        self._origin = None
-        self._make = None  # for scenes that are not built from dicts: the function that creates the handle
-        self._entries = {key: [] if key in LISTS else {} for key in ENTRIES}
-        self._values, self._written, self._handle, self._lines = {}, None, None, ()
+        self._origin: tuple[str, str] | None = None
+        self._make: Callable[[], Owned] | None = None  # for scenes that are not built from dicts: the function that creates the handle
+        self._entries: dict[str, Any] = {key: [] if key in LISTS else {} for key in ENTRIES}
+        self._values: dict[str, bytes] = {}
+        self._written: str | None = None
+        self._handle: Owned | None = None
+        self._lines: Sequence[str] = ()
         self._lock = threading.RLock()
 
     @classmethod
-    def _made(cls, name, make, origin):
+    def _made(cls, name: str, make: Callable[[], Owned], origin: tuple[str, str]) -> Scene:
         scene = cls(name)
         scene._make, scene._origin = make, origin
         scene._ready()
         return scene
 
     @classmethod
-    def case(cls, name):
+    def case(cls, name: str) -> Scene:
         """Makes a scene from a built-in case (see beamwork.cases())."""
         raw = required(name, "case")
         return cls._made(name, lambda: owned_by("scene", "scene_case", raw), ("case", name))
 
     @classmethod
-    def open(cls, path):
+    def open(cls, path: str | os.PathLike[str]) -> Scene:
         """Reads a scene file in its present state."""
         raw = required(path, "path")
         return cls._made(os.fspath(path), lambda: owned_by("scene", "scene_open", raw),
                          ("file", os.fspath(path)))
 
     @classmethod
-    def text(cls, text, name="scene"):
+    def text(cls, text: str, name: str = "scene") -> Scene:
         """Reads the text of a scene file. name: its name in error messages."""
         content, label = required(text, "text"), required(name, "name")
         return cls._made(name,
                          lambda: owned_by("scene", "scene_read", content, len(content), label),
                          ("text", text))
 
-    def __getattr__(self, key):
+    def __getattr__(self, key: str) -> Any:
         if key not in ENTRIES:
             raise AttributeError(f"a scene has no {key!r}: {', '.join(ENTRIES)}")
         if self._make is not None:
@@ -99,7 +113,7 @@ class Scene:
                                  "scene.write(); a scene of dicts begins with Scene()")
         return self._entries[key]
 
-    def __setattr__(self, key, value):
+    def __setattr__(self, key: str, value: Any) -> None:
         if key in ENTRIES:
             getattr(self, key)  # raises AttributeError if there are no such entries
             if not isinstance(value, (list, tuple) if key in LISTS else Mapping):
@@ -110,9 +124,10 @@ class Scene:
         else:
             raise AttributeError(f"a scene has no {key!r}: {', '.join(ENTRIES)}")
 
-    def _ready(self):
+    def _ready(self) -> Owned:
         """Returns the library's scene with its present entries and with all values that were set."""
-        lines = ()
+        lines: Sequence[str] = ()
+        text = ""
         if self._make is None:
             head = dict(zip(HEAD, (self._name, self.summary, self.source, self.plane)))
             text, lines = scene_text(head, self._entries)
@@ -131,7 +146,7 @@ class Scene:
             self._handle, self._lines = handle, lines
         return self._handle
 
-    def set(self, **values):
+    def set(self, **values: Any) -> Scene:
         """Sets parameter values, for example set(thickness=0.5e-3, kind="wide"). If a value is rejected, none is set.
         Returns the scene."""
         assignments = {}
@@ -154,17 +169,17 @@ class Scene:
                 raise
         return self
 
-    def origin(self):
+    def origin(self) -> tuple[str, str, dict[str, str]]:
         """Returns where the scene comes from, for the program: "case", "file" or "text", its name, path or text, and
         {name: value} of the values that were set."""
         with self._lock:
             self._ready()
-            kind, where = self._origin or ("text", self._written)
+            kind, where = self._origin or ("text", self._written or "")
             values = (raw.decode().partition("=") for raw in self._values.values())
             return kind, where, {name: value for name, _, value in values}
 
     @property
-    def about(self):
+    def about(self) -> dict[str, Any]:
         """Returns the description, as `beamwork list CASE --format json`: a dict of case, summary, source and
         Records of parameters (name, unit, value, default, min, max, choices, summary), quantities
         (name, unit, meaning, is_curve) and formulations (formulation, runs, without)."""
@@ -172,7 +187,7 @@ class Scene:
             told = json.loads(text_of("scene_json", self._ready().pointer, entries=self._lines))
         return {k: Records(v) if isinstance(v, list) else v for k, v in told.items()}
 
-    def write(self, path=None):
+    def write(self, path: str | os.PathLike[str] | None = None) -> str:
         """Returns the text of the scene as a file, with expanded loops and expressions and 17 digits. If `path` is
         given, writes this file as well."""
         with self._lock:
@@ -182,7 +197,7 @@ class Scene:
                 file.write(text)
         return text
 
-    def solve(self, formulation=None, elements=None, **options):
+    def solve(self, formulation: str | None = None, elements: int | None = None, **options: Any) -> Result:
         """Returns the Result of one formulation on one mesh.
 
         formulation: such as "beamw" or "beamw:mass=lumped"; None: one that supports the physics of the scene is chosen.
@@ -204,7 +219,8 @@ class Scene:
                     error.result, error.partial = Result(error.partial), None
                 raise
 
-    def converge(self, *formulations, meshes=None, progress=None, **options):
+    def converge(self, *formulations: str, meshes: Sequence[int] | None = None, progress: Progress | None = None,
+                 **options: Any) -> Convergence:
         """Returns the Convergence of formulations (none named: all that support the scene) over meshes (None: those of
         the scene): errors, limits with their uncertainty, orders, and the formulations ranked by cost.
 
@@ -222,33 +238,34 @@ class Scene:
                 lambda given: text_of("converge", handle.pointer, chosen, sizes,
                                       arguments.options(given), entries=self._lines), options)))
 
-    def verify(self, *formulations, select=None, results=None, **options):
+    def verify(self, *formulations: str, select: str | None = None, results: str | os.PathLike[str] | None = None,
+               **options: Any) -> Verdicts:
         """Returns the Verdicts on formulations for this scene, from its reference values (see beamwork.verify)."""
         with self._lock:
             return verified(self._ready().pointer, formulations, select, results, options,
                             self._lines, self)
 
-    def copy(self):
+    def copy(self) -> Scene:
         """Returns a copy with the same entries and values."""
         return copy.deepcopy(self)
 
     __copy__ = copy
 
-    def __deepcopy__(self, memo):
+    def __deepcopy__(self, memo: dict[int, Any]) -> Scene:
         made = Scene(self._name, summary=self.summary, source=self.source, plane=self.plane)
         made._make, made._values = self._make, dict(self._values)
         made._origin = self._origin
         made._entries = copy.deepcopy(self._entries, memo)
         return made
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError("a Scene is memory of the library and is not pickled: pickle scene.write()")
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         kind = "built" if self._make is None else "read"
         return f"<Scene {self._name}, {kind}{''.join(f', {k}' for k in self._values)}>"
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         try:
             return display.scene(self.about, self.write())
         except Refused as error:

@@ -1,7 +1,10 @@
 """Writes a scene of dicts and lists as the text of a scene file. All bits of its numbers are preserved."""
+from __future__ import annotations
+
 import math
 import re
 from collections.abc import Mapping
+from typing import Any
 
 from .errors import Refused
 
@@ -15,14 +18,14 @@ _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _DEEPEST = 40
 
 
-def number(value, where):
+def number(value: float, where: str) -> str:
     """Returns a float or an integer with the smallest number of digits that give the same bits when they are read."""
     if not math.isfinite(value):
         raise Refused(f"{where} is {value}: a finite number is expected")
     return repr(value)
 
 
-def quoted(text, where):
+def quoted(text: str, where: str) -> str:
     """Returns the text as a plain word, or in quotation marks."""
     if not text.isprintable():
         raise Refused(f"{where}: {text[:40]!r} contains a non-printing character; write it in "
@@ -33,7 +36,7 @@ def quoted(text, where):
     return f'"{plain}"'
 
 
-def written(value, where, depth=0):
+def written(value: Any, where: str, depth: int = 0) -> str:
     """Returns a value on one line: dicts as {key: value}, lists and arrays as [a, b]. The key 'from_' is written as
     'from'."""
     if depth > _DEEPEST:
@@ -58,7 +61,7 @@ def written(value, where, depth=0):
     raise Refused(f"{where} is {type(value).__name__}: only numbers, texts, lists and dicts can be written")
 
 
-def name(key, where):
+def name(key: Any, where: str) -> str:
     """Returns a key in the form in which it is written. from_, for_ and is_, which are Python keywords without the _,
     lose the _."""
     if not isinstance(key, str) or not key:
@@ -66,12 +69,12 @@ def name(key, where):
     return quoted(key[:-1] if key in ("from_", "for_", "is_") else key, where)
 
 
-def scene_text(head, entries):
+def scene_text(head: Mapping[str, str], entries: Mapping[str, Any]) -> tuple[str, list[str]]:
     """Returns the text of a scene file and, for each of its lines, the entry that wrote the line ('': none). head: {key
     of HEAD: text}; entries: {key of ENTRIES: dict of entries, or a list}."""
     lines, owners = ["beamwork: 1"], [""]
 
-    def add(line, owner):
+    def add(line: str, owner: str) -> None:
         lines.append(line)
         owners.append(owner)
 

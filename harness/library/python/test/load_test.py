@@ -1,12 +1,14 @@
 """How Python finds, loads and installs the module, and the documentation of the module."""
+import ast
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import unittest
 
-from harness.library.python.test.module import (LIBRARY, ModuleTest, ROOT, SETTINGS, bw,
+from harness.library.python.test.module import (FOLDER, LIBRARY, ModuleTest, ROOT, SETTINGS, bw,
                                                 python)
 from harness.tools.kit.program import environment
 
@@ -143,6 +145,27 @@ class Said(ModuleTest):
             for name, member in vars(cls).items():
                 if not name.startswith("_") and callable(member):
                     self.assertTrue(member.__doc__, f"{cls.__name__}.{name}")
+
+
+class Types(ModuleTest):
+
+    @unittest.skipUnless(shutil.which("mypy"), "needs mypy")
+    def test_mypy(self):
+        """The module has type hints everywhere, which mypy --strict accepts."""
+        done = subprocess.run(["mypy", "--cache-dir", self.folder, "--python-executable", sys.executable], cwd=ROOT,
+                              text=True, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_everything_has_types(self):
+        """Without mypy: every function of the module has types of its arguments and of its result."""
+        for path in sorted((FOLDER / "beamwork").glob("*.py")):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.FunctionDef):
+                    given = node.args.posonlyargs + node.args.args + node.args.kwonlyargs
+                    given += [one for one in (node.args.vararg, node.args.kwarg) if one]
+                    bare = [a.arg for a in given if a.annotation is None and a.arg not in ("self", "cls")]
+                    self.assertEqual((bare, node.returns is None), ([], False), f"{path.name}: {node.name}")
+        self.assertTrue((FOLDER / "beamwork" / "py.typed").exists())
 
 
 if __name__ == "__main__":
