@@ -22,8 +22,8 @@ typedef struct arnoldi_problem {
 } arnoldi_problem;
 
 typedef struct arnoldi_result {
-    /* number of eigenvalues; fewer than `wanted` if the remaining ones are rounding errors, or one
-     * more if the last one is the first of a conjugate pair */
+    /* number of eigenvalues. It is smaller than `wanted` if the remaining eigenvalues are rounding
+     * errors, and larger by one if the last eigenvalue is the first of a conjugate pair. */
     int count;
     /* [count] eigenvalues, with the largest magnitude first and conjugates next to each other */
     double complex *theta;
@@ -194,11 +194,11 @@ status flutter_judge_begin(flutter_judge *, analysis_context *, fault *);
 void flutter_judge_free(flutter_judge *);
 
 /* Replaces the number of negative pivots for an unsymmetric tangent K: computes the eigenvalues of
- * D^-1 K nearest to zero (D: the metric), and the number of them to the left of the imaginary axis.
- * This number changes at a critical point, where an eigenvalue passes zero. It also changes where a
- * pair crosses the imaginary axis away from zero, which is not a critical point. It does not change
- * where a pair meets on the real axis, or if rounding changes a double eigenvalue into a pair. If K
- * is symmetric, it equals the number of negative pivots. */
+ * D^-1 K nearest to zero, where D is the metric, and counts those to the left of the imaginary
+ * axis. This number changes at a critical point, where an eigenvalue passes zero. It also changes
+ * where a pair crosses the imaginary axis away from zero, which is not a critical point. It does
+ * not change where a pair meets on the real axis, or if rounding changes a double eigenvalue into a
+ * pair. If K is symmetric, it equals the number of negative pivots. */
 
 enum { LEFT_NEAREST = 6 };
 
@@ -214,17 +214,15 @@ typedef struct left_of_axis {
 /* Counts the eigenvalues. K: factored matrix. weight[n]: diagonal of the metric D. */
 status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *, fault *);
 
-/* Continuation of equilibrium paths under proportional loads: private declarations.
+/* Continuation of equilibrium paths under proportional loads: internal declarations.
  *
- * The load factor is an additional unknown, and one coordinate or the arc length is prescribed
- * instead:
- *   K dx = r + f' dl,  g . dx = c,  which gives dx = K^-1 r + dl K^-1 f', dl = (c - g . K^-1 r)/(g
- * . K^-1 f'). The last factored K before a point gives the tangent of the path at this point, the
- * first direction of the next step and, if K is symmetric, the number of its negative eigenvalues.
- * This is accurate enough, because the last correction is at most the criterion, and the change of
- * K is proportional to it. */
+ * The load factor is an additional unknown, and either a coordinate or the arc length is
+ * prescribed: K dx = r + f' dl, g . dx = c. This gives dx = K^-1 r + dl K^-1 f', dl = (c - g . K^-1
+ * r)/(g . K^-1 f'). The last factored K before a point gives the tangent of the path at this point,
+ * the first direction of the next step and, if K is symmetric, the number of its negative
+ * eigenvalues. These results are accurate enough, because the last correction is at most the
+ * criterion, and the change of K is proportional to this correction. */
 
-/* A point of the path. */
 typedef struct path_point {
     double factor, control; /* dfactor/ds, where s is the arc length in the metric of the model */
     double rate;            /* dfactor/ds with s in the model's metric */
@@ -301,8 +299,8 @@ typedef struct rival {
 } rival;
 
 /* Stores the critical points between `here` and `next` as events (continuation_critical.c). goal:
- * goal with which the step was found. *jump: 1 if the inertia of the tangent stiffness changes
- * without a critical point, which means that the step led to another branch. */
+ * goal with which the step was found. *jump: 1 if the step led to another branch. The inertia of
+ * the tangent stiffness then changes without a critical point. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
 /* If critical points are requested, sets *hidden to 1 if an indicator changes and changes back
  * within the step. A change that lasts for at least a fifth of the step is detected. */
@@ -416,7 +414,7 @@ status loops_find(vibration *, fault *);
 void loops_free(vibration *);
 /* Returns the number of coordinates and loop factors. */
 size_t loops_whole(const vibration *);
-/* Returns the loop of a load; NULL: it is not closed. */
+/* Returns the loop of a load; NULL: the loop is not closed. */
 const control_loop *loops_of(const vibration *, int load);
 /* Computes the coefficients of a loop: own u + gain S^T x = gain r at s = i w, with the factor u,
  * the error r and the measured form S. Returns `gain` and sets *own. If there is an integral gain,
@@ -438,8 +436,8 @@ status harmonic_matrix(vibration *, fault *);
 /* Factors this matrix at a circular frequency. */
 status harmonic_factor(vibration *, double w, fault *);
 /* Returns the number of additional unknowns for modes with a damping ratio in a direct solution.
- * Each such mode has one unknown, y = i w U^T (x - r), with D x + U y = f, where r are the static
- * displacements due to driven coordinates. */
+ * Each such mode has one unknown, y = i w U^T (x - r), with D x + U y = f. The vector r contains
+ * the static displacements due to driven coordinates. */
 int harmonic_border(const vibration *);
 
 /* Inputs and outputs (harmonic_inputs.c). */
@@ -510,9 +508,9 @@ status harmonic_modes_lowest(vibration *, harmonic_modes *, int wanted, fault *)
 status harmonic_modes_find(vibration *, fault *);
 void harmonic_modes_free(harmonic_modes *);
 /* Computes the natural frequencies [Hz] in ascending order, at least those below the given
- * frequency. The caller frees *hertz. If springs or dashpots are not symmetric, they are the
- * frequencies of damped modes, otherwise the undamped frequencies. *count is 0 if loads make the
- * stiffness unsymmetric or if there would be too many frequencies. */
+ * frequency. The caller frees *hertz. If springs or dashpots are not symmetric, the modes are
+ * damped, otherwise they are undamped. *count is 0 if loads make the stiffness unsymmetric or if
+ * there would be too many frequencies. */
 status harmonic_natural(vibration *, double below, int *count, double **hertz, fault *);
 /* Checks the growth of modes. REFUSED: a mode grows because of feedback loops or of springs without
  * a potential. */
@@ -568,10 +566,11 @@ void harmonic_release(vibration *);
  * responses, relative to the largest value of each curve; it must be 0 on entry. *quantity: index
  * of the quantity with this difference. */
 status harmonic_inside(analysis_context *, int analysis, double *error, int *quantity, fault *);
-/* Checks the prescribed motion of an input. REFUSED: it is a component of a rotation vector. */
+/* Checks the prescribed motion of an input. REFUSED: the motion is a component of a rotation
+ * vector. */
 status harmonic_check_motion(const vibration *, int driver, fault *);
-/* Checks the velocity or acceleration that the quantity reads. REFUSED: it is not only the rate of
- * a displacement, because its body rotates at this time of a motion. */
+/* Checks the velocity or acceleration that the quantity reads. REFUSED: the body rotates at this
+ * time of the motion, so the quantity is not only the rate of a displacement. */
 status harmonic_check_rates(const vibration *, const scene_response *, fault *);
 /* Sets *out to the driven coordinate whose reaction a quantity reads. REFUSED: the coordinate moves
  * more than one node. */

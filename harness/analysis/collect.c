@@ -133,7 +133,7 @@ static status keep_modes(const analysis_context *c, int analysis, const outcome_
     return outcome;
 }
 
-/* Stores all shapes. The caller, collect_shapes, frees *s, even after a failure. */
+/* Stores all shapes. The caller collect_shapes() frees *s, even after a failure. */
 static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
 {
     TRY(shapes_alloc(s, f));
@@ -174,7 +174,7 @@ status collect_shapes(const analysis_context *c, int most, shapes *s, fault *f)
 }
 
 typedef struct workspace {
-    sparse K, M, G, C; /* for linear models; the driven coordinates are included */
+    sparse K, M, G, C; /* matrices for linear models; the driven coordinates are included */
     int models, free, all;
     double *residual, *load; /* [free + driven] */
     double *sigma;           /* [stresses] */

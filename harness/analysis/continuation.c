@@ -299,7 +299,7 @@ static status start(continuation *p, fault *f)
     return add_point(p, f);
 }
 
-/* Follows the path. The caller, continuation_analysis, frees *p, even after a failure. */
+/* Follows the path. The caller continuation_analysis() frees *p, even after a failure. */
 static status walk(analysis_context *c, int analysis, outcome_continuation *o, continuation *p,
                    fault *f)
 {
@@ -348,9 +348,9 @@ static const char *continuation_sound_doubt(const continuation *p, int last_reso
         return "its direction changes too much";
     if (!(turned <= largest_turn))
         return "a node rotates too far";
-    /* At a limit point, the rate changes its sign, and the determinant changes its sign by one
-     * pivot. At a bifurcation, only the determinant changes its sign. Several bifurcations may
-     * coincide. */
+    /* At a limit point, the rate changes its sign, and one pivot changes the sign of the
+     * determinant. At a bifurcation, only the determinant changes its sign. Several bifurcations
+     * may coincide. */
     const int reversed = (a->rate < 0) != (b->rate < 0), pivots = abs(b->negative - a->negative);
     if (!last_resort && reversed && (pivots > 1 || a->determinant == b->determinant))
         return "the pivots of its tangent stiffness change by more than one critical point "

@@ -147,7 +147,8 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
         int before = 0;
         const status outcome = try_at(p, goal, s, &trial, &before, f);
         at = trial.at;
-        const int at_it = i > 0 && value <= near * scale; /* here, corrections are round-off */
+        const int at_it =
+            i > 0 && value <= near * scale; /* here, corrections are rounding errors */
         if (outcome == STATUS_SINGULAR || (outcome == STATUS_NOT_CONVERGED && at_it))
             break;
         TRY(outcome);
@@ -269,8 +270,7 @@ static status report_all(continuation *p, path_goal goal, int by_rate, int *jump
     return STATUS_OK;
 }
 
-/* Makes the state at this fraction of the step the trial point, which is the first or the next one.
- * Two corrections are sufficient for a state that is only examined. */
+/* Makes the state at this fraction of the step the first or next trial point. */
 static status look_at(continuation *p, path_goal goal, double part, int first, fault *f)
 {
     const path_goal to = part_of(p, goal, part);

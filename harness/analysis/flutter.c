@@ -75,7 +75,7 @@ const char *flutter_damping(const scene *s, int damped)
 
 flutter_kind flutter_of(const flutter_system *s, const unsymmetric_result *r, int *mode)
 {
-    const double rounding = 1e-6; /* for a double eigenvalue that diverges */
+    const double rounding = 1e-6; /* relative rounding error of a double eigenvalue that diverges */
     flutter_kind kind = FLUTTER_NONE;
     double largest = 0;
     for (int i = 0; i < r->count; i++) {

@@ -11,14 +11,15 @@
 #include "harness/model/model.h"
 
 enum { MOTIONS = 8, WATCHED = 4, MAX_STATIONS = 400, MAX_LOOKS = 8, MAX_CLOSER = 60, POINTS = 3 };
-static const double first_step = 1e-3; /* relative to the path parameter of the followed state */
+/* first step, relative to the path parameter of the followed state */
+static const double first_step = 1e-3;
 static const double wanted_change = 0.15,
                     largest_change = 0.5; /* relative change of the square of a frequency */
 static const double quickest = 10;        /* ratio of a step to the previous step */
 static const double farthest =
-    1e3; /* relative to the path parameter of the followed state, unless its loads are small */
+    1e3; /* end of the search, relative to the path parameter of the followed state */
 static const double farther =
-    100; /* relative to the path on which a square doubles at its initial rate */
+    100; /* end of the search, relative to the path on which a square doubles at its initial rate */
 /* width of the interval at which interpolation starts, relative to the path parameter */
 static const double rough = 1e-2;
 static const double near_lost =

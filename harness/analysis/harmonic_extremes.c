@@ -94,9 +94,9 @@ static status find_between(extreme_search *s, double low, double high, outcome_p
     }
 }
 
-/* Frequencies at which a search for extremes starts: those of the analysis, some on both sides of
- * each natural frequency that are closer to it than the width of any peak, and some between natural
- * frequencies, where responses have minima. */
+/* Frequencies at which a search for extremes starts. They are the frequencies of the analysis, some
+ * on both sides of each natural frequency at distances below the width of any peak, and some
+ * between natural frequencies, where responses have minima. */
 typedef struct samples {
     int count;
     double *hertz, *value;

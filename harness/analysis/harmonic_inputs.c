@@ -146,8 +146,8 @@ static void add_row(const vibration *v, int c, double w, double complex o[])
         }
 }
 
-/* Adds the contribution of modal damping to the reaction of a driven coordinate. It follows from
- * the forces -i w r^T U U^T (x - r of the input). */
+/* Adds the contribution of modal damping to the reaction of a driven coordinate. The contribution
+ * follows from the forces -i w r^T U U^T (x - r of the input). */
 static void add_carried(vibration *v, const scene_response *r, int c, double w, double complex o[])
 {
     const double *U;

@@ -48,7 +48,7 @@ static status solutions_alloc(const analysis_context *c, int analysis, outcome_l
                         : fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
 }
 
-/* Solves for the displacements. The caller, linear_analysis, frees *s, even after a failure. */
+/* Solves for the displacements. The caller linear_analysis() frees *s, even after a failure. */
 static status displace(analysis_context *c, int analysis, linear_system *s, outcome_linear *l,
                        fault *f)
 {
@@ -217,7 +217,7 @@ static void buckling_free(buckling *b)
     free(b->of.product);
 }
 
-/* Solves the eigenvalue problem. The caller, buckling_analysis, frees *b, even after a failure. */
+/* Solves the eigenvalue problem. The caller buckling_analysis() frees *b, even after a failure. */
 static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
 {
     TRY(linear_system_alloc(c, &b->system, f));

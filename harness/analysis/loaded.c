@@ -106,7 +106,7 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
     return outcome;
 }
 
-/* Finds the frequencies. The caller, loaded_modal, frees *n, *M and *e, even after a failure. */
+/* Finds the frequencies. The caller loaded_modal() frees *n, *M and *e, even after a failure. */
 static status frequencies(analysis_context *c, int analysis, newton_run *n, sparse *M,
                           eigen_result *e, outcome_spectrum *out, fault *f)
 {
@@ -436,13 +436,13 @@ static status count_at(loaded_search *s, double path, int *negative, fault *f)
     return STATUS_OK;
 }
 
-/* The loads of the outcome in order: value, relative error [wanted]. */
+/* The loads of the outcome in ascending order: values and relative errors [wanted]. */
 typedef struct loads_found {
     int count;
     double *value, *error;
 } loads_found;
 
-/* Adds loads until there are as many as negative eigenvalues. */
+/* Adds loads until their number equals that of negative eigenvalues. */
 static void add_loads(const loaded_search *s, int negative, double value, double error,
                       loads_found *out)
 {
@@ -452,8 +452,8 @@ static void add_loads(const loaded_search *s, int negative, double value, double
     }
 }
 
-/* Adds the first load, and those so close to it that they have also been passed at `low`. The
- * eigenvalues fall almost in proportion to the distances from these loads. */
+/* Adds the first load, and the loads that are so close to it that the path has passed them at
+ * `low`. The eigenvalues decrease almost in proportion to the distances from these loads. */
 static void add_first(const loaded_search *s, int negative, double from, double low,
                       loads_found *out)
 {
@@ -471,9 +471,9 @@ static void add_first(const loaded_search *s, int negative, double from, double 
     }
 }
 
-/* Narrows the part of the path from *low to *high, in which eigenvalues pass zero and whose ends
- * have `passed` and *above negative ones. Close to a critical point, round-off may keep Newton's
- * method from converging. */
+/* Reduces the part of the path from *low to *high in which eigenvalues become negative. Their
+ * number is `passed` at *low and *above at *high. Close to a critical point, rounding errors may
+ * prevent the convergence of Newton's method. */
 static status narrow(loaded_search *s, int passed, double *low, double *high, int *above, fault *f)
 {
     const double apart = 1e-9, half = 0.5, less = 0.382;
@@ -501,8 +501,8 @@ static status narrow(loaded_search *s, int passed, double *low, double *high, in
     return STATUS_OK;
 }
 
-/* Sets *low, from which the search continues, to the closest state above the load at `high` at
- * which Newton's method converges, but not above `most`. */
+/* Sets *low, from which the search continues, to the path parameter nearest above the load `high`
+ * at which Newton's method converges, but at most to `most`. */
 static status pass(loaded_search *s, double high, double width, double most, double *low,
                    int *negative, fault *f)
 {
@@ -518,8 +518,8 @@ static status pass(loaded_search *s, double high, double width, double most, dou
     return STATUS_OK;
 }
 
-/* Finds the requested loads after the first one from the inertia along the path, up to a thousand
- * times the first load. */
+/* Finds the requested loads after the first load from the inertia along the path. The search ends
+ * at a thousand times the first load. */
 static status find_more(loaded_search *s, loads_found *out, fault *f)
 {
     const double size = fabs(s->estimate - s->begin), from = s->p[0],
@@ -547,7 +547,7 @@ static status find_more(loaded_search *s, loads_found *out, fault *f)
     return STATUS_OK;
 }
 
-/* Moves the loads to the outcome, and the modes of the first of them. */
+/* Moves the loads, and the modes of the first load, to the outcome. */
 static status hand_over(loaded_search *s, outcome_side *out, fault *f)
 {
     const size_t n = (size_t)s->n.free, wanted = (size_t)s->wanted;
@@ -599,8 +599,8 @@ static double thrust_of_elements(const newton_run *n)
     return most;
 }
 
-/* Checks a divergence of a structure without mass. NOT_CONVERGED: it is an artefact of the mesh.
- * Flutter is not sought if there is no mass. */
+/* Checks a divergence of a structure without mass. NOT_CONVERGED: the divergence is an artefact of
+ * the mesh. Without mass, there is no search for flutter. */
 static status judge_massless(const newton_run *n, const flutter_point *first, fault *f)
 {
     const double most = first->massless ? thrust_of_elements(n) : 0;
@@ -649,7 +649,7 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
     return STATUS_OK;
 }
 
-/* Runs the search. The caller, loaded_buckling, frees *s, even after a failure. */
+/* Runs the search. The caller loaded_buckling() frees *s, even after a failure. */
 static status run(analysis_context *c, int analysis, loaded_search *s, outcome_spectrum *out,
                   fault *f)
 {

@@ -77,7 +77,7 @@ static void stiffness_product(void *context, const double mode[], double y[])
 
 /* Returns the eigenvalue lambda of a mode x with x^T (K + shift M) x = 1. lambda is the positive
  * root of x^T K x = lambda x^T M x + lambda^2 x^T B x, where B describes the motions inside
- * elements (field/field.h). B is omitted if there are stresses, because they would also act on
+ * elements (field/field.h). B is omitted if there are stresses, because stresses would also act on
  * these motions. A value below the rounding error of the shift is a rigid-body mode. */
 static double eigenvalue(modal_forms *about, double mu, const double mode[])
 {
@@ -145,7 +145,8 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
                                                                        : outcome;
 }
 
-/* Adds G of the stresses due to the displacements load_x, under the loads at `path`, to K. */
+/* Adds to K the matrix G of the stresses due to the displacements load_x, under the loads at
+ * `path`. */
 static status add_stresses(analysis_context *c, double path, linear_system *s, modal_forms *about,
                            fault *f)
 {
@@ -159,7 +160,7 @@ static status add_stresses(analysis_context *c, double path, linear_system *s, m
     return context_factor(c, s->factor, &s->K, f);
 }
 
-/* Adds G of the stresses of the linear analysis that this analysis follows to K. */
+/* Adds to K the matrix G of the stresses of the linear analysis that this analysis follows. */
 static status add_prestress(analysis_context *c, int follows, linear_system *s, modal_forms *about,
                             fault *f)
 {
@@ -175,8 +176,8 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
     return add_stresses(c, 1, s, about, f);
 }
 
-/* Adds G of the stresses due to initial strains to K; there are no loads. K may belong to a free
- * structure and then includes its shift. */
+/* Adds to K the matrix G of the stresses due to initial strains without loads. K may belong to a
+ * free structure and then includes its shift. */
 static status add_strains(const analysis_context *c, linear_system *s, modal_forms *about, fault *f)
 {
     analysis_context unloaded = context_unloaded(c);
@@ -212,7 +213,7 @@ static status assemble(analysis_context *c, int analysis, linear_system *s, moda
     return STATUS_OK;
 }
 
-/* Finds the modes. The caller, modal_analysis, frees *s, *about and *e, even after a failure. */
+/* Finds the modes. The caller modal_analysis() frees *s, *about and *e, even after a failure. */
 static status solve(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                     eigen_result *e, fault *f)
 {

@@ -193,7 +193,7 @@ static int is_enough(const analysis_context *c, int analysis, const rotation_mod
     return 1;
 }
 
-/* Finds the modes. The caller, try_modes, frees *result, even after a failure. */
+/* Finds the modes. The caller try_modes() frees *result, even after a failure. */
 static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
                          gyroscopic_result *result, rotation_modes *out, fault *f)
 {

@@ -161,8 +161,8 @@ static void add_motion(const vibration *v, int node, int component, double times
             out[at[index[k]]] += times * T[component * count + k];
 }
 
-/* Fills the measured components of closed loops and their rates. They follow the outputs of the
- * scene. */
+/* Fills the measured components of closed loops and the rates of these components, which follow the
+ * outputs of the scene. */
 static void fill_measured(const vibration *v, const system_matrices *s, const int at[],
                           second_order *m)
 {

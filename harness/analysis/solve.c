@@ -60,7 +60,7 @@ static void advise_prestressed(const analysis_context *c, int analysis, fault *f
                  : "more elements or stations");
 }
 
-/* Explains why the analysis failed, if it was because the structure can move. */
+/* Adds an explanation to the failure of an analysis if the structure can move. */
 static void explain(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     fault why = {""};
@@ -83,8 +83,8 @@ static int has_negative(const solve_result *r, int from)
     return 0;
 }
 
-/* Detects a path that starts from a structure whose stiffness is indefinite at rest. This is
- * examined if the path was unstable or failed. The work is not counted. */
+/* Detects a path that starts from a structure whose stiffness is indefinite at rest. The function
+ * is called if the path was unstable or failed. The work is not counted. */
 static status judge_rest(analysis_context *c, const analysis_outcome *o, int first_step, fault *f)
 {
     if (!outcome_has_path(o) || o->kind == SCENE_COMPLIANCE || o->kind == SCENE_MOTION ||

@@ -19,7 +19,7 @@ static status compliance_walk_begin(newton_run *, int path, compliance_walk **ou
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
 /* Determines the stability at the end of a step if the pivots do not decide it. *found: path
- * parameter within the step at which stability differs from that of both ends, or INFINITY.
+ * parameter within the step at which stability differs from that of both ends; INFINITY: none.
  * last_resort: 1 if the step cannot be shorter. */
 static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, step_record *record,
                          double *found, fault *f)
@@ -169,7 +169,7 @@ static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance
     return STATUS_OK;
 }
 
-/* Solves the path. The caller, static_analysis, frees the workspace, even after a failure. */
+/* Solves the path. The caller static_analysis() frees the workspace, even after a failure. */
 static status solve(analysis_context *c, int analysis, newton_run *n, predictor *t,
                     flutter_judge *judge, compliance_walk **on_the_way, outcome_path *o, fault *f)
 {
@@ -314,7 +314,7 @@ static status unloaded(analysis_context *c, newton_run *n, const model_state **s
     return newton_to(n, 0, &unused, f);
 }
 
-/* Computes the compliances at the stations of the path. The caller, compliance_analysis, frees the
+/* Computes the compliances at the stations of the path. The caller compliance_analysis() frees the
  * workspace, even after a failure. */
 static status compliance_solve(analysis_context *c, int analysis, node_tangent *t, newton_run *n,
                                outcome_compliance *out, fault *f)

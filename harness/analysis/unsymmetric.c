@@ -317,8 +317,8 @@ static double complex form(const unsymmetric_solver *s, const sparse *A, const d
     return product(s->n, w, y);
 }
 
-/* Returns the left vector of eigenvalue i; NULL: none. If there are several, returns the one whose
- * product with e->x is largest. */
+/* Returns the left vector of eigenvalue i; NULL: none. If there are several left vectors, returns
+ * the vector whose product with e->x is largest. */
 static const double complex *left_of(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const double complex theta = s->right.theta[i], *found = NULL;

@@ -11,7 +11,7 @@ static int is_named(const bench_options *r)
     return r->of.line->arguments > 0 || r->of.scene != NULL;
 }
 
-/* Measures the times. The caller, answer, frees *b, even after a failure. */
+/* Measures the times. The caller answer() frees *b, even after a failure. */
 static status measure(bench_options *r, bench *b, fault *f)
 {
     const bench_request asked = {.cases = r->of.line->argument,

@@ -261,7 +261,7 @@ static status leave_out(const cut *c, const spread_end *end, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the shard or reads the batches. The caller, verification_work_run, frees the workspace,
+/* Computes the shard or reads the batches. The caller verification_work_run() frees the workspace,
  * even after a failure. */
 static status spread(cut *c, const shard_options *r, identity_texts *texts, spread_end *out,
                      fault *f)

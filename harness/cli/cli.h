@@ -87,7 +87,8 @@ typedef struct verb_group {
     size_t member; /* offset of the group in the request */
 } verb_group;
 
-/* A group in the request of a verb. Each verb defines IN(at): ".member = offsetof(..., at)". */
+/* Initial values of a verb_group. The file of each verb defines IN(at): ".member = offsetof(...,
+ * at)". */
 #define SHARED(name, at) {&options_##name, IN(at)}
 
 struct verb {
@@ -220,8 +221,8 @@ const case_type *case_input_scene(case_options *);
 /* Reads a scene file. Returns EXIT_AS_EXPECTED, or another exit status after printing error
  * messages. */
 int case_input_read(const command_line *, const char *path, scene_file **out);
-/* Reads the reference values of the run. They are the stored ones or, for a scene file, those of
- * the file for the parameters of the request. */
+/* Reads the reference values of the run: the stored values or, for a scene file, the values in the
+ * file for the parameters of the request. */
 status case_input_truths(const case_options *, const truths_options *, truths *t, fault *f);
 /* Prints one line on stderr if the numbers of a scene file suggest other units. Does nothing if
  * `file` is NULL. */

@@ -134,7 +134,7 @@ static void offer_terms(const offer *o, const char *said, const glossary *g)
     }
 }
 
-/* Offers the terms of `beamwork explain`. said: words before the cursor, joined. They may be the
+/* Offers the terms of `beamwork explain`. said: words before the cursor, joined; they may be the
  * start of a term that consists of several words. */
 static void names_words(const offer *o, const char *said)
 {
@@ -163,9 +163,9 @@ typedef struct completion_reading {
     const verb_option *open; /* option whose value is at the cursor; NULL: none */
     int only_arguments;      /* "--" was given */
     const char *last;        /* last argument; NULL: none yet */
-    int arguments;           /* number of arguments */
-    const char *scene;       /* value of --scene */
-    char said[SAID];         /* arguments, each followed by a blank */
+    int arguments;
+    const char *scene; /* value of --scene */
+    char said[SAID];   /* arguments, each followed by a blank */
 } completion_reading;
 
 static void keep_value(completion_reading *r, const verb_option *o, const char *value)

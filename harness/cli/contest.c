@@ -228,7 +228,7 @@ static status check_models(const sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Runs the comparison at equal errors. The caller, against_error, frees *d, even after a failure.
+/* Runs the comparison at equal errors. The caller against_error() frees *d, even after a failure.
  * */
 static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
 {
@@ -250,11 +250,11 @@ static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
 }
 
 /* Compares two formulations at equal errors. For each error target, finds the smallest number of
- * elements of each formulation for which all requested quantities meet the target on this and all
- * finer meshes (study/study.h), then times these two cells alternately. The targets are those of
- * --error, or those of reach_level that both meet. The quantities are those of -k, or all
- * quantities with a reference value or an agreement for both. REFUSED: one formulation does not
- * run, there is no reference value, or no target is met. */
+ * elements of each formulation with which all requested quantities meet the target (study/study.h).
+ * Then times these two cells alternately. The targets are those of --error, or those of reach_level
+ * that both meet. The quantities are those of -k, or all quantities with a reference value or an
+ * agreement for both. REFUSED: one formulation does not run, there is no reference value, or no
+ * target is met. */
 static status against_error(bench_options *r, const case_type *type, fault *f)
 {
     duel d = {.levels = 0};
@@ -288,7 +288,7 @@ static sweep_point point_of(const bench_options *r, const case_type *type, const
 }
 
 /* Compares with another build for the same number of elements. Both are run as programs, so they
- * start in the same way. The caller, against_meshes, frees the scene. */
+ * start in the same way. The caller against_meshes() frees the scene. */
 static status against_program(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;

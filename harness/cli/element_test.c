@@ -62,7 +62,7 @@ static status read_format(const verb_option *o, void *member, const char *value,
     return fault_set(f, STATUS_REFUSED, "--format: give text, json, csv, markdown or latex");
 }
 
-/* Runs the tests. The caller, answer, frees *c, even after a failure. */
+/* Runs the tests. The caller answer() frees *c, even after a failure. */
 static status run(const command_line *l, const element_test_request *r, certificates *c, fault *f)
 {
     const certificate_request what = {.chosen = r->chosen.formulation,

@@ -36,7 +36,7 @@ static status write_deck(const export_request *r, const deck_request *deck, faul
     return output_finish(&file, deck_write(deck, file.stream, f), f);
 }
 
-/* Writes the deck. The caller, answer, frees the scene, even after a failure. */
+/* Writes the deck. The caller answer() frees the scene, even after a failure. */
 static status export(const export_request *r, const case_type *type, scene *s, fault *f)
 {
     char of[PARAMETERS_TEXT + PATH_MAX];

@@ -15,7 +15,7 @@ void named_add(chosen_formulations *o, const char *text)
         message_refuse(f.text);
 }
 
-/* for element-test: time limit of a part */
+/* time limit of a part, for element-test */
 static void begin(void *group, command_line *l)
 {
     chosen_formulations *o = group;

@@ -161,7 +161,7 @@ static status make_curves(scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Solves with one formulation and appends the solution. The caller, draw_from, frees *s and `why`.
+/* Solves with one formulation and appends the solution. The caller draw_from() frees *s and `why`.
  * */
 static status solve_one(const plot_request *r, const case_type *type, int index, sweep *s,
                         solution_choice *why, FILE *to, fault *f)
@@ -183,7 +183,7 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
                               .meshes = &meshes,
                               .truths = &usual};
     TRY(defaults_fill(&missing, note, why, f));
-    solution_choice_free(why); /* it contains values and no curves */
+    solution_choice_free(why); /* it contains the choice of values, not of curves */
     const solution_request what = defaults_request(&missing);
     TRY(solution_plan(&what, s, f));
     TRY(make_curves(&s->point[0].scene, f));

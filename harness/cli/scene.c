@@ -22,7 +22,7 @@ static status describe(FILE *to, const scene_request *r, fault *f)
     return STATUS_OK;
 }
 
-/* Writes the scene, which the caller, write_out, frees. type NULL: writes a description of the
+/* Writes the scene, which the caller write_out() frees. type NULL: writes a description of the
  * keys. */
 static status write_to(FILE *to, const scene_request *r, const case_type *type, scene *s, fault *f)
 {

@@ -283,7 +283,7 @@ static status prepare_ends(const solve_request *r, const restart *from, solution
     return r->restart != NULL ? restart_begin(from, what, s, f) : STATUS_OK;
 }
 
-/* Prepares the solution. The caller, answer, frees *w, even after a failure. */
+/* Prepares the solution. The caller answer() frees *w, even after a failure. */
 static status prepare(solve_request *r, const case_type *type, solve_work *w, fault *f)
 {
     if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))

@@ -17,7 +17,7 @@ typedef struct sweep_options {
     double error;       /* 0: no error was given */
     text_list vary;     /* varied parameters in the form NAME=A..B/N, or another range */
     const char *design; /* design of the points; NULL: a grid */
-    int points, seed;   /* for designs other than a grid */
+    int points, seed;   /* number of points and seed, for designs other than a grid */
     int derive;         /* 1: reference values that are not stored are computed */
     int verbose;
 } sweep_options;
@@ -140,7 +140,7 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
     return experiment_run(&experiment_sweep, &s->asked, &to, &s->sweep, f);
 }
 
-/* Reports missing points. They are computed if the command is repeated. */
+/* Reports missing points, which are computed if the command is repeated. */
 static int tell(const sweep_options *r, const sweeping *s)
 {
     if (s->spread)

@@ -175,7 +175,7 @@ static void print_line(const derived_value *v, const case_type *type, const doub
     printf("}\n");
 }
 
-/* Shows the values. The caller, show_scene, closes the file, also after a failure. */
+/* Shows the values. The caller show_scene() closes the file, even after a failure. */
 static status show_scene_of(json_t *list, const case_type *type, const double parameter[],
                             FILE *text, fault *f)
 {

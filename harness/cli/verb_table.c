@@ -157,7 +157,7 @@ static int write_page(const char *name)
     return help_of(bare, manual_write_verb);
 }
 
-/* Offers verbs, and words that are not verbs. */
+/* Offers the verbs that start with `begun`. others 1: also offers help, --help and --version. */
 static void complete_verb(const char *begun, int others)
 {
     const offer o = {stdout, begun, 0, begun};

@@ -189,7 +189,7 @@ static int *word_in(const entry_field *k, scene_quantity *q)
 }
 
 /* Transforms the extracted component to the axes of beamwork. Components in axes of a section, or
- * without axes, do not change. Returns 1 if the component has axes. */
+ * without axes, do not change. Returns 0 for such components, otherwise 1. */
 static int turn_extract(const axes *a, scene_quantity *q, int *sign)
 {
     int turns = 0;
@@ -207,7 +207,7 @@ static int turn_extract(const axes *a, scene_quantity *q, int *sign)
 }
 
 /* Transforms the reduction. After a change of sign, a maximum becomes a minimum, and a rising
- * crossing becomes a falling one. A time has no sign. */
+ * crossing becomes a falling crossing. A time has no sign. */
 static void turn_reduction(scene_quantity *q, int *sign)
 {
     static const scene_reduction other[SCENE_REDUCTIONS] = {[SCENE_MAX] = SCENE_MIN,

@@ -82,8 +82,8 @@ void import_block_add(import_block *b, const imported_row *row);
 /* Sorts the values into cells. If there are no errors, adds the series to the sweep. */
 status import_block_close(import_block *b, fault *f);
 
-/* Imports results of another program, given as tidy CSV with a header, into a sweep as a compared
- * program:
+/* Imports results of another program from tidy CSV with a header. The results become series of a
+ * sweep:
  *
  *   # beamwork-import: 1
  *   # program: MBDyn, 3-node              # name in legends, the same in every version
@@ -128,7 +128,7 @@ typedef struct import_left {
     char first[256]; /* case/parameters/program of the first series without a point; empty: none */
 } import_left;
 
-/* Adds a series for each program to every point for which the file has series. A nonzero flag means
+/* Adds a series for each program to every point that has series in the file. A nonzero flag means
  * that verdicts on these series affect the exit status. FAULT: the file is missing, damaged or not
  * such a file. REFUSED: the file has no imported values, or the run already has them. */
 status import_store_read(const char *path, int gates, sweep *s, import_left *left, fault *f);

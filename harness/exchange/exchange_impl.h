@@ -130,7 +130,7 @@ void path_points_free(path_points *);
 /* Nodes of a scene that move independently and carry faces of solids. */
 
 /* Returns the node of the body to which a node belongs, or the node if it is not attached to
- * another one. */
+ * another node. */
 int rigid_body(const scene *s, int node);
 /* Returns 1 if the node is not attached to another node, and a member ends at the node or at a node
  * attached to it. */

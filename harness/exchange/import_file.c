@@ -25,7 +25,6 @@ static const int needed[COLUMNS] = {[QUANTITY] = 1, [UNIT] = 1, [ELEMENTS] = 1, 
 
 enum { FIELDS = 32, MOST_ELEMENTS = 10000000 };
 
-/* State of the reader of a file. */
 typedef struct file_reader {
     import_set *set;
     const char *path;
@@ -253,7 +252,7 @@ static status read_line(file_reader *r, char *line, fault *f)
     return STATUS_OK;
 }
 
-/* Reads all lines. The caller, import_file_read, frees *line, even after a failure. */
+/* Reads all lines. The caller import_file_read() frees *line, even after a failure. */
 static status read_lines(file_reader *r, FILE *from, char **line, fault *f)
 {
     size_t room = 0;

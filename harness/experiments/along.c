@@ -14,7 +14,7 @@
 enum { SIX = 6, END = 1 };
 
 static const double L = 0.7, force = 3, moment = 2; /* [m, N/m, N m/m] */
-static const double rounding = 1e-8;                /* relative to the value of a cantilever */
+static const double rounding = 1e-8; /* rounding error, relative to the value of a cantilever */
 
 typedef enum support { CANTILEVER, CLAMPED, PROPPED, HINGED, SUPPORTS } support;
 static const char *const support_name[SUPPORTS] = {
@@ -44,7 +44,7 @@ static void make_scene(support of, scene *s)
     section_spec spec = section_spec_rectangle(70e3, 27e3, 0.3, 0.2);
     spec.given.Iw = 0;
     spec.shear_factor[0] = 5.0 / 6;
-    spec.shear_factor[1] = 0.4; /* different values, so exchanged factors are detected */
+    spec.shear_factor[1] = 0.4; /* the values differ, so that exchanged factors are detected */
     scene_init(s, "along");
     const int profile = scene_add_section(s, &spec), from = scene_add_node(s, 0, 0, 0),
               to = scene_add_node(s, L, 0, 0);

@@ -13,7 +13,7 @@ enum {
     CELL = 2 * MEASURE_WORDS
 };
 
-/* Row 0 is the heading. `words`, if given, replaces all cells of the row except the first one. */
+/* Row 0 is the heading. `words`, if given, replaces all cells of the row except the first cell. */
 typedef struct paper_table {
     int latex, rows, columns;
     char caption[2 * CELL], label[CELL];

@@ -213,7 +213,7 @@ status beam_section(const beam_request *r, section *out)
     return section_compute(&spec, out, NULL);
 }
 
-/* Computes the position at the fraction s of the length. */
+/* the values differ, so that exchanged factors are detected */
 static void place(const beam_request *r, double s, double at[3])
 {
     const double radius = 2 / PI;

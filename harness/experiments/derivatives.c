@@ -6,7 +6,8 @@
 
 enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 
-static const double allowed = 1e-9; /* relative to the largest entry for the same strain */
+/* allowed error, relative to the largest entry for the same strain */
+static const double allowed = 1e-9;
 static const char *const claim_J = "J is the derivative of the strains",
                          *const claim_H = "H is the second derivative";
 

@@ -214,7 +214,7 @@ void axis_text(const sweep_axis *a, double value, char *text, int size)
     assignment_value_text(a->of, value, text, size);
 }
 
-/* Checks whether the parameter may have this value. The messages are the same as for --set. */
+/* Checks that the parameter may have this value. The messages are the same as for --set. */
 static status check(const case_type *type, const sweep_axis *a, double value, fault *f)
 {
     const assignment_list list = parameters_list(type);

@@ -86,7 +86,7 @@ typedef struct shard_work {
     void *context;
     /* Computes a batch and writes its results as bytes that another process of this build can read.
      * *content: digest of all values that do not change when the batch is computed again (times and
-     * names of machines do change). The function runs in a process of its own and frees its memory.
+     * names of machines do change). The function runs in a separate process and frees its memory.
      * */
     status (*run)(void *context, int batch, FILE *to, digest *content, fault *f);
     /* Reads the results of a batch. The function is called once per batch, in canonical order.
@@ -322,7 +322,7 @@ typedef struct measured_group {
 enum { MEASURED_GROUPS = 4 };
 extern const measured_group measured_groups[MEASURED_GROUPS];
 
-/* Certificate of a formulation: whether it satisfies the interface requirements, and its measured
+/* Certificate of a formulation: results of the checks of the interface requirements, and measured
  * properties. Each part runs in its own process. A crash, a time-out or corrupted memory is
  * reported as the result of this part, and the other parts continue. */
 
@@ -414,8 +414,8 @@ typedef struct design {
     design_kind kind;
     int axes;
     const sweep_axis *axis; /* [axes]; not owned */
-    long points;            /* number of all points */
-    unsigned long seed;     /* seed of GSL's generator mt19937, for DESIGN_RANDOM */
+    long points;
+    unsigned long seed; /* seed of GSL's generator mt19937, for DESIGN_RANDOM */
     long marks, stride;
     /* [marks] states after every `stride` points, from which any point is computed quickly */
     design_mark *mark;
@@ -450,7 +450,6 @@ typedef struct extreme_finding {
 } extreme_finding;
 
 typedef struct extreme_outcome {
-    /* indices of the extreme, its value, the formulation and the quantity */
     int extreme, value, formulation, quantity;
     /* indices in the sweeps: the point and series, and the series of the other meshes; -1: none */
     int point, series, neighbours;
@@ -467,8 +466,8 @@ const char *outcome_name(outcome_kind kind);
 
 /* Outcomes of every formulation at every extreme. */
 
-/* Counts for one formulation. A cell is an extreme at one value of x. It counts as its worst
- * quantity. */
+/* Counts for one formulation. A cell is an extreme at one value of x. The result of a cell is that
+ * of its worst quantity. */
 typedef struct extreme_count {
     const char *formulation; /* key of the formulation */
     int tried, survived, coarse, named, wrong, faults;
@@ -504,7 +503,7 @@ typedef struct extreme_request {
 } extreme_request;
 
 /* At every extreme, each formulation must give a value with its error, or a rejection or failure
- * with a reason. It must never give a wrong number without notice. */
+ * with a reason. A formulation must never give a wrong number without notice. */
 
 /* The request is an extreme_request. The result is an extreme_sweep, which extreme_sweep_free
  * frees. */
@@ -624,12 +623,12 @@ typedef struct pace_verdicts {
 /* Comparison of integrators for transient analysis: request and result. */
 
 typedef struct motion_request {
-    const char *expected;  /* table of expected verdicts, which replaces the members below */
-    const case_type *type; /* the case */
+    const char *expected; /* table of expected verdicts, which replaces the members below */
+    const case_type *type;
     const double *parameter;
     const char *vary; /* varied parameter, "NAME=A..B/N" or "NAME=A,B,C"; NULL: none */
     const formulation *formulation;
-    int formulations, elements; /* elements: number of elements; 0: as in the case */
+    int formulations, elements; /* elements: 0: as in the case */
     /* lists as given on the command line; NULL: default lists */
     const char *integrators, *steps, *tolerances;
     int conservation_only; /* 1: without a reference */
@@ -688,8 +687,8 @@ typedef struct rows {
     uint8_t *status; /* [points, formulations, meshes] */
 } rows;
 
-/* A sweep over parameters: its points, formulations, meshes and quantities, and its batches. They
- * depend only on the request and the build. */
+/* A sweep over parameters. Its points, formulations, meshes, quantities and batches depend only on
+ * the request and the build. */
 
 enum { RANGES_FORMULATIONS = 64, RANGES_QUANTITIES = 64 };
 
@@ -872,7 +871,7 @@ typedef struct tally_series {
     long asked;  /* number of points with a reference */
     long proven; /* number of points whose reference is a reference value */
     long open;   /* number of points with a value but without a reference */
-    /* for each mesh, number of points of `asked` that are within the tolerance */
+    /* number of points of `asked` that are within the tolerance, for each mesh */
     long within[SERIES_MAX_MESHES];
     /* number of points of `asked` where even the finest mesh is not within the tolerance */
     long never;
@@ -881,7 +880,7 @@ typedef struct tally_series {
     int everywhere;
 } tally_series;
 
-/* A field of the map. It covers a range of each axis. */
+/* A field of the map, which covers a range of each axis. */
 typedef struct tally_place {
     long points, other, asked, never; /* other: number of points with another model */
     long proven; /* number of points of `asked` whose reference is a reference value */
@@ -1033,7 +1032,7 @@ status solution_choose(solution_request *, const rule *rules, int count, int ele
  * sweep_free even after a failure. */
 status solution_plan(const solution_request *, sweep *, fault *);
 /* Solves the cell in this process. A cell without a solution counts as a result, except after
- * REFUSED and FAULT. Returns NOT_CONVERGED even if the chosen mesh does not reach the requested
+ * REFUSED and FAULT. Also returns NOT_CONVERGED if the chosen mesh does not reach the requested
  * error. */
 status solution_run(const solution_request *, const solution_choice *, sweep *, fault *);
 

@@ -61,8 +61,8 @@ void batch_clean(const char *folder, const char *name, int gone);
  * position after the last byte of the results. FAULT: the file is truncated, damaged, or not a
  * batch. */
 status batch_open(const char *path, batch_label *out, FILE **from, long *end, fault *f);
-/* Checks that the batch belongs to the work. REFUSED: it does not; the message gives the difference
- * and the path. */
+/* Checks that the batch belongs to the work. REFUSED: the batch does not belong to the work. The
+ * message gives the difference and the path. */
 status batch_belongs(const batch_label *, const shard_work *, const char *path, fault *f);
 
 /* Appends an empty measure and returns it. */
@@ -304,8 +304,8 @@ void dense_reference_round(const cell_request *own, const cell_result *cell, dou
 
 typedef enum beam_analysis { BEAM_LINEAR, BEAM_LARGE, BEAM_BUCKLING, BEAM_VIBRATION } beam_analysis;
 
-/* The beam has a length of 1 m. It lies along x, or along a quarter circle that starts along y and
- * has its centre at the origin. */
+/* The beam has a length of 1 m. The beam lies along x, or along a quarter circle that starts along
+ * y and has its centre at the origin. */
 typedef struct beam_request {
     const formulation *chosen;
     int elements; /* number of elements of equal length */
@@ -563,9 +563,9 @@ void ranges_table_map(FILE *to, const tally *t, int every);
 
 /* Reference of the values at a point: a stored reference value, a reference value computed by a
  * program of reference/derive, or the limit of the meshes of all formulations with the same
- * physics. Among the limits, the one with the smallest uncertainty U is used. Its uncertainty is U
- * or, if larger, the part of its difference from another limit that exceeds the uncertainty of that
- * limit. An uncertainty above half of the tolerance is too large: a reference value is then
+ * physics. Among the limits, the limit with the smallest uncertainty U is used. Its uncertainty is
+ * U or, if larger, the part of its difference from another limit that exceeds the uncertainty of
+ * that limit. An uncertainty above half of the tolerance is too large: a reference value is then
  * ignored, and a limit counts as disputed or, if U itself is too large, as unknown. */
 
 typedef struct point_reference {
@@ -594,8 +594,8 @@ void specimens_each(const formulation *chosen, claims *c, specimens_check *check
  * formulations that run, and the cost of a point. */
 
 /* Sets formulations, meshes, quantities, left_out and point_cost from the scenes of the first
- * point, the last point and some intermediate ones. REFUSED: no scene can be built at these points,
- * no formulation runs, or the selection has an unknown word or selects nothing. */
+ * point, the last point and some intermediate points. REFUSED: no scene can be built at these
+ * points, no formulation runs, or the selection has an unknown word or selects nothing. */
 status survey(parameter_ranges *r, fault *f);
 
 /* Stores the worst points of a sweep as scene files. */

@@ -275,7 +275,6 @@ static void cell_text(const extreme_outcome *o, char *text, size_t size)
     }
 }
 
-/* Returns the width of the cells in the table of an extreme. */
 static int width_of_cells(const extreme *e)
 {
     const int width = (PARAGRAPH_WIDTH - INDENT - NAME_WIDTH - CONDITION_WIDTH) / e->values;

@@ -14,8 +14,8 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
     {"paths", "changes by superposed turns and after closed cycles, 24 steps each", measured_paths},
 };
 
-/* Errors over thickness/length, from 1 to 1e-6. Locking makes them increase as the element becomes
- * thinner. */
+/* Errors over thickness/length, from 1 to 1e-6. Locking makes the errors increase as the element
+ * becomes thinner. */
 
 enum { THICKNESSES = 7, ELEMENTS = 8 };
 
@@ -298,8 +298,8 @@ static double orders_exact_of(const orders_question *q, const section *c, beam_r
     }
 }
 
-/* Returns the index of the finer one of the two finest meshes whose errors exceed rounding; 0:
- * there are no such meshes. */
+/* Returns the index of the finer of the two finest meshes whose errors exceed rounding; 0: there
+ * are no such meshes. */
 static int telling(const element_measure *one)
 {
     int last = 0;

@@ -10,7 +10,7 @@
 /* Writes the scene as the text of a scene file, which the caller frees. REFUSED: a scene file
  * cannot express the scene. */
 static status restart_text(const scene *, char **out, fault *);
-/* Compares the scene with the stored text. REFUSED: they differ; the message gives the first
+/* Compares the scene with the stored text. REFUSED: the texts differ. The message gives the first
  * different line. */
 static status restart_text_check(const char *former, const scene *, fault *);
 

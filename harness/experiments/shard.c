@@ -207,7 +207,7 @@ static status make_list(crew *c, char mine[], fault *f)
     return outcome;
 }
 
-/* Runs the missing batches of the shard. The caller, shard_run, frees *c, even after a failure. */
+/* Runs the missing batches of the shard. The caller shard_run() frees *c, even after a failure. */
 static status run(crew *c, int shard[], char mine[], fault *f)
 {
     const shard_work *w = c->todo.w;

@@ -36,7 +36,7 @@ static void take(solution_request *r, preference *p, solution_choice *why)
     p->change = NULL;
 }
 
-/* Chooses the formulation and the elements. The caller, solution_choose, frees the scene, even
+/* Chooses the formulation and the elements. The caller solution_choose() frees the scene, even
  * after a failure. */
 static status choose(solution_request *r, const rule *rules, int count, int elements, scene *s,
                      solution_choice *why, fault *f)
@@ -201,8 +201,8 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
     return found.doubt <= tolerance / 2 ? found : of_limits(s, series_index, quantity, tolerance);
 }
 
-/* Finds the rows of the request that apply at the point. They are few, so the search for each
- * quantity is short. */
+/* Finds the rows of the request that apply at the point. There are few such rows, so the search for
+ * each quantity is short. */
 static status borrow(const truths *all, const sweep_point *p, known_truths *out, fault *f)
 {
     out->borrowed = 1;

@@ -185,7 +185,8 @@ static void files_case(void *files, const case_type *type)
         json_part_add(&to->part, to->sweep, to->judged);
 }
 
-/* Determines the path of an output file. The name says so if the run was interrupted. */
+/* Determines the path of an output file. If the run was interrupted, the name of the file shows
+ * this. */
 static status name_place(const verification_files *files, const char *path, char out[PATH_MAX],
                          fault *f)
 {
@@ -356,7 +357,8 @@ static int shows_limits(const verification *v)
     return v->asked->verbose || v->asked->cells.select != NULL || v->overview.rows == 1;
 }
 
-/* Prints the matrix, the counts, unexpected results and the conclusion. They fit on one screen. */
+/* Prints the matrix, the counts, unexpected results and the conclusion. The output fits on one
+ * screen. */
 static void print(FILE *to, const verification *v)
 {
     const screen look = screen_of(to);

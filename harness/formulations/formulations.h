@@ -67,7 +67,7 @@ void assignment_value_text(const parameter_type *, double value, char *text, int
 /* returns NULL for an unknown name; the message gives the most similar known name */
 const case_type *case_find(const char *name, fault *f);
 
-/* Moves states of nodes by increments as in the definition of the derivatives of element.h.
+/* Moves states of nodes by increments. The derivatives of element.h refer to such increments.
  * Positions and warping amplitudes are added; rotations are changed by R <- exp(dphi~) R. */
 
 /* Moves x by step[7 nodes] (dr [m], dphi [rad], da [rad/m] of each node). */
@@ -77,9 +77,9 @@ void chart_move(const node_state x[], int nodes, const double step[], node_state
  * strains due to the step do not depend on the length of the beam. */
 double chart_unit(int c, double length);
 
-/* Computes dexp(psi), row-major, in d(exp(psi)) exp(-psi) = dexp(psi) dpsi. This is the spatial
- * increment due to a change of the rotation vector. chart_dexp_inverse computes the inverse for
- * |psi| < 2 pi. */
+/* Computes dexp(psi), row-major, in d(exp(psi)) exp(-psi) = dexp(psi) dpsi. dexp(psi) dpsi is the
+ * spatial increment due to a change of the rotation vector. chart_dexp_inverse computes the inverse
+ * for |psi| < 2 pi. */
 void chart_dexp(const double psi[3], double T[9]);
 void chart_dexp_inverse(const double psi[3], double T[9]);
 
@@ -143,7 +143,7 @@ status formulation_list_add(const char *text, int most, formulation list[], int 
 
 enum { FORMULATIONS_MOST_LOADED = 16 };
 
-/* Returns formulation number i; NULL after the last one. */
+/* Returns formulation number i; NULL: i is too large. */
 const element_type *formulations_at(int i);
 /* Returns the element type with this name; NULL: none. */
 const element_type *formulations_named(const char *name, size_t length);

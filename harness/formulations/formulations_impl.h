@@ -34,7 +34,7 @@ typedef enum child_event {
 enum { PROCESS_PROTOCOL = 1, HANDSHAKE_MOST = 65536 };
 
 typedef struct handshake {
-    element_type type; /* only data members, no functions */
+    element_type type; /* type with data members only, without functions */
     int whole;         /* 1: the process computes the energy, force or tangent of whole elements;
                           0: strains and stresses */
     /* 1: the process computes the inertia of elements; if type.spreads is set, also for transient
@@ -154,12 +154,12 @@ size_t forces_size(const element_data *d);
  * computes. Requires force_many. */
 void forces_evaluate(const element_type *given, gather *, int first, int count);
 
-/* Strains of an element that is defined by its force or energy. They are the positions of its nodes
- * relative to the first node, in the axes of the first node: e = (|d| - undeformed distance, l p, l
- * log(R0^T R_k)) for every other node, and l^2 a for all nodes [m]. Here d = r_k - r_0, and p = (2
- * n_y, 2 n_z)/(1 + n_x) for the direction n of d. p is regular unless the chord points backwards.
- * The distance is a separate strain, because otherwise a stiff chord would need more iterations of
- * the mixed equations than a soft one. */
+/* Strains of an element that is defined by its force or energy. The strains are the positions of
+ * its nodes relative to the first node, in the axes of the first node: e = (|d| - undeformed
+ * distance, l p, l log(R0^T R_k)) for every other node, and l^2 a for all nodes [m]. Here d = r_k -
+ * r_0, and p = (2 n_y, 2 n_z)/(1 + n_x) for the direction n of d. p is regular unless the chord
+ * points backwards. The distance is a separate strain, because otherwise a stiff chord would need
+ * more iterations of the mixed equations than a soft chord. */
 
 enum { PLACES_MOST = 6 * (ELEMENT_MAX_NODES - 1) + ELEMENT_MAX_NODES };
 

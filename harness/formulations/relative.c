@@ -1,6 +1,6 @@
-/* Stresses of an element that is defined by its force or energy. They are the derivatives of the
- * energy with respect to the relative positions of its nodes (formulations_impl.h). The first node
- * is at rest. */
+/* Stresses of an element that is defined by its force or energy. The stresses are the derivatives
+ * of the energy with respect to the relative positions of its nodes (formulations_impl.h). The
+ * first node is at rest. */
 #include "harness/formulations/formulations_impl.h"
 
 #include <math.h>

@@ -82,14 +82,14 @@ BW_API bw_status bw_scene_json(const bw_scene *scene, char **json, char **why);
 BW_API bw_status bw_scene_write(const bw_scene *scene, char **yaml, char **why);
 BW_API void bw_scene_free(bw_scene *scene); /* does nothing for NULL; results remain valid */
 
-/* Performs one run. formulation: as for -f ("beamw:mass=lumped"); NULL: chosen as by `beamwork
- * solve`. elements: number per member; 0: the coarsest mesh whose values differ from those of the
- * previous mesh by at most "error"; NOT_CONVERGED if the finest mesh does not achieve this. options
- * (NULL: none): a JSON object with any of "all_dofs" (true: no degree of freedom is eliminated),
- * "steps" (initial number between stations; the step size adapts), "shapes" (largest number of path
- * states with stored shapes; for a motion the number of instants, at least 60 if 5 or fewer are
- * requested), "threads", "error" (default 0.001). After NOT_CONVERGED, SINGULAR and NO_VALUE *out
- * is a result with the values that were found. */
+/* Performs a run. formulation: in the form of the option -f, such as "beamw:mass=lumped"; NULL:
+ * chosen in the same way as by `beamwork solve`. elements: number per member; 0: the coarsest mesh
+ * on which all values differ from those of the previous mesh by at most "error". NOT_CONVERGED: the
+ * values still change on the finest mesh. options (NULL: none): a JSON object with any of
+ * "all_dofs" (true: no degree of freedom is eliminated), "steps" (initial number between stations;
+ * the step size adapts), "shapes" (largest number of path states with stored shapes; for a motion,
+ * number of times, at least 60 if 5 or fewer are requested), "threads", "error" (default 0.001).
+ * After NOT_CONVERGED, SINGULAR and NO_VALUE *out is a result with the values that were found. */
 BW_API bw_status bw_solve(const bw_scene *scene, const char *formulation, int elements,
                           const char *options, bw_result **out, char **why);
 BW_API void bw_result_free(bw_result *result); /* NULL: nothing */
@@ -136,20 +136,20 @@ BW_API const char *bw_result_shape_kind(const bw_result *result, size_t state);
  * such state. */
 BW_API double bw_result_shape_value(const bw_result *result, size_t state);
 
-/* Compares formulations like `beamwork converge --format json`. formulations: separated by blanks;
- * "all" or NULL: all that support the physics of the scene. meshes: "1,2,4"; NULL: those of the
- * scene. options: "error" (error target of `answers`, default 0.01), "select" (as -k), "jobs"
- * (processes), "stop" (a file descriptor, for example of a pipe: when it becomes readable, the
- * processes end and the call returns TIME_LIMIT). */
+/* Compares formulations in the same way as `beamwork converge --format json`. formulations:
+ * separated by blanks; "all" or NULL: all formulations that support the physics of the scene.
+ * meshes: "1,2,4"; NULL: those of the scene. options: "error" (error target of `answers`, default
+ * 0.01), "select" (in the form of -k), "jobs" (processes), "stop" (a file descriptor, for example
+ * of a pipe: when it becomes readable, the processes end and the call returns TIME_LIMIT). */
 BW_API bw_status bw_converge(const bw_scene *scene, const char *formulations, const char *meshes,
                              const char *options, char **json, char **why);
-/* Computes verdicts like `beamwork verify --json`. scene NULL: all built-in cases; otherwise the
- * case, or the scene file at its defaults and at the points of its reference values. select: as -k,
- * NULL: all. results: an HDF5 file to write, NULL: none. options: "jobs", "time_limit" ([s] of a
- * run, 120), "refine" (number of additional meshes of each series, each with twice the elements),
- * "shapes", "stop", "tolerance" (relative, replaces those of the cases), "not_worse_than" (a
- * results file: larger errors and changed limits fail). Returns OK even if verdicts differ from the
- * expected ones; the document counts these ("unexpected"). */
+/* Computes verdicts in the same way as `beamwork verify --json`. scene NULL: all built-in cases;
+ * otherwise the case, or the scene file at its defaults and at the points of its reference values.
+ * select: in the form of -k; NULL: all. results: HDF5 file to be written; NULL: none. options:
+ * "jobs", "time_limit" ([s] of a run, 120), "refine" (number of additional meshes of each series,
+ * each with twice the elements), "shapes", "stop", "tolerance" (relative, replaces those of the
+ * cases), "not_worse_than" (a results file: larger errors and changed limits fail). Returns OK even
+ * if verdicts differ from the expected ones. The document counts these verdicts ("unexpected"). */
 BW_API bw_status bw_verify(const bw_scene *scene, const char *formulations, const char *select,
                            const char *options, const char *results, char **json, char **why);
 

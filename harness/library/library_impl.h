@@ -75,7 +75,7 @@ typedef struct call_option {
  * of range. */
 status options_read(const char *json, const call_option table[], json_t **kept, fault *f);
 
-/* Data that a bw_scene and its results share. They exist as long as one of these objects exists. */
+/* Data that a bw_scene and its results share. The data exist as long as one of these objects. */
 
 typedef struct source source;
 

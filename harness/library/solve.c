@@ -15,7 +15,7 @@
 
 static source *source_hold(source *); /* adds a reference to the source */
 /* Sets *out to the reference values of a case, or only to the known deviations for a scene file.
- * They are read in the first call. *out is NULL after FAULT. Several threads may call this
+ * The data are read in the first call. *out is NULL after FAULT. Several threads may call this
  * function. */
 static status source_known(source *, const truths **out, fault *f);
 

@@ -69,7 +69,7 @@ static status found_member(model *m, int member, scene_spring *spring, int *used
     const int first = m->mesh.first_element[member], last = m->mesh.nodes - 1;
     member_arc arc;
     TRY(member_arc_of(m->scene, member, 0, &arc,
-                      f)); /* in the axes in which the section is described */
+                      f)); /* the axes are those in which the section is described */
     for (int i = first; i < m->mesh.first_element[member + 1]; i++) {
         const mesh_element *el = &m->mesh.element[i];
         for (int k = 0; k <= last; k++) {

@@ -87,7 +87,7 @@ static int is_tied(const model *m, int node)
     return tied;
 }
 
-/* Sets the arms from the masters of diaphragms. */
+/* Sets the arms of vertices that move with the masters of diaphragms. */
 static void lead_vertices(model *m)
 {
     const scene *s = m->scene;
@@ -357,8 +357,8 @@ static status add_element(model *m, const member_arc *along, int member, int num
     return kind_of(m, &own, profile, a->length * (ends[1] - ends[0]) / each, 0, a->k, &el->kind, f);
 }
 
-/* Returns the warping amplitude of the end of a member: one that is shared by name, a separate one,
- * or none. */
+/* Returns the warping amplitude of the end of a member: an amplitude shared by name, a separate
+ * amplitude, or none. */
 static int end_warp(model *m, int name, int *named)
 {
     if (name == SCENE_WARP_FIXED)

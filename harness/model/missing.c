@@ -11,8 +11,8 @@
 
 /* Largest share of shear in a deflection that may be neglected. A length l whose ends do not rotate
  * deflects by F l^3/(12 EI) in bending and by F l/(kGA) in shear. Their ratio is Phi = 12 EI/(kGA
- * l^2). It is a quarter of Phi for a cantilever, and about n^2 Phi for bending in n half-waves.
- * Above this limit, neglecting shear changes the model instead of approximating it. */
+ * l^2). The ratio is a quarter of Phi for a cantilever, and about n^2 Phi for bending in n
+ * half-waves. Above this limit, neglecting shear changes the model instead of approximating it. */
 static const double largest_phi = 0.01;
 
 /* Box around members that are connected. */

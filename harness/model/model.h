@@ -60,7 +60,7 @@ void model_imperfect_free(model_imperfect *);
 /* Creates the model with this shape, which must outlive the model. */
 status model_imperfect_build(const model *perfect, const model_imperfect *, model **, fault *);
 /* Sets shift[3] to the largest shift of a point of a member in a mode x. If several shifts are
- * equal, the first one is used. */
+ * equal, the first is used. */
 void model_largest_shift(const model *, const double x[], double shift[3]);
 
 typedef struct model_size {
@@ -95,7 +95,7 @@ unsigned model_features(const model *);
 int model_left_out(const model *, const char *const **lines);
 
 /* Returns one line that explains why the results since the last call are invalid
- * (element_type.trouble); NULL: they are valid. */
+ * (element_type.trouble); NULL: the results are valid. */
 const char *model_trouble(const model *);
 
 /* Everything that changes along a path. A copy of the state allows a rejected step to be undone. */
@@ -201,8 +201,8 @@ typedef struct division {
 double division_place(const division *, int member, int number, double x);
 double division_inside(const division *, int member, int number, double place);
 /* Returns the element at a position along a member, and sets *x to the point in the element.
- * Between two elements, the one towards the end of the member is returned or, if `before` is 1, the
- * one towards its start. */
+ * Between two elements, the element towards the end of the member is returned or, if `before` is 1,
+ * the element towards its start. */
 int division_at(const division *, int member, double place, int before, double *x);
 
 /* The mesh of a model, read-only: elements, vertices and their connections. It does not change
@@ -224,9 +224,11 @@ typedef struct mesh_vertex {
     int coordinate[6];  /* global coordinates of a body; NONE: fixed */
     int turned; /* 1: the translations are along the columns of `along`, not along the fixed axes */
     double along[9];
-    int led; /* 1: the vertex moves with the master of a diaphragm, on an arm about its first axis
-              */
-    int leader;    /* the master, also without an arm; NONE for a node: there is none */
+    /* 1: the vertex moves on an arm about the master of a diaphragm; the arm is perpendicular to
+     * the first axis */
+    int led;
+    /* master of the diaphragm, even without an arm; NONE (only for nodes): no diaphragm */
+    int leader;
     double arm[3]; /* [m] across that axis */
     int angles;    /* > 0: the rotation is a sequence of this number of angles about the axes */
     double axis[3][3];
@@ -298,8 +300,8 @@ typedef struct mesh_kind {
     double *inner; /* field_inner if frequencies are requested; NULL: the type computes its mass */
 } mesh_kind;
 
-/* Data that the inline functions below read. They are the first member of every model. Only
- * harness/model sets them. */
+/* Data that the inline functions below read. This structure is the first member of every model.
+ * Only harness/model sets its members. */
 typedef struct model_mesh {
     const element_type *type;                                /* completed by adapters_complete */
     int nodes, coordinates, strains, inner, memory, history; /* numbers per element */
@@ -547,9 +549,9 @@ void discrete_geometric(const model *, const model_state *, const element_rotati
 /* Returns a bound of the rounding error of x^T K x for the material part K. */
 double discrete_material_rounding(const model *, const model_state *, const double x[]);
 /* Functions for dashpots. They compute the deformations of all springs [6 x springs], and their
- * rates for increments dx[free + driven] per unit time. They compute the power [W] that dashpots
- * dissipate. They add the dashpot forces to out[free + driven] or, on the frame of a node, to F[6],
- * and add the damping matrix for small motions to C. */
+ * rates for increments dx[free + driven] per unit time. They also compute the power [W] that
+ * dashpots dissipate. Others add the dashpot forces to out[free + driven] or, on the frame of a
+ * node, to F[6], and add the damping matrix for small motions to C. */
 void dashpots_deformations(const model *, const model_state *, double d[]);
 void dashpots_rates(const model *, const model_state *, const double dx[], double rate[]);
 double dashpots_power(const model *, const double rate[]);
@@ -573,8 +575,8 @@ void dashpots_stressed(const model *, const model_state *, int spring, const dou
 scene_words model_spring_called(const model *, int spring);
 /* Returns the energy of all springs [J]. */
 double discrete_stored(const model *, const model_state *);
-/* Adds the force and moment on a node's frame that hold the discrete elements in the state to F[6:
- * N, N m]. */
+/* Adds to F[6: N, N m] the force and moment on a node's frame that hold the discrete elements in
+ * the state. */
 void discrete_node_force(const model *, const model_state *, const element_rotating_frame *,
                          int node, double F[6]);
 
@@ -730,8 +732,8 @@ void kinematics_turn_matrix(const mesh_vertex *, int n, int at, double K[]);
 void kinematics_gather(const model *m, const model_state *s, const mesh_element *el,
                        node_state x[]);
 void kinematics_position(const model *m, const model_state *s, int vertex, double r[3]);
-/* Computes the derivative of the position of a body that a diaphragm moves with respect to the
- * first angle of the body. */
+/* Computes the derivative of the position of a body moved by a diaphragm with respect to the first
+ * angle of the body. */
 void kinematics_arm(const model *, const model_state *, int vertex, double moved[3]);
 /* Computes the displacement of the body if this angle increases by `more` from the state. */
 void kinematics_swing(const model *, const model_state *, int vertex, double more, double by[3]);
@@ -783,8 +785,8 @@ unsigned missing_omits(const scene *, const element_type *);
 void missing_omit_words(unsigned omits, char words[OMIT_WORDS]);
 
 /* Names the features that the scene requires and that the type supports in one direction only
- * (element_lack). Returns 0: there are none; 1: they are negligible, and printed but not rejected;
- * 2: missing_words names them as well. */
+ * (element_lack). Returns 0: there are no such features; 1: the features are negligible, and are
+ * printed but not rejected; 2: missing_words also names the features. */
 int lacks_of(const scene *, const element_type *, char *words, int size);
 
 /* Members of the state of a model, for functions that advance it. */
@@ -943,8 +945,8 @@ void supports_rigid(const double position[3], double length, double G[36]);
 /* Sets out[6 x 6] to the sum of squares of the motions about the origin that the supports of a node
  * prevent. */
 void supports_prevented(const model *, int node, const double origin[3], double out[36]);
-/* Adds the squares of the motions that springs between the part and the ground prevent to sum[6 x
- * 6], whatever the stiffness of the springs is. */
+/* Adds to sum[6 x 6] the squares of the motions that springs between the part and the ground
+ * prevent. The stiffness of the springs has no effect. */
 void supports_add_springs(const model *, const int part[], int root, const double origin[3],
                           double sum[36]);
 

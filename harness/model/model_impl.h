@@ -50,11 +50,11 @@ status profile_members(model *m, int *sections, fault *f);
 
 /* Returns the number of released ends of all members. */
 int release_count(const scene *);
-/* Creates the vertices of released ends. They are created together with the elements. */
+/* Creates the vertices of released ends, together with the elements. */
 status release_build(model *, fault *);
 
-/* Adds the motion of the end relative to its node due to the increment dx of its released
- * coordinates to d[6]. */
+/* Adds to d[6] the motion of the end relative to its node due to the increment dx of its released
+ * coordinates. */
 void release_add_local(const model *, const model_state *, int vertex, const double dx[],
                        double d[6]);
 /* Transforms T[6 x count] of the node to the T of the end. The columns of released coordinates
@@ -106,8 +106,8 @@ void member_arc_at(const member_arc *a, double s, double position[3], double R[9
 
 /* Members of a model that only harness/model uses. */
 
-/* A tracked rotation vector of a node's frame. It is relative to the frame of another node (NONE:
- * to the fixed frame). */
+/* A tracked rotation vector of a node's frame. The vector is relative to the frame of another node
+ * (NONE: to the fixed frame). */
 typedef struct mesh_turn {
     int from, node;
 } mesh_turn;

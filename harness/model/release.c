@@ -175,7 +175,7 @@ status release_build(model *m, fault *f)
             if (!is_own(&m->scene->member[i], end))
                 continue;
             TRY(member_arc_of(imperfect_lines(m), i, 0, &axis,
-                              f)); /* in the axes in which the section is described */
+                              f)); /* the axes are those in which the section is described */
             member_arc_at(&axis, end * axis.length, position, R);
             imperfect_move(m, i, end, position, R);
             add_end(m, i, end, R);

@@ -109,7 +109,7 @@ static int count_bits(unsigned bits)
     return count;
 }
 
-/* Sets the motions to those of whole components. */
+/* Sets the motions to translations and rotations along single components. */
 static void set_whole(unsigned components, movable *out)
 {
     memset(out, 0, sizeof *out);
@@ -252,7 +252,7 @@ void supports_prevented(const model *m, int node, const double origin[3],
         out[i] = (G[i] - out[i]) * (i / SUPPORTS_N < 3 ? 1 : m->size);
 }
 
-/* Adds the squares of the motions that the supports of a node prevent to `sum`. */
+/* Adds to `sum` the squares of the motions that the supports of a node prevent. */
 static void add_supports(const model *m, int node, const double origin[3],
                          double sum[SUPPORTS_N * SUPPORTS_N])
 {

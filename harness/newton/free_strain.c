@@ -1,7 +1,7 @@
-/* Stress-free strains of elements, in addition to the strains of the undeformed state. They are due
- * to temperatures and to initial strains of members. For all formulations, they are the strains
- * D(x) of a free element, and the strains of a state are measured from them. A type whose stresses
- * also depend on the total curvature provides element_type.unstressed. */
+/* Stress-free strains of elements, in addition to the strains of the undeformed state. Their causes
+ * are temperatures and initial strains of members. For all formulations, the stress-free strains
+ * are the strains D(x) of a free element, and the strains of a state are measured from them. A type
+ * whose stresses also depend on the total curvature provides element_type.unstressed. */
 #include "harness/newton/newton_impl.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ static int are_same(const double a[AMOUNTS], const double b[AMOUNTS])
     return a[ELONGATION] == b[ELONGATION] && a[ABOUT_Y] == b[ABOUT_Y] && a[ABOUT_Z] == b[ABOUT_Z];
 }
 
-/* Adds the strain due to a temperature on the part of the element that it heats. */
+/* Adds the strain due to a temperature load on its part of the element. */
 static void add_amounts(const model *m, int element, const scene_load *load, double scale,
                         double out[AMOUNTS])
 {

@@ -71,8 +71,8 @@ double linear_initial(const model *m)
     return largest;
 }
 
-/* Adds `times` the stresses due to the temperatures at `path` in elements with fixed nodes to
- * sigma. */
+/* Adds to sigma the stresses due to the temperatures at `path` in elements with fixed nodes,
+ * multiplied by `times`. */
 static status add_free(const equations *eq, double path, double times, double sigma[], fault *f)
 {
     const model *m = eq->m;
@@ -446,7 +446,7 @@ static status refine(analysis_context *c, linear_system *s, system_workspace *w,
     return state == REFINEMENT_ENDS ? STATUS_OK : refinement_refuse(&r, "the linear solution", f);
 }
 
-/* Solves for x with iterative refinement. The caller, linear_system_solve, frees *w, even after a
+/* Solves for x with iterative refinement. The caller linear_system_solve() frees *w, even after a
  * failure. */
 static status solve(analysis_context *c, linear_system *s, double path, system_workspace *w,
                     double x[], fault *f)

@@ -116,7 +116,7 @@ static int count_half_waves(int vertices, const double *value)
 typedef struct motion {
     int points, first_member; /* number of points of all members, and of the first member */
     double *part;             /* [points x MEASURES] */
-    double *turn;             /* components of rotations and warping amplitudes */
+    double *turn;             /* rotations and warping amplitudes */
 } motion;
 
 static int points_of(const model *m, const scene *s)
@@ -342,7 +342,7 @@ static status separate_cluster(const model *m, const scene *s, int count, size_t
     return STATUS_OK;
 }
 
-/* Returns the index after the last value that equals the first one. */
+/* Returns the index after the last value that equals the first value. */
 static int cluster_end(int first, int count, const double value[])
 {
     const double equal = 1e-8; /* relative difference of equal values */

@@ -233,7 +233,7 @@ static status direction(newton_run *n, double path, step_record *record, fault *
     return STATUS_OK;
 }
 
-/* Returns 1 if the state is the undeformed one without stresses, although members have strains or
+/* Returns 1 if the state is the undeformed state without stresses, although members have strains or
  * temperatures. */
 static int is_unstressed(const newton_run *n)
 {

@@ -282,10 +282,10 @@ typedef struct outcome_instant {
 /* Extremum or crossing of a quantity during a motion, at any time of a step. */
 enum {
     PASSING_LOST = 2, /* a rotation vector has lost its direction (harness/model/model.h) */
-    PASSING_UNSOLVED  /* an instant inside a step has no solution */
+    PASSING_UNSOLVED  /* no solution was found at an instant inside a step */
 };
 typedef struct outcome_passing {
-    int known;    /* 1: the value is known; 0: there is no value; or one of the above */
+    int known; /* 1: the value is known; 0: there is no value; or PASSING_LOST, PASSING_UNSOLVED */
     double value; /* value before factor and offset, time [s], or number of crossings per second */
     double time;  /* [s] time of a maximum or minimum */
     double error; /* estimated error due to interpolation between the ends of steps */
@@ -513,13 +513,15 @@ typedef struct linear_model {
 typedef struct reduced_model {
     linear_model of;
     triplets T;
-    int requested;           /* number of modes requested, and the larger number taken so that */
-    int taken;               /* ... modes with the same frequency stay together */
-    int modes;               /* natural frequencies [Hz]: ... */
-    double *whole, *reduced; /* ... [modes] */
-    /* [outputs x inputs] largest difference of transfer functions at the frequencies of a harmonic
-     * analysis in SI units, the same relative to the largest value (NAN: the function of the full
-     * model is zero, apart from round-off), and its frequency [Hz]; NULL: no harmonic analysis */
+    int requested; /* number of requested modes */
+    /* number of modes in T, which is larger if `requested` would separate equal frequencies */
+    int taken;
+    int modes; /* number of natural frequencies */
+    /* [modes] natural frequencies [Hz] of the full and of the reduced model */
+    double *whole, *reduced;
+    /* [outputs x inputs] largest difference of the transfer functions at the frequencies of a
+     * harmonic analysis: in SI units; relative to the largest value (NAN: the function of the full
+     * model is zero, apart from rounding); and its frequency [Hz]. NULL: no harmonic analysis. */
     double *difference, *apart, *at;
 } reduced_model;
 
@@ -656,8 +658,8 @@ const char *result_stability_name(step_stability);
 int result_is_unstable(step_stability);
 
 typedef struct step_record {
-    int analysis;             /* index in the scene */
-    step_stability stability; /* stability at the end of the step */
+    int analysis; /* index in the scene */
+    step_stability stability;
     double path, increment;
     int iterations, rejected,
         negative_pivots; /* rejected: number of longer steps that failed before this step */
@@ -788,15 +790,15 @@ analysis_context context_under(const analysis_context *, int acting);
 analysis_context context_unloaded(const analysis_context *);
 /* Factors K numerically, and records a failure. */
 status context_factor(analysis_context *, matrix_factor *, const sparse *K, fault *);
-/* Returns REFUSED if the factored matrix is not symmetric; The message says that the result `what`
+/* Returns REFUSED if the factored matrix is not symmetric. The message says that the result `what`
  * requires symmetry. */
 status context_symmetric(const matrix_factor *, const char *what, fault *f);
 /* Updates the counters with the condition estimate of a matrix that has just been factored, if the
  * options request the condition. */
 void context_count_condition(const analysis_context *, matrix_factor *, const sparse *K);
-/* Adds the work of a solution with a factor to the counters. fresh 0: the numeric factors are those
- * of an earlier solution. *counted: number of factorisations of this factor in the counters, which
- * is updated. */
+/* Adds to the counters the work of a solution with a factor. fresh 0: the numeric factors are those
+ * of an earlier solution. *counted: number of factorisations of this factor that the counters
+ * include; updated by the function. */
 void context_count_solution(const analysis_context *, const matrix_factor *, int fresh,
                             long *counted);
 /* Adds the work of an eigenvalue problem to the counters. */
@@ -897,11 +899,11 @@ double loads_driver_value(const equations *, const scene_driver *d, double path)
 /* Computes the value and its first two derivatives during a motion. At the end of a piece, they are
  * those of the next piece. A driver without a function of time keeps its last value. */
 void loads_driver_rates(const equations *, const scene_driver *d, double path, double out[3]);
-/* Adds the forces of the load times `scale` in a state to out[free + driven]. */
+/* Adds to out[free + driven] the forces of the load in a state, multiplied by `scale`. */
 void loads_add_one(const equations *, const model_state *, const scene_load *, double scale,
                    double out[]);
-/* Adds the forces that a temperature load times `scale` exerts on nodes that are fixed in the
- * positions of a state to out[free + driven]. */
+/* Adds to out[free + driven] the forces that a temperature load exerts on nodes that are fixed in
+ * the positions of a state, multiplied by `scale`. */
 void loads_add_temperature(const equations *, const model_state *, const scene_load *, double scale,
                            double out[]);
 /* Computes the derivative of the loads with respect to the path parameter in a state: out[free +
@@ -978,8 +980,8 @@ status linearise_make_compatible(const equations *, model_state *, fault *);
  * the state: F[6] [N, N m]. sigma: as for internal_state. */
 void linearise_node_force(const equations *, const model_state *, const double sigma[], int node,
                           double F[6]);
-/* Adds the forces in equilibrium with the stresses of the listed elements and of all springs to
- * out[free + driven]. */
+/* Adds to out[free + driven] the forces in equilibrium with the stresses of the listed elements and
+ * of all springs. */
 void linearise_add_internal(const equations *, const model_state *, int elements,
                             const int element[], double out[]);
 
@@ -997,12 +999,12 @@ int chunk_next(const model *m, int first, int end, unsigned char done[], int ind
 
 /* Stiffness of a moment m on a node that rotates, by convention. K: the stiffness of the
  * exponential chart R = exp(theta~) R0, in which the generalized moment of theta is constant.
- * Semitangential: K; the moment follows half of the rotation, m + theta x m/2, and has a potential
- * (Argyris et al. 1979). Spatial: K - m~/2 on the rotations; the moment has fixed axes, and the
+ * Semitangential: K. The moment follows half of the rotation, m + theta x m/2, and has a potential
+ * (Argyris et al. 1979). Spatial: K - m~/2 on the rotations. The moment has fixed axes, and the
  * matrix is not symmetric. Symmetrised: the symmetric part of the spatial stiffness; K itself if
- * all other loads have a potential. A tangent uses one of the first two conventions: the spatial
- * one at a node that is fixed about one axis only, whose moment keeps its direction
- * (coordinates_held_turn), else the semitangential one. */
+ * all other loads have a potential. A tangent uses the spatial convention at a node that is fixed
+ * about one axis only, whose moment keeps its direction (coordinates_held_turn). It uses the
+ * semitangential convention at all other nodes. */
 
 /* Returns 1 if the convention changes the stiffness given by the tangent. In this case, each column
  * of the compliance depends on all other columns. */
@@ -1085,8 +1087,8 @@ typedef struct internal_state {
 
 /* Inertia forces of one element in a motion. */
 typedef struct internal_inertia {
-    /* adds the inertia forces of the masses that are lumped at the first and at the last node of
-     * the element to ends[2][7] */
+    /* adds to ends[2][7] the inertia forces of the masses that are lumped at the first and at the
+     * last node of the element */
     void (*ends)(const void *context, int element, double ends[2][7]);
     /* density[nodes][force, moment about the node's frame]: inertia force per initial length, in
      * global axes, of evenly distributed mass that has the motion of each node */
@@ -1141,7 +1143,8 @@ status internal_stress_at(const equations *, const internal_state *, const inter
 status internal_stress_largest(const equations *, const internal_state *, int member,
                                stress_measure, double *out, fault *);
 
-/* Subtracts the free strains from e[strains], the strains due to the positions of the nodes. */
+/* Subtracts the free strains from e[strains], which contains the strains due to the positions of
+ * the nodes. */
 void free_strain_subtract(const equations *, int element, double path, double e[]);
 /* Returns the data for the stresses of an element: the data of its kind, or the data that its type
  * has modified. The data are valid until the next call for the element. */
@@ -1247,7 +1250,7 @@ void newton_advance(newton_run *, double path, newton_correction *);
 /* Returns NOT_CONVERGED if the initial rise of a curved element exceeds the range of the
  * formulation. */
 status newton_judge_rest(const model *m, fault *f);
-/* Compares an accepted state with the previous one. NOT_CONVERGED: the message names an element
+/* Compares an accepted state with the previous state. NOT_CONVERGED: the message names an element
  * that rotates beyond the range of its formulation, a spring whose rotation vector has lost its
  * direction, or a prescribed coordinate that moves too far in one step. If the rotation vector of a
  * node loses its direction, it is NaN from then on. */
@@ -1333,17 +1336,17 @@ int quantity_curve(quantity_result *, int points);
 /* Stopping criterion of iterative refinement of a linear solution, and the resulting accuracy.
  *
  * Residuals come from element strains. If the factors have a relative error q (about eps times the
- * condition of K), every correction is q times the previous one, until rounding of the forces
- * limits the corrections (N.J. Higham, Accuracy and Stability of Numerical Algorithms (2002),
- * section 12.1): x is then the solution for loads rounded in their last digit, and the correction
- * is its error. This level depends on the problem, not on the mesh or on K. Example: a bar of
- * length L is pushed along an oblique axis, so the components of the force are rounded; the
- * transverse displacement eps P L^3/(3 EI) is eps (L/r)^2/3 relative to P L/(EA). Measured with
- * square bars of side L/10 to L/1e5, 1 to 256 elements, three oblique axes and every formulation:
- * at most 2.5 eps (L/side)^2 where this exceeds the rounding due to the mesh (170 times that for
- * the geometrically exact element, whose factors are the worst). The accuracy does not depend on
- * the condition, which ranges from 1 to 2e16; q ranges from 0 to 0.08 (0.8 for the geometrically
- * exact element). */
+ * condition of K), every correction is q times the previous correction, until rounding of the
+ * forces limits the corrections (N.J. Higham, Accuracy and Stability of Numerical Algorithms
+ * (2002), section 12.1). In this case, x is the solution for loads rounded in their last digit, and
+ * the correction is its error. This level depends on the problem, not on the mesh or on K. For
+ * example, a bar of length L is pushed along an oblique axis, so the components of the force are
+ * rounded. The transverse displacement eps P L^3/(3 EI) is eps (L/r)^2/3 relative to P L/(EA). For
+ * square bars with sides from L/10 to L/1e5, 1 to 256 elements, three oblique axes and every
+ * formulation, the measured level is at most 2.5 eps (L/side)^2 where this value exceeds the
+ * rounding due to the mesh. The geometrically exact element, whose factors are the worst, reaches
+ * 170 times this value. The accuracy does not depend on the condition, which ranges from 1 to 2e16;
+ * q ranges from 0 to 0.08 (0.8 for the geometrically exact element). */
 
 typedef enum refinement_state {
     REFINEMENT_GOES_ON,
@@ -1358,8 +1361,8 @@ typedef struct solution_refinement {
 } solution_refinement;
 
 /* Decides from the relative size of a correction whether the refinement continues. At least two
- * corrections follow the first one. More corrections follow if their size is at least halved every
- * time and the accuracy is insufficient. */
+ * corrections follow the first correction. More corrections follow if their size is at least halved
+ * every time and the accuracy is insufficient. */
 refinement_state refinement_next(solution_refinement *, double correction);
 
 /* A frame that rotates at a constant rate. */

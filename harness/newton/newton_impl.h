@@ -126,14 +126,14 @@ typedef struct distributed_taken {
 } distributed_taken;
 /* Computes *out for the loads at `path`. out->acts is 0 if there are no such loads. */
 void distributed_take(const equations *, int element, double path, distributed_taken *out);
-/* Adds the part of the loads that J^T sigma does not contain to forces[14], and subtracts its
+/* Adds to forces[14] the part of the loads that J^T sigma does not contain, and subtracts its
  * derivative from K[14 x 14]. Both follow from `out`. gap[strains]: D(x) - e. */
 void distributed_add_taken(const model *, const along_output *out, const double J[],
                            const double gap[], double forces[], double K[]);
 
-/* Adds the forces of a load along a member on one of its elements, times `scale`, to forces[7
- * nodes], and subtracts their derivative from K[7 nodes x 7 nodes] (may be NULL). Returns 0 if the
- * load exerts no force on the element. If the element includes the load in its equilibrium, the
+/* Adds to forces[7 nodes] the forces of a load along a member on one of its elements, multiplied by
+ * `scale`. Subtracts their derivative from K[7 nodes x 7 nodes], which may be NULL. Returns 0 if
+ * the load exerts no force on the element. If the element includes the load in its equilibrium, the
  * added forces are their derivative with respect to the load, and K does not change. */
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
@@ -189,7 +189,7 @@ status loads_have_potential(const equations *eq, const model_state *s, double pa
  * of these moments differ by the reaction moment R: K_ij += R/2, K_ji -= R/2, with h, i, j in
  * cyclic order. */
 void linearise_add_held_moments(const equations *eq, const model_state *s, double path, sparse *K);
-/* Checks that no such reaction moment exists. REFUSED: it exists, and it has no potential. */
+/* Checks that no such reaction moment exists. REFUSED: the moment exists, and has no potential. */
 status linearise_held_have_potential(const equations *eq, const double sigma[], double path,
                                      fault *f);
 
@@ -232,9 +232,9 @@ void chunk_evaluate(const equations *eq, const linear_memory *memory, const mode
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
                              double energy, fault *f);
 
-/* Stress-free strains of elements, in addition to the strains of the undeformed state. They are due
- * to temperatures, which are loads, and to initial strains of members. Either the strains of a
- * state are measured from the stress-free strains, or stresses are computed with element data that
+/* Stress-free strains of elements, in addition to the strains of the undeformed state. Their causes
+ * are temperatures, which are loads, and initial strains of members. Either the strains of a state
+ * are measured from the stress-free strains, or stresses are computed with element data that
  * include them. In both cases, stresses depend on the mechanical strains. */
 
 /* Adds the free strain: the elongation, and the curvatures about the principal axes. */
@@ -263,8 +263,8 @@ status linear_growing_stresses(const equations *, const double x[], double path,
                                fault *);
 void linear_forces(const equations *, const double sigma[],
                    double f[]); /* computes f[free + driven] = sum J^T sigma */
-/* Quadratic forms from the element strains. They avoid the cancellation in x^T (K x): the error is
- * eps n^2 instead of eps n^4. */
+/* Quadratic forms from the element strains. These forms avoid the cancellation in x^T (K x): the
+ * error is eps n^2 instead of eps n^4. */
 /* returns x^T K x = sum (J x)^T S (J x) */
 double linear_strain_energy2(const equations *, const double x[]);
 double linear_strain_rounding(const equations *,
@@ -532,8 +532,8 @@ enum { SYMMETRIC_MOST = 14 };
 /* Computes inverse[n x n]. Returns the number of negative eigenvalues, or -1 if A is singular. */
 int symmetric_inverse(int n, const double A[], double inverse[]);
 
-/* Derivatives of elements in the undeformed state. They do not change, so they are evaluated once
- * and stored. */
+/* Derivatives of elements in the undeformed state, which do not change. They are evaluated once and
+ * stored. */
 
 /* Derivatives of an element: de/dx [strains x 7 nodes] and dsigma/de [strains x strains]. For a
  * member with initial strains, also the first-order stresses [strains] of the element with fixed

@@ -18,11 +18,11 @@
 static const double small = 1e-8;
 static const double many_elements =
     1e4; /* number of elements above which `small` increases in proportion to it */
-/* It has also converged after a correction below `arrival_near` if the predicted size of the next
- * correction is negligible. */
+/* Newton's method has also converged after a correction below `arrival_near` if the predicted size
+ * of the next correction is negligible. */
 static const double arrival_near = 1e-6, negligible = 1e-15;
-/* It has also converged after a correction below `rounding`, whose square is negligible even if
- * stresses are 1e10 times as sensitive. */
+/* Newton's method has also converged after a correction below `rounding`, whose square is
+ * negligible even if stresses are 1e10 times as sensitive. */
 static const double rounding = 1e-12;
 /* Corrections above this limit need not converge quadratically. */
 static const double quadratic = 0.1;

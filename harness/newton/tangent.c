@@ -217,8 +217,8 @@ static status refine(const equations *eq, node_tangent *t, const bordered *s, co
     return STATUS_OK;
 }
 
-/* Computes the columns of C due to unit loads on the requested components that can move. The
- * caller, tangent_compliance, frees the memory. */
+/* Computes the columns of C due to unit loads on the requested components that can move. The caller
+ * tangent_compliance() frees the memory. */
 static status respond_all(const equations *eq, node_tangent *t, bordered *s, unsigned wanted,
                           unsigned components, double C[36], fault *f)
 {

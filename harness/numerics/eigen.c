@@ -89,8 +89,8 @@ static status solve_densely(candidates *up, candidates *down, const int wanted[2
     return eigen_dense_add((candidates *[]){up, down}, wanted, f);
 }
 
-/* Adds candidates until the inertia proves that no eigenvalue above the last requested one is
- * missing. */
+/* Adds candidates until the inertia proves that no eigenvalue above the last requested eigenvalue
+ * is missing. */
 static status fill(candidates *p, int wanted, double scale, double least, eigen_result *r, fault *f)
 {
     int exist;
@@ -249,7 +249,7 @@ static status find(const eigen_problem *e, candidates *up, candidates *down, eig
     return one_sparse(down, 1, e->smallest, &r->negative, r, f);
 }
 
-/* Solves for both sides. The caller, eigen_solve, frees the candidates, even after a failure. */
+/* Solves for both sides. The caller eigen_solve() frees the candidates, even after a failure. */
 static status solve(const eigen_problem *e, candidates *up, candidates *down, eigen_result *r,
                     fault *f)
 {

@@ -299,7 +299,7 @@ static void fill(const sparse *K, const sparse *M, const sparse *G, double omega
         }
 }
 
-/* Counts the negative eigenvalues. The caller, gyroscopic_count, frees *doubled and *factors, even
+/* Counts the negative eigenvalues. The caller gyroscopic_count() frees *doubled and *factors, even
  * after a failure. */
 static status count(const sparse *K, const sparse *M, const sparse *G, double omega,
                     sparse *doubled, matrix_factor **factors, int *below, fault *f)

@@ -9,7 +9,8 @@
 
 enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
 
-/* relative to x^H K x; the relative error of a frequency is the square of the residual */
+/* limits of residuals relative to x^H K x; the relative error of a frequency is the square of the
+ * residual */
 static const double good_residual = 1e-8, bearable_residual = 1e-5;
 /* A pair need not converge if rounding changes its residual by more than this limit. Its mass is
  * then a rounding error of the largest mass. */
@@ -18,8 +19,8 @@ static const double no_digits = 1e-7;
  * others, or below near_zero times the square of the rate of G. The shift is then away_from_zero
  * times these values. */
 static const double near_zero = 1e-4, away_from_zero = 1e-2;
-/* If all pairs have been found, the ratio of any other frequency to the last one found is at least
- * this value. */
+/* If all pairs have been found, the ratio of any other frequency to the last frequency found is at
+ * least this value. */
 static const double far = 1e3;
 
 typedef struct gyroscopic_solver {
@@ -179,8 +180,8 @@ static int unaccounted(const gyroscopic_solver *s)
            gyroscopic_index_of(&s->pairs, &s->basis, s->shift, s->found).negative;
 }
 
-/* Checks the first `last` pairs for an indefinite K, by a count below the gap that follows them. A
- * failed count proves nothing. */
+/* Checks the first `last` pairs for an indefinite K, by a count below the gap that follows them. If
+ * the count fails, does not set *number. */
 static status prove(gyroscopic_solver *s, int last, status counted, int below, int *number)
 {
     const gyroscopic_index found = gyroscopic_index_of(&s->pairs, &s->basis, s->shift, last);
@@ -378,7 +379,7 @@ static status find(gyroscopic_solver *s, fault *f)
     return hand_over(s, f);
 }
 
-/* Finds the modes. The caller, gyroscopic_solve, frees *s, even after a failure. */
+/* Finds the modes. The caller gyroscopic_solve() frees *s, even after a failure. */
 static status solve(gyroscopic_solver *s, fault *f)
 {
     const gyroscopic_problem *p = s->p;

@@ -146,7 +146,7 @@ static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, d
     return STATUS_OK;
 }
 
-/* Runs the iteration. The caller, lanczos_largest, frees *w, even after a failure. */
+/* Runs the iteration. The caller lanczos_largest() frees *w, even after a failure. */
 static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, int *found,
                     double mu[], double **x, long *solutions, fault *f)
 {

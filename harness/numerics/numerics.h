@@ -54,7 +54,7 @@ typedef struct factor_counts {
     double flops;        /* of one numeric factorisation */
     long factorisations; /* number of numeric factorisations so far */
     int negative_pivots; /* number of negative pivots of a symmetric matrix; otherwise -1 */
-    double asymmetry;    /* for a matrix with by_numbers: largest |a_ij - a_ji|/sqrt|a_ii a_jj| */
+    double asymmetry;    /* largest |a_ij - a_ji|/sqrt|a_ii a_jj| of a matrix with by_numbers */
     int determinant;     /* sign of the determinant */
     double condition;    /* inexpensive estimate of the condition number, max|d|/min|d| */
 } factor_counts;
@@ -143,7 +143,7 @@ typedef struct eigen_side {
     /* NOT_CONVERGED: the iteration ended before the requested eigenvalues were proved to be
      * complete */
     status status;
-    /* reason for NOT_CONVERGED; the values found are still the first ones of their side */
+    /* reason for NOT_CONVERGED; the values found are still the first values of their side */
     char reason[FAULT_TEXT];
 } eigen_side;
 
@@ -384,7 +384,7 @@ status second_order_reduce(const second_order *, const char edge[], int *modes, 
 status second_order_frequencies(const second_order *, double hertz[], fault *);
 /* Computes the transfer functions from u to y at a circular frequency: out[outputs x inputs x 2],
  * real and imaginary parts. kind[n + motions]: small numbers, equal for coordinates with the same
- * unit, for rounding[outputs x inputs], an estimate of the round-off; or NULL. */
+ * unit, for rounding[outputs x inputs], an estimate of the rounding errors; or NULL. */
 status second_order_transfer(const second_order *, double w, double out[], const char kind[],
                              double rounding[], fault *);
 

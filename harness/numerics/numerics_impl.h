@@ -108,8 +108,8 @@ static const double ritz_imaginary = 1e-7;
 
 status ritz_alloc(ritz *r, int room, const subspace *b, fault *f);
 void ritz_free(ritz *r);
-/* Solves with S = K. The problem is Hermitian, and every lambda is imaginary. The positive ones are
- * returned. */
+/* Solves with S = K. The problem is Hermitian, and every lambda is imaginary. Only values with a
+ * positive imaginary part are returned. */
 status ritz_hermitian(const subspace *b, ritz *r, fault *f);
 /* Solves with S = K + shift M. */
 status ritz_general(const subspace *b, double shift, ritz *r, fault *f);
@@ -217,7 +217,7 @@ typedef struct lanczos_problem {
 
 /* Computes `wanted` <= n - known - 1 eigenvalues mu[wanted] in descending order and their
  * K-orthonormal vectors (*x)[wanted x n], which the caller frees. *found: number of values that
- * have converged, at least one. It is smaller than `wanted` if the iteration ends early. */
+ * have converged, at least one. *found is smaller than `wanted` if the iteration ends early. */
 status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
                        long *solutions, fault *f);
 

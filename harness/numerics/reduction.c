@@ -28,7 +28,9 @@ typedef struct reduction {
     double *V;    /* [columns x n] */
     double *r;    /* [motions x n] static deflection shapes due to unit prescribed motions */
     int columns;
-    int modes; /* in V: those requested, and those with the same frequency as the last one */
+    /* number of modes in V: the requested modes, and modes with the same frequency as the last
+     * requested mode */
+    int modes;
 } reduction;
 
 static double symmetric(const second_order *m, const double A[], int i, int j)
@@ -58,8 +60,8 @@ static status decompose(reduction *b, fault *f)
 }
 
 /* Checks that the number of modes does not exceed the number of coordinates with mass, apart from
- * round-off. Modes with the same frequency are kept together: one mode of a pair has an arbitrary
- * direction, which would couple planes that are independent. */
+ * rounding errors. Modes with the same frequency are kept together: one mode of a pair has an
+ * arbitrary direction, which would couple planes that are independent. */
 static status take_modes(reduction *b, int modes, fault *f)
 {
     const double same = 1e-6; /* relative difference of frequencies */

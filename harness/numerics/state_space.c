@@ -229,7 +229,7 @@ static int relative(const split *s, double L[], double G[])
     for (size_t i = 0; i < p; i++) {
         const double whole = s->K[i * n + i] + s->shift * s->M[i * n + i];
         if (s->shift == 0 && !(G[i * p + i] * G[i * p + i] > 1e-13 * (double)p * whole))
-            return 0; /* only round-off remains */
+            return 0; /* only rounding errors remain */
         for (size_t j = i + 1; j < p; j++)
             G[i * p + j] = 0; /* below the diagonal */
     }
@@ -337,8 +337,8 @@ static status find_modes(split *s, fault *f)
     return STATUS_OK;
 }
 
-/* Adds `times` the force in the equation of coordinate r, without inertia, to the row to[states +
- * inputs]: F - C q' - K q. */
+/* Adds to the row to[states + inputs] the force F - C q' - K q in the equation of coordinate r,
+ * without inertia, multiplied by `times`. */
 static void force_on(const split *s, size_t r, double times, const double *slow_rows, double to[])
 {
     const second_order *m = s->of;

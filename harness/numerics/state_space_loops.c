@@ -21,7 +21,7 @@ typedef struct closing {
     double *u;   /* [loops x wide] */
 } closing;
 
-/* Adds `times` row y of the outputs of the open loops to the row to[wide]. */
+/* Adds to the row to[wide] row y of the outputs of the open loops, multiplied by `times`. */
 static void add_output(const closing *c, int y, double times, double to[])
 {
     const size_t states = (size_t)c->of->states, inputs = (size_t)c->inputs;
@@ -31,8 +31,8 @@ static void add_output(const closing *c, int y, double times, double to[])
         to[states + 2 * (size_t)c->loops + j] += times * c->of->D[(size_t)y * inputs + j];
 }
 
-/* Adds `times` the contribution of the loops through the inputs to the row to[wide]. by_input: row
- * of B or D [inputs]. */
+/* Adds to the row to[wide] the contribution of the loops through the inputs, multiplied by `times`.
+ * by_input: row of B or D [inputs]. */
 static void add_loops(const closing *c, const double by_input[], double times, double to[])
 {
     for (int l = 0; l < c->loops; l++)

@@ -1,4 +1,4 @@
-/* Transfer functions of linear models, with a bound of their round-off. */
+/* Transfer functions of linear models, with a bound of their rounding errors. */
 #include <complex.h>
 #include <float.h>
 #include <lapacke.h>

@@ -275,7 +275,6 @@ static void gather_coverages(const gathering *g, const case_type *of, subjects *
                 }
 }
 
-/* Returns 1 if the list contains a formulation with this key. */
 static int has_formulation(const subjects *list, const char *key)
 {
     int i = 0;

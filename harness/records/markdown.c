@@ -139,8 +139,8 @@ static void write_row(FILE *to, const overview *o, int row)
     fprintf(to, " |\n");
 }
 
-/* Lists the cases without a row: either cases in which something was evaluated, or cases in which
- * nothing was evaluated. */
+/* Lists the cases without a row. Cases in which values were evaluated and cases in which no value
+ * was evaluated are listed separately. */
 static void write_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     int named = 0;
@@ -174,7 +174,7 @@ static void write_overview(FILE *to, const overview *o)
     write_legend(to, o);
 }
 
-/* Returns 1 if something was computed at the point. */
+/* Returns 1 if a cell was computed at the point. */
 static int is_run(const sweep *s, int point)
 {
     for (int i = 0; i < s->seriess; i++)

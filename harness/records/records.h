@@ -47,8 +47,8 @@ int assumptions_at(const sweep_point *p, int index, assumption *out);
 void assumptions_words(const sweep_point *p, size_t size, char out[]);
 
 /* Results of a stored run: errors and work of each cell, and a summary of each series of meshes.
- * They are read from results.h5 or from the short table of the run, which is small enough to be
- * committed. */
+ * The results are read from results.h5 or from the short table of the run, which is small enough to
+ * be committed. */
 
 typedef enum results_work {
     WORK_ITERATIONS,
@@ -68,7 +68,7 @@ typedef struct result_value {
     char quantity[SCENE_NAME];
     /* [unit of the quantity] value (NAN: none); values below near_zero count as zero */
     double value, near_zero;
-    double error; /* relative to the reference value; NAN: there is no reference value */
+    double error; /* error relative to the reference value; NAN: there is no reference value */
     /* limit of the series, which is stored with its finest mesh at a default point; NAN: none */
     double limit;
 } result_value;
@@ -90,7 +90,7 @@ typedef struct result_mesh {
 
 typedef struct result_limit {
     char quantity[SCENE_NAME];
-    double value, near_zero; /* like the members of result_value; near_zero 0: unknown */
+    double value, near_zero; /* value and near_zero as in result_value; near_zero 0: unknown */
 } result_limit;
 
 /* Largest absolute error on a mesh; elements 0: no value has an error. */

@@ -133,8 +133,8 @@ status results_case_damaged(const char *path, const char *where, const char *wha
  * values of each point. */
 status results_sweep_read(const char *path, hid_t at, stored_results *out, fault *f);
 
-/* Short table of a run, with a row for each series. It is small enough to be committed and read in
- * a diff. */
+/* Short table of a run, with a row for each series. The table is small enough to be committed and
+ * read in a diff. */
 
 /* Header line with the names of the columns. harness/README.md explains the columns. */
 extern const char results_table_head[];

@@ -305,7 +305,7 @@ static status take_limits(const char *path, const char *of, const case_tables *t
     return STATUS_OK;
 }
 
-/* Takes the cells of a case. The caller, results_case_read, frees *t, even after a failure. */
+/* Takes the cells of a case. The caller results_case_read() frees *t, even after a failure. */
 static status take_case(const char *path, hid_t at, const char *name, case_tables *t,
                         stored_results *out, fault *f)
 {

@@ -23,8 +23,8 @@ typedef struct span_grid {
 
 void span_grid_make(span_grid *g);
 
-/* Line of centroids of an element and triads of its sections, between two frames. They follow from
- * the strains. */
+/* Line of centroids of an element and triads of its sections, between two frames. The line and the
+ * triads follow from the strains. */
 
 typedef struct span_curve {
     /* r: centroid; columns of R: axes x (along the line), y and z of the section */
@@ -66,12 +66,13 @@ enum span_value {
 
 typedef struct span_end {
     span_frame frame;           /* frame of an end, including its position [m] */
-    double force[3], moment[3]; /* in global axes [N, N m] */
+    double force[3], moment[3]; /* force and moment in global axes [N, N m] */
     double bimoment, amplitude; /* [N m^2, 1/m] */
 } span_end;
 
 typedef struct span_load {
-    double force[3], moment[3]; /* per initial length, in global axes [N/m, N m/m] */
+    /* force and moment per initial length, in global axes [N/m, N m/m] */
+    double force[3], moment[3];
 } span_load;
 
 typedef struct span_problem {

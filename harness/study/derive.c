@@ -125,7 +125,7 @@ static int stop(script *s)
     return how;
 }
 
-/* Runs the script and reads its values. The caller, derive_asked, stops the script and frees
+/* Runs the script and reads its values. The caller derive_asked() stops the script and frees
  * memory, even after a failure. */
 static status derive(const derive_question *q, script *s, derived_value **out, int *count, fault *f)
 {

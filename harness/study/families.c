@@ -230,7 +230,7 @@ families_limit families_limit_of(const sweep *s, int point_index, int quantity, 
     return best;
 }
 
-/* Returns the reason why a series is excluded from an agreement; NULL: it is included. */
+/* Returns the reason why a series is excluded from an agreement; NULL: the series is included. */
 static const char *kept_out(const sweep *s, int index, int quantity, const truths *t)
 {
     const series *one = &s->series[index];

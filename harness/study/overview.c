@@ -116,7 +116,7 @@ static overview_cell *cell_of(const sweep *s, const overview *o, int series_inde
     return &o->cell[row * o->columns + column_of(o, name_of(one, o->joined))];
 }
 
-/* Adds a mark. A more severe mark replaces a less severe one. */
+/* Adds a mark. A more severe mark replaces a less severe mark. */
 static void add(overview_cell *to, overview_mark mark, int unexpected)
 {
     const int rank = OVERVIEW_MARKS * unexpected + (int)mark;

@@ -397,7 +397,7 @@ static int count_columns(const char *columns)
     return count;
 }
 
-/* Reads the lines of a table. The caller, own_table_read, frees *line, even after a failure. */
+/* Reads the lines of a table. The caller own_table_read() frees *line, even after a failure. */
 static status read_lines(FILE *from, const char *columns, char **line, own_table *out, mistakes *m,
                          fault *f)
 {

@@ -86,8 +86,8 @@ static int can_run(const scene *s, const element_type *type, int other)
     return !missing_words(s, type, words, sizeof words) && !lacks_of(s, type, words, sizeof words);
 }
 
-/* Candidates, with the best one first. All are ranked equal to the first candidate. There are at
- * most two per family. */
+/* Candidates, with the best candidate first. All are ranked equal to the first candidate. There are
+ * at most two per family. */
 enum { CANDIDATES = 5, OF_FAMILY = 2 };
 typedef struct preference_candidates {
     int count;

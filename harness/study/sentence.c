@@ -157,7 +157,7 @@ static void count_part(char *text, size_t size, int *parts, int count, const cha
     add_part(text, size, parts, ", ", part);
 }
 
-/* Returns the number of undecided verdicts among the unexpected ones. */
+/* Returns the number of unexpected undecided verdicts. */
 static int count_undecided(const judgement *j)
 {
     int count = 0;

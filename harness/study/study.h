@@ -33,11 +33,11 @@
  * The limit is Richardson's extrapolation with the observed order of the last three meshes. If two
  * observed orders agree, its uncertainty is 1.25 times the change of the limit due to the last
  * mesh. Otherwise the uncertainty is 3 times the largest of the last changes. If there are two
- * estimates, the larger one is used. Sources: Roache, Verification and Validation in Computational
- * Science and Engineering (1998), grid convergence index and its factors 1.25 and 3; Eca and
- * Hoekstra, J. Comput. Phys. 262 (2014) 104-130, range of the data, poor orders, noise; Phillips
- * and Roy, J. Fluids Eng. 136 (2014) 121401, limits of extrapolated limits; Oberkampf and Roy,
- * Verification and Validation in Scientific Computing (2010), chapter 8. */
+ * estimates, the larger estimate is used. Sources: Roache, Verification and Validation in
+ * Computational Science and Engineering (1998), grid convergence index and its factors 1.25 and 3;
+ * Eca and Hoekstra, J. Comput. Phys. 262 (2014) 104-130, range of the data, poor orders, noise;
+ * Phillips and Roy, J. Fluids Eng. 136 (2014) 121401, uncertainty of extrapolated limits; Oberkampf
+ * and Roy, Verification and Validation in Scientific Computing (2010), chapter 8. */
 
 /* Kind of a sequence, for information. Verdicts depend only on the value and its uncertainty. */
 typedef enum limit_kind {
@@ -88,7 +88,7 @@ typedef struct cell_request {
     const scene *scene;
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
-    scene_edit edit; /* edit of the scene */
+    scene_edit edit;
     const element_type *formulation;
     double option[ELEMENT_MAX_OPTIONS];
     solve_options solve;
@@ -278,9 +278,9 @@ typedef struct sweep_point {
     double parameter[CASE_MAX_PARAMETERS];
     char text[PARAMETERS_TEXT]; /* parameters that differ from the defaults */
     char name[16];              /* "default", or the first digits of the hash of the parameters */
-    scene_edit edit;            /* edit that was applied to the scene */
-    int steps;                  /* number of load steps between stations; 0: as in the scene */
-    int condition;              /* 1: the condition of the tangents is estimated */
+    scene_edit edit;
+    int steps;       /* number of load steps between stations; 0: as in the scene */
+    int condition;   /* 1: the condition of the tangents is estimated */
     int shapes;      /* largest number of states whose centre lines are stored; 0: none */
     int whole_steps; /* 1: time steps are not halved on finer meshes */
     scene scene;     /* scene of all cells of the point, including its quantities */
@@ -377,8 +377,8 @@ enum { SWEEP_TEXT = PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT };
 void sweep_text(const sweep_point *, const formulation *, const char *quantity,
                 char text[SWEEP_TEXT]);
 
-/* Returns 1 if the verdicts of a series affect the exit status. They do so for accepted, named or
- * loaded formulations and, on request, for other programs. */
+/* Returns 1 if the verdicts of a series affect the exit status. This is the case for accepted,
+ * named or loaded formulations and, on request, for other programs. */
 int sweep_gates(const sweep *, const series *);
 /* Returns the request for one mesh of a series. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
@@ -392,7 +392,7 @@ typedef enum verdict_kind {
     VERDICT_PASS,
     VERDICT_BIASED, /* within the tolerance, but significantly different from the reference value */
     VERDICT_WRONG_LIMIT, /* significantly outside the tolerance */
-    /* like the preceding two, if the limit equals the limit derived for the formulation */
+    /* the preceding two kinds, if the limit equals the limit derived for the formulation */
     VERDICT_BIASED_AS_PREDICTED,
     VERDICT_WRONG_AS_PREDICTED,
     VERDICT_LOW_ORDER,
@@ -643,8 +643,8 @@ int curve_error_reference(const sweep *, int quantity);
 
 /* Finds a data file or folder. Searches next to the program or shared library, in the folder above
  * (a clone), in share/beamwork of the installation prefix, and in share/beamwork of the prefix set
- * at build time. Returns 0 if the file is in none of these folders. The path is then the one next
- * to the program. */
+ * at build time. Returns 0 if the file is in none of these folders. The path is then that of a file
+ * next to the program. */
 int data_place(const char *name, char path[PATH_MAX]);
 /* Writes the path of the packed reference values, from the variable BEAMWORK_TRUTHS or from
  * data_place. */
@@ -680,7 +680,7 @@ enum { WORKERS_MOST = 64 };
 double expense_of_scene(const scene *s, int steps, const element_type *type, int elements);
 double expense_of_cell(const sweep *s, int index, int mesh);
 
-/* Writes the reason why there is no agreement, and which formulation could give one. */
+/* Writes the reason why there is no agreement, and which formulation could give an agreement. */
 void families_why(FILE *to, const sweep *s, int point_index, int quantity, const truths *);
 /* Adds cross-formulation agreements as reference values of the kind agreement, for every quantity
  * of a point that has no reference value of its model. files_only 1: only for scene files and not
@@ -720,7 +720,7 @@ typedef struct follow_event {
     int mode[2];
     double value;     /* value of the parameter */
     double frequency; /* [Hz] mean frequency of both modes */
-    /* for veering: smallest difference of the two frequencies, relative to their mean */
+    /* smallest difference of the two frequencies of a veering, relative to their mean */
     double gap;
 } follow_event;
 
@@ -731,7 +731,7 @@ typedef struct follow_curves {
 } follow_curves;
 
 /* Follows as many modes as the first modal analysis has frequency quantities. The modes are the
- * lowest ones at `from`. REFUSED: there is no modal analysis, or the number of coordinates depends
+ * lowest modes at `from`. REFUSED: there is no modal analysis, or the number of coordinates depends
  * on the parameter. NOT_CONVERGED: a mode cannot be followed even with small steps. */
 status follow_run(const follow_request *, follow_curves *, fault *);
 void follow_free(follow_curves *);
@@ -867,8 +867,8 @@ void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
 /* Returns 1 if the row has an evaluated run. */
 int overview_judged(const overview *, int row);
-/* Returns 1 if the row is shown on a separate line. If there are few rows, all of them are.
- * Otherwise passing cases share lines, so that the table fits on one screen. */
+/* Returns 1 if the row is shown on a separate line. Every row has a separate line if there are few
+ * rows. Otherwise passing cases share lines, so that the table fits on one screen. */
 int overview_shown(const overview *, int row);
 /* Writes the mark, for example "ok", "~3" or "!#2". The mark is readable without colours. utf8 1:
  * uses characters outside ASCII. */
@@ -906,8 +906,8 @@ typedef struct own_table {
 status own_table_read(const char *path, const char *columns, own_table *out, mistakes *m, fault *f);
 void own_table_free(own_table *);
 
-/* Reference values of a user project, in addition to the packed ones, with the columns of
- * reference/tables. */
+/* Reference values of a user project, in addition to the packed reference values, with the columns
+ * of reference/tables. */
 
 /* Adds the rows of a file to the rows of t. run: cases of the run, NULL-terminated. only: the only
  * case to read; NULL: all cases. Errors in the file are reported to `m`, and rows with errors are
@@ -962,9 +962,9 @@ status preference_elements(const cell_request *, const formulation *chosen, doub
                            preference *out, fault *f);
 
 /* Chooses formulation and mesh together. Candidates are the formulations that
- * preference_formulation ranks equal to the first one (at most five, and at most two per family).
- * The first candidate that converges is chosen. The next mesh to be solved is always the mesh with
- * the lowest counted work. request: the cell without formulation and elements. */
+ * preference_formulation ranks equal to the first formulation (at most five, and at most two per
+ * family). The first candidate that converges is chosen. The next mesh to be solved is always the
+ * mesh with the lowest counted work. request: the cell without formulation and elements. */
 status preference_both(const cell_request *, const rule_subject *where, const rule *rules,
                        int count, double asked, preference *out, fault *f);
 
@@ -1011,7 +1011,8 @@ extern const double price_noise;
 
 /* Like price_of, with the committed coefficients. */
 double price_cost(const formulation *chosen, const cell_result *cell);
-/* Returns 1 if the formulation has separate cost coefficients, 0 if the common ones apply. */
+/* Returns 1 if the formulation has separate cost coefficients, 0 if the common coefficients apply.
+ * */
 int price_own(const price_row *rows, const formulation *chosen);
 
 /* Progress of a long run, in one line of the terminal, which is overwritten and finally removed. */

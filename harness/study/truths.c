@@ -103,7 +103,7 @@ static status read_tables(const char *path, hid_t file, const truths_wanted *wha
     return outcome;
 }
 
-/* Reads the tables. The caller, read_file, closes *file, even after a failure. */
+/* Reads the tables. The caller read_file() closes *file, even after a failure. */
 static status read_open(const char *path, const truths_wanted *what, hid_t *file, truths *out,
                         fault *f)
 {
@@ -298,7 +298,7 @@ static status read_all(table_columns *c, glossary_entry **out)
     return STATUS_OK;
 }
 
-/* Reads the glossary. The caller, glossary_read, closes *file, even after a failure. */
+/* Reads the glossary. The caller glossary_read() closes *file, even after a failure. */
 static status glossary_read_open(const char *path, hid_t *file, glossary *out, fault *f)
 {
     table_columns c = {.path = path, .name = "glossary", .f = f};

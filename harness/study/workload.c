@@ -251,7 +251,7 @@ double workload_share(const workload *w)
     for (int i = 0; i < w->all; i++) {
         const workload_task *t = &w->tasks[i];
         if (t->again > 0 && w->state[t->series] != SERIES_NOISE && !w->done[i])
-            continue; /* not requested, or not at present */
+            continue; /* the repetition is not requested, or not at present */
         const double cost = expense_of_cell(w->s, t->series, t->mesh);
         all += cost;
         done += w->done[i] ? cost : 0;

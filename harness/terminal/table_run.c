@@ -333,8 +333,8 @@ static int width_of_names(const overview *o)
     return width;
 }
 
-/* Lists the cases without a row: either cases in which something was evaluated, or cases in which
- * nothing was evaluated. */
+/* Lists the cases without a row. Cases in which values were evaluated and cases in which no value
+ * was evaluated are listed separately. */
 static void print_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     paragraph words;

@@ -254,8 +254,8 @@ static void defective_ones(FILE *to, const sweep *s, const reached list[], int c
     }
 }
 
-/* Prints the formulations that are not ranked, below the ranked ones: first those that pass, then
- * the others. Returns the number of those that pass. */
+/* Prints the formulations that are not ranked, below the ranked formulations: first those that
+ * pass, then the others. Returns the number of those that pass. */
 static int unranked_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     int i = 0, told = 0;
@@ -323,8 +323,8 @@ static int same_answer(const cheapest_answer *a, const cheapest_answer *b)
     return same;
 }
 
-/* Writes one line for all quantities with the same answers as the first one, for example "u_x, F_y
- * within 10, 1 %: collocation, n = 1". Adjacent levels with equal answers are combined. */
+/* Writes one line for all quantities with the same answers as the first quantity, for example "u_x,
+ * F_y within 10, 1 %: collocation, n = 1". Adjacent levels with equal answers are combined. */
 static void write_together(FILE *out, const scene *here, cheapest_answer a[], int count)
 {
     for (int level = 0, next; level < REACH_LEVELS; level = next) {

@@ -53,7 +53,6 @@ static void print_command(FILE *to, const sweep_point *p, const series *one, con
     paragraph_end_command(&words, 0, INDENT);
 }
 
-/* Prints a numbered heading. */
 static void print_heading(FILE *to, int number, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

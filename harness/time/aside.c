@@ -1,4 +1,4 @@
-/* Side steps: the state of a motion, and forces and energies in it, inside a step. */
+/* Side steps: the state of a motion at a time inside a step, with its forces and energies. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -56,7 +56,7 @@ void asides_take(asides *s, const instant *from, const instant *to)
     s->outcome = STATUS_OK;
 }
 
-/* Finds the instant at a time of the step, by a side step if it is new. */
+/* Finds the instant at a time of the step. Makes a side step if the instant is not stored. */
 static status instant_at(asides *s, double time, const instant **out, fault *f)
 {
     *out = time == s->from->time ? s->from : time == s->to->time ? s->to : NULL;

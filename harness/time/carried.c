@@ -159,7 +159,7 @@ status carried_alloc_spread(const model *m, carried_masses *out, fault *f)
     return alloc(m, 1, out, f);
 }
 
-/* Gives the mass of a node to the master of its diaphragm. */
+/* Adds the mass of a node to the master of its diaphragm. */
 static void lead(const model *m, const carried_mass *one, carried_mass of[])
 {
     const mesh_vertex *v = model_vertex(m, one->frame);

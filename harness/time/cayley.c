@@ -185,7 +185,7 @@ static void add_identity(double factor, double A[9])
         A[4 * i] += factor;
 }
 
-/* Adds the derivative of b c (c.v) with respect to c, multiplied by `factor`, to A. */
+/* Adds to A the derivative of b c (c.v) with respect to c, multiplied by `factor`. */
 static void add_square(const cayley_step *s, const cayley_slopes *d, double factor,
                        const double v[3], double A[9])
 {

@@ -55,8 +55,8 @@ static double gaps_of(const conserving *s, const double J[], evaluation *v, doub
     return largest;
 }
 
-/* Adds (H plus half of the effect of the spin on moments) times the derivative of x(s) to out[n x
- * n]. */
+/* Adds to out[n x n] the sum of H and half of the effect of the spin on moments, multiplied by the
+ * derivative of x(s). */
 static void add_curved_strains(const cayley_slopes *by, int g, evaluation *v, double out[])
 {
     const deformable *of = &v->of;

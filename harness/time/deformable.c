@@ -255,8 +255,8 @@ void shares_along(const model *m, const model_state *s, const shares_motion *mot
 }
 
 /* Corrects the moments of mass along a member that is lumped at its nodes. The effect of
- * translations is then exact, and so are resultants except inside an element. F: force for the mass
- * of the whole element, moving like each node. */
+ * translations is then exact, and so are resultants except inside an element. F: for each node, the
+ * force on the mass of the whole element if it has the motion of the node. */
 static void add_couple(const model *m, const model_state *s, int element, double F[2][7],
                        double ends[2][7])
 {

@@ -221,7 +221,7 @@ static status check_followers(const model *m, const model_state *s, const scene_
 static status set_field(const model *m, const model_state *s, const scene_start *field, double v[],
                         fault *f)
 {
-    for (int i = 0; i < 2 * model_vertices(m); i++) { /* masters of diaphragms before followers */
+    for (int i = 0; i < 2 * model_vertices(m); i++) { /* masters of diaphragms come first */
         const int vertex = i % model_vertices(m);
         if ((model_vertex(m, vertex)->body == vertex || vertex >= model_first_release(m)) &&
             model_owns(m, vertex, SCENE_RX) == (i < model_vertices(m)))
@@ -275,8 +275,7 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     return STATUS_OK;
 }
 
-/* Checks the mass. REFUSED: the scene contains something for which consistent mass is not possible.
- * */
+/* Checks the mass. REFUSED: consistent mass is not possible for this scene. */
 static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *one = &c->scene->analysis[analysis];
@@ -379,7 +378,7 @@ double extent_allows(const extent *so_far, double part, double tolerance)
 
 int extent_is_less(const extent *so_far, double tolerance, double *scale)
 {
-    /* for an equilibrium that was found by Newton's method */
+    /* known: relative error of an equilibrium that was found by Newton's method */
     const double part = 0.5, known = 1e-10;
     *scale = fmax(so_far->largest, rounding);
     return so_far->largest > known * so_far->bent && *scale < part * so_far->scale &&

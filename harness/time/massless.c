@@ -494,8 +494,8 @@ static int creeping(const model *m, const model_state *state, double h, unsigned
     return count;
 }
 
-/* Finds the equilibrium in which positions that damping fixes move by a fraction of their
- * displacement in h. */
+/* Finds the equilibrium with damping forces as if the displacement took the time softness * h. If
+ * softness is small, coordinates with damping hardly move. */
 static status give_way(motion_stage *s, const double zero[], double h, double softness,
                        instant *now, double moved[], fault *f)
 {

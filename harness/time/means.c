@@ -41,7 +41,7 @@ static int is_square(const watched *one)
 }
 
 /* Returns the value to be integrated. A root mean square is computed relative to the largest value
- * so far, so that its square does not overflow. */
+ * so far, so its square does not overflow. */
 static double integrand(const watched *one, double value)
 {
     if (!is_square(one))
@@ -61,7 +61,8 @@ static void rescale(watched *one, double value)
     one->largest = fabs(value);
 }
 
-/* Six-point Gauss quadrature, which is exact for squares of fifth-degree polynomials. */
+/* Adds an integral by six-point Gauss quadrature, which is exact for squares of fifth-degree
+ * polynomials. */
 static void add_inside(watches *s, watched *one, double a, double b)
 {
     static const double x[] = {0.23861918608319690863, 0.66120938646626451366,
@@ -77,7 +78,7 @@ static void add_inside(watches *s, watched *one, double a, double b)
         }
 }
 
-/* Checks the polynomial of every eighth step against a side step to its middle. */
+/* Compares the polynomial with a side step at the middle of every eighth step. */
 static status check_inside(watches *s, watched *one, const instant *from, double a, double b,
                            fault *f)
 {
@@ -118,7 +119,7 @@ static double whole_of(int points, const double t[], const double value[])
     return sum;
 }
 
-/* Returns 1 if the second part continues the first one, without a jump. */
+/* Returns 1 if part b starts at the end of part a, without a jump. */
 static int continues(const means_part *a, const means_part *b)
 {
     const double from = a->value[MEANS_NODES - 1], to = b->value[0];
@@ -126,7 +127,7 @@ static int continues(const means_part *a, const means_part *b)
            fabs(to - from) <= 1e-6 * fmax(fabs(from), fabs(to));
 }
 
-/* Returns the difference of the rule from Simpson's rule. */
+/* Returns the integral by Lobatto's rule minus the integral by Simpson's rule. */
 static double apart_from_simpson(const watched *one, const means_part *p)
 {
     const double simpson =
@@ -134,9 +135,9 @@ static double apart_from_simpson(const watched *one, const means_part *p)
     return lobatto(one, p) - simpson * (p->time[MEANS_NODES - 1] - p->time[0]) / 6;
 }
 
-/* Returns the difference of the rule, over two steps, from the polynomial through their points
- * without the middle of each step. The difference has the order of the rule, and is larger than its
- * error even where the slope jumps. */
+/* Returns the difference between two integrals over two steps: the integral of the polynomial
+ * through all points except the middle of each step, and the integral by Lobatto's rule. The
+ * difference has the order of the rule, and exceeds its error even if the slope jumps. */
 static double apart_from_both(const watched *one, const means_part *a, const means_part *b)
 {
     double t[MOST], value[MOST];
@@ -152,8 +153,8 @@ static double apart_from_both(const watched *one, const means_part *a, const mea
     return whole_of(points, t, value) - lobatto(one, a) - lobatto(one, b);
 }
 
-/* Adds to the estimated error of the rule. A step without a second one that continues it counts
- * only if it is the first. */
+/* Updates the error estimate of Lobatto's rule from pairs of successive steps. A single step is
+ * used only at the start. */
 static void doubt(watched *one, const means_part *now)
 {
     const int pairs = one->holds && continues(&one->past, now);
@@ -167,7 +168,7 @@ static void doubt(watched *one, const means_part *now)
     one->holds = !pairs;
 }
 
-/* Lobatto's rule; forces and energies inside the step come from side steps. */
+/* Adds an integral by Lobatto's rule. Forces and energies inside the step come from side steps. */
 static void add_aside(watches *s, watched *one, double a, double b)
 {
     means_part now;

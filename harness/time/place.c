@@ -236,8 +236,8 @@ static void angle_rows(const place_chain *by, const double moment[3], frame_plac
                 p->curved[(SCENE_RX + k) * n + c] += moment[i] * by->da[k][i * n + c];
 }
 
-/* Adds the motion of a body that a diaphragm moves on an arm: dr of its node is tau times the mean
- * of normal x arm. */
+/* Adds the motion of a body on the arm of a diaphragm: dr of its node is tau times the mean of
+ * normal x arm. */
 static void swing(const place_chain *by, int at, frame_place *p)
 {
     const int n = p->columns;

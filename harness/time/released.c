@@ -428,8 +428,7 @@ rotation_form forms_of(const model *m, int vertex)
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
 
-/* Returns 1 if at most one rotation axis is free. Fixed rotations that are kept as rows are
- * counted. */
+/* Returns 1 if at most one rotation axis is free. Fixed rotations whose rows are kept count as free. */
 static int keeps_axis(const model *m, int vertex)
 {
     int moving = 0;
@@ -500,7 +499,7 @@ static void sequence_rates(const model *m, const model_state *s, int vertex, con
     }
 }
 
-/* Adds the motion on the arm of a frame that a diaphragm moves. */
+/* Adds the motion of a frame on the arm of a diaphragm. */
 static void add_swing(const model *m, const model_state *s, int vertex, const double v[],
                       const double a[], frame_rates *out)
 {

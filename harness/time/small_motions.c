@@ -289,7 +289,8 @@ static void strains_of(const model *m, const model_state *at, int element, doubl
 /* Memory for J of one element or spring. */
 enum { ROOM = ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES };
 
-/* Adds `scale` times J of damped elements and springs to change[(elements + springs) x ROOM]. */
+/* Adds to change[(elements + springs) x ROOM] the Jacobians J of damped elements and springs,
+ * multiplied by `scale`. */
 static void add_jacobians(const small_motions *s, const model_state *at, double scale,
                           double change[])
 {

@@ -1,4 +1,4 @@
-/* Motion of frames on the arms by which diaphragms move them. */
+/* Motion of frames on the arms of diaphragms. */
 #include "harness/time/time_impl.h"
 
 #include "elements/math/vec3.h"

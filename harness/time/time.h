@@ -69,7 +69,7 @@ typedef struct carried_mass {
     double mass;       /* [kg] */
     double moment[3];  /* [kg m] mass times the position of the centre relative to the frame */
     double inertia[9]; /* [kg m^2] moment of inertia about the frame */
-    /* part of `mass` that translations along each global axis do not move: carried_floors */
+    /* part of `mass` that translations along each global axis do not move (carried_floors) */
     double less[3];
 } carried_mass;
 
@@ -91,8 +91,8 @@ typedef struct carried_masses {
 status carried_alloc(const model *, carried_masses *, fault *);
 /* Like carried_alloc, but with rigid bodies only. The elements have consistent masses. */
 status carried_alloc_spread(const model *, carried_masses *, fault *);
-/* Copies these masses, but the nodes of a diaphragm, which must not tilt, give their mass and
- * inertia to the master, except for motions along the normal. */
+/* Copies the masses. Nodes of a diaphragm transfer their masses and inertia to the master, except
+ * for motions along the normal. The diaphragm must not tilt. */
 status carried_floors(const model *, const carried_masses *, carried_masses *, fault *);
 void carried_free(carried_masses *);
 /* Computes a node's share of the mass of an element, with the moment of inertia about the node, and
@@ -176,8 +176,8 @@ void damping_end(const equations *, run_damping *);
  * stiffness-proportional damping of all members and springs that is added. */
 status damping_matrix(const equations *, const model_state *, double more, sparse *C, fault *);
 
-/* Adds the generalised forces of a load with feedback in a state, for a factor of 1, to push[free +
- * driven]. Adds the derivative of the measured component to measured[free + driven]. */
+/* Adds to push[free + driven] the generalised forces of a load with feedback in a state, for a
+ * factor of 1. Adds to measured[free + driven] the derivative of the measured component. */
 void feedback_signals(const equations *, const model_state *, int load, double push[],
                       double measured[]);
 
@@ -192,7 +192,7 @@ status motion_undefined(const scene *, const scene_quantity *, fault *);
  * rotating axes. room: work space. All matrices have the pattern of `about`. The axes rotate with
  * `node`. node SCENE_NONE: the axes of each node rotate with this node, unless some of its
  * components are fixed, prescribed or constrained. REFUSED: the rotation of `node` mixes free
- * components of a node with components that are fixed, prescribed or constrained. */
+ * components of a node with other components. */
 status about_turning(const model *, const outcome_about *, int node, sparse *K, sparse *G,
                      sparse *room, fault *);
 

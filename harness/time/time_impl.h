@@ -102,10 +102,10 @@ typedef struct aside_place {
 status aside_read(const analysis_context *, const carried_masses *, const outcome_motion *,
                   const scene_quantity *, const aside_place *, double *out, fault *);
 
-/* Values of any quantity inside one step. Side steps are shared by quantities that read the same
- * instants. */
+/* Values of any quantity inside one step. Quantities that read the same instants share side steps.
+ */
 
-enum { ASIDES = 4 }; /* stored side steps of one step: the first ones and the last one */
+enum { ASIDES = 4 }; /* number of stored side steps of a step: the first three and the last */
 
 typedef struct asides {
     analysis_context *c;
@@ -115,7 +115,7 @@ typedef struct asides {
     const instant *from, *to; /* ends of the step */
     instant at[ASIDES];
     int made;       /* number of stored side steps */
-    status outcome; /* last failure since asides_take; FAULT stays */
+    status outcome; /* last failure since asides_take; a FAULT is not replaced */
     fault why;
 } asides;
 
@@ -271,10 +271,10 @@ typedef enum rotation_form {
 } rotation_form;
 
 /* Checks the rotations of all nodes. REFUSED: two rotations about fixed axes are free while the
- * third one is fixed or follows a driver, and its row is kept or eliminated. Such rotations fix a
- * component of the angular velocity at zero. This constraint is not integrable: exp(-b e_j~) exp(-a
- * e_i~) exp(b e_j~) exp(a e_i~) = 1 - a b e_k~ + ..., so the coordinates do not determine the
- * orientation of the node. */
+ * third rotation is fixed or follows a driver, and its row is kept or eliminated. Such rotations
+ * fix a component of the angular velocity at zero. This constraint is not integrable: exp(-b e_j~)
+ * exp(-a e_i~) exp(b e_j~) exp(a e_i~) = 1 - a b e_k~ + ..., so the coordinates do not determine
+ * the orientation of the node. */
 status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
@@ -300,7 +300,7 @@ void forms_add_force(const model *, const model_state *, int vertex, const doubl
 void inertia_force_at(const carried_mass *, const frame_rates *, double F[6]);
 void inertia_force(const model *, const carried_mass *, const model_state *, const double v[],
                    const double a[], double F[6]);
-/* Subtracts the inertia forces for the rates v and their derivatives a from out[free + driven]. a
+/* Subtracts from out[free + driven] the inertia forces for the rates v and their derivatives a. a
  * NULL: zero, so only the terms due to velocities remain. */
 void inertia_subtract(const model *, const carried_masses *, const model_state *, const double v[],
                       const double a[], double out[]);
@@ -310,10 +310,10 @@ void inertia_subtract(const model *, const carried_masses *, const model_state *
 void inertia_add_tangent(const equations *, const carried_masses *, const model_state *,
                          const double v[], const double a[], const inertia_relation *, sparse *S);
 
-/* Frame that a diaphragm moves on an arm about the first of its angles: v = v_master + moved
- * angle', a = a_master + moved angle'' + inward angle'^2. */
+/* Frame on the arm of a diaphragm, which turns with the first angle of the frame: v = v_master +
+ * moved angle', a = a_master + moved angle'' + inward angle'^2. */
 typedef struct inertia_swing {
-    int led;          /* 1: there is an arm; otherwise nothing else is set */
+    int led;          /* 0: there is no arm, and the other members are not set */
     double moved[3];  /* derivative of the position with respect to the angle [m] */
     double inward[3]; /* derivative of `moved` */
     double rate;      /* [rad/s] of the angle */
@@ -322,11 +322,12 @@ typedef struct inertia_swing {
 /* a NULL: zero. */
 void inertia_swing_of(const model *, const model_state *, int vertex, const double v[],
                       const double a[], inertia_swing *out);
-/* Adds the motion on the arm to columns and rows of K[n x n], whose rows are not yet those of the
- * coordinates; the coordinates of the frame start at `at`. inertia_swing_column: adds the effect
- * of the angle on the axes of the motion, with derivatives A and C [n x n] of the force with
- * respect to accelerations and velocities; rate, place: factors of the derivatives with respect to
- * the rate of the angle, and to the angle. inertia_swing_row: force[3] on the frame. */
+/* Adds the motion on the arm to K[n x n], whose rows are not yet those of the coordinates. The
+ * coordinates of the frame start at `at`. inertia_swing_column: adds the terms due to the change of
+ * `moved` with the angle to a column out[n]. A and C [n x n] are the derivatives of the force with
+ * respect to accelerations and velocities; rate and place are the factors of the derivatives with
+ * respect to the rate of the angle and to the angle. inertia_swing_row: adds the row of the angle,
+ * for a force[3] on the frame. */
 void inertia_swing_column(const inertia_swing *, int n, int at, const double A[], const double C[],
                           double rate, double place, double out[]);
 void inertia_swing_row(const inertia_swing *, int n, int at, const double force[3], double place,
@@ -334,10 +335,10 @@ void inertia_swing_row(const inertia_swing *, int n, int at, const double force[
 
 /* Derivatives [6 x 6, row-major] of the inertia force and moment on a frame. */
 typedef struct inertia_parts {
-    /* with respect to spatial increments (exponential chart), at fixed rates in the axes of the
-     * frame */
+    /* derivatives with respect to spatial increments (exponential chart), at fixed rates in the
+     * axes of the frame */
     double place[36];
-    /* with respect to velocities and to accelerations in global axes */
+    /* derivatives with respect to velocities and to accelerations in global axes */
     double velocity[36], acceleration[36];
     double turn[9];  /* columns: spatial rotation per unit of each rotation coordinate */
     double rate[9];  /* columns: angular velocity per unit rate of each rotation coordinate */
@@ -346,8 +347,8 @@ typedef struct inertia_parts {
 } inertia_parts;
 void inertia_frame(const model *, const carried_masses *, int index, const model_state *,
                    const double v[], const double a[], inertia_parts *out);
-/* inertia_times computes out = A diag(1 for translations, B for rotations). inertia_finish
- * transforms the rows of the sum K of such products to coordinates, and adds the motion on an arm;
+/* inertia_times computes out = A diag(1 for translations, B for rotations). K is the sum of such
+ * products. inertia_finish transforms the rows of K to coordinates, and adds the motion on an arm.
  * rate, place: as for inertia_swing_column. */
 void inertia_times(const double A[36], double translation, const double B[9], double out[36]);
 void inertia_finish(const model *, const carried_masses *, int index, const inertia_parts *,
@@ -446,7 +447,7 @@ void conserving_forces(conserving *, const instant *from, model_state *now,
  * */
 void conserving_inertia(conserving *, const instant *from, const model_state *now, double h);
 
-/* Adds the loads at the middle of the step to out[free + driven] and their tangent to S
+/* Adds to out[free + driven] the loads at the middle of the step, and adds their tangent to S
  * (conserving_forces.c). */
 void conserving_loads(conserving *, const instant *from, const model_state *now, double h,
                       double out[]);
@@ -514,7 +515,7 @@ void cayley_slopes_of(const cayley_step *, cayley_slopes *);
  * to dr, c and da. */
 void cayley_slopes_columns(const cayley_step *, const cayley_slopes *, const cayley_point *,
                            double weight, int rows, const double A[], double out[]);
-/* Adds the derivative of cayley_forces at fixed f[7 nodes] to K[7 nodes x 7 nodes]. */
+/* Adds to K[7 nodes x 7 nodes] the derivative of cayley_forces at fixed f[7 nodes]. */
 void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const double f[], double K[]);
 
 /* Checks that a motion can be integrated as requested. REFUSED: the request is not supported. */
@@ -578,8 +579,8 @@ typedef struct deformable {
  * springs. deformable_at returns the data of a deformable. */
 int deformable_count(const conserving *);
 deformable deformable_at(const conserving *, const instant *from, model_state *now, int i);
-/* Returns the number of elements, starting with index `first`, that are evaluated together. They
- * are of the same kind. Returns 1 if they are evaluated one by one. */
+/* Returns the number of elements, starting with index `first`, that are evaluated together. These
+ * elements are of the same kind. Returns 1 if elements are evaluated one by one. */
 int deformable_together(const conserving *, int first);
 
 /* Values of an element in one iteration. */
@@ -641,7 +642,7 @@ typedef struct explicit_scheme {
     const instant *from;    /* start of the present step */
     double end;             /* [s] latest time at which loads are read */
     instant *at;            /* state of the last evaluation */
-    status outcome;         /* its status */
+    status outcome;
     fault why;
 } explicit_scheme;
 
@@ -721,8 +722,8 @@ void increment_add(const model *, const model_state *now, const double dx[], dou
 status integrator_alloc(const scheme_request *, motion_scheme **, fault *);
 void integrator_free(motion_scheme *);
 
-/* Slope discontinuities and jumps of loads and prescribed motions. No step contains one in its
- * interior. */
+/* Slope discontinuities and jumps of loads and prescribed motions. They are always at the ends of
+ * steps. */
 
 /* Returns the time of the first discontinuity after `time` [s]; INFINITY: none. */
 double kinks_next(const model *, double time);
@@ -1073,16 +1074,16 @@ typedef struct shares_motion {
     int spread;          /* 1: consistent masses of elements (element_spreads) */
 } shares_motion;
 
-/* Adds the force and the moment (about the frame of the node) that accelerate the masses moved by
- * the node to F[6]. */
+/* Adds to F[6] the force, and the moment about the frame of the node, that accelerate the masses
+ * moved by the node. */
 status shares_node(const model *, const model_state *, const shares_motion *, int node, double F[6],
                    fault *);
 /* Computes density[nodes][6]: for each node, the force per initial length that accelerates the mass
  * of an element if the whole element has the motion of the node, and the moment about the node. */
 void shares_along(const model *, const model_state *, const shares_motion *, int element,
                   double density[ELEMENT_MAX_NODES][6]);
-/* Adds the inertia force on the share of an element's mass at its first (0) and last (1) node to
- * ends[e][7], including the warping component. */
+/* Adds to ends[e][7] the inertia force on the share of an element's mass at its first (0) and last
+ * (1) node, including the warping component. */
 void shares_ends(const model *, const model_state *, const shares_motion *, int element,
                  double ends[2][7]);
 
@@ -1137,7 +1138,8 @@ void spread_place(const model *, const spread_parts *, spread_motion place[]);
 void spread_times(const model *, const spread_parts *, const double A[],
                   const spread_motion motion[], double out[]);
 void spread_rows(const spread_parts *, double K[]);
-/* Adds what inertia_swing_column and inertia_swing_row add besides the motion on the arm. */
+/* Adds the same terms as inertia_swing_column and inertia_swing_row, without the motion on the arm.
+ * */
 void spread_swing(const model *, const spread_parts *, double rate, double place, double K[]);
 
 /* Computes the matrices of small motions about a state during a motion, on all coordinates. The
@@ -1246,8 +1248,8 @@ void feedback_tangent(const equations *, const model_state *, const feedback_gai
                       feedback_entry *take, void *to);
 
 /* Extrema, level crossings and means of a motion between its stations. Positions and rates come
- * from the polynomial inside a step, whose roots are accurate to round-off. Level crossings and
- * means of reactions, resultants, stresses, energies and momenta come from side steps. */
+ * from the polynomial inside a step, whose roots are accurate to rounding error. Level crossings
+ * and means of reactions, resultants, stresses, energies and momenta come from side steps. */
 
 /* Values in one step from which a mean is computed. */
 enum { MEANS_NODES = 5 };
@@ -1266,11 +1268,12 @@ typedef struct watched {
     double first, last; /* [s] first and last crossing */
     double error;       /* [s] error of the first and of the last crossing */
     int aside;          /* 1: values come from side steps */
-    double sum, span;   /* time integral of values, or of squares relative to `largest`; [s] */
-    double largest;     /* largest magnitude so far */
-    /* error of a mean */
-    int parts, holds; /* polynomial: number of steps; side steps: 0 none, 1 one step, 2 more; 1:
-                         `past` is the first step of a pair */
+    double sum, span; /* time integral of values, or of squares relative to `largest`; length of the
+                         interval [s] */
+    double largest;   /* largest magnitude so far */
+    /* error of a mean. parts: number of steps with the polynomial; with side steps, 0: no step, 1:
+     * one step, 2: at least one pair. holds 1: `past` is the first step of a pair */
+    int parts, holds;
     means_part past;
     double doubt, worst; /* error of `sum` so far, and its largest magnitude so far */
     double apart;        /* largest difference between side steps and the polynomial */
@@ -1296,13 +1299,14 @@ void watches_free(watches *);
 status watches_step(watches *, const instant *from, const instant *to, fault *);
 /* Completes the data at the end of the motion. */
 void watches_end(watches *);
-/* Returns the value of the quantity at a time of the step, before factor and offset; NAN: none. */
+/* Returns the value of the quantity at a time of the step, before factor and offset; NAN: there is
+ * no value. */
 double watched_value(watches *, const watched *, double time);
 /* Computes the difference between a side step to the given time and the polynomial; 0 for
  * quantities that do not use the polynomial. */
 status watched_disagreement(watches *, const watched *, const instant *from, double time,
                             double *out, fault *);
-/* Returns node i of the points from a to b at which a force or an energy is evaluated. */
+/* Returns the time of point i of Lobatto's rule from a to b. */
 double means_node(double a, double b, int i);
 /* Adds the part from a to b of the step to a mean, or to a root mean square. */
 status means_add(watches *, watched *, const instant *from, double a, double b, fault *);

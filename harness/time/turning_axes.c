@@ -71,8 +71,8 @@ static int vector_of(const turning_axes *t, int vertex, int turns, turning_vecto
     return 1;
 }
 
-/* Returns 1 if a diaphragm determines both components of a translation. All nodes of a diaphragm
- * rotate alike about its normal. */
+/* Returns 1 if a diaphragm determines both components of a translation. The rotation about its
+ * normal is the same for all its nodes. */
 static int moves_together(const model *m, int vertex, const int pair[2])
 {
     const scene *s = model_scene(m);

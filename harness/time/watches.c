@@ -10,13 +10,14 @@
 /* intervals of a step, in each of which one root is searched for */
 enum { PIECES = MEANS_NODES - 1, MOST_HALVINGS = 200 };
 
-/* smaller values, relative to the size of the quantity, have no sign */
-static const double no_sign = 1e-13,
-                    /* the same for forces and energies, relative to the largest so far */
+/* values below this fraction of the size of the quantity have no sign */
+static const double
+    no_sign = 1e-13,
+    /* the same limit for forces and energies, relative to the largest magnitude so far */
     no_sign_aside = 1e-9,
-                    /* The sign changes by a jump, and not through zero, if the value at the root is
-                     * not below this fraction of the values around it. For example, a rotation
-                     * vector reverses its direction at half a revolution. */
+    /* The sign changes by a jump, and not through zero, if the value at the root is
+     * not below this fraction of the values around it. For example, a rotation
+     * vector reverses its direction at half a revolution. */
     a_jump = 1e-3;
 
 static void begin(watches *s, watched *one, const scene_quantity *q)
@@ -141,8 +142,8 @@ static int counts(const watched *one, int side)
     return way == SCENE_EITHER || side == (way == SCENE_RISING ? 1 : -1);
 }
 
-/* Returns 1 for positions, whose jumps are no crossings; forces and accelerations jump with the
- * loads. */
+/* Returns 1 for positions. A jump of a position is not a crossing. Forces and accelerations jump
+ * with the loads. */
 static int turns_back(const watched *one)
 {
     return !one->aside && one->q->what.kind != SCENE_RATE;
@@ -206,7 +207,7 @@ static status watch_extreme(watches *s, watched *one, const instant *from, doubl
     return STATUS_OK;
 }
 
-/* The quantity has no value from now on. */
+/* Records that the quantity has no value from now on. */
 static void lose(watched *one)
 {
     one->out->known = one->aside ? PASSING_UNSOLVED : PASSING_LOST;

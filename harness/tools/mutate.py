@@ -58,7 +58,7 @@ def tokens(source):
 
 
 def constant(text, index):
-    """Returns another constant, or None if there is no useful one."""
+    """Returns another constant, or None if no other constant is useful."""
     value = re.sub(r"[uUlLfF]+$", "", text)
     if value.isdigit():
         other = int(value) - 1 if index and int(value) > 0 else int(value) + 1

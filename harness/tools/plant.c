@@ -52,7 +52,7 @@ static void scale_shear(section *c, int at, double by)
  * a changed mass. Neither change affects the other property. */
 static section stiff(const section *given)
 {
-    /* in the order of the rows of a section given by matrices: N, Qy, Qz, Mx, My, Mz */
+    /* names in the order of the rows of a section given by matrices: N, Qy, Qz, Mx, My, Mz */
     static const char *const names[] = {"EA", "GAy", "GAz", "GIt", "EIy", "EIz"};
     section c = *given;
     for (int i = 0; c.matrices && i < 6; i++)

@@ -1,7 +1,7 @@
 """Builds the wheel and the source distribution: the backend that pyproject.toml names, and `make wheel`.
 
 The wheel is what `make install` installs, below the folder of the module: the program, the library, headers, reference
-values, examples and the report. It serves every Python from 3.9, because nothing in it is compiled for Python. With
+values, examples and the report. It is valid for every Python from 3.9, because it contains no extension modules. With
 auditwheel and patchelf in the PATH, `make wheel` also adds the libraries that it needs (GSL, LAPACK, HDF5, ...)."""
 import base64
 import hashlib
@@ -45,7 +45,8 @@ ENTRY_POINTS = """[console_scripts]
 beamwork = beamwork_commands:main
 beamwork-report = beamwork_commands:report
 """
-# Folders of 'make install' for a wheel. PREFIX and SHAREDIR are compiled into the program, so they stay the usual ones.
+# Folders of 'make install' in a wheel. PREFIX and SHAREDIR keep their usual values, because they are compiled into
+# the program.
 PLACES = {"BINDIR": "/beamwork/bin", "LIBDIR": "/beamwork/lib", "INCLUDEDIR": "/beamwork/include", "PYTHONDIR": ""}
 OMITTED = ("lib/libbeamwork.a", "lib/libbeamwork.so", "lib/pkgconfig", "lib/cmake", "bin/beamwork-report",
            "share/bash-completion", "share/zsh", "share/beamwork/installed")
@@ -72,7 +73,7 @@ def installed(folder):
 
 
 def packed(files, folder, tag):
-    """Writes the wheel of {name: (bytes, is it a program?)} with its record into the folder; returns its name."""
+    """Writes a wheel with the files {name: (bytes, True for a program)} into the folder. Returns its name."""
     info = f"{NAME}.dist-info"
     for name, text in (("METADATA", metadata()), ("entry_points.txt", ENTRY_POINTS),
                        ("licenses/LICENSE", (ROOT / "LICENSE").read_text("utf-8")),
@@ -105,7 +106,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def sources():
-    """Returns the files of the source: in a clone those that git tracks, otherwise all except built ones."""
+    """Returns the files of the source: in a clone, the files that git tracks; otherwise, all files except built
+    files."""
     if (ROOT / ".git").exists():
         listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, stdout=subprocess.PIPE).stdout
         return sorted(filter(None, listed.decode().split("\0")))

@@ -6,7 +6,7 @@
 
 #include "elements/element.h"
 
-/* Returns accepted formulation number i; NULL after the last one. The first call reads the packed
+/* Returns accepted formulation number i; NULL: i is too large. The first call reads the packed
  * reference values (BEAMWORK_TRUTHS, or build/truths.h5), which identify the new formulations. */
 const element_type *accepted_at(int i);
 

@@ -17,7 +17,7 @@ int ask_offered(const scene *s, const element_type *type)
 }
 
 /* Returns the outcome of a question. The declaration of the type decides if the physics is
- * supported. A rejection does not. */
+ * supported. A rejection by the type does not. */
 static ask_outcome outcome_of(const scene *s, const element_type *type, status outcome, int all)
 {
     if (!ask_offered(s, type))

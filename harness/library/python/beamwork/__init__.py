@@ -11,19 +11,20 @@
 Scene: a built-in case, a scene file, or a scene built from dicts.  Result: values, errors, curves, steps.
 Convergence, Verdicts: lists of records; frame() of each is a pandas.DataFrame.
 
-Each exception is one line with the cause and the remedy. Error is the base class of Refused (its mistakes: the errors
-of a scene with file, line and column), NotConverged, Singular, NoValue, TimeLimit and Fault. error.result contains
-partial results. Arguments of a wrong type raise TypeError.
+The message of an exception is one line with the cause and the remedy. Error is the base class of Refused (attribute
+mistakes: the errors of a scene with file, line and column), NotConverged, Singular, NoValue, TimeLimit and Fault.
+error.result contains partial results. Arguments of a wrong type raise TypeError.
 
 Every verb of the program has a function: sweep, bench, stress, motion, element_test, truth, compare, merge, plot, export,
 import_, explain, list_, schema and verify; solve, converge and scene are Scene.solve, Scene.converge and Scene.write.
 They return the data that the program writes as JSON (Document) or CSV (Records).
 
-The library is libbeamwork.so.0. It is searched for in BEAMWORK_LIBRARY, next to this module, in lib of the prefix or
-build of the clone that contains this module, next to the program, and where the system looks (beamwork.path).
+BEAMWORK_LIBRARY is the path of the library libbeamwork.so.0. If it is not set, the library is searched for in the
+folder of this module, in `lib` of the prefix or `build` of the clone that contains this module, in the folder of the
+program, and in the search path of the system. beamwork.path is the path that was found.
 
-Threads: other threads run while the library computes; one scene computes one thing at a time. Ctrl-C ends the
-processes in which converge and verify compute, and raises KeyboardInterrupt; a solution runs to its end first.
+Other threads run while the library computes. A scene performs one computation at a time. Ctrl-C ends the processes of
+converge and verify, and raises KeyboardInterrupt. A solution is completed before the exception is raised.
 """
 from __future__ import annotations as _annotations
 

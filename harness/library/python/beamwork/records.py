@@ -80,7 +80,7 @@ class Convergence(Records):
 
     limits: Records of formulation, quantity, limit, limit_uncertainty, order, verdict, message.
     answers: Records of formulation, elements, cost, rank: sorted by cost at the error `level`.
-    sentence: the conclusion.  document: everything, as `beamwork converge --format json` writes it."""
+    sentence: the conclusion.  document: all data, in the form of `beamwork converge --format json`."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         super().__init__()
@@ -109,11 +109,11 @@ class Verdicts(Records):
     Keys: case, parameters, formulation, quantity, verdict, expected, as_expected, message, limit, limit_uncertainty,
     truth, error (relative) and everything else that `verify --json` writes.
 
-    passed: the outcome of the run is "pass" (`verify` then ends with status 0): there is a verdict, and none that
-    affects the exit status is unexpected.  outcome: "pass", "fail" or "nothing was judged".
-    broken_contracts: formulations that violate the interface requirements, and how.
+    outcome: "pass", "fail" or "nothing was judged".
+    passed: True if the outcome is "pass": there is a verdict, and no verdict that affects the exit status is unexpected.
+    broken_contracts: formulations that violate the requirements of the interface, with the violated requirements.
     unexpected: records that differ from the expected ones.  counts: {verdict: number}.
-    document: everything, as `beamwork verify --json` writes it."""
+    document: all data, in the form of `beamwork verify --json`."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         super().__init__(document.get("verdicts", []))

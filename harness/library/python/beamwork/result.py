@@ -54,10 +54,10 @@ class Result:
     at: {quantity: position of its value}: for a motion the time [s], for example of a largest value.
     curves: names of the quantities that are curves.
     case, formulation, elements, parameters, cell (status, unknowns, counted work, times).
-    document: everything, as `beamwork solve --format json` writes it (read once, on request).
+    document: all data, in the form of `beamwork solve --format json` (read at the first use).
 
-    Its memory belongs to the library and is freed with the last of the result and the arrays of its curves. It may be
-    used from several threads. It cannot be pickled, but result.document can."""
+    The memory belongs to the library. It is freed when neither the result nor an array of its curves exists any more.
+    Several threads may use a result. A result cannot be pickled, but result.document can."""
 
     def __init__(self, handle: Owned) -> None:
         self._handle: Owned | None = handle

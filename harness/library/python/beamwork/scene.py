@@ -200,9 +200,9 @@ class Scene:
     def solve(self, formulation: str | None = None, elements: int | None = None, **options: Any) -> Result:
         """Returns the Result of one formulation on one mesh.
 
-        formulation: such as "beamw" or "beamw:mass=lumped"; None: one that supports the physics of the scene is chosen.
-        elements: per member; None: the coarsest mesh on which no value changes by more than error (0.001) from the
-        previous mesh; NotConverged if the values still change on the finest mesh tried.
+        formulation: such as "beamw" or "beamw:mass=lumped"; None: a formulation that supports the physics of the scene.
+        elements: number per member; None: the coarsest mesh on which no value changes by more than `error` (0.001) from
+        the previous mesh. Raises NotConverged if the values still change on the finest mesh tried.
         options: error, all_dofs, steps, shapes, threads, ... (see beamwork.h).
 
         Raises Refused, NotConverged, Singular or Fault; error.result is the partial result, or None. Ctrl-C raises

@@ -1,6 +1,6 @@
 """python -m beamwork.umbridge SCENE serves a scene as a model of UM-Bridge (https://um-bridge.org, protocol 1.0).
 
-Clients for uncertainty quantification and optimisation then call it in any language:
+Programs for uncertainty quantification and optimisation, in any language, can then call it:
 
     model = umbridge.HTTPModel("http://localhost:4242", "forward")
     model([[0.5e-3, 210e9]], {"elements": 4})       # [[drive_force]]
@@ -88,7 +88,7 @@ class Model:
 
 
 def chosen(names: list[str] | None, known: list[str], kind: str) -> list[str]:
-    """Returns the names, or all known ones if none are given. Raises ValueError for an unknown name."""
+    """Returns the names, or all known names if no names are given. Raises ValueError for an unknown name."""
     for name in names or ():
         if name not in known:
             raise ValueError(f"{kind} '{name}' does not exist; the scene has: {', '.join(known) or 'none'}")
