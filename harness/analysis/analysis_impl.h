@@ -349,8 +349,8 @@ status within_step(flutter_judge *, analysis_context *, const model_state *from,
 /* Small motions and stability about a loaded, deformed state: the last state of the static path
  * that the analysis follows. */
 
-/* Natural frequencies of M x = (1/omega^2) K x, with tangent K and mass matrix M of the deformed
- * state. */
+/* Computes the natural frequencies of M x = (1/omega^2) K x, where K is the tangent and M is the
+ * mass matrix of the deformed state. */
 status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
 /* Finds the value of the path parameter, beyond the end of the static path, at which the tangent of
  * the nonlinear path first becomes singular (a bifurcation). Loads and drivers continue beyond the
@@ -498,7 +498,7 @@ struct harmonic_modes {
     int *closed_pivot;
     double *loop_parts;        /* [loops x 2 x count] V^T P and V^T S */
     double *balance;           /* [loops x 2] scales of rows and columns */
-    double *felt, *lag, damps; /* [loops] |P| and q; 1 - |P| q: see harmonic_closed.c */
+    double *felt, *lag, damps; /* [loops] |P| and q; 1 minus the sum of |P| q (harmonic_closed.c) */
 };
 
 /* Extracts the free blocks of K, M, C and B. */
@@ -535,22 +535,22 @@ double harmonic_modes_bound(vibration *, const double complex left_of_f[],
                             const double complex left_of_o[]);
 /* Returns the norm of a residual r[free], sqrt(r^H K^-1 r). */
 double harmonic_modes_left(vibration *, const double complex r[]);
-/* Returns NOT_CONVERGED: more modes are needed for a bound. */
+/* Returns NOT_CONVERGED with the message that a bound requires more modes. */
 status harmonic_modes_few(const vibration *, fault *);
 
 /* Modes with closed loops (harmonic_closed.c). Without loops, the first two functions do nothing.
  */
 
-/* Call after harmonic_modes_project. */
+/* Call this function after harmonic_modes_project. */
 status harmonic_closed_alloc(vibration *, fault *);
-/* Factors the matrix of the modes and loops; call after harmonic_modes_factor. SINGULAR: as in a
- * direct solution. NOT_CONVERGED: no error bound is known. */
+/* Factors the matrix of the modes and loops. Call this function after harmonic_modes_factor.
+ * SINGULAR: as in a direct solution. NOT_CONVERGED: there is no error bound. */
 status harmonic_closed_factor(vibration *, fault *);
-/* f[free]: forces. x[all + loops] contains the right-hand sides b of the loops on entry, and the
- * solution and the factors of the loops on return. */
+/* Solves for the forces f[free]. x[all + loops] contains the right-hand sides b of the loops on
+ * entry; it contains the solution and the factors of the loops on return. */
 void harmonic_closed_solve(vibration *, const double complex f[], double complex x[]);
-/* Like harmonic_modes_bound, with the factors u[loops], and the residual of the output with its
- * coefficients of u, output[all + loops], and its solution dual[free] without loops. */
+/* Like harmonic_modes_bound, for closed loops with the factors u[loops]. output[all + loops]:
+ * residual of the output, and its coefficients of u. dual[free]: its solution without loops. */
 double harmonic_closed_bound(vibration *, const double complex left_of_f[],
                              const double complex u[], const double complex output[],
                              const double complex dual[]);

@@ -4,11 +4,10 @@
  * If all modes are used, this is the direct solution.
  *
  * The error due to omitted modes is bounded from the residuals of solutions without the loops, as
- * in harmonic_reduced.c: each o^T D^-1 f is known up to |o| |f|/positive, where |f| is the norm of
- * the residual of f. With Z = D^-1 P and G = |(own + gain S^T Z)^-1|, the error of u is at most
- *     q (|f| + |P| |u|)/(1 - |P| q),   q = G |gain| |S|/positive,
- * and that of o^T x at most |o|/positive (|f| + |P| |u|) + (|o^T Z + o_u| + |o| |P|/positive) times
- * the error of u. */
+ * in harmonic_reduced.c: the error of each o^T D^-1 f is at most |o| |f|/positive, where |f| is the
+ * norm of the residual of f. With Z = D^-1 P and G = |(own + gain S^T Z)^-1|, the error of u is at
+ * most q (|f| + |P| |u|)/(1 - |P| q),   q = G |gain| |S|/positive, and that of o^T x at most
+ * |o|/positive (|f| + |P| |u|) + (|o^T Z + o_u| + |o| |P|/positive) times the error of u. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <lapacke.h>
@@ -48,7 +47,7 @@ status harmonic_closed_alloc(vibration *v, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the norm of V^T P (part 0) or V^T S (part 1), in the scale of D. */
+/* Returns the norm of V^T P (part 0) or V^T S (part 1), scaled with D. */
 static double scaled_size(const harmonic_modes *m, int loop, int part)
 {
     const double *of = m->loop_parts + (size_t)(2 * loop + part) * (size_t)m->count;
@@ -78,8 +77,8 @@ static void put_loop(const vibration *v, int l)
     m->balance[2 * l + 1] = column;
 }
 
-/* Solves without loops for the real forces of a loop, f[free]. Returns the norm of the residual;
- * x[free]: the solution. */
+/* Solves for the real forces f[free] of a loop, without loops. x[free]: the solution. Returns the
+ * norm of the residual. */
 static double left_of(vibration *v, const double f[], double complex x[])
 {
     harmonic_modes *m = v->modes;

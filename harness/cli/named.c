@@ -15,7 +15,7 @@ void named_add(chosen_formulations *o, const char *text)
         message_refuse(f.text);
 }
 
-/* time limit of a part, for element-test */
+/* sets the default time limit: for element-test, that of a part */
 static void begin(void *group, command_line *l)
 {
     chosen_formulations *o = group;

@@ -17,10 +17,10 @@ typedef struct truth_request {
     const char *format;
 } truth_request;
 
-/* A reference value. Words that do not apply are empty. */
+/* A reference value. Words without a meaning for this value are empty. */
 typedef struct shown_value {
     const char *quantity, *formulation, *unit, *kind, *model, *theory, *source, *convention;
-    int elements; /* of the formulation; 0: any number */
+    int elements; /* elements of the formulation; 0: any number */
     double value, uncertainty;
 } shown_value;
 
@@ -204,7 +204,7 @@ static status show_scene_of(json_t *list, const case_type *type, const double pa
     return STATUS_OK;
 }
 
-/* Shows the reference values of a scene file, which are computed for a network of members and
+/* Shows the reference values of a scene file. They are computed for a network of members and
  * bodies. */
 static status show_scene(json_t *list, const case_type *type, const double parameter[], fault *f)
 {
@@ -223,7 +223,7 @@ static status show_scene(json_t *list, const case_type *type, const double param
         why.text);
 }
 
-/* Shows stored values and, where there are none, derived ones. */
+/* Shows stored values. If there are none, shows derived values. */
 static status show_all(const truth_request *r, const case_type *type, const truths *t, json_t *list,
                        fault *f)
 {

@@ -146,7 +146,7 @@ checks_run checks_mass;      /* the mass matrix is symmetric and positive defini
 checks_run checks_rotating;  /* effects of a rotating frame */
 checks_run checks_along;     /* loads along one element */
 checks_run checks_in_time;   /* inertia forces during motions */
-checks_run checks_history;   /* committed values continue the strains */
+checks_run checks_history;   /* values after a commit give the same strains */
 
 measured_run measured_states;  /* errors of a cantilever with respect to the exact solution */
 measured_run measured_locking; /* errors over thickness/length */

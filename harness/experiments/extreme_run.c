@@ -155,7 +155,7 @@ static int speaks_of(const extreme_finding *row, const extreme_sweep *s, const e
            fnmatch(row->quantity, e->quantity[o->quantity].name, 0) == 0;
 }
 
-/* Rank of an outcome, from the best to the worst. */
+/* Returns the rank of an outcome. Worse outcomes have larger ranks. */
 static int badness(outcome_kind kind)
 {
     static const int rank[OUTCOME_KINDS] = {

@@ -349,7 +349,7 @@ static double energy(const specimen *s, const node_state x[], const double M[],
     return dense_dot(s->coordinates, v, Mv);
 }
 
-/* [kg/m] */
+/* Returns the mass per length [kg/m]. */
 static double line_mass(const section *c)
 {
     return c->matrices ? c->mass[0] : c->density * c->A;

@@ -1,4 +1,4 @@
-/* Histories of elements, and what is measured along paths: superposed rigid rotations by many
+/* Checks of element histories, and measurements along paths: superposed rigid rotations of many
  * turns, and closed cycles of deformation. */
 #include "harness/experiments/experiments_impl.h"
 
@@ -16,7 +16,7 @@ static const char *const claim_continues = "commit does not change the strains",
                          *const claim_twice = "a second commit changes nothing",
                          *const claim_same = "commit gives the same bits again";
 
-/* Values that commit has computed, and its input. */
+/* Values that `commit` has computed, with its input. */
 typedef struct committed {
     node_state x[ELEMENT_MAX_NODES];
     double before[ELEMENT_MAX_HISTORY], after[ELEMENT_MAX_HISTORY];
@@ -86,19 +86,20 @@ void checks_history(const formulation *chosen, claims *out)
 
 /* Strains and forces along a path of one element. */
 
-/* Steps of each turn and cycle; cycles; size of the rotations of nodes [rad] and of other
- * coordinates. The rotations remain below the declared limits. */
+/* STEPS: steps of each turn and cycle. marks: numbers of cycles after which values are measured.
+ * turned, moved: size of the rotations of nodes [rad] and of other coordinates. The rotations
+ * remain below the declared limits. */
 enum { STEPS = 24, MARKS = 3 };
 static const int marks[MARKS] = {1, 10, 100};
 static const double turned = 0.3, moved = 0.05;
 static const double exact = 1e-9;
 
-/* An element that follows a path: its history and its last results. */
+/* An element that follows a path, with its history and its last results. */
 typedef struct walker {
     const specimen *s;
     double history[ELEMENT_MAX_HISTORY];
-    int strains;                            /* 1: e, else only the energy */
-    double e[M], energy, force[N];          /* force: times the unit of its coordinate [J] */
+    int strains;                   /* 0: only the energy is computed */
+    double e[M], energy, force[N]; /* force: multiplied by the unit of its coordinate [J] */
     double most_e, most_energy, most_force; /* in the first cycle */
 } walker;
 
@@ -137,7 +138,7 @@ static double largest(int count, const double v[])
     return out;
 }
 
-/* Returns 1 if step k is in the first cycle, or in one that ends at a mark. Without a history, the
+/* Returns 1 if step k is in the first cycle, or in a cycle that ends at a mark. Without a history,
  * other steps have no effect. */
 static int matters(const specimen *s, int k)
 {
@@ -147,7 +148,8 @@ static int matters(const specimen *s, int k)
     return is;
 }
 
-/* Evaluates the element in step k of its path, and commits the state. forces 1: also its forces. */
+/* Evaluates the element in step k of its path, and commits the state. forces 1: also computes the
+ * forces. */
 static status walker_step(walker *w, int k, const node_state x[], int forces)
 {
     const specimen *s = w->s;
@@ -187,7 +189,8 @@ static void conclude(element_measure *one, const char *holds, const char *fails)
     snprintf(one->words, sizeof one->words, "%s", worst <= exact ? holds : fails);
 }
 
-/* Compares the element in cycles with the same element that is also rotated as a whole. */
+/* Compares the element in cycles with the same element under an additional rotation of the whole
+ * element. */
 static void superposed(const specimen *s, measures *out)
 {
     static const double axis[3] = {0.36, 0.48, 0.8};
@@ -222,7 +225,7 @@ static void superposed(const specimen *s, measures *out)
     conclude(one, "objective", "not objective");
 }
 
-/* Follows closed cycles, and compares the undeformed state at their ends with the first one. */
+/* Follows closed cycles, and compares the states at their ends with the undeformed state. */
 static void cycles(const specimen *s, measures *out)
 {
     static walker at;
@@ -252,7 +255,7 @@ static void cycles(const specimen *s, measures *out)
     conclude(forces, "path-independent", "path-dependent");
 }
 
-/* Requires that a formulation with a history declares what was measured. */
+/* Requires that a formulation with a history declares the measured properties. */
 static void hold_against_declared(const formulation *chosen, const measures *out, claims *c)
 {
     static const struct {

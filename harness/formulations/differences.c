@@ -198,7 +198,7 @@ typedef struct difference_place {
     const element_data *data;
     const node_state *x;
     const double *s;                /* stresses, for second derivatives */
-    const double *history;          /* of the element; NULL: none */
+    const double *history;          /* history of the element; NULL: none */
     differences_jacobian *jacobian; /* Jacobian of the strains; NULL: none */
     gather *together; /* gathers all perturbed states; NULL: each state is evaluated when it is
                          needed */
@@ -409,8 +409,8 @@ static void give_parts(int count, const many *all)
     }
 }
 
-/* Sets the results to NaN if an element with a history is evaluated without it; then no analysis
- * uses them. */
+/* Sets the results to NaN if an element with a history is evaluated without its history. No
+ * analysis uses these results. */
 static int has_history(int count, const element_data *const data[], strain_output out[])
 {
     int missing = 0;

@@ -444,7 +444,7 @@ status kinematics_nodes_alloc(const model *m, const model_state *from, model_sta
     return STATUS_OK;
 }
 
-/* Sets the history of a new, undeformed state; the first one is m->rest. */
+/* Sets the histories of a new, undeformed state. The first such state is m->rest. */
 static void begin_history(const model *m, model_state *s)
 {
     const size_t each = (size_t)m->mesh.history;

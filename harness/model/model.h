@@ -333,9 +333,9 @@ static inline const model_mesh *model_mesh_of(const model *m)
     return (const model_mesh *)m;
 }
 
-/* Data of an element: its type, number of nodes, number of coordinates of the nodes (7 each),
- * number of strains, number of internal unknowns, and number of doubles that its type stores in a
- * linearisation. */
+/* Return data of an element: its type, number of nodes, number of coordinates of the nodes (7
+ * each), number of strains, number of internal unknowns, and number of doubles that its type stores
+ * in a linearisation. */
 static inline const element_type *model_type(const model *m)
 {
     return model_mesh_of(m)->type;
@@ -450,7 +450,7 @@ static inline int model_first_element(const model *m, int member)
 {
     return model_mesh_of(m)->first_element[member];
 }
-/* Division of the members into elements. */
+/* Returns the division of the members into elements. */
 const division *model_division(const model *);
 static inline int model_kinds(const model *m)
 {
@@ -460,7 +460,7 @@ static inline const mesh_kind *model_kind(const model *m, int kind)
 {
     return &model_mesh_of(m)->kind[kind];
 }
-/* Kind of an element. */
+/* Returns the kind of an element. */
 static inline const mesh_kind *model_kind_of(const model *m, int element)
 {
     return &model_mesh_of(m)->kind[model_mesh_of(m)->element[element].kind];
@@ -501,7 +501,7 @@ static inline int model_first_release(const model *m)
  * exert a moment about this axis at any rotation about the other two. NONE: there is no such axis,
  * or there are several. */
 int coordinates_held_turn(const model *, int node);
-/* Number of warping amplitudes, and coordinate of a warping amplitude. */
+/* Return the number of warping amplitudes, and the coordinate of a warping amplitude. */
 static inline int model_warps(const model *m)
 {
     return model_mesh_of(m)->warps;
@@ -668,8 +668,8 @@ status kinematics_nodes_alloc(const model *, const model_state *from, model_stat
 void kinematics_state_free(model_state *);
 const model_state *kinematics_rest(const model *); /* the undeformed state */
 void kinematics_state_copy(const model *, const model_state *from, model_state *to);
-/* Makes the history of all elements that of this state, which is accepted and from which a step
- * begins. Until then, results of the state and its tangent are those of the step that led to it. */
+/* Sets the histories of all elements to those of this accepted state, at which a step starts.
+ * Before this call, results and tangent of the state belong to the step that led to it. */
 void kinematics_commit(const model *, model_state *);
 double kinematics_state_path(const model_state *);
 const double *kinematics_strains(const model_state *); /* [elements x strains] */

@@ -156,7 +156,7 @@ void applied_vector(const model *m, int element, const scene_load *load, double 
         vector[i] += along * (load->last[i] - load->vector[i]);
 }
 
-/* Shape function of node k at x. */
+/* Returns the shape function of node k at x. */
 static double share_of(const model *m, int k, double x)
 {
     const double three[] = {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), -x * (1 - 2 * x)};

@@ -1149,8 +1149,8 @@ void free_strain_subtract(const equations *, int element, double path, double e[
 /* Returns the data for the stresses of an element: the data of its kind, or the data that its type
  * has modified. The data are valid until the next call for the element. */
 const element_data *free_strain_data(const equations *, int element, double path);
-/* Energy supplied by temperatures that change with time: the power at one time [W], and the energy
- * between two states [J]. */
+/* Return the energy supplied by temperatures that change with time: the power at one time [W], and
+ * the energy between two states [J]. */
 double free_strain_power(const equations *, const model_state *, double time);
 double free_strain_work(const equations *, const model_state *from, double begin,
                         const model_state *to, double end);
@@ -1271,11 +1271,11 @@ typedef struct newton_use {
                                             accepted */
 } newton_use;
 
-/* Newton's method for the states of a path. */
+/* Returns the functions with which Newton's method computes the states of a path. */
 newton_use newton_on_path(newton_run *, void *of,
                           status (*correct)(void *of, int iteration, newton_correction *,
                                             step_record *, fault *));
-/* Newton's method for time steps. */
+/* Returns the functions with which Newton's method computes time steps. */
 newton_use newton_in_time(const analysis_context *, void *of,
                           status (*correct)(void *of, int iteration, newton_correction *,
                                             step_record *, fault *),

@@ -372,8 +372,8 @@ typedef struct second_order {
 status second_order_alloc(int n, int motions, int inputs, int outputs, second_order *, fault *);
 void second_order_free(second_order *);
 
-/* Reduced model q = T x (T [(n + motions) x (columns + motions)], which the caller frees in any
- * case): T consists of the static shapes of the interface coordinates (edge[n] 1) and the first
+/* Computes a reduced model q = T x. The caller frees T [(n + motions) x (columns + motions)] in any
+ * case. T consists of the static shapes of the interface coordinates (edge[n] 1) and the first
  * modes with these fixed. Without an interface, T consists of modes and the static shapes of
  * forces; this is REFUSED if the structure is free. *modes becomes the number of modes in T, which
  * is larger if it would separate modes with the same frequency. */

@@ -299,7 +299,7 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
     return STATUS_OK;
 }
 
-/* Energy and momenta are conserved only if strains depend on the state alone, and not on rigid
+/* Checks for the conserving integrator that strains depend only on the state, and not on rigid
  * rotations. */
 static status check_conserving(const analysis_context *c, int analysis, fault *f)
 {

@@ -15,8 +15,9 @@ The message of an exception is one line with the cause and the remedy. Error is 
 mistakes: the errors of a scene with file, line and column), NotConverged, Singular, NoValue, TimeLimit and Fault.
 error.result contains partial results. Arguments of a wrong type raise TypeError.
 
-Every verb of the program has a function: sweep, bench, stress, motion, element_test, truth, compare, merge, plot, export,
-import_, explain, list_, schema and verify; solve, converge and scene are Scene.solve, Scene.converge and Scene.write.
+Every verb of the program has a function: sweep, bench, stress, motion, element_test, truth, compare, merge, plot,
+export, import_, explain, list_, schema and verify; solve, converge and scene are Scene.solve, Scene.converge and
+Scene.write.
 They return the data that the program writes as JSON (Document) or CSV (Records).
 
 BEAMWORK_LIBRARY is the path of the library libbeamwork.so.0. If it is not set, the library is searched for in the

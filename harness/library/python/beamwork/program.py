@@ -1,4 +1,4 @@
-"""The program: its location, and runs of its verbs."""
+"""The location of the program, and runs of its verbs."""
 from __future__ import annotations
 
 import os
@@ -24,7 +24,7 @@ _HERE = pathlib.Path(__file__).resolve().parent
 _PROGRESS = re.compile(r"[a-z ]+ (\d+) of (\d+), (\d+) %(?:, about .* left)?: (.*)")
 _REPEATED = ("element", "scene", "truths", "from_", "imported", "deviations")
 _FAILED: dict[int, type[Error]] = {2: Refused, 4: Fault, 5: TimeLimit}
-LOADED: dict[str, str] = {}  # the argument of load for each name, for verbs that run in the program
+LOADED: dict[str, str] = {}  # argument of load() for each loaded formulation, for verbs that run in the program
 
 
 def program() -> str:
@@ -114,7 +114,7 @@ def _failure(code: int, output: str, lines: list[str]) -> Error:
 
 
 def _end(process: subprocess.Popen[str]) -> None:
-    """Ends the program, which then writes the verdicts that it has; after five seconds, without them."""
+    """Ends the program, which first writes the verdicts that are complete. After five seconds, ends it without them."""
     process.send_signal(signal.SIGINT)
     try:
         process.communicate(timeout=5)
@@ -125,10 +125,10 @@ def _end(process: subprocess.Popen[str]) -> None:
 
 def run(verb: str, *arguments: object, formulations: Iterable[str] = (),
         progress: Progress | None = None, **options: Any) -> tuple[str, int]:
-    """Runs a verb in another process; returns its standard output and its exit status.
+    """Runs a verb in another process. Returns its standard output and its exit status.
 
-    formulations: names; those that load() has loaded are loaded there, too. progress: a function of (done, of, share,
-    what). options: those of `beamwork help VERB`, with _ for -. Ctrl-C ends the process.
+    formulations: names; formulations that load() has loaded are also loaded there. progress: a function of (done, of,
+    share, what). options: those of `beamwork help VERB`, with _ for -. Ctrl-C ends the process.
 
     Raises Refused, Fault or TimeLimit with the line of the program for the statuses 2, 4 and 5."""
     named = [str(f) for f in formulations]
@@ -157,7 +157,8 @@ def run(verb: str, *arguments: object, formulations: Iterable[str] = (),
 
 
 class Given:
-    """A case as the program takes it; as a context, because a scene built in Python is written to a file."""
+    """A case in the form of program arguments. This is a context manager, because it writes a scene built in Python to
+    a temporary file."""
 
     def __init__(self, case: Case) -> None:
         self.case = case

@@ -47,7 +47,8 @@ class Records(list[dict[str, Any]]):
 class Document(dict[str, Any]):
     """What a verb writes as JSON: a dict in which lists of records are Records; these are its tables.
 
-    tables: {name: Records}.  status: exit status of the program.  passed: it is 0, everything is as expected."""
+    tables: {name: Records}.  status: exit status of the program.  passed: True if the status is 0, so all results are
+    as expected."""
 
     def __init__(self, document: dict[str, Any], status: int = 0) -> None:
         super().__init__({key: Records(value) if isinstance(value, list) and all(
@@ -110,7 +111,8 @@ class Verdicts(Records):
     truth, error (relative) and everything else that `verify --json` writes.
 
     outcome: "pass", "fail" or "nothing was judged".
-    passed: True if the outcome is "pass": there is a verdict, and no verdict that affects the exit status is unexpected.
+    passed: True if the outcome is "pass": there is a verdict, and no verdict that affects the exit status is
+    unexpected.
     broken_contracts: formulations that violate the requirements of the interface, with the violated requirements.
     unexpected: records that differ from the expected ones.  counts: {verdict: number}.
     document: all data, in the form of `beamwork verify --json`."""

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .program import Progress
 
 
-# Options of verify in the library; with others, and to see the progress, the program computes.
+# Options of verify in the library. With other options or with a progress function, the program computes the verdicts.
 _OF_LIBRARY = {"tolerance", "not_worse_than", "jobs", "time_limit", "refine", "shapes", "stop"}
 
 

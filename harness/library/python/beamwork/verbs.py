@@ -47,7 +47,7 @@ def _asked(verb: str, case: Case, formulations: tuple[str, ...] = (), **options:
 
 
 def verified_by_program(case: Case, formulations: tuple[str, ...], **options: Any) -> Verdicts:
-    """Returns the verdicts of the program, which has more options than the library, and shows its progress."""
+    """Returns the verdicts of the program, which has more options than the library and reports its progress."""
     with tempfile.TemporaryDirectory() as place:
         path = pathlib.Path(place, "verdicts.json")
         with Given(case) as (arguments, given):
@@ -60,26 +60,26 @@ def verified_by_program(case: Case, formulations: tuple[str, ...], **options: An
 
 def converged_by_program(case: Case, formulations: tuple[str, ...], meshes: Any, progress: Progress,
                          options: dict[str, Any]) -> Convergence:
-    """Returns the convergence that the program computes, which shows its progress."""
+    """Returns the convergence of the program, which reports its progress."""
     text, _ = _asked("converge", case, formulations or ("all",), elements=meshes, progress=progress,
                      format="json", **options)
     return Convergence(json.loads(text))
 
 
 def list_(what: str | None = None) -> Document:
-    """Returns cases and formulations, or everything about one of them."""
+    """Returns cases and formulations, or all data of one of them."""
     return Document(json.loads(text_of("list", None if what is None else required(what, "what"))))
 
 
 def explain(word: str = "", **options: Any) -> str:
-    """Returns what a word means: a verdict, theory, quantity, case, formulation or known deviation; without a word, the
-    list of all terms."""
+    """Returns the explanation of a verdict, theory, quantity, case, formulation or known deviation. Without a word,
+    returns the list of all terms."""
     return run("explain", *word.split(), **options)[0]
 
 
 def plot(case: Case, output: str | os.PathLike[str], *formulations: str, **options: Any) -> pathlib.Path:
-    """Draws the quantities of a case as curves into a file (.png, .svg, .pdf), or writes them as a table (.csv); returns
-    its path."""
+    """Draws the quantities of a case as curves into a file (.png, .svg, .pdf), or writes them as a table (.csv).
+    Returns the path of the file."""
     _asked("plot", case, formulations, output=output, **options)
     return pathlib.Path(output)
 
@@ -94,7 +94,8 @@ def sweep(case: Case, *formulations: str, vary: dict[str, Any], progress: Progre
 
 
 def truth(case: Case, **options: Any) -> Document:
-    """Returns the reference values of a case at a parameter point: the table `values`; computed if none are stored."""
+    """Returns the reference values of a case at a parameter point: the table `values`. If no values are stored,
+    computes them."""
     text, code = _asked("truth", case, format="json", **options)
     if code != 0:
         raise Error("no reference value is stored for this point, and no program can compute it")
@@ -131,7 +132,7 @@ def element_test(*formulations: str, **options: Any) -> Document:
 
 
 def merge(*folders: str | os.PathLike[str], of: str = "verify", **options: Any) -> Verdicts | Records:
-    """Merges the batches of shards of `verify` (Verdicts) or `sweep` (Records), which `of` names."""
+    """Merges the batches of shards. of: "verify" (returns Verdicts) or "sweep" (returns Records)."""
     if of == "sweep":
         return _rows(run("merge", *folders, format="csv", **options)[0])
     with tempfile.TemporaryDirectory() as place:
@@ -147,7 +148,8 @@ def compare(old: str | os.PathLike[str], new: str | os.PathLike[str], **options:
 
 
 class Comparison:
-    """What differs between two stored runs. same: nothing within the thresholds; lines: what `beamwork compare` prints."""
+    """Differences between two stored runs. same: True if no difference exceeds the thresholds; lines: output of
+    `beamwork compare`."""
 
     def __init__(self, text: str, same: bool) -> None:
         self.same, self.lines = same, text.splitlines()
@@ -173,5 +175,5 @@ def import_(*files: str | os.PathLike[str], output: str | os.PathLike[str],
 
 
 def schema() -> Document:
-    """Returns what results files consist of: the table `records`."""
+    """Returns the structure of results files: the table `records`."""
     return Document(json.loads(run("schema", format="json")[0]))
