@@ -556,7 +556,7 @@ enum { JUDGED_AS_EXPECTED = 0, JUDGED_DIFFERS = 1, JUDGED_NOTHING = 3 };
  * status is not as expected, 3 if nothing was evaluated. No other function determines the exit
  * status. */
 int judgement_exit(const judgement *j);
-/* Returns "pass", "fail" or "nothing was evaluated". */
+/* Returns "pass", "fail" or "nothing was judged". */
 const char *judgement_outcome(const judgement *j);
 
 /* Returns the largest extent of the positions of nodes [m]. */
