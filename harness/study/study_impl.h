@@ -321,8 +321,8 @@ status worker_start(const workload *, int self, worker *, fault *);
  * memory for the results, and the worker continues. */
 enum { WORKER_ENDED = -1, WORKER_NOTHING = -2, WORKER_NO_MEMORY = -3 };
 /* Reads available results, or references to equal results, without waiting. Returns the task of the
- * last result; WORKER_NOTHING: no result is complete yet. A worker that writes anything else is
- * ended. */
+ * last result; WORKER_NOTHING: no result is complete yet. A worker that writes other data is ended.
+ */
 int worker_receive(workload *, worker *);
 /* Handles a worker that ended during a task, whose cell has failed. Returns 1 if the worker must be
  * replaced. */

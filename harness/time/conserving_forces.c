@@ -416,7 +416,7 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
 /* Computes the strain rates r1 and their derivatives s1 at the end of a step from r0 and s0 at its
  * start and from the mean rate m: r1 = (3 m - r0)/2 + h s0/4, s1 = (m - r0)/h + s0/2. The result is
  * of second order, even if there is no inertia. An initial error disappears after two steps. With
- * r1 = 2 m - r0, it would persist. */
+ * r1 = 2 m - r0, this error would persist. */
 void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
