@@ -1,8 +1,8 @@
 #!/bin/sh
 # Compares the functions of the shared library, with their arguments and types, with harness/library/libbeamwork.abi (abigail-tools).
-# A program that was linked with an older library runs with a newer one as long as no function is removed or changed.
+# A program that was linked with an older library runs with a newer library if no function has been removed or changed.
 # usage: abi.sh SHARED [accept]     accept: the present functions become the new dump
-# Exit status: 0 the same, 1 different, 4 no dump could be made; 0 and a message if abidiff is missing.
+# Exit status: 0 if the functions are the same, 1 if they differ, 4 if no dump could be made. If abidiff is missing, prints a message and ends with 0.
 set -u
 shared=$1 dump=harness/library/libbeamwork.abi
 command -v abidw >/dev/null 2>&1 || { echo "SKIP abi: needs abidiff (abigail-tools)"; exit 0; }

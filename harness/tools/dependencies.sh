@@ -1,10 +1,10 @@
 #!/bin/sh
-# Checks what one command needs, installs missing packages (as root, on Debian), or prints the line that does.
-# What only single tests use (chromium, gfortran, octave-cli, python3-vtk9) is asked for by .ci/run alone: else those tests are skipped by name.
-# usage: dependencies.sh build FLAGS.mk     the compiler's part: libraries; writes their flags
+# Checks that the packages for a command are installed. Installs missing packages (as root, on Debian), or prints the command that installs them.
+# Only .ci/run requires the packages of single tests (chromium, gfortran, octave-cli, python3-vtk9). Without these packages, the tests are skipped.
+# usage: dependencies.sh build FLAGS.mk     libraries for the compiler; writes their flags
 #        dependencies.sh verify|report|docs|test|truths
-#        dependencies.sh layout              clang's tools, of the one version that Debian 12 and 13 both have
-#        dependencies.sh ci                  layout, and what any test is skipped without
+#        dependencies.sh layout              tools of clang, in the version that both Debian 12 and Debian 13 contain
+#        dependencies.sh ci                  tools of `layout`, and all packages without which a test is skipped
 set -eu
 command=$1
 python=${PYTHON:-/usr/bin/python3}
@@ -67,7 +67,7 @@ find_missing
 if [ -n "$packages" ] && can_install; then
     echo "beamwork: installing$packages" >&2
     apt-get update -q >&2 || true
-    # One that is not to be had keeps none of the others away.
+    # If a package is not available, install the others one by one.
     install $packages || for package in $packages; do install "$package" || true; done
     find_missing
 fi
@@ -81,8 +81,8 @@ flags=$2
 libraries="$(pkg-config --libs gsl lapacke hdf5 arpack jansson yaml-0.1 zlib) -lklu -lbtf -lcolamd -lldl -lamd -lsuitesparseconfig -llapack -lblas -lpthread -lm"
 mkdir -p "$(dirname "$flags")"
 
-# The shared HDF5 of Debian loads thirty libraries more (curl, Kerberos, ...), which takes longer than most solutions.
-# The program takes the archive, where it links without them. 0: it does.
+# The shared HDF5 library of Debian loads thirty other libraries (curl, Kerberos, ...), which takes longer than most solutions.
+# If the static library links without them, the program uses it. Returns 0 if it links.
 archive_links() {
     printf '%s\n' '#include <hdf5.h>' 'int main(void) {' \
         'hid_t made = H5Pcreate(H5P_DATASET_CREATE), file = H5Fopen("", H5F_ACC_RDONLY, H5P_DEFAULT);' \

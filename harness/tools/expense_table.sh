@@ -1,6 +1,6 @@
 #!/bin/sh
 # Writes the table of expected costs (harness/study/study_impl.h) from expense.csv.
-# usage: expense_table.sh OUT.c expense.csv   Rewrites OUT.c only when it changes.
+# usage: expense_table.sh OUT.c expense.csv   OUT.c is rewritten only if it changes.
 set -eu
 mkdir -p "$(dirname "$1")"
 awk -F, '

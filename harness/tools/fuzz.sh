@@ -1,6 +1,6 @@
 #!/bin/sh
-# Any bytes as every input the program reads, under the address and undefined-behaviour sanitizers: harness/tools/fuzz/fuzz_*.c with clang's libFuzzer.
-# Seeds come from the reference tables and stored runs. Writes BUILD/fuzz.json and ends in one line: N executions, M findings.
+# Reads arbitrary bytes as every kind of input, with the address and undefined-behaviour sanitizers (harness/tools/fuzz/fuzz_*.c with libFuzzer of clang).
+# Seeds come from reference tables and stored runs. Writes BUILD/fuzz.json, and ends with a line: N executions, M findings.
 # usage: fuzz.sh BUILD [FACTOR]     FACTOR multiplies the number of executions
 set -u
 build=$1 factor=${2:-1}
@@ -47,7 +47,7 @@ fuzz import 200000 2000
 fuzz library 30000 4000
 fuzz truths 4000 64
 fuzz results 10000 64
-leaks=0 # the C library's argp keeps what it holds when the program ends
+leaks=0 # argp of the C library does not free its memory when the program ends
 fuzz command 100000 300 -Wl,--wrap=exit,--wrap=argp_parse
 printf '{"executions": %d, "findings": %d, "inputs": [%s\n]}\n' "$total" "$findings" "$rows" >"$build/fuzz.json"
 echo "$total executions, $findings findings"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Checks the layers of the code: an include points down only, no layer names what it must not know,
+# Checks the layers of the code: files include only files of lower layers, no layer names a part that it must not know,
 # and neither files nor folders depend on each other in circles.
 # usage: layers.sh OBJECT...
 set -eu
@@ -23,7 +23,7 @@ rule elements/collocation 'elements/(sheet|beamw)' 'families borrow from shared/
 rule elements/section 'elements/(element|beamw|sheet|geometrically_exact|collocation)' 'a section knows no element'
 rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|geometrically_exact|collocation)' 'a case knows no formulation and no solver'
 rule cases/scene 'cases/format/' 'a scene knows no file'
-# The floors of the harness, lowest first: one includes itself and those before it.
+# Layers of the harness, with the lowest layer first. A layer includes only files of itself and of lower layers.
 floors="numerics formulations model section_forces newton time analysis study records terminal exchange experiments cli library"
 above=$floors
 for room in $floors; do
@@ -36,27 +36,27 @@ rule harness 'reference/|reports/|elements/(beamw|sheet|geometrically_exact|coll
 for room in ${floors%% study *}; do
     rule "harness/$room" 'cases/format/' 'what solves reads no files'
 done
-# An _impl.h is internal to its folder; tests of that folder may include it.
+# A file *_impl.h is internal to its folder. Tests of this folder may include it.
 hits=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]+"[^"]*_impl\.h"' elements cases harness --include='*.c' --include='*.h' 2>/dev/null |
     awk -F '[:"]' '{ home = $4; file = $1; sub("/[^/]*$", "", home); sub("/(test/)?[^/]*$", "", file) }
         file != home { print $0 "   <- this is internal to " home }' || true)
 [ -z "$hits" ] || { echo "$hits"; bad=1; }
-# A type has a name of its own.
+# The names of types are unique.
 hits=$(grep -rhoE '^\} [a-z_0-9]+;' elements cases harness --include='*.c' --include='*.h' --exclude-dir=test --exclude-dir=tools --exclude-dir=examples | sort | uniq -d)
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- two types have this name|'; bad=1; }
-# The harness walks generated lists: neither a formulation nor a case is named in it.
+# The harness uses generated lists and names neither a formulation nor a case.
 for file in elements/*.c cases/*.c cases/*.yaml; do
     [ -f "$file" ] || continue
     name=$(basename "${file%.*}")
     quoted="\"$name\"|"
-    case $name in release) quoted="" ;; esac # a word of scene files, too
+    case $name in release) quoted="" ;; esac # also a word of scene files
     hits=$(grep -rnwE "${quoted}element_$name|case_$name" harness cases/format --include='*.c' --include='*.h' 2>/dev/null | grep -vE '/(test|kit)/' || true)
     if [ -n "$hits" ]; then
         echo "$hits" | sed "s|\$|   <- the harness names $name|"
         bad=1
     fi
 done
-# Reports call no program of beamwork, references share no code with it.
+# Reports call no program of beamwork, and reference values share no code with it.
 hits=$(grep -rnE 'ctypes|cffi|libbeamwork|subprocess|os\.system' reports --include='*.py' 2>/dev/null | grep -vE '/(test|kit)/' || true)
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- reports read files only|'; bad=1; }
 hits=$(grep -rnE 'ctypes|cffi|libbeamwork|build/beamwork|import (harness|reports|elements)' reference --include='*.py' 2>/dev/null || true)

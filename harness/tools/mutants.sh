@@ -1,11 +1,11 @@
 #!/bin/sh
-# Injects the faults of a list that mutate.py writes, one at a time, into a copy of the project. Those of physics must be noticed, with the right exit
-# status, by the narrowest check that should: a selection of 'verify', one test, or a deriving program.
-# Writes WORK.json and ends in one line: N killed, M survived. Survivors are listed.
+# Injects the faults of a list written by mutate.py into a copy of the project, one fault at a time. The narrowest check (a selection of 'verify', a test,
+# or a program of reference/derive) must detect each physical fault, with the expected exit status.
+# Writes WORK.json, lists the survivors, and ends with a line: N killed, M survived.
 # usage: LIST=FILE [DRY=1] [FROM=WORD] [TIME=SECONDS] mutants.sh [WORK [WORD]]
-#   WORD: only the faults whose name has it; FROM: leave out those before; DRY=1: only whether each change still matches its file, nothing is built
-#   Faults that were made are noticed by the first of several checks that fails, within TIME (600 s); one that does not compile, or gives the same machine
-#   code, does not count
+#   WORD: only the faults whose name contains WORD; FROM: omits the faults before this one; DRY=1: only checks that each change matches its file
+#   A generated fault is detected by the first of several checks that fails within TIME (600 s). A fault that does not compile, or that does not change the
+#   machine code, does not count.
 set -u
 here=$(pwd)
 work=${1:-build/mutants} only=${2:-} dry=${DRY:-} list=$LIST
@@ -20,7 +20,7 @@ mkdir -p "$work/base"
 git ls-files | tar -cf - -T - | tar -xf - -C "$work/base"
 built() { make -s -C "$work/base" -j2 CFLAGS="${CFLAGS:--O1}" "$@"; }
 
-# The copy without a fault.
+# Builds the copy without a fault.
 prepare() {
     built all >"$work/log" 2>&1 || { tail "$work/log"; exit 1; }
 }
@@ -38,7 +38,7 @@ result() { # name expected status check
   {\"fault\": \"$1\", \"check\": \"$(echo "$4" | tr -d '"\\')\", \"expected\": \"$2\", \"exit\": \"$3\", \"killed\": $([ "$3" = "$2" ] && echo true || echo false)}"
 }
 
-# The narrowest check, in the copy; its exit status.
+# Runs the narrowest check in the copy. Returns its exit status.
 check() {
     kind=$1
     shift
@@ -54,7 +54,7 @@ check() {
     esac
 }
 
-# The first of several checks that fails, into $work/noticed: tests in C, modules of tests in Python, verify:SELECTION. One that hangs fails.
+# Runs checks (tests in C, modules of tests in Python, verify:SELECTION), and writes the first failure to $work/noticed. A check that exceeds its time limit fails.
 noticed() {
     export BEAMWORK="$PWD/build/beamwork" BEAMWORK_TRUTHS="$PWD/build/truths.h5" BEAMWORK_REFERENCE="$PWD/reference"
     until=$(($(date +%s) + ${TIME:-600}))
@@ -70,13 +70,13 @@ noticed() {
     done
 }
 
-# Is the fault asked for?
+# Succeeds if the fault is requested.
 wanted() {
     case $1 in *"$from"*) from= ;; *) return 1 ;; esac
     case $1 in *"$only"*) ;; *) return 1 ;; esac
 }
 
-# A fault that mutate.py has made: any failure will do. Its object is compared with the one without it, which is there again behind it.
+# Tests a generated fault, which any failure detects. Compares its object file with the object file without the fault, which is restored at the end.
 generated() {
     object=build/${file%.c}.o
     cp -p "$work/base/$object" "$work/object"

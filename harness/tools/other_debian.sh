@@ -1,6 +1,6 @@
 #!/bin/sh
-# Builds, judges and tests this clone on the other of the two Debians it is made for, from a machine that has git, make and gcc only: what it lacks
-# 'make verify' and 'make test' install.  As root, beside this one; exit 77 and a line that says why where it is not to be had.
+# Builds, verifies and tests this clone on the other supported version of Debian, in a system that initially contains only git, make and gcc:
+# 'make verify' and 'make test' install all other packages. Requires root. If the other system cannot be made, prints the reason and ends with status 77.
 # usage: other_debian.sh FOLDER
 set -u
 folder=$1 root=$1/root
@@ -17,7 +17,7 @@ unshare --mount true 2>/dev/null || { echo "needs the right to mount"; exit 77; 
 rm -rf "$folder"
 mkdir -p "$folder"
 trap 'rm -rf "$folder"' EXIT
-# Its own mounts, which end with the command.
+# Runs a command in the other system. The mounts end with the command.
 inside() { # seconds command
     timeout -k 30 "$1" unshare --mount sh -c 'mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" &&
         exec chroot "$0" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin ${OPENBLAS_CORETYPE:+OPENBLAS_CORETYPE=$OPENBLAS_CORETYPE} sh -c "cd /root/beamwork && $1"' "$root" "$2"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Writes the table of cost coefficients (harness/study/study.h) from prices.csv.
-# usage: price_table.sh OUT.c prices.csv   Rewrites OUT.c only when it changes.
+# usage: price_table.sh OUT.c prices.csv   OUT.c is rewritten only if it changes.
 set -eu
 mkdir -p "$(dirname "$1")"
 awk -F, '

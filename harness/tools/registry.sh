@@ -1,6 +1,6 @@
 #!/bin/sh
 # Writes the two generated lists (formulations, cases) from the names of the files that exist.
-# usage: registry.sh OUT.c elements/a.c ... cases/b.c cases/c.yaml ...   Rewrites OUT.c only when it changes.
+# usage: registry.sh OUT.c elements/a.c ... cases/b.c cases/c.yaml ...   OUT.c is rewritten only if it changes.
 set -eu
 out=$1
 shift

@@ -1,21 +1,21 @@
 #!/bin/sh
-# Runs every test program given and every file or folder of tests in Python, as many at once as there are processors,
-# and ends in one line: N passed, M failed[, K skipped].  A skipped test is named with what it needs: "SKIP name: needs chromium".
-# usage: [SHOW=1] run_tests.sh LOGDIR PROGRAM|FILE.py|FOLDER...     SHOW=1: with what they print
+# Runs test programs, and files or folders of tests in Python, with one process per processor.
+# Ends with a line: N passed, M failed[, K skipped]. Skipped tests are listed with the reason, such as "SKIP name: needs chromium".
+# usage: [SHOW=1] run_tests.sh LOGDIR PROGRAM|FILE.py|FOLDER...     SHOW=1: also prints the output of the tests
 set -u
-# One that hangs ends here [s]: far beyond what the longest takes on a slow machine with sanitizers.
+# [s] time limit of a test, far above the longest time on a slow machine with sanitizers
 limit=1200
-# Programs share the processors: threads of OpenBLAS would wait for each other.
+# Programs share the processors, so several threads of OpenBLAS would wait for each other.
 export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"
 
-# Of unittest's output: a test's line is its name, or its name and then its docstring.
+# Extracts the results from the output of unittest. The line of a test is its name, or its name followed by its docstring.
 verdicts() {
     awk '/^[A-Za-z_]+ \(/ { name = $2; gsub(/[()]/, "", name) }
         / \.\.\. ok$/ { sub(/ \.\.\. ok$/, ""); print "PASS: " $0 }
         / \.\.\. (FAIL|ERROR)$/ { sub(/ \.\.\. (FAIL|ERROR)$/, ""); print "FAIL: " $0 }
         / \.\.\. skipped / { sub(/^.* \.\.\. skipped ./, ""); sub(/.$/, ""); print "SKIP " name ": " $0 }'
 }
-# Seconds of the processor, from what the shell prints about its children.
+# Prints the processor time [s] from the output of `times`.
 processor() {
     awk 'function seconds(t, of) { split(t, of, "[ms]"); return 60 * of[1] + of[2] }
         NR == 2 { print seconds($1) + seconds($2) }' "$1"
@@ -46,8 +46,8 @@ one() { # program, file or folder
         GSL_TEST_VERBOSE=1 timeout -k 30 $limit "$1" >"$log" 2>&1
         status=$?
     fi
-    times >"${log%.log}.times" # not in a subshell: it has no children yet
-    told=$([ -z "${SHOW:-}" ] || cat "$log.raw" 2>/dev/null || cat "$log"; tally "$name" "$log" $status) # in one piece
+    times >"${log%.log}.times" # not in a subshell, which has no child processes yet
+    told=$([ -z "${SHOW:-}" ] || cat "$log.raw" 2>/dev/null || cat "$log"; tally "$name" "$log" $status) # printed at once
     echo "$told"
 }
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# A small selection of 'verify' under valgrind, worker processes included, and the C library: no invalid or uninitialised access, nothing lost.
+# Runs a small selection of 'verify', including worker processes, and the C library with valgrind. No access may be invalid or uninitialised, and no memory lost.
 # usage: valgrind.sh BUILD
 set -u
 build=$1
@@ -13,7 +13,7 @@ for selection in "elastica/default" "c_column/default and beamw_consistent" "war
         "$build/beamwork" verify --time-limit 0 -j 2 -k "$selection" -o "$logs/r.h5") || { bad=1; echo "$printed" | tail -n 5; }
     cells=$((cells + $(echo "$printed" | sed -nE 's/^([0-9]+) cells[,;].*/\1/p')))
 done
-# The library: a thousand scenes and solutions made and freed.
+# The library makes and frees a thousand scenes and solutions.
 printed=$(OPENBLAS_CORETYPE=Nehalem BEAMWORK_TRUTHS="$build/truths.h5" valgrind --quiet --leak-check=full --errors-for-leak-kinds=definite --error-exitcode=9 \
     --log-file="$logs/%p.log" "$build/harness/library/test/cycles" 1000) || bad=1
 echo "$printed"

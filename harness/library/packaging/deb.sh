@@ -12,7 +12,7 @@ cd "$here/../../.."
 rm -rf "$folder"
 copy=$folder/beamwork-$version
 mkdir -p "$copy"
-# Files of the source: in a clone the files tracked by git, otherwise all files except built ones.
+# Files of the source: in a clone, the files tracked by git; otherwise, all files except built files.
 if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
     git ls-files -z
 else

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Checks the Debian packages in FOLDER: lintian reports no error and no warning, and their contents work from an empty tree:
-# the program with its reference values, an element and a program of a third party, Python, manual, completion.
+# Checks the Debian packages in FOLDER: lintian must report no error and no warning, and the contents must work from an empty tree
+# (the program with its reference values, an element and a program of a third party, Python, manual, completion).
 # usage: deb_check.sh FOLDER
 set -eu
 folder=$(cd "$1" && pwd)

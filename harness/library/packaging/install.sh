@@ -48,7 +48,7 @@ for file in elements/examples/*.*; do put 644 "$file" "$data/examples/elements/$
 
 for file in harness/library/python/*.ipynb; do put 644 "$file" "$data/examples/python/${file##*/}"; done
 
-# The programs that draw reports and that derive reference values, with the files that they read.
+# Programs that draw reports, and programs that derive reference values, with the files that they read.
 for file in $(find reports reference -name test -prune -o -name __pycache__ -prune -o -type f -print | sort) elements/*.md; do
     put 644 "$file" "$data/$file"
 done
@@ -63,7 +63,7 @@ for file in CONTRIBUTING.md harness/formulations/protocol.md; do put 644 "$file"
 
 install -D -m 644 "$list" "$DESTDIR$data/installed"
 echo "installed $(wc -l <"$list") files below ${DESTDIR:-}$PREFIX"
-# Folders that are not system folders require settings, which are printed.
+# Folders that are not system folders require settings. These are printed.
 case $PREFIX in /usr | /usr/local) exit ;; esac
 [ -z "${DESTDIR:-}" ] || exit 0
 echo "  programs and pkg-config find it after: export PATH=$BINDIR:\$PATH LD_LIBRARY_PATH=$LIBDIR PKG_CONFIG_PATH=$LIBDIR/pkgconfig"

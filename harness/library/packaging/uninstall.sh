@@ -1,5 +1,5 @@
 #!/bin/sh
-# Removes the files in the list that 'make install' wrote, and its own folders if they are then empty.
+# Removes the files in the list written by 'make install', and then the folders of beamwork that are empty.
 set -eu
 list=$DESTDIR$SHAREDIR/beamwork/installed
 [ -f "$list" ] || { echo "nothing is installed there: no $list"; exit 1; }

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the wheel and the source distribution in FOLDER into new virtual environments, and uses the module, the program and the
-# report. Ends with 77 if there is no virtual environment or no PyPI.
+# report. Ends with status 77 if virtual environments or PyPI are not available.
 # usage: wheel_check.sh FOLDER
 set -eu
 folder=$(cd "$1" && pwd)

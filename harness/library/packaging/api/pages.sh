@@ -1,5 +1,5 @@
 #!/bin/sh
-# Writes pages of the C interfaces; a public declaration without documentation is an error.
+# Writes pages of the C interfaces. A public declaration without documentation is an error.
 # usage: pages.sh VERSION FOLDER
 set -eu
 cd "$(dirname "$0")/../../../.."
