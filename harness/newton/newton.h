@@ -614,10 +614,10 @@ typedef struct quantity_result {
     status status; /* OK: the value is finite */
     double value;  /* value; NAN: there is no value */
     double x;      /* abscissa of the maximum or minimum */
-    /* estimated absolute error relative to the value, or to the largest value of a curve; 0 for
-     * other quantities than the following. Critical loads and frequencies: error due to rounding.
-     * Motions: error due to interpolation between steps. Responses from modes: upper bound of the
-     * error due to omitted modes. */
+    /* estimated error relative to the value, or to the largest value of a curve. For critical loads
+     * and frequencies, it is the error due to rounding. For motions, it is the error due to
+     * interpolation between steps. For responses from modes, it is an upper bound of the error due
+     * to omitted modes. It is 0 for other quantities. */
     double rounding;
     /* change from the previously solved mesh, relative to the value (for a curve: to its largest
      * value); NAN: unknown */

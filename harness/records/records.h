@@ -1,4 +1,4 @@
-/* records/: result files and other formats of results, comparison of runs.
+/* records/: results files and other formats of results, comparison of runs.
  *
  * Sections, in this order: assumptions; stored runs; comparison; csv; schema; lines of CSV; digest;
  * positions of records; followed modes; gather; JSON; JUnit; paths; output; HDF5 files; kept (one

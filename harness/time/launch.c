@@ -364,7 +364,7 @@ double extent_error(const extent *so_far, const motion_scheme *s, double h, doub
     return s->adds ? so_far->density * pow(h, s->order) : error;
 }
 
-/* relative rounding error of coordinates. */
+/* relative rounding error of coordinates */
 static const double rounding = 32 * DBL_EPSILON;
 
 double extent_allows(const extent *so_far, double part, double tolerance)
