@@ -839,11 +839,12 @@ typedef struct scene_spring {
     int p, q;             /* nodes; SCENE_NONE for p: the ground */
     double stiffness[36]; /* K, row-major [N/m, N, N m]. If K is not symmetric, the forces K d have
                              no potential */
-    double asymmetry;   /* asymmetry of the given K relative to its diagonal, if it is only rounding
-                           and the symmetric part is used; otherwise 0 */
     double damping[36]; /* damping matrix of forces on the rates of d, used in motions [N s/m, N s,
                            N m s] */
-    scene_table table[6]; /* tables of the components of d, in addition to K */
+    double asymmetry;   /* asymmetry of the given K relative to its diagonal, if it is only rounding
+                           and the symmetric part is used; otherwise 0 */
+    double damping_asymmetry; /* the same for the damping matrix */
+    scene_table table[6];     /* tables of the components of d, in addition to K */
     char name[SCENE_NAME];
 } scene_spring;
 

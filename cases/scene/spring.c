@@ -39,7 +39,7 @@ int scene_spring_gyrates(const scene_spring *p)
 
 void scene_damp_spring(scene *s, int spring, const double damping[36])
 {
-    take_matrix(damping, s->spring[spring].damping);
+    s->spring[spring].damping_asymmetry = take_matrix(damping, s->spring[spring].damping);
 }
 
 int scene_spring_damps(const scene_spring *p)

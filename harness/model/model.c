@@ -127,6 +127,15 @@ static status note_tables(model *m, fault *f)
     return STATUS_OK;
 }
 
+static status note_asymmetry(model *m, int spring, const char *of, double asymmetry, fault *f)
+{
+    return asymmetry > 0
+               ? coordinates_note_left_out(
+                     m, f, "the asymmetry of the %s of %s, %.1e of its diagonal: the mean is used",
+                     of, scene_called(m->scene, SCENE_SPRINGS, spring).text, asymmetry)
+               : STATUS_OK;
+}
+
 /* Notes the matrices that are replaced by their symmetric part, and the free rotations without
  * stiffness. */
 static status note_means(model *m, fault *f)
@@ -145,12 +154,10 @@ static status note_means(model *m, fault *f)
                 m, f,
                 "the asymmetry of the matrices of %s, %.1e of their diagonal: the mean is used",
                 scene_called(s, SCENE_SECTIONS, i).text, m->section[i].asymmetry));
-    for (int i = 0; i < s->springs; i++)
-        if (s->spring[i].asymmetry > 0)
-            TRY(coordinates_note_left_out(
-                m, f,
-                "the asymmetry of the stiffness of %s, %.1e of its diagonal: the mean is used",
-                scene_called(s, SCENE_SPRINGS, i).text, s->spring[i].asymmetry));
+    for (int i = 0; i < s->springs; i++) {
+        TRY(note_asymmetry(m, i, "stiffness", s->spring[i].asymmetry, f));
+        TRY(note_asymmetry(m, i, "damping", s->spring[i].damping_asymmetry, f));
+    }
     return note_dashpots(m, f);
 }
 

@@ -113,6 +113,38 @@ class CrossTerms(ProgramTest):
                 for name, value in wanted.items():
                     self.near(found[name], value, abs(value), f"{formulation}, release {release}: {name}")
 
+    def test_rounding(self):
+        """An asymmetry of up to 1e-6 of the diagonal is dropped, which a line says, for stiffness and for damping; a larger one acts."""
+        bar = """beamwork: 1
+sections: {s: {constants: {A: 6e-4, Iy: 2e-8, Iz: 4.5e-8, It: 4e-8}, young: 2e9, shear_modulus: 0.8e9}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], mass: 3, hold: [rx, ry, rz]}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
+springs: {k: {to: b, stiffness: STIFFNESS, damping: DAMPING}}
+analyses: {h: {harmonic: {frequencies: [3]}}}
+quantities:
+  re: {response: {analysis: h, node: b, component: uy, force: b, along: uz, part: real}}
+  im: {response: {analysis: h, node: b, component: uy, force: b, along: uz, part: imaginary}}
+omit: [shear, trapeze, wagner_torque, wagner_moments]
+"""
+        w = 6 * math.pi
+        bending = numpy.diag([12 * YOUNG * 4.5e-8, 12 * YOUNG * 2e-8])
+        for stiffness, damping in ((0, 0), (1e-7, 0), (0, 1e-7), (3e-7, 5e-7), (1e-4, 0), (0, 1e-4)):
+            given = []
+            for size, part in ((1e3, stiffness), (20, damping)):
+                A = size * numpy.eye(6)
+                A[1, 2] = part * size
+                given.append(A)
+            text = bar.replace("STIFFNESS", str(given[0].ravel().tolist())).replace("DAMPING", str(given[1].ravel().tolist()))
+            record = self.record("solve", "--scene", "/dev/stdin", "-f", "collocation", "-n", 1, input=text)
+            found = {q["quantity"]: q["value"] for q in record["quantities"]}
+            used = [(A + A.T) / 2 if part <= 1e-6 else A for A, part in zip(given, (stiffness, damping))]
+            exact = numpy.linalg.inv(bending + used[0][1:3, 1:3] + 1j * w * used[1][1:3, 1:3] - 3 * w * w * numpy.eye(2))[0, 1]
+            self.near(complex(found["re"], found["im"]), exact, abs(exact) + 1e-15, (stiffness, damping))
+            said = " ".join(str(record).split())
+            for what, part in (("stiffness", stiffness), ("damping", damping)):
+                note = f"the asymmetry of the {what} of spring k, {part:.1e} of its diagonal: the mean is used"
+                self.assertEqual(note in said, 0 < part <= 1e-6, (what, part, said))
+
     def test_vibration(self):
         for release in (False, True):
             K, C, M, G = matrices(release)
