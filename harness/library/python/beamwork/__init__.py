@@ -61,12 +61,12 @@ def _listed(what: bytes) -> Records:
 
 
 def cases() -> Records:
-    """Returns records of the built-in cases: case, summary, source."""
+    """Returns a record for each built-in case, with the keys case, summary and source."""
     return _listed(b"cases")
 
 
 def formulations() -> Records:
-    """Returns records of the formulations, both built-in and loaded: formulation, summary, source, ..."""
+    """Returns a record for each built-in or loaded formulation, with the keys formulation, summary, source, ..."""
     return _listed(b"formulations")
 
 

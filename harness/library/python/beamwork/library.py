@@ -16,7 +16,7 @@ FILE = "libbeamwork.so.0"
 
 
 def places() -> list[pathlib.Path]:
-    """Yields the places where the library is searched for, in this order."""
+    """Returns the paths at which the library is searched for, in this order."""
     asked = os.environ.get("BEAMWORK_LIBRARY")
     if asked:
         return [pathlib.Path(asked)]
@@ -47,7 +47,7 @@ def _load() -> tuple[ctypes.CDLL, pathlib.Path]:
 
 
 _text = POINTER(c_void_p)
-# Arguments after the status; each list ends with 'why'.
+# Types of the arguments of functions that return a status. The last argument 'why' is added to each list.
 _CALLS: dict[str, list[Any]] = {
     "truths": [c_char_p],
     "list": [c_char_p, _text],
@@ -64,7 +64,7 @@ _CALLS: dict[str, list[Any]] = {
     "verify": [c_void_p, c_char_p, c_char_p, c_char_p, c_char_p, _text],
 }
 _ARRAY = POINTER(POINTER(c_double))
-# Functions without a status: their result and their arguments.
+# Types of the results and arguments of functions that return no status.
 _OTHERS: dict[str, tuple[Any, list[Any]]] = {
     "version": (c_char_p, []),
     "free_text": (None, [c_void_p]),
@@ -157,7 +157,7 @@ def stoppable(work: Callable[[dict[str, Any]], _Found], options: dict[str, Any])
     if "stop" in options or threading.current_thread() is not threading.main_thread():
         return work(options)
     outcome: list[tuple[_Found | None, BaseException | None]] = []
-    done = threading.Event()  # Thread.join treats an interrupted thread as one that has ended
+    done = threading.Event()  # Thread.join treats an interrupted thread as if it had ended
     readable, writable = os.pipe()
 
     def run() -> None:

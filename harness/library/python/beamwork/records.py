@@ -45,7 +45,7 @@ class Records(list[dict[str, Any]]):
 
 
 class Document(dict[str, Any]):
-    """What a verb writes as JSON: a dict in which lists of records are Records; these are its tables.
+    """Data that a verb writes as JSON: a dict in which lists of records are Records, its tables.
 
     tables: {name: Records}.  status: exit status of the program.  passed: True if the status is 0, so all results are
     as expected."""
@@ -60,7 +60,7 @@ class Document(dict[str, Any]):
         return {key: value for key, value in self.items() if isinstance(value, Records)}
 
     def frame(self, table: str | None = None) -> pandas.DataFrame:
-        """Returns a table as a pandas.DataFrame; None: the longest one."""
+        """Returns a table as a pandas.DataFrame. table None: the longest table."""
         tables = self.tables
         if table is None:
             table = max(tables, key=lambda name: len(tables[name]))

@@ -23,9 +23,9 @@ class Curve(NamedTuple):
 
 
 class Shapes(NamedTuple):
-    """Centre lines. position: [states, points, 3] m, the first state undeformed; first: [members + 1] point at which
-    each member begins; kinds: [states] kind of each state ("path", "buckling", "motion", ...); values: [states] its path
-    parameter, load factor, frequency [Hz] or time [s]."""
+    """Centre lines. position: [states, points, 3] in m; the first state is undeformed. first: [members + 1] first point
+    of each member. kinds: [states] "path", "buckling", "motion", ...; values: [states] path parameter, load factor,
+    frequency [Hz] or time [s]."""
     position: numpy.ndarray[Any, Any]
     first: numpy.ndarray[Any, Any]
     kinds: list[str]

@@ -26,7 +26,7 @@ _OF_LIBRARY = {"tolerance", "not_worse_than", "jobs", "time_limit", "refine", "s
 
 def verified(scene: Any, formulations: tuple[str, ...], select: str | None, results: str | os.PathLike[str] | None,
              options: dict[str, Any], lines: Sequence[str] = (), case: Scene | None = None) -> Verdicts:
-    """Returns the verdicts that the library computes. scene: its pointer, or None for all built-in cases; case: the
+    """Returns the verdicts that the library computes. scene: pointer to the scene; None: all built-in cases. case: the
     scene, for the program."""
     if not _OF_LIBRARY.issuperset(options):
         from .verbs import verified_by_program  # pylint: disable=import-outside-toplevel,cyclic-import
@@ -170,7 +170,7 @@ class Scene:
         return self
 
     def origin(self) -> tuple[str, str, dict[str, str]]:
-        """Returns where the scene comes from, for the program: "case", "file" or "text", its name, path or text, and
+        """Returns the origin of the scene, for the program: "case", "file" or "text"; its name, path or text; and
         {name: value} of the values that were set."""
         with self._lock:
             self._ready()
@@ -180,8 +180,8 @@ class Scene:
 
     @property
     def about(self) -> dict[str, Any]:
-        """Returns the description, as `beamwork list CASE --format json`: a dict of case, summary, source and
-        Records of parameters (name, unit, value, default, min, max, choices, summary), quantities
+        """Returns the description of the scene in the form of `beamwork list CASE --format json`: a dict of case,
+        summary, source and Records of parameters (name, unit, value, default, min, max, choices, summary), quantities
         (name, unit, meaning, is_curve) and formulations (formulation, runs, without)."""
         with self._lock:
             told = json.loads(text_of("scene_json", self._ready().pointer, entries=self._lines))
