@@ -411,8 +411,8 @@ static status correct(analysis_context *c, linear_system *s, system_workspace *w
 }
 
 /* Measures the error of x. A correction may be zero by accident, especially for a single element.
- * Therefore x is perturbed in its last digits and corrected, and the distance from the former x is
- * measured. This work is not counted. */
+ * Therefore x is perturbed in its last digits and corrected, and the distance from the previous x
+ * is measured. This work is not counted. */
 static status shake(analysis_context *c, linear_system *s, system_workspace *w, const double x[],
                     double *change, fault *f)
 {

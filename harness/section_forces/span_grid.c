@@ -88,8 +88,8 @@ void span_grid_integrate(const span_grid *g, int count, const double values[], d
 
 enum { MEMORY = 12, MOST = 100 };
 
-/* Differences of the last iterates, and of the values of the map. The former are orthonormalised
- * (Gram-Schmidt). */
+/* Differences of the last iterates, and of the values of the map. The differences of the iterates
+ * are orthonormalised (Gram-Schmidt). */
 typedef struct history {
     int count;
     double move[MEMORY][FIXED_POINT_MAX], given[MEMORY][FIXED_POINT_MAX];
