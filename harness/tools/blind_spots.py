@@ -72,7 +72,7 @@ def scale_of(v):
 
 def band_of(v, rules):
     """Returns (largest distance of the limit from its expected value for which the verdict does not change, actual
-    distance). The former is infinite if the verdict never changes."""
+    distance). The first distance is infinite if the verdict never changes."""
     if v["truth"] is None or v["limit"] is None or v["verdict"] in UNJUDGED:
         return math.inf, 0
     scale, doubt = scale_of(v), v["limit_uncertainty"] or 0
