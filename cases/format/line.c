@@ -311,7 +311,8 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
 /* Writes the active load case or combination, if the scene has load cases. */
 static void acting(FILE *to, const scene *s, const scene_quantity *q)
 {
-    static const char *const of[] = {"", "largest of", "least of", "largest magnitude of"};
+    static const char *const of[] = {"", "largest of", "least of",
+                                     "value of the largest magnitude of"};
     const int own = scene_acting_of(s, q->analysis);
     if (q->envelope == SCENE_ENVELOPE_NONE) {
         const int number = own != 0 ? own : scene_acting_in(s, q, 0);

@@ -7,7 +7,7 @@ static const entry_field fields[] = {
     {"quantities", ENTRY_FORMS, .needed = 1,
      .summary = "[NAME, NAME, ...]: quantities in one unit"},
     {"select", ENTRY_WORD, .needed = 1, .words = SCENE_ENVELOPE_CHOICES,
-     .summary = "largest or smallest value, or largest magnitude",
+     .summary = "largest or smallest value, or value of the largest magnitude",
      ENTRY_IN(scene_quantity, what.of.envelope), .first = SCENE_ENVELOPE_MAX},
     {.name = NULL}};
 
@@ -21,7 +21,8 @@ static const char *unit(const scene *s, const scene_quantity *q)
 
 static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 {
-    static const char *const of[] = {"", "largest of", "least of", "largest magnitude of"};
+    static const char *const of[] = {"", "largest of", "least of",
+                                     "value of the largest magnitude of"};
     fputs(of[q->what.of.envelope], to);
     for (int i = 0; i < q->overs; i++)
         fprintf(to, "%s %s", i > 0 ? "," : "", s->quantity[q->over[i]].name);

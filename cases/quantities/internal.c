@@ -13,7 +13,7 @@ static const entry_field fields[] = {
     {"end", ENTRY_WORD, .needed = 1, .group = 2, .words = "from|to", .summary = "end of the member",
      ENTRY_IN(scene_quantity, what.of.internal.place)},
     {"along", ENTRY_WORD, .needed = 1, .group = 2, .words = "max|min|largest",
-     .summary = "over the member: maximum, minimum, or largest magnitude",
+     .summary = "over the member: maximum, minimum, or largest magnitude without sign",
      ENTRY_IN(scene_quantity, what.of.internal.along), .first = SCENE_ALONG_MAX},
     QUANTITY_SIDE(internal.before),
     {"resultant", ENTRY_WORD, .needed = 1, .words = SCENE_RESULTANT_CHOICES,

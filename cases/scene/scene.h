@@ -647,7 +647,7 @@ typedef enum scene_envelope {
     SCENE_ENVELOPE_NONE,
     SCENE_ENVELOPE_MAX,
     SCENE_ENVELOPE_MIN,
-    SCENE_ENVELOPE_LARGEST /* the largest magnitude */
+    SCENE_ENVELOPE_LARGEST /* the value of the largest magnitude, with its sign */
 } scene_envelope;
 #define SCENE_ENVELOPE_CHOICES "max|min|largest"
 
@@ -1622,7 +1622,8 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
          ENTRY_WORD,                                                                               \
          .group = 3,                                                                               \
          .words = SCENE_ENVELOPE_CHOICES,                                                          \
-         .summary = "over combinations: largest and smallest value, or largest magnitude",         \
+         .summary =                                                                                \
+             "over combinations: largest or smallest value, or value of the largest magnitude",    \
          .left_out = "of one",                                                                     \
          ENTRY_IN(scene_quantity, envelope),                                                       \
          .first = SCENE_ENVELOPE_MAX},                                                             \

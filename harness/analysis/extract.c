@@ -71,13 +71,6 @@ static void under_one(const analysis_context *c, const scene_quantity *q, const 
     free(sigma);
 }
 
-static double measured(const scene_quantity *q, double value)
-{
-    return q->envelope == SCENE_ENVELOPE_MIN       ? -value
-           : q->envelope == SCENE_ENVELOPE_LARGEST ? fabs(value)
-                                                   : value;
-}
-
 /* Sets the value to that of the governing load case or combination, which is named in the result.
  * */
 static void from_envelope(const analysis_context *c, const scene_quantity *q,
@@ -88,7 +81,8 @@ static void from_envelope(const analysis_context *c, const scene_quantity *q,
     for (int i = 0; (acting = scene_acting_in(c->scene, q, i)) != 0; i++) {
         quantity_result one = {.status = STATUS_OK};
         under_one(c, q, o, acting, &one);
-        if (one.status == STATUS_OK && i > 0 && !(measured(q, one.value) > measured(q, best.value)))
+        if (one.status == STATUS_OK && i > 0 &&
+            !quantity_governs(q->envelope, one.value, best.value))
             continue;
         best = one;
         snprintf(best.meaning, sizeof best.meaning, "%s",
@@ -96,8 +90,6 @@ static void from_envelope(const analysis_context *c, const scene_quantity *q,
         if (one.status != STATUS_OK)
             break;
     }
-    if (q->envelope == SCENE_ENVELOPE_LARGEST)
-        best.value = fabs(best.value);
     *r = best;
 }
 

@@ -175,7 +175,6 @@ static void put_envelope(const scene *s, solve_result *r, int quantity)
 {
     const scene_quantity *q = &s->quantity[quantity];
     quantity_result *to = &r->quantity[quantity];
-    double most = -INFINITY;
     for (int i = 0; q->what.kind == SCENE_ENVELOPE_OF && i < q->overs; i++) {
         const quantity_result *one = &r->quantity[q->over[i]];
         const char *name = s->quantity[q->over[i]].name;
@@ -185,14 +184,10 @@ static void put_envelope(const scene *s, solve_result *r, int quantity)
             quantity_no_value(to, one->status, why);
             return;
         }
-        const double value = quantity_scaled(q, one->value),
-                     size = q->what.of.envelope == SCENE_ENVELOPE_MIN       ? -value
-                            : q->what.of.envelope == SCENE_ENVELOPE_LARGEST ? fabs(value)
-                                                                            : value;
-        if (!(size > most))
+        const double value = quantity_scaled(q, one->value);
+        if (i > 0 && !quantity_governs(q->what.of.envelope, value, to->value))
             continue;
-        most = size;
-        to->value = q->what.of.envelope == SCENE_ENVELOPE_MIN ? value : size;
+        to->value = value;
         to->rounding = one->rounding;
         snprintf(to->meaning, sizeof to->meaning, "%s%s%.60s", name,
                  one->meaning[0] != '\0' ? ", " : "", one->meaning);

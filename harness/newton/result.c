@@ -64,6 +64,14 @@ void quantity_no_value(quantity_result *r, status s, const char *reason)
     snprintf(r->reason, sizeof r->reason, "%s", reason);
 }
 
+int quantity_governs(scene_envelope how, double value, double best)
+{
+    const double ties = 1e-9; /* of opposite values, the first one governs */
+    return how == SCENE_ENVELOPE_MIN       ? value < best
+           : how == SCENE_ENVELOPE_LARGEST ? fabs(value) > (1 + ties) * fabs(best)
+                                           : value > best;
+}
+
 double quantity_scaled(const scene_quantity *q, double value)
 {
     return q->factor * value + q->offset;
