@@ -353,12 +353,9 @@ def taken(functions, words):
                        **said}
 
 
-def serve(*functions, **words):
-    """Answers requests until beamwork sends no more. Example: serve(prepare, strain, stress, family="..."). `words` are
-    keys of the first line of the protocol. Functions that are not needed may be omitted."""
-    (functions, said), kinds = taken(functions, words), {}
-    requests, to = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # output of print goes to standard error
+def answer_all(requests, to, functions, said):
+    """Answers requests from a stream until it ends; writes the answers to another stream. functions, said: of taken()."""
+    functions, kinds = dict(functions), {}
     to.write(json.dumps(said).encode() + b"\n")
     to.flush()
     while len(head := requests.read(40)) == 40:
@@ -372,3 +369,12 @@ def serve(*functions, **words):
             outcome, out = 3, told(error).encode()[:300]
         to.write(b"beamwork" + np.array([outcome, len(out)], "<i8").tobytes() + out)
         to.flush()
+
+
+def serve(*functions, **words):
+    """Answers requests until beamwork sends no more. Example: serve(prepare, strain, stress, family="..."). `words` are
+    keys of the first line of the protocol. Functions that are not needed may be omitted."""
+    functions, said = taken(functions, words)
+    requests, to = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # output of print goes to standard error
+    answer_all(requests, to, functions, said)

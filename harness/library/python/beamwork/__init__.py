@@ -31,10 +31,12 @@ from __future__ import annotations as _annotations
 
 import json as _json
 import os as _os
+from collections.abc import Callable as _Callable
 from typing import Any as _Any
 
 from .arguments import required as _required
 from .errors import (Error, Fault, Mistake, NotConverged, NoValue, Refused, Singular, TimeLimit)
+from .inside import door as _door
 from .library import call as _call
 from .library import path, version
 from .library import text_of as _text_of
@@ -70,10 +72,19 @@ def formulations() -> Records:
     return _listed(b"formulations")
 
 
-def load(element: str | _os.PathLike[str]) -> str:
+def load(element: str | _os.PathLike[str] | _Callable[..., _Any], *functions: _Callable[..., _Any],
+         **words: _Any) -> str:
     """Loads your formulation, "./mine.so" or "exec:python3 my_beam.py", and returns its name. The formulation remains
     loaded until the process ends. A shared object runs inside the process. If it crashes in solve, Python crashes as
-    well."""
+    well.
+
+    Or loads functions of this process with arrays of numpy, as for serve(prepare, strain, ..., name="mine", strains=6) of
+    beamwork_element, which describes them: load(prepare, strain, name="mine", strains=6). Solutions, converge, verify
+    and every verb then use them while this process runs."""
+    if callable(element):
+        element = _door((element, *functions), words)
+    elif functions or words:
+        raise TypeError("load: words such as name= belong to functions, not to a file or a command")
     name = _text_of("formulation_load", _required(element, "element"))
     _LOADED[name] = _os.fspath(element)
     return name

@@ -10,7 +10,7 @@ import unittest
 
 from harness.library.python.test.module import (FOLDER, LIBRARY, ModuleTest, ROOT, SETTINGS, bw,
                                                 python)
-from harness.tools.kit.program import environment
+from harness.tools.kit.program import PROGRAM, environment
 
 
 EXAMPLES = ROOT / "elements" / "examples"
@@ -80,6 +80,57 @@ class Doors(ModuleTest):
             with self.subTest(door):
                 self.assertEqual(len(done.stdout.splitlines()), 1, done.stderr)
                 self.assertIn(words, done.stdout)
+
+
+# The same functions in a process of their own, and in the process that solves.
+INSIDE = """
+import sys, threading
+import beamwork as bw
+sys.path.insert(0, sys.argv[1])
+import timoshenko as t
+calls = []
+def strain(*state):
+    calls.append(threading.current_thread())
+    return t.strain(*state)
+words = dict(family="example", strains=6, shear_theories=["haringx"], limits=["doubly symmetric"],
+             offers=["shear", "geometric", "large rotations", "mass", "rotary inertia"])
+bw.load("exec:" + sys.executable + " " + sys.argv[1] + "/timoshenko.py")
+name = bw.load(t.prepare, strain, name="inside", summary="x", source="y", **words)
+scene = bw.Scene.case("tapered_cantilever")
+ours, theirs = (dict(scene.solve(n, 4).values) for n in (name, "timoshenko_py"))
+assert ours == theirs and calls and threading.main_thread() not in calls
+series = [[r["value"] for r in scene.converge(n, meshes=[1, 2], jobs=2)] for n in (name, "timoshenko_py")]
+assert series[0] == series[1]
+swept = bw.sweep("elastica", name, "timoshenko_py", vary={"load": [1]}, elements=2)
+assert swept.where(formulation=name)[0]["value"] == swept.where(formulation="timoshenko_py")[0]["value"]
+assert bw.element_test(name).passed == bw.element_test("timoshenko_py").passed
+def bad(*state):
+    raise RuntimeError("no strain today")
+bw.load(t.prepare, bad, name="bad", summary="x", source="y", **words)
+try:
+    scene.solve("bad", 1)
+except bw.Error as error:
+    assert "no strain today" in str(error), error
+else:
+    raise AssertionError("solved")
+for wrong in (lambda: bw.load(t.prepare, t.strain, colour=1), lambda: bw.load("./x.so", strains=6)):
+    try:
+        wrong()
+    except TypeError as error:
+        continue
+    raise AssertionError("accepted")
+print("done")
+"""
+
+
+class Inside(ModuleTest):
+
+    def test_functions_of_this_process(self):
+        """They give the same bits as in a process, in solutions, several processes, and verbs of the program; errors
+        have their text."""
+        done = subprocess.run([sys.executable, "-c", INSIDE, EXAMPLES], text=True, check=False, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, env=environment(**SETTINGS, BEAMWORK=PROGRAM))
+        self.assertEqual((done.stdout, done.returncode), ("done\n", 0), done.stderr)
 
 
 class Finding(ModuleTest):
