@@ -594,6 +594,15 @@ status second_order_take(const second_order *, int outputs, linear_model *, faul
 status second_order_state_space(const vibration *, const system_matrices *, const second_order *,
                                 int reduced, linear_model *, fault *);
 
+/* Poles of closed loops (poles.c). */
+
+/* Returns the number of integral gains of the closed loops. */
+int poles_integrals(const vibration *);
+/* Finds the modes of the matrices with closed loops. If a slow pole hides other modes, the matrices
+ * are shifted for this purpose. */
+status poles_solve(vibration *, unsymmetric_problem *, sparse closed[], unsymmetric_result *,
+                   fault *);
+
 /* Computes damped modes. */
 status damped_modal(analysis_context *, int analysis, analysis_outcome *, fault *);
 
