@@ -7,7 +7,7 @@
  *      sheet flexures.
  * reference/ERRATA.md lists the misprints of both papers.
  *
- * One file in elements/ defines one const element_type whose symbol is element_<file name>; the
+ * Each file in elements/ defines one const element_type with the symbol element_<file name>. The
  * build generates the registry from these files.
  *
  * An element with n nodes has 7n coordinates. The coordinates of a node are dr (3, displacement
@@ -46,29 +46,29 @@ enum element_limit {
     LIMIT_DOUBLY_SYMMETRIC = 1 << 0, /* shear centre at the centroid, D diagonal */
     LIMIT_ORDER_DEPENDENT =
         1 << 1, /* exchanging the nodes p and q changes the result by a discretisation error */
-    LIMIT_QUARTER_TURN = 1 << 2, /* strains are sines of the rotation between the nodes; beyond pi/2
-                                    another state has the same strains */
-    LIMIT_WARPING_RIGID = 1 << 3, /* warping causes no shear strains; for closed sections, where
-                                     warping does cause shear strains, this is a different model */
-    LIMIT_FLAT_ARC = 1 << 4,      /* an initially curved element of length l and curvature k is too
-                                     flexible in bending, by a fraction that depends only on EA l^4
-                                     k^2/(E Iz): 1 % at 64, 10 % at 256, where its arc rises by l^2 k/8 =
-                                     2 radii of gyration; beyond 6107 its stiffness is indefinite */
-    LIMIT_HALF_TURN = 1 << 5,     /* strains represent rotations between the nodes up to pi, because
-                                     frames do not contain the number of full revolutions. Applies to
-                                     all types without LIMIT_QUARTER_TURN */
+    LIMIT_QUARTER_TURN = 1 << 2,  /* strains are sines of the rotation between the nodes, so another
+                                     state has the same strains beyond pi/2 */
+    LIMIT_WARPING_RIGID = 1 << 3, /* warping causes no shear strains, which is a different model of
+                                     closed sections, where warping does cause shear strains */
+    /* An initially curved element of length l and curvature k is too flexible in bending, by a
+       fraction that depends only on r = EA l^4 k^2/(E Iz). The fraction is 1 % at r = 64 and 10 %
+       at r = 256, where the arc rises by l^2 k/8 = 2 radii of gyration. The stiffness is indefinite
+       beyond r = 6107. */
+    LIMIT_FLAT_ARC = 1 << 4,
+    LIMIT_HALF_TURN = 1 << 5, /* strains represent rotations between the nodes up to pi, because
+                                 frames do not contain the number of full revolutions. Applies to
+                                 all types without LIMIT_QUARTER_TURN */
     LIMIT_TENSION = 1 << 6, /* an element that is too long for its axial force loses its transverse
-                             * stiffness; `tension` returns the ratio of its length to the limit */
+                               stiffness; `tension` returns the ratio of the length to the limit */
     LIMIT_NOT_OBJECTIVE = 1 << 8,  /* rigid rotations of a deformed element change its strains */
-    LIMIT_PATH_DEPENDENT = 1 << 9, /* strains depend on the path that led to a state; only with a
-                                    * history */
+    LIMIT_PATH_DEPENDENT = 1 << 9, /* strains depend on the path, which requires a history */
     LIMIT_EIGHTH_TWIST =
         1 << 7 /* the torsional strain is the sine of the twist between the nodes; beyond a twist of
                   pi/4 the torque decreases, and another state has the same strain */
 };
 
 /* Features that a type supports in only one direction. `list` and `solve` show these features.
- * Scenes in which such a feature matters in the other direction are not run. */
+ * Scenes in which the unsupported direction matters are not run. */
 enum element_lack {
     LACKS_SHEAR_Y = 1 << 0 /* rigid in shear along y, although FEATURE_SHEAR is supported */
 };
@@ -84,9 +84,9 @@ enum element_left {
     LEAVES_TANGENT = 1 << 3 /* force returns no K */
 };
 
-/* Shear theories for stability, as bits; 0: the type is rigid in shear. A type is evaluated against
- * the reference value of the theory in its equations, whatever a scene specifies. A type that
- * supports several theories uses the theory that the features of the request select. */
+/* Shear theories for stability, as bits; 0 if the type is rigid in shear. A type is evaluated
+ * against the reference value of the theory in its equations, whatever theory a scene specifies. A
+ * type that supports several theories uses the theory that the features of the request select. */
 enum shear_theory {
     SHEAR_ENGESSER = 1 << 0, /* the axial force does work on 1/2 (v'^2 + w'^2) of the fibre */
     SHEAR_HARINGX =
@@ -117,26 +117,27 @@ typedef struct element_order {
 
 /* Input of the preparation of an element. */
 typedef struct element_request {
-    const struct section *section;   /* constants of the cross-section */
-    double length;                   /* l0 [m] */
-    unsigned features;               /* features that must be active; all others must be inactive */
-    const double *options;           /* values of the options, in the order of type->options */
+    const struct section *section; /* constants of the cross-section */
+    double length;                 /* l0 [m] */
+    unsigned features;     /* features that must be active, while all others must be inactive */
+    const double *options; /* values of the options, in the order of type->options */
     const struct element_type *type; /* element type of the request */
     double curvature[3];             /* initial torsion and curvatures kx, ky, kz [1/m] */
     double
         strain[3]; /* initial elongation and shear strains gx, gy, gz of the stress-free element */
 } element_request;
 
-typedef struct element_data element_data; /* data of an element, known only to its type; elements of
-                                             one kind share the data */
+typedef struct element_data element_data; /* data of an element, known only to its type and shared
+                                             by the elements of one kind */
 
 /* State of a node. */
 typedef struct node_state {
     double r[3]; /* position [m] */
     double u[3]; /* displacement from the undeformed state [m]. The initial position is r - u, from
                     which an elongation is computed without cancellation */
-    double R[9]; /* node rotation times the element's initial triad; columns nX nY nZ */
-    double a;    /* warping amplitude [rad/m]; phi_x' in the shear-rigid limit */
+    double
+        R[9]; /* node rotation times the initial triad of the element, with the columns nX nY nZ */
+    double a; /* warping amplitude [rad/m], which is phi_x' in the shear-rigid limit */
 } node_state;
 
 /* A frame that rotates at a constant rate. */
@@ -147,17 +148,18 @@ typedef struct element_rotating_frame {
 
 /* Sizes and orders that do not depend on options. */
 typedef struct element_constants {
-    int nodes, strains;                    /* numbers of nodes and strains; 0: 2 nodes, 8 strains */
-    element_order order[ELEMENT_ANALYSES]; /* orders of convergence; highest 0: lowest order 2,
-                                              highest order 4 */
+    int nodes, strains; /* numbers of nodes and strains; 0 for 2 nodes and 8 strains */
+    element_order order[ELEMENT_ANALYSES]; /* orders of convergence; if the highest order is 0, the
+                                              lowest order is 2 and the highest order 4 */
     int history;                           /* number of values of the history */
 } element_constants;
 
-/* An element type. Optional members may be NULL or 0; the end of each comment gives the default. */
+/* An element type. Optional members may be NULL or 0. Each of their comments ends with the
+ * default. */
 typedef struct element_type {
     /* Required. */
-    unsigned abi;     /* ELEMENT_ABI; required in files outside elements/ */
-    size_t size;      /* value of sizeof(element_type) at compilation; required in files outside
+    unsigned abi;     /* ELEMENT_ABI, required in files outside elements/ */
+    size_t size;      /* value of sizeof(element_type) at compilation, required in files outside
                          elements/ */
     const char *name; /* name of the file, of the exported symbol (without element_), on the command
                          line and in results */
@@ -165,8 +167,8 @@ typedef struct element_type {
     const char *source;  /* paper and equations */
     const char *family; /* one word. Types of one family share code or theory, so their agreement is
                            weak evidence */
-    unsigned offers;    /* supported features as element_feature; the supported shear theories must
-                           agree with shear_theories */
+    unsigned
+        offers; /* supported features as element_feature; these must agree with shear_theories */
     /* Returns the size of element_data [bytes]. */
     size_t (*data_size)(const element_request *);
     /* Prepares the data, once per kind of element. Rejects an unsupported request and states the
@@ -181,12 +183,12 @@ typedef struct element_type {
     status (*stress)(const element_data *, const double e[], const double inner[], stress_output *);
     /* For codes that compute forces and tangents from node states, or an energy that is invariant
      * under rigid motion. The positions of the nodes relative to the first node then serve as
-     * strains. The element must be straight. Linear buckling includes the strains of the prestress
-     * inside each element, which causes a relative error of the size of these strains. */
+     * strains, and the element must be straight. Linear buckling includes the strains of the
+     * prestress inside each element, with a relative error of the size of these strains. */
     status (*force)(const element_data *, const node_state x[], force_output *);
 
     /* Optional: properties for the evaluation. */
-    unsigned leaves; /* derivatives that are not provided (element_left); default: none */
+    unsigned leaves; /* derivatives that are not provided (element_left). Default: none */
     unsigned limits; /* restrictions of the type (element_limit); default: none */
     unsigned lacks;  /* features supported in only one direction (element_lack); default: none */
     const char *lacks_by;    /* equation or assumption that excludes the features in `lacks` */
@@ -197,9 +199,9 @@ typedef struct element_type {
 
     /* Optional: options, which -f name:key=value sets. */
     const parameter_type *options[PARAMETER_PARTS]; /* none */
-    /* Optional: for each option, the features (element_feature) for which `verify` evaluates all
-     * choices. It does so for every quantity that depends on one of these features. For 0 or by
-     * default (NULL), only the default choice is evaluated. */
+    /* Optional: for each option, the features (element_feature) whose quantities `verify` evaluates
+     * for all choices of the option. For 0 or by default (NULL), only the default choice is
+     * evaluated. */
     const unsigned *judged;
 
     /* Optional: sizes, which may depend on the options (stages, nodes). */
@@ -230,8 +232,8 @@ typedef struct element_type {
     /* Optional: evaluate many elements in one call, for types for which this is faster than single
      * calls (several lanes, or another process). Values must not depend on the order and number of
      * elements. data[count] has an entry for each element. Elements of one kind share their data
-     * and are often consecutive. The states are x[count x nodes]. All entries of out[count] request
-     * the same outputs. */
+     * and are often consecutive. The states of the nodes are x[count x nodes]. All entries of
+     * out[count] request the same outputs. */
     void (*strain_many)(int count, const element_data *const data[], const node_state x[],
                         strain_output out[]);
     /* Computes the stresses of many elements. Array sizes: e[count][strains], inner[count][inner],
@@ -265,7 +267,7 @@ typedef struct element_type {
     /* For LIMIT_TENSION: returns the length of the element divided by the largest length that the
      * axial force allows. Default: 0, no limit. */
     double (*tension)(const element_data *, const double sigma[]);
-    /* For a formulation with an uncorrected misprint: one line with the equation and its error. The
+    /* For a formulation with an uncorrected misprint, one line with the equation and its error. The
      * formulation is never ranked, chosen or included in an agreement. Default: NULL. */
     const char *misprint;
     /* Optional: includes dead forces along `count` elements of two nodes in the equilibrium of the
@@ -287,10 +289,11 @@ typedef struct element_type {
     void (*unstressed)(const element_data *, const double more[3], const node_state x[],
                        element_data *out);
     /* Optional: values that an element stores along a path, for strains that depend on previous
-     * states, such as interpolated rotation increments. Only with `strain` and `stress`, and
-     * without `along`, `equations_many` and `unstressed`. `strain` receives the values of the last
-     * accepted state, the end of a load step or time step (strain_output.history), and derivatives
-     * are those for constant values. A step that is repeated starts from the same values. */
+     * states, such as interpolated rotation increments. A history requires `strain` and `stress`,
+     * and excludes `along`, `equations_many` and `unstressed`. `strain` receives the values of the
+     * last accepted state, the end of a load step or time step (strain_output.history), and
+     * derivatives are those for constant values. A step that is repeated starts from the same
+     * values. */
     int (*history)(const double options[]); /* number of doubles of each element; default: 0 */
     /* Computes the values in the undeformed state; default: zero. */
     void (*begin)(const element_data *, const node_state x[], double history[]);

@@ -1,6 +1,6 @@
-/* The geometrically exact beam with warping (Reissner, Simo), as in general-purpose codes. It has
- * two or three nodes and reduced integration, and its strains are those at the integration
- * points. */
+/* The geometrically exact beam with warping (Reissner, Simo), as in general-purpose codes. The
+ * element has two or three nodes and reduced integration, and its strains are those at the
+ * integration points. */
 #include <math.h>
 #include <string.h>
 

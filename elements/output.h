@@ -5,18 +5,19 @@
 
 /* Outputs of `strain`. */
 typedef struct strain_output {
-    double *e;             /* [strains] [m] */
-    double *J;             /* [strains x 7 nodes] de/dx */
-    const double *s;       /* in: [strains] stresses for H; may be NULL if H is not requested */
-    double *H;             /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2, overwritten */
-    const double *history; /* in: [history] values of the last accepted state; NULL: none */
+    double *e;       /* [strains] [m] */
+    double *J;       /* [strains x 7 nodes] de/dx */
+    const double *s; /* in: [strains] stresses for H, or NULL if H is not requested */
+    double *H;       /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2, overwritten */
+    const double
+        *history; /* in: [history] values of the last accepted state, or NULL without a history */
 } strain_output;
 
 /* Outputs of `stress`. */
 typedef struct stress_output {
     double *energy; /* [1] [J] */
-    double *sigma;  /* [strains] [N] stresses; if there are inner unknowns, after elimination of
-                       their residual */
+    double *
+        sigma; /* [strains] [N] stresses, after elimination of the residual of any inner unknowns */
     double *C; /* [strains x strains] dsigma/de [N/m], after elimination of the inner unknowns */
     double *residual; /* [1] dimensionless size of the residual of the inner equations (0 without
                          inner unknowns) */
@@ -26,22 +27,23 @@ typedef struct stress_output {
 
 /* Outputs of `inertia`. */
 typedef struct inertia_output {
-    double *M; /* [7n x 7n] mass matrix (translations in kg); if `rate` is given, the mass matrix
-                  for transient analysis */
-    /* Only in a rotating frame; zero if the frame does not rotate. */
+    double *M; /* [7n x 7n] mass matrix (translations in kg), or the mass matrix for transient
+                  analysis if `rate` is given */
+    /* Only in a rotating frame, and otherwise zero. */
     double *potential; /* [1] centrifugal potential -1/2 int |Omega x r|^2 dm [J] */
     double *force; /* [7n] centrifugal forces, directed outward: -d potential/dx [N, N m, N m^2] */
     double *N;     /* [7n x 7n] d2 potential/dx2, symmetric: centrifugal softening */
     double *G;     /* [7n x 7n] skew-symmetric gyroscopic matrix in M x'' + G x' + (K + N) x = 0 */
     /* Only in transient analysis in a frame that does not rotate, for types with consistent mass
      * (element_type.spreads). */
+    const double *rate; /* in: [7n] x', with spatial angular velocities, or NULL if the analysis is
+                           not transient */
     const double
-        *rate; /* in: [7n] x', with spatial angular velocities; NULL: not a transient analysis */
-    const double *acceleration; /* in: [7n] x'', the time derivative of `rate`; NULL: zero */
-    double *taken; /* [7n] inertia forces M x'' + h(x, x'), derived from the kinetic energy */
-    double *C;     /* [7n x 7n] d taken/dx' */
-    double *K;     /* [7n x 7n] d taken/dx at constant x' and x'', in the exponential chart. Omitted
-                      terms only increase the number of iterations */
+        *acceleration; /* in: [7n] x'', the time derivative of `rate`, or NULL if it is zero */
+    double *taken;     /* [7n] inertia forces M x'' + h(x, x'), derived from the kinetic energy */
+    double *C;         /* [7n x 7n] d taken/dx' */
+    double *K; /* [7n x 7n] d taken/dx at constant x' and x'', in the exponential chart. Omitted
+                  terms only increase the number of iterations */
 } inertia_output;
 
 /* Outputs of `force`, which replaces the functions `strain` and `stress`. */
@@ -64,15 +66,16 @@ enum { ELEMENT_ALONG_POINTS = 8, ELEMENT_ALONG_COORDINATES = 14 };
  * frame. */
 typedef struct along_output {
     const double *force; /* in: [8 x 3] at the Gauss points of [0, 1], in global axes [N/m] */
-    const double *rate;  /* in: direction in which the force changes, in the form of `force`. If it
-                            is not NULL, sigma, moment and ends are derivatives with respect to the
-                            size of `rate`, and other outputs are not used */
-    const double
-        *e; /* in: [strains]; NULL: undeformed element, whose outputs are linear in the force */
+    const double *rate;  /* in: direction in which the force changes, in the form of `force`, or
+                            NULL. If it is not NULL, sigma, moment and ends are derivatives with
+                            respect to the size of `rate`, and other outputs are not used */
+    const double *e; /* in: [strains], or NULL for an undeformed element, whose outputs are linear
+                        in the force */
     const double *inner; /* in: [inner] */
-    double *sigma; /* output sigma of `stress` under the force; linear case: for fixed nodes */
-    double *C; /* output C of `stress`; linear case: geometric stiffness of the prestress [strains x
-                  strains] */
+    double
+        *sigma; /* output sigma of `stress` under the force; in the linear case, for fixed nodes */
+    double *C; /* output C of `stress`; in the linear case, the geometric stiffness of the prestress
+                  [strains x strains] */
     double *memory;   /* as `stress` */
     double *mixed;    /* [strains x 3] derivative of sigma with respect to the rotation of the frame
                          [N]; in the linear case only if H is requested */
@@ -84,7 +87,7 @@ typedef struct along_output {
     double ends[ELEMENT_ALONG_COORDINATES];     /* forces acting directly on the nodes [N, N m] */
     double moment[3]; /* derivative of the energy with respect to the rotation of the frame [N m] */
     double second[9]; /* [3 x 3] second derivative of the energy with respect to that rotation [N
-                         m]; linear case: zero */
+                         m], or zero in the linear case */
 } along_output;
 
 /* Outputs of `equations_many`: the condensed mixed equations of an element (N section 4). */
@@ -96,7 +99,7 @@ typedef struct equations_output {
     double *sigma;           /* [strains] stress(e) + C (D(x) - e) [N] */
     double *force;           /* [7 nodes] J^T sigma */
     double *present;         /* [7 nodes] J^T s */
-    double *K;               /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2 + J^T C J; may be NULL */
+    double *K;               /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2 + J^T C J, or NULL */
 } equations_output;
 
 #endif

@@ -67,9 +67,9 @@ static void add_product(double Q[N * N], double c, const double a[N], const doub
             Q[N * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
 }
 
-/* Linear fields of J section 3.2 at a point, as functionals of e and z. They are the rotation of
- * the section relative to the middle of the element, the twist rate and curvatures [1/m], the shear
- * strains at the centroid, and the extension. */
+/* Linear fields of J section 3.2 at a point, as functionals of e and z. The fields are the rotation
+ * of the section relative to the middle of the element, the twist rate and curvatures [1/m], the
+ * shear strains at the centroid, and the extension. */
 typedef struct point_fields {
     double rotation[3][N], rate[3][N], shear_y[N], shear_z[N], extension[N];
 } point_fields;

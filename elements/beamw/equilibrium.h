@@ -24,7 +24,7 @@ enum {
 typedef struct beamw_internal {
     real y[BEAMW_INTERNAL_Y], q[3];
     real D[BEAMW_CONDENSED_ROWS * BEAMW_INTERNAL_Y +
-           1]; /* rows of D, one after the other; the last entry is not used */
+           1]; /* rows of D, one after the other, where the last entry is not used */
     real u[BEAMW_CONDENSED_EVEN], h[3];
     real reach[3]; /* sum of the absolute values of the terms of h that are linear in e */
 } beamw_internal;
@@ -156,7 +156,7 @@ static inline void beamw_internal_weights(const beamw_condensed *d, const beamw_
 /* The Hessian. After factorisation, H = G^-1, H f and X^-1 with X = G^T + Kzz H f. */
 typedef struct beamw_hessian {
     real Kzz[9], G[9], H[9], Hf[9], inverse[9];
-    real_truth regular; /* 1: G and X are far from singular; 0: pivoting is required */
+    real_truth regular; /* 1 if G and X are far from singular, 0 if pivoting is required */
 } beamw_hessian;
 
 /* Computes dh/dz - 1 and Kzz. */
@@ -299,8 +299,7 @@ static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_
 static inline real_truth beamw_equilibrium_settle(const beamw_condensed *d, beamw_internal *s)
 {
     enum { Z = BEAMW_INTERNAL_Z };
-    const double close_enough = 1e-7; /* relative to z; the remaining error is of the order of the
-                                         square of this tolerance */
+    const double close_enough = 1e-7; /* relative to z; the remaining error is about 1e-14 */
     real_truth left = real_true(), good = real_true();
     for (int count = 0; count < BEAMW_EQUILIBRIUM_MOST && real_any(left); count++) {
         real change = real_of(0), size = real_of(0), dz[3], dq[3];

@@ -164,7 +164,7 @@ static void split(const section *c, double l, beamw_stiffness_shear kind, const 
         }
         return;
     }
-    /* this form of (Ka + G l D)^-1 G l D = (I + F Ka/(G l))^-1 exists even for F = 0 */
+    /* this form of (Ka + G l D)^-1 G l D = (I + F Ka/(G l))^-1 also exists for F = 0 */
     double A[9];
     int pivot[3];
     for (int i = 0; i < 3; i++)

@@ -113,7 +113,7 @@ static void set_modes(moving_line *c)
 
 /* A mass at a quadrature point. */
 typedef struct line_point {
-    double mass, part[NODES], shift; /* shift 1: position; 0: vector fixed to the section */
+    double mass, part[NODES], shift; /* shift is 1 for a position, 0 for a direction */
     int axes, axis[AXES];            /* axes k for which m_k has functionals at the point */
     double nu[AXES][MODES], value[AXES], rate[AXES];
     double f[NODES][3]; /* vectors fixed to the nodes */
@@ -318,7 +318,8 @@ static void add_curvature(moving_line *c)
         c->out->K[i] += H[i];
 }
 
-/* Adds the moment of inertia about n_X; the component w . n_X is linear between the nodes. */
+/* Adds the moment of inertia about n_X, with a component w . n_X that is linear between the
+ * nodes. */
 static void add_twist(moving_line *c, double polar)
 {
     inertia_output *out = c->out;

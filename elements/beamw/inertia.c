@@ -26,7 +26,7 @@ typedef struct beamw_inertia_state {
 
 /* The functionals at a point: their values and gradients. */
 typedef struct beamw_inertia_values {
-    double x, mass; /* mass: weight */
+    double x, mass; /* position and weight of a point */
     const double (*field)[8];
     double value[BEAMW_FIELDS], gradient[BEAMW_FIELDS][N];
 } beamw_inertia_values;

@@ -171,7 +171,7 @@ static inline void beamw_modes_place(const beamw_modes_blocks *b,
         }
 }
 
-/* Computes the outputs of element_type.strain; l0: initial length [m]. */
+/* Computes the outputs of element_type.strain. l0 is the initial length [m]. */
 static inline void beamw_modes_evaluate(double l0, const node_real x[2], strain_real *out)
 {
     beamw_modes m;

@@ -12,8 +12,8 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/lanes.h"
 
-/* Positions of mu, nu and tau = tan(|a|/2)/|a| in `factors`; the derivatives with respect to |a|^2
- * follow each. */
+/* Positions of mu, nu and tau = tan(|a|/2)/|a| in `factors`. Each is followed by its derivatives
+ * with respect to |a|^2. */
 enum { SCREW_MU, SCREW_NU = 2, SCREW_TAU = 5, SCREW_FACTORS = 7 };
 
 typedef struct screw {
@@ -21,7 +21,7 @@ typedef struct screw {
     real D[3], a[3];
     real U[3];  /* U minus l0 along x */
     real along; /* a . D */
-    real T[9];  /* dU/dpsi; dU/dD is V^-1 */
+    real T[9];  /* dU/dpsi, where dU/dD is V^-1 */
     real V[9];  /* V^-1 */
     real f[SCREW_FACTORS];
 } screw;
@@ -154,7 +154,7 @@ enum { SCREW_RP = 0, SCREW_TP = 3, SCREW_AP = 6, SCREW_RQ = 7, SCREW_TQ = 10, SC
 
 /* Work conjugates of the rates: f . dU/dt + t . dpsi/dt = g . v + mean . s + difference . delta. */
 typedef struct screw_work {
-    real g[3], t[3], m[3]; /* conjugate to D and to psi; m = D x g = -mean */
+    real g[3], t[3], m[3]; /* stresses conjugate to D and to psi, and m = D x g = -mean */
     real p[3];             /* V^-1 t */
     real difference[3];
 } screw_work;
@@ -224,7 +224,8 @@ static inline void beamw_screw_rates_row(const screw_gradient *g, int translatio
 }
 
 /* Second derivatives of a screw with respect to the coordinates of the nodes, in the exponential
- * chart. They are symmetric forms in (v, s, delta), first in the mean axes, then in global axes. */
+ * chart. The second derivatives are symmetric forms in (v, s, delta), first in the mean axes, then
+ * in global axes. */
 
 /* Blocks of a form. There is no block for v and v. The block for v and s is due to the rotation of
  * g. ss and dd are symmetric. */
@@ -386,8 +387,8 @@ static inline void beamw_screw_forms_second(const screw *w, const real f[3], con
 /* Helicoidal strains, which equal the strains of a beam if these are uniform. The screw
  * displacement that moves node p with its triad to node q has the rotation vector psi and, in axes
  * that rotate along the screw, the translation U. The strains are e1 = U_x - l0, e2 = l0 psi_x, e3,
- * e4 = l0 psi_y/2 -+ U_z, e5, e6 = l0 psi_z/2 +- U_y, e7, e8 = l0^2 a. They agree with J Eq. 7 to
- * first order, and do not change when p and q are exchanged. They represent uniform strains of any
+ * e4 = l0 psi_y/2 -+ U_z, e5, e6 = l0 psi_z/2 +- U_y, e7, e8 = l0^2 a. The strains agree with J Eq.
+ * 7 to first order, do not change when p and q are exchanged, and represent uniform strains of any
  * size exactly: U = l0 (e_x + gamma), psi = l0 kappa. J Eq. 7 uses sines of angles to the chord,
  * and is not exact for uniform strains with shear deformation. */
 
@@ -399,8 +400,8 @@ static const struct {
                                {2, 1, 1, 0.5}, {1, 2, 1, 0.5}, {1, 2, -1, 0.5}};
 enum { BEAMW_HELICOIDAL_ALONG = 6 };
 
-/* Computes the outputs of element_type.strain for one element or several in lanes; l0: initial
- * length [m]. */
+/* Computes the outputs of element_type.strain for one element or several in lanes. l0 is the
+ * initial length [m]. */
 static inline void beamw_helicoidal_evaluate(double l0, const node_real x[2], strain_real *out)
 {
     enum { N = SCREW_COORDINATES };

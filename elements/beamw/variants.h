@@ -45,8 +45,8 @@ struct element_data {
     double S[8 * 8];                                  /* [N/m] */
     double Q[BEAMW_MODIFIED][8 * 8];                  /* [1/m], symmetric */
     int terms;                                        /* number of nonzero terms in Q ... */
-    beamw_quadratic_term term[BEAMW_QUADRATIC_TERMS]; /* nonzero terms of Q; `entry` is a position
-                                                         in [8 x 8], i <= j */
+    beamw_quadratic_term term[BEAMW_QUADRATIC_TERMS]; /* nonzero terms of Q, where `entry` is a
+                                                         position in [8 x 8] with i <= j */
     int springs;                                      /* number of nonzero terms in S */
     struct {
         double c;
@@ -81,7 +81,7 @@ void beamw_variants_geometric(const element_data *d, const double sigma[], doubl
 
 /* Second-order modified modes: the matrices Q_i of a BEAMW variant. */
 
-/* Sets the modes of J Eq. 66 as printed. They are consistent only if Phi = 0 and the shear centre
+/* Sets the modes of J Eq. 66 as printed, which are consistent only if Phi = 0 and the shear centre
  * is at the centroid. */
 void beamw_modified_printed(const section *c, unsigned features, element_data *d);
 
@@ -89,7 +89,7 @@ enum {
     BEAMW_MODIFIED_VARIABLES = BEAMW_STRAINS + 3
 }; /* e, followed by z: the bending parts (y, z) and the warping part of h [3] */
 
-/* Sets modes derived from the full shear interpolation. They are consistent with shear and
+/* Sets modes derived from the full shear interpolation. The modes are consistent with shear and
  * eccentricity (reference/ERRATA.md), and follow either shear theory in stability. They include the
  * monosymmetric Wagner moments if requested. ebar = e + 1/2 y^T Q y, where y = (e, z). */
 void beamw_modified_consistent(
@@ -112,7 +112,8 @@ void beamw_modified_reduce(
 enum {
     BEAMW_CONDENSED_EVEN = 5,
     BEAMW_CONDENSED_ALL = BEAMW_CONDENSED_EVEN + 3,
-    BEAMW_CONDENSED_ROWS = 6, /* u1 .. u4, h_y, h_z; u5 is linear, and h_w depends only on u2 */
+    BEAMW_CONDENSED_ROWS = 6, /* number of rows u1 .. u4, h_y and h_z, without u5, which is linear,
+                                 and h_w, which depends only on u2 */
     BEAMW_CONDENSED_TERMS =
         BEAMW_CONDENSED_ROWS * BEAMW_MODIFIED_VARIABLES * (BEAMW_MODIFIED_VARIABLES + 1) / 2
 };
@@ -131,8 +132,8 @@ typedef struct beamw_condensed {
     double share;                   /* coefficient of the quadratic part of u2 in h_w [1/m^2] */
     double odd[BEAMW_STRAINS *
                BEAMW_STRAINS]; /* second derivative of 1/2 k5 u5^2 with respect to e [N/m] */
-    int linears; /* number of linear terms of (u, h) in e; the rows are those of k, then those of h
-                  */
+    int linears; /* number of linear terms of (u, h) in e, with the rows of k first, then the rows
+                    of h */
     beamw_condensed_linear linear[BEAMW_CONDENSED_ALL * BEAMW_STRAINS];
     int mixed, own,
         terms; /* list of quadratic terms. Terms of e alone are entries of [8 x 8]. Terms from

@@ -263,8 +263,8 @@ status exact_along_linear(const exact_stages *s, const exact_along *a, const nod
     exact_collocated_load load;
     memcpy(rest + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof(double));
     exact_along_frame_of(s, a, x, out->force, &at);
-    /* first with respect to the size of the force; if stiffnesses are requested, then with respect
-     * to the rotation */
+    /* computes the derivatives with respect to the size of the force, then, if stiffnesses are
+     * requested, with respect to the rotation */
     for (int pass = 0; pass < (out->H != NULL ? 2 : 1); pass++) {
         memset(&load, 0, sizeof load);
         for (int k = 0; k < s->stages; k++)

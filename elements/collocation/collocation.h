@@ -12,8 +12,8 @@
  * The strains e are those of the two-node element of exact.h, in the mean axes of the ends: v, the
  * vector from p to q; 2 X, a vector of magnitude 8 tan(angle/8) along the axis of the rotation from
  * p to q; and the warping amplitudes a at the ends. The vector x (stage.h) gives the orientation.
- * It is a polynomial of degree p through -X, p - 1 inner values and X. The force F is constant. The
- * potential
+ * The components of x are polynomials of degree p through -X, p - 1 inner values and X. The force F
+ * is constant. The potential
  *
  *   P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F (N_y, N_z)
  *                          + (ys N_z - zs N_y) k + 1/2 rho^2 N_x k^2 + 1/2 EI_y kappa_y^2
@@ -36,7 +36,7 @@ enum {
 /* First part of the element_data of collocation elements. The variables are x of the inner nodes,
  * then 2 X, half of which belongs to each end node. */
 typedef struct exact_stages {
-    int stages, unknowns; /* unknowns: F (3), x of the inner nodes */
+    int stages, unknowns; /* number of stages, and of the unknowns F (3) and x of the inner nodes */
     beam_constants c;
     exact_strain_line line;
     double w[EXACT_STAGES_MAX], N[EXACT_STAGES_MAX][EXACT_STAGES_MAX],
@@ -64,15 +64,16 @@ typedef struct exact_along {
     double at[EXACT_STAGES_MAX][ELEMENT_ALONG_POINTS]; /* g at the stages [m] */
     double missed[ELEMENT_ALONG_POINTS]
                  [3]; /* correction of the work on the undeformed line that the quadrature at the
-                         stages does not include; the correction rotates with G [m^2] */
+                         stages does not include [m^2]; the correction rotates with G */
     double half[ELEMENT_ALONG_POINTS]; /* weights of half of int q [m] */
 } exact_along;
 
 /* The frame G of an element in its present state, and g in the axes of G. */
 typedef struct exact_along_frame {
-    double q[2][4], u[4], size; /* quaternions of the nodes; mean quaternion and its length */
-    double G[9], g[EXACT_STAGES_MAX][3], missed[9]; /* [N]; [N m], columns in axes of G */
-    double xi[EXACT_STAGES_MAX][3];                 /* dimensionless */
+    double q[2][4], u[4], size; /* quaternions of the nodes, their mean, and its length */
+    /* g [N], and missed [N m] with columns in axes of G */
+    double G[9], g[EXACT_STAGES_MAX][3], missed[9];
+    double xi[EXACT_STAGES_MAX][3]; /* dimensionless */
 } exact_along_frame;
 
 void exact_along_prepare(const element_request *, const exact_stages *, exact_along *);

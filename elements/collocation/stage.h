@@ -1,7 +1,7 @@
 /* Rotations by Wiener-Milenkovic parameters (Rodrigues' modified vectors). The vector x has the
- * magnitude 4 tan(angle/4) and the direction of the rotation axis. It is regular up to a full
- * revolution. The rotation matrix is a rational function of x. R^T y, and the curvature kappa of a
- * line along which x varies with the slope x', have the same form:
+ * magnitude 4 tan(angle/4) and the direction of the rotation axis. This vector is regular up to a
+ * full revolution. The rotation matrix is a rational function of x. R^T y, and the curvature kappa
+ * of a line along which x varies with the slope x', have the same form:
  *   w . R^T y = B(w, y; x),  w . kappa = B(w, x'; x),
  *   B(w, y; x) = s w . y - p x . (y x w) + q [(x . w)(x . y) - t w . y],
  * where s, p, q are functions of t = |x|^2. */
@@ -118,7 +118,8 @@ enum {
 }; /* positions of x, x' and F */
 
 typedef struct exact_stage {
-    real x[3], slope[3], kappa[3], N[3]; /* kappa: relative to the undeformed state */
+    real x[3], slope[3], kappa[3], N[3]; /* x, its slope, the curvature kappa relative to the
+                                            undeformed state, and the force N */
     exact_milenkovic_form orientation, curvature;
 } exact_stage;
 

@@ -77,7 +77,7 @@ status exact_stages_prepare(const element_request *request, int count, exact_sta
     quadrature_points(count, point, out->w);
     const double angle = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {
-        at[k] = (1 - cos(PI * k / count)) / 2; /* any distinct points are valid; the Chebyshev
+        at[k] = (1 - cos(PI * k / count)) / 2; /* any distinct points are valid, and the Chebyshev
                                                   points give coefficients of similar size */
         const double length = angle > 0 ? 4 * tan(angle * (at[k] - 0.5) / 4) / angle : 0;
         for (int i = 0; i < 3; i++)

@@ -165,7 +165,8 @@ def described(body, said):
 
 
 def three(name, found, mask, parts, N, c, why):
-    """Returns the requested ones of energy[N], a vector [N, c] and a matrix [N, c, c]; the mask contains the requests."""
+    """Returns the requested items of energy[N], a vector [N, c] and a matrix [N, c, c]. The mask contains the
+    requests."""
     if not isinstance(found, (tuple, list)) or len(found) != 3:
         raise Refused(f"{name} must return three values: energy, {parts[0]}, {parts[1]}")
     all_three = [None if v is None and not mask >> i & 1 else

@@ -14,7 +14,7 @@
 
 #include "elements/element.h"
 
-enum { N = 12, NODES = 2 * NODE_COORDINATES }; /* (u, phi) of two nodes; as in element.h */
+enum { N = 12, NODES = 2 * NODE_COORDINATES }; /* (u, phi) of two nodes, as in element.h */
 
 struct element_data {
     double length, axial; /* [m], E A / l [N/m] */
@@ -36,8 +36,8 @@ static status prepare(const element_request *request, element_data *out, fault *
     memset(out, 0, sizeof *out);
     out->length = l;
     out->axial = c->young * c->A / l;
-    for (int i = 0; i < 3;
-         i++) { /* torsion; bending of the Timoshenko beam, or of the Bernoulli beam if phi = 0 */
+    for (int i = 0; i < 3; i++) { /* torsion, then bending of the Timoshenko beam, or of the
+                                     Bernoulli beam if phi = 0 */
         const double phi = shear * EI[i] * c->F[i == 1 ? 4 : 0] / (c->shear_modulus * l * l);
         const double near = i == 0 ? 1 : (4 + phi) / (1 + phi);
         const double far = i == 0 ? -1 : (2 - phi) / (1 + phi);

@@ -66,7 +66,7 @@ static void between(const double R[9], const double S[9], double psi[3])
 
 static void strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    double chord[3], psi[3], p[3], q[3]; /* p, q: the chord in the axes of each node */
+    double chord[3], psi[3], p[3], q[3]; /* the chord in the axes of nodes p and q */
     if (out->e == NULL)
         return;
     for (int i = 0; i < 3; i++)

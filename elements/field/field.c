@@ -118,7 +118,7 @@ int field_points(const displacement_field *f, double from, double to, double x[F
     return beamw_twist_points(&f->twist, from, to, x, weight);
 }
 
-/* Index of the warping amplitude, which follows the other functionals. */
+/* Index of the warping amplitude, which comes after the other functionals. */
 enum { PSI = FIELD_FUNCTIONALS };
 /* Numbers of points. The first is exact for the square of a cubic. The second integrates hyperbolic
  * twist with an error below 1e-9 for elements up to ten boundary layers long. */

@@ -58,7 +58,8 @@ int field_points(const displacement_field *, double from, double to, double x[FI
 
 /* Load at one point. */
 typedef struct field_load {
-    double force[3], moment[3]; /* [N, N m] in global axes; follower: in axes of the section */
+    double force[3], moment[3]; /* force and moment [N, N m] in global axes, or in axes of the
+                                   section if they follow it */
     double
         arm[3]; /* vector from the line to the point of application, in axes of the section [m] */
     int follower;
@@ -98,7 +99,8 @@ enum { FIELD_INNER = 2 * NODE_COORDINATES };
  * mode v of the nodes [14, in the axes of the element] with the eigenvalue lambda = omega^2 obeys
  *   v . K v = lambda v . M v + lambda^2 v . B v + O(lambda^3), B = M_bu^T K_bb^-1 M_bu,
  * where b are the displacements between fixed ends. B is the flexibility of the element with fixed
- * ends under the inertia forces of the static field. It gives twice the complementary energy
+ * ends under the inertia forces of the static field. The matrix B gives twice the complementary
+ * energy
  *   min over r: int s . C s dx, s = s_p v + s_r r,
  * where the resultants s_p are in equilibrium with these inertia forces, and s_r are due only to
  * forces and bimoments at the ends. B [14 x 14] is symmetric and positive semidefinite. Its unit is

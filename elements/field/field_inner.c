@@ -25,7 +25,7 @@ typedef struct inside {
     double shear[9];               /* flexibility for (Qy, Qz, Mw) [1/N ...] */
     double inertia[LOADS];         /* [kg/m, kg m, kg m^3] */
     double modes[FIELD_MODES * N]; /* deformation modes e due to v */
-    int warps, count;              /* count: number of columns in use, at most MOST */
+    int warps, count;              /* count is the number of columns in use, at most MOST */
 } inside;
 
 /* Computes the displacements of the centroid, rotations and warping [7 x N] at a point. */

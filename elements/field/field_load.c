@@ -19,7 +19,7 @@ enum {
 /* A vector y: the interpolated director or position of the nodes plus the sum of sign m_k
  * functional. */
 typedef struct field_vector {
-    int director; /* index of the director; NONE: y is a position */
+    int director; /* index of the director, or NONE if y is a position */
     struct {
         int k, functional;
         double sign;
@@ -36,7 +36,7 @@ static const field_vector place = {PLACE, {{1, FIELD_NU_Y, 1}, {2, FIELD_NU_Z, 1
 typedef struct pulled {
     const displacement_field *f;
     int n;                                              /* coordinates */
-    double vector[ELEMENT_MAX_NODES][3][3], mean[3][3]; /* unit vectors; m_k */
+    double vector[ELEMENT_MAX_NODES][3][3], mean[3][3]; /* unit vectors, and their means m_k */
     double e[FIELD_MODES], J[FIELD_MODES * MOST];
     double s[FIELD_MODES];          /* generalised forces conjugate to e */
     double turn[2][3][FIELD_MODES]; /* derivative of s with respect to rotations of p and q, due to

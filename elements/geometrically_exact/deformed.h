@@ -89,7 +89,7 @@ static inline void exact_point_at(int nodes, real q[][4], const double N[], cons
     mat3_transpose_mul_vec(p->R, y, p->v);
 }
 
-/* Adds factor b x a, for each column a of a [3 x 3], to `out`; the second function sets `out`. */
+/* Adds factor b x a to `out` for each column a of a [3 x 3]. The second function sets `out`. */
 static inline void exact_point_add_cross(const real b[3], const real a[9], real factor, real out[9])
 {
     for (int j = 0; j < 3; j++) {
@@ -254,7 +254,7 @@ static inline void exact_deformed_second(int nodes, const exact_strain_line *lin
     real n[3], inner[9], bent[ELEMENT_MAX_NODES][9];
     for (int i = 0; i < 3; i++)
         n[i] = moment[i];
-    if (measured) { /* T^T n replaces n; the second derivative of the measure is multiplied by
+    if (measured) { /* T^T n replaces n, and the second derivative of the measure is multiplied by
                        dkappa on both sides */
         exact_measure_second(m, p->kappa, moment, inner);
         mat3_transpose_mul_vec(T, moment, n);

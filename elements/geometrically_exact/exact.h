@@ -133,8 +133,8 @@ typedef struct exact_stiffness {
                                                * point */
     double torque[EXACT_STIFFNESS_MAX_FIELD]; /* weight of kappa_x^4 [N/m^3] */
     double twist[EXACT_STIFFNESS_MAX_FIELD]
-                [EXACT_STIFFNESS_MAX_STRAINS]; /* l0^2 kappa_x = twist . e, for the strains in
-                                                  `place` */
+                [EXACT_STIFFNESS_MAX_STRAINS]; /* l0^2 kappa_x = twist . e, summed over the strains
+                                                  in `place` */
     double Sr[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS];
     double coupling[EXACT_STRAIN_MAX_POINTS][EXACT_STRAIN_MAX_POINTS]; /* products r_g . S r_h */
 } exact_stiffness;
@@ -191,9 +191,9 @@ int exact_fields_eliminate(const exact_fields *f, double X[]);
  * energy per length is 1/2 (gamma, kappa) . C (gamma, kappa), without other terms. */
 
 /* Computes S [strains x strains] [N/m] for Gauss points that each represent a part of the element.
- * With one point, the moment is linear along the element with the slope M' = -e_x x N. This adds
- * the flexibility int M' . (C^-1) M' to the flexibility of the forces, so end loads are represented
- * exactly. Warping amplitudes have no stiffness. */
+ * With one point, the moment is linear along the element with the slope M' = -e_x x N. This slope
+ * adds the flexibility int M' . (C^-1) M' to the flexibility of the forces, so end loads are
+ * represented exactly. Warping amplitudes have no stiffness. */
 status exact_coupled_stiffness(const beam_constants *c, int points, int strains, double length,
                                double S[], fault *f);
 

@@ -60,7 +60,7 @@ static void graded_points(double lambda, double x[], double rest[], double w[])
     double at[INTERVALS + 1], gauss[ORDER], weight[ORDER];
     for (int i = 0; i <= INTERVALS / 2; i++) {
         at[i] = step[i] * thickness;
-        at[INTERVALS - i] = at[i]; /* measured from the other end */
+        at[INTERVALS - i] = at[i]; /* distance from the other end */
     }
     quadrature_points(ORDER, gauss, weight);
     for (int i = 0; i < INTERVALS; i++)

@@ -37,9 +37,10 @@ void dense_lu_solve(int n, int m, const double *LU, const int pivot[], double *B
 
 enum { CONGRUENCE_WIDEST = 24 };
 
-/* Adds J^T S J to K(n x n), with J(m x n) and S(m x m); m and n are at most CONGRUENCE_WIDEST. The
- * sums along rows stay in registers. Results are bit-for-bit identical to those of plain loops in
- * the same order. The second function is for processors with AVX2 (real.h). */
+/* Adds J^T S J to K(n x n), with J(m x n) and S(m x m), where m and n are at most
+ * CONGRUENCE_WIDEST. The sums along rows stay in registers. Results are bit-for-bit identical to
+ * those of plain loops in the same order. The second function is for processors with AVX2
+ * (real.h). */
 void congruence_add_plain(int m, int n, const double *J, const double *S, double *K);
 void congruence_add_avx2(int m, int n, const double *J, const double *S, double *K);
 

@@ -48,7 +48,7 @@ static inline real real_sqrt(real a)
 {
     return sqrt(a);
 }
-/* Truth value of each lane; 0 or 1 if there is only one lane. */
+/* Truth value of each lane, or 0 or 1 if there is only one lane. */
 typedef int real_truth;
 static inline real_truth real_true(void)
 {

@@ -22,7 +22,7 @@ typedef struct section {
     double A;             /* area [m^2] */
     double Iy, Iz;        /* second moments of area int z^2 dA, int y^2 dA [m^4] */
     double It;            /* Saint-Venant torsion constant [m^4] */
-    double Iw;            /* warping constant about the shear centre [m^6]; 0: no warping */
+    double Iw;            /* warping constant about the shear centre [m^6], or 0 without warping */
     double ys, zs;        /* shear centre relative to the centroid [m] */
     double Ip;            /* polar moment Iy + Iz about the centroid [m^4] */
     double wagner_y;      /* int y (y^2 + z^2) dA [m^5] */
@@ -83,19 +83,19 @@ typedef struct section_spec {
         int from, to;
         double thickness;
     } wall[SECTION_MAX_WALLS]; /* thickness [m] */
-    int thickness_terms;       /* 1: add the t^3 terms; 0: thin-walled theory */
+    int thickness_terms;       /* 1 to add the t^3 terms, 0 for thin-walled theory */
     double width, height;      /* rectangle: size along z and along y [m] */
-    double shear_factor[2]; /* rectangle: k for Qy and Qz; 0: 5/6, from the thickness terms; both 0:
-                               the shear due to warping is included */
-    int sheet_warping; /* rectangle: Iw = w^3 t^3/144. It is the exact Saint-Venant series in either
-                          case */
+    double shear_factor[2];    /* k of a rectangle for Qy and Qz, or 0 for 5/6, from the thickness
+                                  terms; if both are 0, the shear due to warping is included */
+    int sheet_warping; /* 1 for Iw = w^3 t^3/144 of a rectangle; It is the exact Saint-Venant series
+                          in either case */
     double expansion;  /* [1/K] */
     double diameter, wall_thickness; /* tube: outer diameter, and wall thickness; a solid bar has a
                                         thickness of half the diameter [m] */
-    section constants;               /* SECTION_CONSTANTS: constants to be used; D or F is required.
-                                        SECTION_MATRICES: stiffness and mass; no material */
-    /* Values that replace computed values; NAN: the computed value is used. If Ip is not given, it
-     * is Iy + Iz. */
+    section constants; /* constants to be used for SECTION_CONSTANTS, where D or F is required, or
+                          stiffness and mass for SECTION_MATRICES, without a material */
+    /* Values that replace computed values, or NAN where the computed value is used. If Ip is not
+     * given, it is Iy + Iz. */
     struct {
 #define SECTION_MEMBER(name) double name;
         SECTION_GIVEN(SECTION_MEMBER)
@@ -159,10 +159,10 @@ void section_matrices_centre(const section *c, double centre[3]);
 
 /* Checks that a taper between the two descriptions is possible. `ends` contains the constants of
  * both descriptions. Returns REFUSED if the descriptions have different forms, for example a
- * rectangle and walls, differently connected walls, or D for one and F for the other. Sections with
- * warping are also rejected if the shear centre moves, walls leave their planes, or closed cells
- * differ. The sectorial coordinate of a fibre would then change along the member and couple warping
- * with torsion, which prismatic elements cannot represent. */
+ * rectangle and walls, differently connected walls, or D in one description and F in the other.
+ * Sections with warping are also rejected if the shear centre moves, walls leave their planes, or
+ * closed cells differ. The sectorial coordinate of a fibre would then change along the member and
+ * couple warping with torsion, which prismatic elements cannot represent. */
 status section_taper_check(const section_spec *p, const section_spec *q,
                            const section *const ends[2], fault *f);
 

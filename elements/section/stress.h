@@ -28,13 +28,13 @@ typedef struct stress_point {
 
 typedef struct stress_points {
     const section *section;
-    int count; /* number of points; 0 for a tube, whose critical fibres depend on the direction of
-                  the bending moment */
-    double radius; /* radius of a tube [m]; 0 for other sections */
+    int count; /* number of points, or 0 for a tube, whose critical fibres depend on the direction
+                  of the bending moment */
+    double radius; /* radius of a tube [m], or 0 for other sections */
     stress_point point[STRESS_MAX_POINTS];
 } stress_points;
 
-/* Resultants on a section in principal axes; moments are about the centroid. */
+/* Resultants on a section in principal axes. Moments are about the centroid. */
 typedef struct stress_resultants {
     double N, Qy, Qz, My, Mz, bimoment;
     double warping; /* torque due to restrained warping M_w [N m] */

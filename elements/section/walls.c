@@ -335,10 +335,10 @@ static void wagner_constants(const section_spec *s, const double y[], const doub
     }
 }
 
-/* Returns 1/8 int q^2 dA. q is the part of r^2 = y^2 + z^2 that axial and bending strains do not
- * represent, r^2 - Ip/A - wagner_y/Iz y - wagner_z/Iy z. The position of the shear centre has no
- * influence, because rotation about another point only adds such strains. At the distance n across
- * a wall, the function is q + q_n n + n^2. */
+/* Returns 1/8 int q^2 dA, where q is the part of r^2 = y^2 + z^2 that axial and bending strains do
+ * not represent, r^2 - Ip/A - wagner_y/Iz y - wagner_z/Iy z. The position of the shear centre has
+ * no influence, because rotation about another point only adds such strains. At the distance n
+ * across a wall, the function is q + q_n n + n^2. */
 static double wagner_torque(const section_spec *s, const double y[], const double z[],
                             const section *c)
 {
@@ -445,7 +445,7 @@ status section_walls(const section_spec *s, section *out, fault *f)
     walls_lines lines;
     TRY(walls_lines_of(s, &lines, out, f));
     const double *y = lines.y, *z = lines.z, *omega = lines.omega;
-    /* walls that meet in one point do not warp along their mid-lines; Iw is then only rounding
+    /* walls that meet in one point do not warp along their mid-lines, and Iw is then only rounding
      * error */
     const int warps = out->Iw > 1e-24 * out->Ip * out->Ip / out->A;
     if (!warps)

@@ -40,8 +40,8 @@ enum { LANES_INNER = 24, LANES_MEMORY = 600 };
 /* Sizes of a family. */
 typedef struct lanes_sizes {
     int nodes, strains, inner, memory;
-    int relative; /* 1: two nodes, and only the difference of their positions matters; therefore J
-                     and H of one node are minus those of the other, bit for bit */
+    int relative; /* 1 if the element has two nodes and only the difference of their positions
+                     matters; J and H of one node are then minus those of the other, bit for bit */
 } lanes_sizes;
 
 /* Returns the number of elements of the same kind at the start of data[count], at most LANES. */

@@ -11,7 +11,7 @@
 
 typedef struct moving_vector {
     double mass; /* mass [kg], or rotary inertia of a unit vector [kg m^2] */
-    double y[3]; /* position relative to a point of the rotation axis [m], or a unit vector; used
+    double y[3]; /* position relative to a point of the rotation axis [m], or a unit vector, used
                     only in a rotating frame */
     int at, columns; /* coordinates that move the vector: at .. at + columns - 1 */
     const double *T; /* [3 x columns] dy/dx, row-major */
@@ -50,13 +50,15 @@ typedef struct lumped_mass {
     double mass;      /* [kg] */
     double rotary[3]; /* rotary inertia Ip, Iy, Iz about the columns of R [kg m^2] */
     double warping;   /* warping inertia [kg m^4] */
-    int turns;   /* 1: rotary inertia; 0: only the twist has inertia, and a rotating frame has no
-                    effect on it */
-    int vectors; /* for a section given by matrices: number of vectors that represent the whole
-                    inertia; otherwise 0. If it is not 0, the members above are not used */
+    int turns; /* 1 with rotary inertia; 0 if only the twist has inertia, which is independent of a
+                  rotating frame */
+    int vectors; /* number of vectors that represent the whole inertia of a section given by
+                    matrices, or 0 for other sections; if the number is not 0, the members above are
+                    not used */
     double vector[LUMPED_VECTORS][3],
-        carried[LUMPED_VECTORS]; /* vectors fixed to R, with their masses. The first is the centre
-                                    of mass [m]; the others have length 1 or sqrt(2) */
+        carried[LUMPED_VECTORS]; /* vectors fixed to R, with their masses, where the first is the
+                                    centre of mass [m] and the others have the length 1 or sqrt(2)
+                                  */
 } lumped_mass;
 
 /* Returns the lumped mass of `length` [m] of beam. For a section given by matrices, all entries of

@@ -10,9 +10,9 @@ extern "C" {
 /* An entry of a table. */
 typedef struct parameter_type {
     const char *name;    /* NULL ends the table */
-    const char *unit;    /* unit in SI; "1" for a plain number, "" for a choice */
-    double value;        /* default value; for a choice, the index of the default */
-    double min, max;     /* inclusive limits; not used for a choice */
+    const char *unit;    /* unit in SI, "1" for a plain number, or "" for a choice */
+    double value;        /* default value, or the index of the default choice */
+    double min, max;     /* inclusive limits, not used for a choice */
     const char *choices; /* "shear_flow|printed|misprinted", or NULL for a number */
     const char *summary; /* one line */
 } parameter_type;

@@ -16,8 +16,7 @@ typedef enum status {
     STATUS_REFUSED,       /* invalid or unsupported input */
     STATUS_FAULT,         /* error of a file, the disk or memory */
     STATUS_TIME_LIMIT,    /* stopped by a time limit */
-    STATUS_NO_VALUE /* no error, but the requested value does not exist: no such mode, load or state
-                     */
+    STATUS_NO_VALUE       /* no error, but the requested mode, load or state does not exist */
 } status;
 
 enum { FAULT_TEXT = 320 };

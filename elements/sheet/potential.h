@@ -22,8 +22,8 @@ enum { SHEET_TERMS_A = 96, SHEET_TERMS_B = 64, SHEET_TERMS_P0 = 12 };
 
 typedef struct sheet_potential {
     int terms_A, terms_b, terms_P0;
-    /* Terms are ordered by degree in x. These are the indices of the first linear and the first
-     * quadratic term. */
+    /* Indices of the first linear and the first quadratic term. Terms are ordered by degree in
+     * x. */
     int linear_A, quadratic_A, linear_b, quadratic_b, linear_P0, quadratic_P0;
     sheet_potential_term A[SHEET_TERMS_A], b[SHEET_TERMS_B], P0[SHEET_TERMS_P0];
 } sheet_potential;
@@ -33,8 +33,8 @@ typedef struct sheet_potential {
 status sheet_coefficients_prepare(const element_request *request, int printed, sheet_potential *out,
                                   fault *f);
 
-/* Computes P[1], its gradient[8] and its Hessian[8 x 8] at x; each may be NULL. Returns SINGULAR if
- * A is not positive definite at x. */
+/* Computes P[1], its gradient[8] and its Hessian[8 x 8] at x, except those that are NULL. Returns
+ * SINGULAR if A is not positive definite at x. */
 status sheet_potential_evaluate(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
                                 double *P, double *gradient, double *hessian);
 
@@ -177,7 +177,7 @@ static inline real sheet_stationary_value(const sheet_potential *p, const sheet_
 }
 
 /* Computes P[1], its gradient[8] and its Hessian[8 x 8] at x, except those that are NULL. Returns
- * the lanes in which A is positive definite; if there are none, nothing is written. P,k = P0,k +
+ * the lanes in which A is positive definite. If no lane is valid, nothing is written. P,k = P0,k +
  * s.b,k - s^T A,k s/2, and P,kl = P0,kl + s.b,kl - s^T A,kl s/2 + (b,k - A,k s)^T A^-1 (b,l - A,l
  * s). */
 static inline real_truth sheet_stationary_evaluate(const sheet_potential *p,
@@ -328,8 +328,8 @@ static inline void sheet_inverse_second(const sheet_inverse_data *d,
     }
 }
 
-/* Computes the outputs of element_type.stress. Returns the lanes that can be evaluated; if there
- * are none, nothing is written. */
+/* Computes the outputs of element_type.stress. Returns the lanes that can be evaluated. If no lane
+ * is valid, nothing is written. */
 static inline real_truth sheet_inverse_stress(const sheet_inverse_data *d,
                                               const real e[SHEET_STRAINS], stress_real *out)
 {

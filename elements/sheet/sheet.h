@@ -99,7 +99,7 @@ typedef struct sheet_fields {
  * requested. */
 int sheet_fields_warp(const element_request *request);
 
-/* Returns the fields at s = x l0. Phi_y and Phi_z are those of N Eq. 18; `warp` is the value of
+/* Returns the fields at s = x l0. Phi_y and Phi_z are those of N Eq. 18, and `warp` is the value of
  * sheet_fields_warp. */
 sheet_fields sheet_fields_at(double l0, double x, double Phi_y, double Phi_z, int warp);
 
@@ -121,7 +121,7 @@ typedef struct sheet_strains_table {
                        [rad/m] */
     double rest[SHEET_STRAINS]; /* strains of the stress-free element, which are subtracted [m] */
     double Lambda[SHEET_STRAINS * SHEET_LOCAL_COORDINATES]; /* [m per coordinate] */
-    int terms; /* nonzero entries jk and kj of Q_i, j <= k; Q_7 = Q_8 = Q_2 are not listed */
+    int terms; /* nonzero entries jk and kj of Q_i for j <= k, without Q_2, Q_7 and Q_8 */
     struct {
         double c;
         int i, j, k;

@@ -1,6 +1,6 @@
 /* A straight cantilever of equal elements along x, solved with dense matrices independently of the
- * harness. It serves to compare one formulation with reference values. The root is clamped with
- * warping restrained. */
+ * harness. The chain serves to compare one formulation with reference values. The root is clamped
+ * with warping restrained. */
 #ifndef BEAMWORK_TEST_CHAIN_H
 #define BEAMWORK_TEST_CHAIN_H
 
@@ -27,7 +27,7 @@ typedef struct chain {
     unsigned features;
     int elements, per_element, nodes, coordinates, strains;
     int iterations;
-    int held[7]; /* 1: this coordinate of the tip is prescribed */
+    int held[7]; /* 1 if this coordinate of the tip is prescribed */
     union {
         double align;
         unsigned char bytes[1 << 16];
@@ -152,7 +152,7 @@ static void chain_advance(chain *c, chain_linearised *w, const double dx[])
 }
 
 /* Solves by the mixed Newton iteration (N section 4). Prescribed coordinates of the tip move by
- * `step` [7]. A dead load [7] acts on the other coordinates; its moments are about fixed axes.
+ * `step` [7]. A dead load [7], with moments about fixed axes, acts on the other coordinates.
  * Returns the size of the last correction, or INFINITY if an element or the tangent failed. */
 static double chain_solve(chain *c, const double step[7], const double load[7])
 {

@@ -22,7 +22,7 @@ static section steel(double width, double height)
     return sections_computed(&spec);
 }
 
-/* Returns a section with these products of modulus and constant; only the products matter. */
+/* Returns a section with these products of modulus and constant, which determine the behaviour. */
 static section products(double EA, double GA, double GJ, double EI)
 {
     section c;

@@ -411,8 +411,8 @@ static void coefficients(void)
              worst);
 }
 
-/* Without warping stiffness, the torque causes the twist rate t/GJ. This is the limit lambda ->
- * inf; the difference decreases as 1/lambda. */
+/* Without warping stiffness, the torque causes the twist rate t/GJ, which is the limit lambda ->
+ * inf. The difference from the limit decreases as 1/lambda. */
 static void uniform_torsion(void)
 {
     static const double torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {

@@ -26,8 +26,8 @@ static inline double worst_of(double a, double b)
 section sections_computed(const section_spec *);
 /* Returns a section of this kind with the moduli of steel, E = 200 GPa and G = 80 GPa. */
 section_spec sections_steel(section_kind);
-/* Returns a section with the given constants [m^2, m^4], E = G = 1 Pa and Ip = Iy + Iz; it does not
- * warp. */
+/* Returns a section without warping and with the given constants [m^2, m^4], E = G = 1 Pa and Ip =
+ * Iy + Iz. */
 section_spec sections_of(double A, double Iy, double Iz, double It);
 
 /* Nodes of one element placed by a test, and derivatives of its strains by finite differences.
@@ -49,7 +49,7 @@ void nodes_increments(int nodes, double length, double size, unsigned seed, doub
  * moves the nodes by d. s contains any stresses [strains]. */
 typedef struct nodes_departure {
     double first;  /* error of J d, relative to its largest entry */
-    double second; /* error of H d, relative to its largest entry; H is in the exponential chart of
+    double second; /* error of H d relative to the largest entry, for H in the exponential chart of
                       x */
     double asymmetry; /* asymmetry of H */
 } nodes_departure;

@@ -1,5 +1,5 @@
 /* Compares the section constants of two descriptions of the same shape: a rectangle and a wall of
- * the same thickness, at any angle; walls with thickness terms and their area. */
+ * the same thickness at any angle, and walls with thickness terms and their area. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -283,8 +283,8 @@ static void box(void)
                  1e-13, "box: Bredt");
     gsl_test_rel(c.Iw, c.A * corner * corner / 3, 1e-12, "box: warping");
     gsl_test_abs(hypot(c.ys, c.zs), 0, 1e-15, "box: shear centre in the middle");
-    /* first moment: tf s h/2 in a flange, from its middle; tf b h/4 + tw (h^2/4 - z^2)/2 in a
-     * web */
+    /* first moment, which is tf s h/2 in a flange, from its middle, and tf b h/4 + tw (h^2/4 -
+     * z^2)/2 in a web */
     const double top = tf * b * h / 4, bow = tw * h * h / 8,
                  square = 4 * tf * h * h / 4 * b * b * b / 24 +
                           2 * h / tw * (top * top + 4.0 / 3 * top * bow + 8.0 / 15 * bow * bow);
@@ -351,7 +351,7 @@ static section_spec two_cells(int swapped, double skew)
     spec.walls = 7;
     spec.cells = 2;
     for (int i = 0; i < 6;
-         i++) { /* swapped: another root, and reversed walls in the opposite order */
+         i++) { /* swapped walls have another root, reversed directions, and the opposite order */
         const int p = swapped ? 5 - i : i;
         spec.point[p][0] = b * point[i][0] + (i == 1 || i == 4 ? skew : 0);
         spec.point[p][1] = h * point[i][1];

@@ -35,7 +35,7 @@ static double energy_of(const element_type *type, const section *c, double l, un
     return energy;
 }
 
-/* Computes J Eq. 66 with e[1] to e[8] as in the text; ebar[7] and ebar[8] are not modified. */
+/* Computes J Eq. 66 with e[1] to e[8] as in the text. ebar[7] and ebar[8] are not modified. */
 static void modified(const section *c, double l, const double e[E + 1], double ebar[E + 1])
 {
     const double A = (e[7] - e[8]) / 2, t = e[2] - (e[7] + e[8]) / 2, l3 = l * l * l;
@@ -430,7 +430,7 @@ static void warping_compare(int stages, double lambda, double shear)
     for (int k = 0; k < stages; k++) {
         amplitude a = {.stages = stages, .lambda = lambda};
         a.p[k] = 1;
-        if (k > 0) /* a constant needs no torque and no bimoment; it is checked together with all
+        if (k > 0) /* a constant needs no torque and no bimoment, and is checked together with all
                       other terms */
             smooth = worst_of(smooth, warping_departure(&c, &a));
     }

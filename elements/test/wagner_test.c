@@ -1,6 +1,6 @@
 /* The constant c of the Wagner torque, whose energy per length is E c kx^4, for sections of walls.
- * It is compared with closed forms and with a least-squares result: the part of y^2 + z^2 over the
- * area that remains after axial and bending strains are removed. */
+ * The constant is compared with closed forms and with a least-squares result: the part of y^2 + z^2
+ * over the area that remains after axial and bending strains are removed. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -149,7 +149,7 @@ static void one_sided(const wagner_shape *s, double angle)
  * pi. Therefore int omega r^2 dA is that of the web plus twice that of one flange. */
 static void one_sided_zed(void)
 {
-    const double b = 0.07, h = 0.1, t = 2e-3; /* h: half of the web depth */
+    const double b = 0.07, h = 0.1, t = 2e-3; /* h is half of the web depth */
     const section_spec spec = spec_of(&shapes[4], 0, 1, 0);
     const double flange = b * t, web = 2 * h * t, area = web + 2 * flange;
     /* omega varies from 0 in the web to h b at the ends of the flanges; its mean over the flanges
