@@ -219,8 +219,8 @@ def write_columns(group, rows, columns):
 
 
 def seal(path):
-    """Appends the line by which the program detects a truncated, damaged or altered file. It contains the length and the
-    CRC-32 of the preceding contents."""
+    """Appends the line by which the program detects a truncated, damaged or altered file. The line contains the length
+    and the CRC-32 of the preceding contents."""
     with open(path, "rb+") as file:
         data = file.read()
         file.write(b"beamwork-seal %016x %08x\n" % (len(data), zlib.crc32(data)))

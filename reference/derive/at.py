@@ -1,8 +1,8 @@
 """Computes the exact values of a case at a new parameter point, with the program that derives its rows.
 
 usage: at.py CASE ["name=value;..."]     Prints quantity, value, unit, uncertainty and convention, separated by tabs,
-in one line per value. The exit status is 0, or 3 if no program derives this case or these parameters; in the latter
-case, a line gives the reason.
+in one line per value. The exit status is 0, or 3 if no program derives this case or these parameters. With status 3, a
+line gives the reason.
 """
 import importlib
 import pathlib

@@ -171,7 +171,7 @@ def sheet_frequencies(count, given, form=lambda beam: beam, interpolated=False):
     width, thickness, length = value["width"], value["thickness"], value["length"]
     beam = sheet(**value)
     A, Iy, Iz = width * thickness, thickness * width ** 3 / 12, width * thickness ** 3 / 12
-    mass = value["density"] / net.force  # in 1/s^2; dimensionless after multiplication by area and length^2
+    mass = value["density"] / net.force  # in 1/s^2, or dimensionless after multiplication by area and length^2
     inertia = (mass * A * length ** 2, mass * np.array([Iy + Iz, Iy, Iz]),
                mass * beam.EIw / value["young"] / length ** 2)
     member = net.members[0]

@@ -24,7 +24,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 RELATIVE = 2e-10
-EA = 1e6  # axial stiffness of the case; weak EI = GJ = 1, length 1
+EA = 1e6  # axial stiffness of the case, where EI and GJ of the weak axis are 1 and the length is 1
 THETA, MY, FIRST = 0, 1, 2  # indices of theta, My and the first of the fields v, phi, chi, m_x, m_z, a, B
                             # of every solution
 FIELDS = 7

@@ -14,7 +14,7 @@ mp.dps = 40
 TERMS = 160
 LEG_TERMS = 64  # 7^64/64! = 1e-35
 
-# m(x) as coefficients of powers of x, where x is measured from the end with zero moment; and x at the other end of the
+# m(x) as coefficients of powers of x, where x is measured from the end with zero moment, and x at the other end of the
 # beam or half beam
 LOADS = {
     "tip": ([0, 1], 1), "distributed": ([0, 0, mpf(1) / 2], 1),

@@ -35,7 +35,7 @@ RESULTANTS = ("N", "Qy", "Qz", "Mx", "My", "Mz")
 
 
 class Question:
-    """A quantity of the scene: its kind, component and form of output."""
+    """A quantity of the scene, with its kind, component and form of output."""
 
     def __init__(self, name, entry):
         only(entry, name, (*KINDS, "unit", "tolerance", "order", "near_zero", "factor", "offset",

@@ -22,8 +22,8 @@ LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on",
 
 
 class Place:
-    """A node: its body, its support (if this is the support of the body), and its position [m] relative to the reference
-    point of the body."""
+    """A node, with its body, its support (if this is the support of the body), and its position [m] relative to the
+    reference point of the body."""
 
     def __init__(self, body, support, offset):
         self.body, self.support, self.offset = body, support, np.array(offset)

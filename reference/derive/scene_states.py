@@ -186,8 +186,9 @@ def linear_resultants(scene, m, step):
 
 
 def resultants(scene, name):
-    """Returns the resultants (N, Qy, Qz, Mx, My, Mz) [2, 6] at the ends of a member in N and N m. They are the action of
-    the part towards its end on the part towards its start, in the axes of the rotated section."""
+    """Returns the resultants (N, Qy, Qz, Mx, My, Mz) [2, 6] at the ends of a member in N and N m. The resultants are
+    the action of the part towards the end of the member on the part towards the start, in the axes of the rotated
+    section."""
     m, rows = scene.member[name], []
     for y in (m.y[0, 0], m.y[-1, -1]):
         p = m.p + (y[-6:] if m.beam.carries else 0.0)
@@ -281,8 +282,8 @@ def add_inside(out, v, at):
 
 
 def add_ends(out, v, at, row, shared):
-    """Adds the ends of a member. Both follow their bodies, whose equilibrium includes the loads of the ends, and each has
-    a warping condition."""
+    """Adds the ends of a member. Each end follows its body, whose equilibrium includes the loads of the end, and has a
+    warping condition."""
     m, f, n = v.m, v.fields, v.n
     for end, (body, sign) in enumerate(zip(m.bodies, (1.0, -1.0))):
         y, column = (m.y[0, 0], at) if end == 0 else (m.y[-1, -1], at + v.size - f)

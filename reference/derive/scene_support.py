@@ -57,7 +57,7 @@ class Support:
     def __init__(self, place):
         self.place, self.kinds, self.sequence, self.vector = np.array(
             place, dtype=float), [FREE] * 6, None, None
-        self.loads, self.angles = [], []  # angles: numbers of the free rotations of the sequence
+        self.loads, self.angles = [], []  # angles contains the numbers of the free rotations of the sequence
 
     def applied(self, level, R):
         return sum((load.at(level, R) for load in self.loads), np.zeros(6))

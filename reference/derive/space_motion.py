@@ -30,9 +30,9 @@ ELBOW_TIMES = ("1", "2")  # only the first of the stored times, because axial wa
 
 @dataclass(frozen=True)
 class Rod:
-    """A rod from `start` along legs of equal length, with EA = GA = force and EI = GJ = moment. It has a mass [kg/m] and
-    a rotary inertia about axes across and along the rod [kg m]. The load at the end of a leg is in space axes; its
-    force and moment are functions of time with slope discontinuities."""
+    """A rod from `start` along legs of equal length, with EA = GA = force and EI = GJ = moment. The rod has a mass
+    [kg/m] and a rotary inertia about axes across and along the rod [kg m]. The load at the end of a leg is in space
+    axes. Its force and moment are functions of time with slope discontinuities."""
     start: tuple
     legs: tuple
     force: float

@@ -1,7 +1,7 @@
 """Buckling of a column that is clamped at its base, under its weight q per length and a load P on its top; L = EI = 1.
 
-The slope t satisfies t'' + (P + q (1 - x)) t = 0, t(0) = 0 and t'(1) = 0. It is a power series in the distance from
-the top.
+The slope t satisfies t'' + (P + q (1 - x)) t = 0, t(0) = 0 and t'(1) = 0. The solution is a power series in the
+distance from the top.
 """
 from mpmath import findroot, mp, mpf
 

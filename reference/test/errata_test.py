@@ -133,7 +133,7 @@ class Interpolation(unittest.TestCase):
             self.assertGreater(np.max(np.abs(slope(v) - phi_z)), 0.5)
 
     def test_coupling_of_shear_and_warping(self):
-        """The correct S24 is d2/de2 de4 of int G D_zw g_z g_w dx = G D_zw q_w q_z/(2 l0^2). It is printed with 2/l0."""
+        """The correct S24 is d2/de2 de4 of int G D_zw g_z g_w dx = G D_zw q_w q_z/(2 l0^2). J prints 2/l0."""
         l0, G, D, qz, qw = 1.7, 2.0, -0.3, 0.4, 0.2
         energy = lambda e2, e4: G * D * l0 * (qz * e4 /
                                               (2 * l0)) * (qw * e2 / l0 ** 2)  # noqa: E731
@@ -235,8 +235,8 @@ class Modified(unittest.TestCase):
         self.assertNotEqual(right, (e[3] * e[4] - e[2] * e[5]) / length)
 
     def test_table_1(self):
-        """D is indefinite with the printed D_w = 3.65e6 mm^4. It is positive definite with 3.65e9 mm^4 and if computed
-        from the shear flow."""
+        """D is indefinite with the printed D_w = 3.65e6 mm^4, and positive definite with 3.65e9 mm^4 and with the value
+        computed from the shear flow."""
         for Dw, good in ((3.65e6, False), (3.65e9, True)):
             self.assertEqual(1.58e4 * Dw - 3.7e6 ** 2 > 0, good)
         self.assertAlmostEqual(float((channel_data().F ** -1)[2, 2]) * 1e12, 3.6936533e9, delta=1e2)

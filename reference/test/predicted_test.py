@@ -62,7 +62,8 @@ class Machinery(unittest.TestCase):
                 self.assertLess(abs(one[3] / two[3] - 1), one[5], one[:3])
 
     def test_amplitude_between_the_nodes(self):
-        """If the twist rate equals the amplitude, both give the same value. With J Eq. 66, the two differ."""
+        """If the twist rate equals the amplitude, both formulations give the same value. With J Eq. 66, the values
+        differ."""
         for name, least, most in (("beamw_first", 0, 1e-10), ("beamw", 2e-7, 3e-7)):
             form = predicted.as_printed(name)
             nodes, between = (equilibrium.sheet_frequencies(3, {}, form, one)[2] for one in (0, 1))

@@ -103,7 +103,7 @@ class OffCentreMasses(unittest.TestCase):
         for plane in (0, 1):
             k, total = (np.block([[a, none], [none, b]]) for a, b in (K[plane], M[plane]))
             for at, point in ((arm, 10000.0), (-arm, 1000.0)):
-                if plane == 0:  # along y: v; along x: u - y t
+                if plane == 0:  # displacement v along y, and u - y t along x
                     moved = [(bent_end[:, 0], 0 * rod_end[:, 0]),
                              (-at * bent_end[:, 1], rod_end[:, 0])]
                 else:  # along z: w + y p
@@ -139,7 +139,7 @@ class TransferMatrices(unittest.TestCase):
         b = 1 + 2 * k2
         values = [sqrt((b - s * sqrt(b ** 2 - 4 * k2 ** 2)) / 2) for s in (1, -1)]
 
-        def end(o):  # w = M = 0 at both ends; the columns are t and Q
+        def end(o):  # w = M = 0 at both ends, where the columns are t and Q
             t = bending(mpf(1), o, mpf(1), mpf(1), mpf(1), mpf(1))
             return t[0, 1] * t[2, 3] - t[0, 3] * t[2, 1]
 

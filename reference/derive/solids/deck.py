@@ -49,7 +49,7 @@ def halved(stations):
 
 
 class Grid:
-    """A mesh. `nodes` is [count, 3] in m, and `elements` is [count, 20]. Both are counted from zero."""
+    """A mesh. `nodes` is [count, 3] in m and `elements` is [count, 20], with indices from zero."""
 
     def __init__(self, xs, ys, zs, wanted=lambda i, j, k: True):
         """xs, ys, zs are the stations of corners along each axis [m]. `wanted` returns True for the cells that are
@@ -73,7 +73,7 @@ class Grid:
         return np.flatnonzero(np.abs(self.nodes[:, axis] - value) < 1e-9)
 
 
-# Rigid end of a solid: the motion of its face, the resultant on the face, and the tangent between both.
+# Rigid end of a solid: the motion of its face, the resultant on the face, and the tangent between motion and resultant.
 #
 # The face moves in the same way as the edge of a shell, that is, as a rigid body whose thickness can change. The
 # directions of the face rotate with the face.
