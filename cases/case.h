@@ -19,7 +19,7 @@ typedef struct case_type {
      * file. */
     status (*build_from)(const void *context, const double value[], scene *s, fault *f);
     const void *context;
-    const char *file; /* path of the scene file; NULL: built-in */
+    const char *file; /* path of the scene file, or NULL for a built-in case */
 } case_type;
 
 /* Last table of the parameters of every built-in case. `omit` selects whether the scene omits the

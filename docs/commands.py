@@ -40,12 +40,12 @@ def commands(body):
 
 
 def fits(line, printed):
-    """Returns whether a printed line matches a line of the page."""
+    """Returns True if a printed line matches a line of the page."""
     return re.fullmatch(".*".join(map(re.escape, line.rstrip().split("..."))), printed.rstrip()) is not None
 
 
 def match(expected, printed):
-    """Returns whether the printed lines match those of the page."""
+    """Returns True if the printed lines match those of the page."""
     if not expected:
         return not printed
     if expected[0].strip() == "...":

@@ -36,7 +36,7 @@ class Way:
     error: float  # largest error of the requested quantities on the mesh
     worst: object  # data.Verdict: the worst verdict on the requested quantities
     defects: list  # the verdicts other than pass
-    priced: bool = True  # True if the formulation has its own cost coefficients, not the general ones
+    priced: bool = True  # True if the formulation has separate cost coefficients, False for the general ones
     unranked: str = ""  # reason why the formulation has no rank and therefore no cost
 
     @property
@@ -114,8 +114,8 @@ def verdicts_on(series, quantities):
 
 
 def repeats(point, series, quantities):
-    """Returns True if the options of a variant have no effect: on every mesh, errors and work are the same as without the
-    options."""
+    """Returns True if the options of a variant have no effect, that is, if errors and work on every mesh are the same
+    as without the options."""
     name, colon, _ = series.key.partition(":")
     plain = next((s for s in point.series if colon and s.key == name and not s.missing), None)
 
@@ -186,7 +186,7 @@ def faster(a, b):
 
 
 def differ(a, b):
-    """Returns True if two clocks differ by more than their noise. This is the case if all rounds of one are below all
+    """Returns True if two clocks differ by more than their noise, that is, if all rounds of one clock are below all
     rounds of the other or, for single runs, if the times differ by a factor of two."""
     if a.repeats > 1 and b.repeats > 1:
         return a.most < b.least or b.most < a.least

@@ -63,8 +63,8 @@ def as_csv(found):
 
 def as_json(found, about):
     """Returns one JSON object: the run, the names and units of the columns, and an entry for each request. An entry
-    contains case, parameters, quantity and tolerance, then the answers. Each answer is a list that begins with the
-    index of its formulation."""
+    contains the case, the parameters, the quantity, the tolerance and the answers. Each answer is a list that begins
+    with the index of its formulation."""
     keys = sorted({row["formulation"] for row in found})
     head = {"commit": about.get("commit", ""), "clock": about.get("clock", ""),
             "asked": COLUMNS[:ASKED], "columns": COLUMNS[ASKED:], "units": UNITS,

@@ -15,8 +15,8 @@ from reports.verdicts import BY_NAME, UNJUDGED, percent, remarks
 
 @dataclass
 class Drawing:
-    """The drawing of a scene. `figure` and `sections` are images of the site; `sections` is None if no section has a
-    shape. `lines` are [(heading, lines)]."""
+    """The drawing of a scene. `figure` and `sections` are images of the site, and `lines` are [(heading, lines)].
+    `sections` is None if no section has a shape."""
     figure: object
     sections: object
     counts: str
@@ -52,7 +52,7 @@ class Truth:
 
 @dataclass
 class Quantity:
-    """A quantity of a point. `meaning` is its description. `truths` are its reference values; the list is empty if the
+    """A quantity of a point. `meaning` is its description. `truths` are its reference values, or an empty list if the
     quantity has no verdict."""
     name: str
     unit: str
@@ -137,7 +137,7 @@ def tally_of(point):
 NAVIGATION = [("convergence.html", "to print")]
 MOST_POINTS = 3  # largest number of parameter points with a figure
 MOST_PANELS = 6  # largest number of small figures of the other quantities, and of model errors
-# Largest number of verdicts on one page. If there are more, the other parameter points have separate pages.
+# Largest number of verdicts on one page. With more verdicts, the other parameter points have separate pages.
 MOST_ROWS = 1500
 
 # Figures about the first quantity, and the formulations that these figures do not show.
@@ -232,8 +232,8 @@ def limits_of(point):
 
 
 def verdicts_of(point, index):
-    """Returns [(series, verdicts)] for the table. At the first parameter point, these are all verdicts; at the other
-    points, only verdicts other than pass."""
+    """Returns [(series, verdicts)] for the table: all verdicts at the first parameter point, and only verdicts other
+    than pass at other points."""
     def told(v):
         own = v.verdict not in ("skip", "no truth", *(("pass",) if index else ()))
         return own or math.isfinite(v.model_truth) and v.verdict != "pass"
@@ -324,10 +324,9 @@ def tasks(site):
 # A convergence report for printing, with every case on an A4 sheet (headless: chromium --print-to-pdf).
 
 
-
 def sheet(site, case):
-    """Returns the sheet of the first quantity with verdicts at the defaults. It contains the figure and, for each
-    formulation, the limit, the order, the errors, and the time to every level."""
+    """Returns the sheet of the first quantity with verdicts at the defaults: the figure and, for each formulation, the
+    limit, the order, the errors, and the time to every level."""
     point = case.points[0]
     names = answers.judged(point)
     if not names:

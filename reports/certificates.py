@@ -82,7 +82,7 @@ def standing(part):
 
 
 class Certificate:
-    """Certificate of one formulation: its groups of checks, and its measured groups by name."""
+    """Certificate of one formulation, with the groups of checks, and the measured groups by name."""
 
     def __init__(self, record):
         self.key, self.summary, self.source = (record[k]

@@ -1,4 +1,4 @@
-"""Claims of the papers compared with measurements, and other programs on the same case."""
+"""Claims of the papers compared with measurements, and other programs on the cases of the papers."""
 import csv
 import functools
 import math
@@ -10,7 +10,6 @@ from reports.chart import Chart
 from reports.site import ROOT, number, percent
 from reports.style import plt
 from reports.verdicts import OWN_LIMITS
-
 
 
 def peers_figure(site, ours, others, name):
@@ -90,7 +89,7 @@ def column_section(site, case):
 NAVIGATION = [("claims.html", "claims"), ("papers.html", "papers")]
 PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # parameters of sheet_cantilever for the model of reference/peers.csv
 SECTIONS = ("printed constants", "section_data=printed"), (
-    "shear flow", "")  # sets for J Table 2; no single set reproduces all four entries of the table
+    "shear flow", "")  # sets for J Table 2, where no single set reproduces all four entries of the table
 TARGET = 0.01, 2e-4  # both errors of the case of other programs within 1 %, in less than 0.2 ms of solution time
 
 

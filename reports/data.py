@@ -18,7 +18,7 @@ def text(value):
 
 REACH = {0.1: "reach_10", 0.01: "reach_1", 0.001: "reach_0.1", 0.0001: "reach_0.01"}
 SCHEMA, VERSIONS = "beamwork-results", (2, 3)
-BENCH = "experiments/bench"  # group of the times; in version 2, times were in a separate file
+BENCH = "experiments/bench"  # group of the times, which version 2 stored in a separate file
 
 
 def column(values):
@@ -200,7 +200,7 @@ def read_case(path, name, bench=None, root=of_root):
 
 
 def read_bench(path, name, meshes):
-    """Copies the times of a benchmark to the runs of the same name."""
+    """Copies the times of a benchmark to the runs of the case `name`."""
     with h5py.File(path) as file:
         cases = root_of_bench(file)["cases"]
         if name in cases:
@@ -239,8 +239,8 @@ def read_results(path, bench=None):
 
 
 def holds(parameters, at):
-    """Returns True if a reference value with these parameters applies at a point. Both are `name=value;...`, where `*`
-    stands for any value."""
+    """Returns True if a reference value with these parameters applies at a point. The parameters and the point are
+    `name=value;...`, where `*` stands for any value."""
     said = dict(item.split("=", 1) for item in parameters.split(";") if item)
     there = dict(item.split("=", 1) for item in at.split(";") if item)
     return all(value == "*" or there.get(name) == value
@@ -307,7 +307,7 @@ def read_truth_counts(path):
         raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
 
 
-# Values of other programs (`beamwork import`), which are shown together with those of beamwork. They are stored
+# Values of other programs (`beamwork import`), which are shown together with those of beamwork. These values are stored
 # separately, so they are not counted as formulations.
 
 

@@ -54,8 +54,8 @@ def predictions(rows):
 
 
 def left(v):
-    """Returns the unexplained deviation of a limit: its distance from the derived limit or, if there is none, from the
-    reference value. The distance is relative to the reference value, as are all errors."""
+    """Returns the unexplained deviation of a limit from the derived limit or, if there is none, from the reference
+    value. The deviation is relative to the reference value, as are all errors."""
     if not math.isfinite(v.predicted) or not v.error:
         return abs(v.error)
     return abs((v.limit - v.predicted) * v.error / (v.limit - v.truth))
@@ -133,7 +133,6 @@ def tasks(site):
 # Experiments on the causes of known deviations, which `make lab L=causes` writes next to the results.
 
 
-
 def verdict_of(study):
     """Returns the conclusion of the experiments on one verdict in text form, for the heading of its table."""
     gone = [e for e in study["experiments"] if e["gone"]]
@@ -164,9 +163,6 @@ def write_causes(site):
     solved = sum(any(e["gone"] for e in s["experiments"]) for s in record["studies"])
     site.write("causes.html", "causes.html", record=record, rules=by_rule(record), known=known,
                solved=solved)
-
-
-
 
 
 def write_errata(site):

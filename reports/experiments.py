@@ -41,7 +41,7 @@ def opened(path):
 
 
 def holds(path, name):
-    """Returns whether the file contains a group of the experiment."""
+    """Returns True if the file contains a group of the experiment."""
     if not os.path.exists(path):
         return False
     with opened(path) as file:
@@ -77,7 +77,7 @@ def grouped(found, *names):
 
 
 def is_newer(path, name, program):
-    """Returns whether the group was written after the program was built."""
+    """Returns True if the group was written after the program was built."""
     run = dict(made(path)).get(name)
     if run is None:
         return False

@@ -161,7 +161,7 @@ def rules(rows, known, titles):
     for rule in known:
         own = found.get(rule["rule"])
         if own:
-            # a verdict that a formulation repeats because of the same misprint is counted on the page of that formulation
+            # verdicts that a formulation repeats because of one misprint are counted on the page of that formulation
             counted = [verdicts.TallyRow(r.case, r.parameters, r.formulation, r.verdict,
                                          verdicts.OWN) for r in own]
             out.append({**deviations.line(rule, counted, titles),
@@ -191,8 +191,8 @@ def all_ways(cases):
 
 
 def speed(found, key, known):
-    """Returns for each level: the cases in which any formulation reaches the level, those in which this formulation
-    reaches it, those of the latter in which it does not pass, those in which it is first, its rank, and its median
+    """Returns for each level: the cases in which any formulation reaches the level, the cases in which this formulation
+    reaches it, the latter cases in which it does not pass, the cases in which it is first, its rank, and its median
     cost relative to the cheapest."""
     out = []
     for level in LEVELS:
@@ -314,7 +314,6 @@ def tasks(site):
 
 
 # Two short pages: all cases, and all formulations.
-
 
 
 def counts(rows):

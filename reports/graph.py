@@ -39,13 +39,13 @@ class Curve:
 
     @property
     def decades(self):
-        """Returns whether the vertical axis of the curve is logarithmic."""
+        """Returns True if the vertical axis of the curve is logarithmic."""
         return (self.steady and self.unit not in PHASES and
                 all(b > 0 for a, b in zip(self.x, self.y) if a > 0))
 
 
 def merged(curves):
-    """Merges quantities with the same curve, such as the largest and the smallest value of a history, into one curve."""
+    """Merges quantities with equal curves, such as the largest and the smallest value of a history, into one curve."""
     found = {}
     for c in curves:
         same = found.setdefault((c.formulation, c.unit, c.x_name, *c.x, *c.y), c)
@@ -96,7 +96,7 @@ def draw_panel(axes, curves):
 
 
 def share(panels, axes):
-    """Gives panels with the same abscissa, one below the other, the same scale."""
+    """Gives panels with equal abscissas, one below the other, a common scale."""
     for i, (curves, one) in enumerate(zip(panels, axes)):
         for k in range(i):
             if panels[k][0].x_name == curves[0].x_name and (

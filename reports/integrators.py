@@ -1,5 +1,5 @@
-"""Reads the results of `beamwork motion` into plain records: motions computed by integrators with given steps and
-tolerances. Reads the results of `make lab L=paces`, which contain such records for every case with a motion."""
+"""Reads the results of `beamwork motion` and of `make lab L=paces` into plain records: motions computed by integrators
+with given steps and tolerances. The results of `make lab L=paces` contain records for every case with a motion."""
 import json
 import math
 import os
@@ -9,7 +9,7 @@ from reports import experiments
 from reports.data import Unreadable
 
 PACES = "paces.json"
-KEPT = 1e-11  # fraction of the largest energy; if the drift is smaller, the energy is conserved
+KEPT = 1e-11  # fraction of the largest energy; the energy is conserved if the drift is smaller
 ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # order in legends and tables
 KEYS = ("case", "parameters", "formulation", "elements")  # columns that identify a problem
 NONE_WANTED = "none is wanted"  # reason stored if no reference is requested
@@ -47,7 +47,7 @@ class Run:
 
     @property
     def keeps(self):
-        """Returns whether the run conserves energy to round-off."""
+        """Returns True if the run conserves energy to round-off."""
         return self.energy <= KEPT
 
 
@@ -345,7 +345,7 @@ def wins(problems, level, noise=1.0):
 
 
 def profile(problems, level):
-    """Returns {scheme: [share of problems within FACTORS of the lowest cost]}. Every case has the same weight."""
+    """Returns {scheme: [share of problems within FACTORS of the lowest cost]}. All cases have equal weights."""
     cases = {}
     for problem in problems:
         cases.setdefault(problem.case, []).append(answer(problem, level))

@@ -214,7 +214,7 @@ def profile(site, problems, level):
 # Stability maps, with the step on the horizontal axis, the stiffness on the vertical axis, and a panel for each
 # integrator. Each outcome has a colour and a letter, so the map can be read without colours.
 
-# fate: letter, colour, colour of the letter, meaning
+# fate: letter, colour, colour of the letter, and meaning
 LOOK = {
     "exact": ("E", "#009e73", "#111418", "energy and momenta conserved to round-off"),
     "bounded": ("B", "#8fd3f4", "#111418", "its energy does not grow"),

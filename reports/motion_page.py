@@ -87,7 +87,7 @@ def motions_of(path, case, point="default"):
 
 
 def has_motions(path):
-    """Returns whether any case in the file has a motion."""
+    """Returns True if any case in the file has a motion."""
     with h5py.File(path) as file:
         return any(TABLE in group and len(group[TABLE]) for group in file["cases"].values())
 
@@ -182,7 +182,7 @@ def sentence(motion, how):
 
 
 def between(values, form):
-    """Returns `smallest to largest`, or one value if both have the same text."""
+    """Returns `smallest to largest`, or one value if the smallest and the largest value have equal texts."""
     least, most = form.format(min(values)), form.format(max(values))
     return least if least == most else f"{least} to {most}"
 
@@ -229,7 +229,7 @@ WIDE, HALF = (640, 200), (300, 170)
 MOST_POINTS = 150  # largest number of points of a curve
 MOST_CURVES = 7  # largest number of curves, including the reference value; one fewer than a figure initially shows
 FLOOR = 1e-17  # smallest drawn drift
-# column: name, colour, line
+# column: name, colour and line
 ENERGIES = {"kinetic": ("kinetic", 0, "-"), "strain": ("strain", 1, "-"),
             "work": ("work", 2, "--"), "dissipated": ("dissipated", 3, "-."),
             "energy": ("kinetic and strain", 6, ":")}

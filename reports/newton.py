@@ -42,8 +42,8 @@ def singles(data):
 
 
 def farther(data):
-    """Returns (formulations, those for which the mixed form converges for larger steps than the other form, those for
-    which it converges only for smaller steps)."""
+    """Returns all formulations, those for which the mixed form converges for larger steps than the other form, and
+    those for which the mixed form converges only for smaller steps."""
     best = [[largest(s["values"], s[form])[0] or 0 for form in FORMS] for s in data["singles"]]
     return len(best), sum(m > d for m, d in best), sum(m < d for m, d in best)
 

@@ -116,7 +116,8 @@ class Sheet:
 
 
 def still(s, state):
-    """Returns one state, drawn over the pale undeformed state, in SVG. It is shown if the model cannot be rotated."""
+    """Returns one state, drawn over the pale undeformed state, in SVG. The picture is shown if the model cannot be
+    rotated."""
     scale = 1 if s.kind[state] == FRAME else exaggeration(s, state)
     view = best_view(s, [state])
     rest, here = drawn_polygons(s, state, scale)

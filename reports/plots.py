@@ -260,7 +260,7 @@ def shown_in_all(point, quantities, errors="errors"):
 
 def small_multiples(site, point, quantities, name, errors="errors", ylabel="relative error",
                     abscissa="time"):
-    """Draws a small panel for each quantity, with the same formulations in all panels."""
+    """Draws a small panel for each quantity, with equal formulations in all panels."""
     columns = min(3, len(quantities))
     chart = Chart(columns, SMALL if len(quantities) > 1 else ONE, gap=(66, 62))
     label, where, whole = against(point, abscissa)

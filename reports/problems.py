@@ -1,8 +1,8 @@
 """The problems on which formulations are compared, and the cost at which each formulation solves a problem.
 
 A problem is a quantity with an exact reference value of the same model, at a parameter point of a case. Second names
-of the same entry are not counted. Every case has the same weight, whatever the number of its parameter points. Every
-problem within a case has the same weight.
+of an entry are not counted. All cases have equal weights, whatever the number of their parameter points. All problems
+within a case have equal weights.
 
 A formulation solves a problem to a level with the coarsest mesh for which the errors of that mesh and of all finer
 meshes are within the level, unless its limit is known to be outside the level."""

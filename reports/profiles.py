@@ -51,7 +51,7 @@ def places(farthest):
 def shares(pairs, at):
     """Returns the share of the weight of problems solved within each factor, followed by the share solved at any factor.
 
-    `pairs` is [(factor, weight)] of one formulation; the factor is infinite if the problem is not solved. `at`
+    `pairs` is [(factor, weight)] of one formulation, where the factor is infinite if the problem is not solved. `at`
     contains ascending factors."""
     ordered = sorted(pairs)
     whole, reached, i, out = sum(w for _, w in ordered), 0.0, 0, []
@@ -69,7 +69,7 @@ def weight_of(found, key=None):
 
 
 def profile(found, keys, question, offered=False):
-    """Returns {formulation: shares at `places`, followed by the share that it solves at any factor}."""
+    """Returns {formulation: shares at `places`, followed by the share that the formulation solves at any factor}."""
     at, everything = places(FARTHEST[question.unit]), weight_of(found)
     out = {}
     for key, pairs in problems.factors(found, keys, question).items():
@@ -101,7 +101,8 @@ class Compared:
         return bool(self.problems) and len(self.keys) > 1
 
     def profile(self, question, offered=False):
-        """Returns {formulation: shares at `places`, followed by the share that it solves at any factor}."""
+        """Returns {formulation: shares at `places`, followed by the share that the formulation solves at any
+        factor}."""
         if (question, offered) not in self._profiles:
             found = profile(self.problems, self.keys, question, offered)
             self._profiles[question, offered] = found
@@ -165,7 +166,7 @@ def factors(farthest):
 
 
 def stairs(at, shares):
-    """Returns the corners of the step curve. Each share applies from its factor on."""
+    """Returns the corners of the step curve, in which each share applies from its factor on."""
     xs, ys = [at[0]], [shares[0]]
     for x, y in zip(at[1:], shares[1:]):
         if y != ys[-1]:

@@ -52,7 +52,7 @@ class Mesh:
     dense: Dense = None
     predictions: dict = field(default_factory=dict)  # quantity -> value of an analytic model
     cost: float = math.nan  # cost of counted work, with the cost coefficients of the reference machine [s]
-    priced: bool = True  # True if the formulation has its own cost coefficients, not the general ones
+    priced: bool = True  # True if the formulation has separate cost coefficients, False for the general ones
 
     @property
     def seconds(self):
@@ -111,7 +111,7 @@ class Series:
     imported: str = ""  # file of the other program from which the series was read
     model: str = "beam"
     unranked: str = ""  # reason why the series has no rank: derivatives by differences, or another process
-    is_new: bool = False  # not accepted yet: its verdicts do not affect the exit status
+    is_new: bool = False  # True if not accepted yet, so that verdicts do not affect the exit status
     other: str = ""  # relevant physics that the formulation omits, so that it solves another model
     without: str = ""  # physics that the formulation omits, and the effect of the omission
 
@@ -150,5 +150,5 @@ class Case:
     summary: str
     source: str
     points: list
-    coverages: list = field(default_factory=list)  # rows: formulation, left_out, series, covered
-    parameters: list = field(default_factory=list)  # rows: parameter, unit, default, min, max, choices, summary
+    coverages: list = field(default_factory=list)  # rows with formulation, left_out, series and covered
+    parameters: list = field(default_factory=list)  # rows with parameter, unit, default, min, max, choices and summary

@@ -38,7 +38,7 @@ class Shapes:
     far: dict  # {member: section at its far end}, if the section changes along the member
     equivalent: list  # True if the section is known only by its constants and drawn as a rectangle
     kind: list
-    acting: list  # loads of a linear solution, such as "combination ULS"; "" for all loads
+    acting: list  # loads of a linear solution, such as "combination ULS", or "" for all loads
     value: np.ndarray
     position: np.ndarray  # [states x points x 3] in m
     axes: np.ndarray  # axes of the section in rows [states x points x 3 x 3]
@@ -159,8 +159,8 @@ def strips(s, state, scale, every):
 
 
 def hull_faces(points):
-    """Returns the faces of the convex hull as indices. For points in a plane, returns the polygon; for points on a line,
-    returns the segment."""
+    """Returns the faces of the convex hull as indices. For points in a plane, the result is the polygon. For points on
+    a line, the result is the segment."""
     rounded, index = np.unique(np.round(points, 12), axis=0, return_index=True)
     middle = rounded.mean(axis=0)
     _, extent, axes = np.linalg.svd(rounded - middle, full_matrices=False)
@@ -222,7 +222,7 @@ def bodies(s, state, scale):
 # the label of the state contains the factor.
 
 WHOLE = 32767
-MOST_POINTS = 1300  # largest number of points of all members; if there are more, only every second or third point is stored
+MOST_POINTS = 1300  # of all members; with more points, only every second or third point is stored
 MOST_FRAMED = 16_000  # largest number of points of all frames of a motion together
 LEAST = 3  # smallest number of points of a bent member before the number of frames is reduced
 
@@ -239,8 +239,8 @@ def frames_of(s):
 
 
 def drawn_states(s, most=MOST_FRAMED):
-    """Returns the states that are stored. These are all states, but for a motion only as many evenly spaced frames,
-    including both ends, as `most` points allow."""
+    """Returns the states that are stored: all states or, for a motion, as many evenly spaced frames, including both
+    ends, as `most` points allow."""
     frames = frames_of(s)
     count = max(2, most // (LEAST * max(1, len(s.members))))
     if len(frames) > count:

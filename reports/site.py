@@ -125,8 +125,8 @@ class Site:
         return found, navigation.group_of(name, found, {c.name for c in self.cases})
 
     def name_of(self, sweep):
-        """Returns the name of the page of a sweep: the name of its file, with a number if another sweep has the same
-        name."""
+        """Returns the name of the page of a sweep, which is the name of its file, with a number if another sweep has
+        this name."""
         name = file_name(sweep.path)
         before = self.sweeps[:self.sweeps.index(sweep)]
         same = sum(file_name(s.path) == name for s in before)

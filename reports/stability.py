@@ -10,7 +10,7 @@ from reports.chart import Chart
 from reports.figures import FONT, Image
 
 # The map of stability in a separate SVG. Rows are formulations, and columns are extremes. Each field is a strip of the
-# tested values, from left to right as in the tables.
+# tested values, in the order of the tables from left to right.
 
 WIDE, TALL, HEAD, LEFT = 42, 22, 150, 190  # width and height of a field, space for the names above and on the left
 MOST = 22  # largest number of extremes side by side
@@ -206,7 +206,7 @@ def draw_curve(site, extreme, keys, all_cells):
 
 def findings(record):
     """Returns [(extreme, formulations, outcome, values, proof)] of outcomes that are neither accurate nor under-resolved.
-    Entries with the same values of x or the same formulations are merged."""
+    Entries with equal values of x or equal formulations are merged."""
     rows, told = {}, {}
     for o in record["outcomes"]:
         if kind(o) in ("named", "wrong", "fault"):

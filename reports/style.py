@@ -1,8 +1,8 @@
 """A permanent colour and marker for each formulation. A new formulation does not change the colours and markers of
 others.
 
-The colours are distinguishable without colour vision (Okabe and Ito; the last two are by Tol). In dark mode, each
-colour is replaced by a lighter colour of the same hue: figures.py writes a variable, which base.html defines."""
+The colours are distinguishable without colour vision (Okabe and Ito, Tol). In dark mode, each colour is replaced by a
+lighter colour of the same hue: figures.py writes a variable, which base.html defines."""
 import zlib
 
 import matplotlib
@@ -12,7 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.markers import MarkerStyle  # noqa: E402
 
-# name: colour, colour on a dark page, marker
+# name: colour, colour on a dark page, and marker
 TABLE = {
     "beamw": ("#0072b2", "#4a9fe0", "o"),
     "beamw_consistent": ("#d55e00", "#ff8c42", "s"),

@@ -81,7 +81,7 @@ def of_limit(v):
 
 def remarks(v, distance=True):
     """Returns short sentences for the cell of a verdict in a table. If `distance` is True, the text includes the distance
-    of a limit from the reference value. It is False if the table has a column for the distance."""
+    of a limit from the reference value. `distance` is False if the table has a column for it."""
     words = of_limit(v) if math.isfinite(v.limit) else []
     if not distance and v.verdict in OWN_LIMITS:
         words = words[1:]
@@ -119,7 +119,7 @@ def same(a, b):
 
 
 def is_alias(case, name, other):
-    """Returns True if there is a run with one of the two names, and both names have the same value in every such run."""
+    """Returns True if there is a run with one of the two names and both names have equal values in every such run."""
     values = [m.values for p in case.points for s in p.series for m in s.meshes]
     pairs = [(v.get(name, math.nan), v.get(other, math.nan)) for v in values]
     return all(same(*pair) for pair in pairs) and any(math.isfinite(a) for a, _ in pairs)
@@ -131,7 +131,8 @@ def aliases(case):
 
 
 def corrected(key):
-    """Returns the corrected formulation, with the same options, if this formulation contains a misprint, otherwise None."""
+    """Returns the corrected formulation with the same options, or None if this formulation does not contain a
+    misprint."""
     name, colon, options = key.partition(":")
     return MISPRINTS[name] + colon + options if name in MISPRINTS else None
 

@@ -24,7 +24,7 @@ typedef enum extreme_knob {
     EXTREME_ELEMENTS,   /* x is the number of elements per member */
     EXTREME_STEPS,      /* x is the number of load steps between two stations */
     EXTREME_SPLIT,      /* the first member is split at the fraction x of its length */
-    EXTREME_REVERSE,    /* 1: every member is reversed; 0: members are unchanged */
+    EXTREME_REVERSE,    /* 1 if every member is reversed, otherwise 0 */
     EXTREME_WHOLE       /* the steps of a motion are not halved */
 } extreme_knob;
 
@@ -35,7 +35,8 @@ typedef enum extreme_judge {
 
 typedef struct extreme {
     const char *name;  /* NULL ends the table */
-    const char *group; /* extremes of one kind for several cases; a group is one column of a map */
+    const char *group; /* name of the extremes of one kind for several cases, which form one column
+                          of a map */
     const char *summary; /* one line */
     const char *base;    /* name of the base case */
     const char *fixed;   /* "name=value;..." for parameters that differ from their defaults */

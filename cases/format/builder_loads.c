@@ -43,7 +43,7 @@ static int is_heavy(const scene *s, const scene_member *m)
     return 0;
 }
 
-/* Returns the gravity load with the same acceleration for a body. */
+/* Returns the gravity load of a body, with the same acceleration. */
 static scene_load at_centre(const scene_load *what)
 {
     scene_load out = *what;

@@ -12,7 +12,7 @@
 static const double round_off = 1e-12;
 
 /* Returns the component in the axes of the scene that is parallel to component c of the instance,
- * or SCENE_NONE if no axis is parallel. *same is 1 if both have the same direction. */
+ * or SCENE_NONE if no axis is parallel. *same is 1 if the two directions are equal. */
 static int component_of(const fields *f, int c, int *same)
 {
     double axis[3] = {0};
@@ -391,8 +391,8 @@ static void read_matrices(const fields *f, section_spec *spec)
     read_matrix(f, "mass", spec->constants.mass);
 }
 
-/* Checks the material. Sections given by matrices have no material and no overrides; only these
- * sections have a mass matrix. */
+/* Checks the material. Sections given by matrices have no material and no overrides, and only they
+ * have a mass matrix. */
 static void check_material(const fields *f)
 {
     static const struct {

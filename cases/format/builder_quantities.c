@@ -44,8 +44,7 @@ static void read_unit(const fields *f, scene_quantity *q)
     units_translate(&f->b->units, usual_unit(f->b->scene, q), sizeof own, own);
     if (q->transform == SCENE_PSD)
         make_density(own);
-    /* with a factor, any unit is valid; the unit of an envelope is that of its quantities
-     * (take_envelopes) */
+    /* any unit is valid with a factor; take_envelopes sets the unit of an envelope */
     if (unit != NULL && !fields_have(f, "factor") && q->what.kind != SCENE_ENVELOPE_OF) {
         if (!f->b->units.given)
             units_check(unit, f->b->mistakes);

@@ -13,7 +13,7 @@
 
 typedef struct arena {
     struct arena_block *block;
-    size_t used, total; /* bytes used in the first block; bytes in all blocks */
+    size_t used, total; /* bytes used in the first block, and bytes in all blocks */
     int failed;         /* 1: out of memory, or above the limit for a file */
 } arena;
 
@@ -79,7 +79,7 @@ typedef struct document_node {
     const char *text;            /* without control characters */
     int count;                   /* number of entries of a list or map */
     struct document_node **item; /* values [count] */
-    struct document_node **key;  /* keys [count]; NULL for a list */
+    struct document_node **key;  /* keys [count], or NULL for a list */
 } document_node;
 
 /* Reads the bytes into a tree, which the arena owns. Returns NULL after an error. */
@@ -133,9 +133,9 @@ int line_number(const char *text, double *value);
 enum { MEANING_ROOM = 512 };
 
 /* Writes one line without a full stop. The line contains the kind, the component, the node or
- * member with its position, and the station. It also contains the analysis if it would otherwise be
- * ambiguous. Quantities that differ in these data have different lines. Nodes and members have the
- * names that write_scene writes. Text that does not fit is truncated. */
+ * member with its position, and the station. The line also contains the analysis if the quantity
+ * would otherwise be ambiguous. Quantities that differ in these data have different lines. Nodes
+ * and members have the names that write_scene writes. Text that does not fit is truncated. */
 void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size);
 
 /* A scene file as a case: parameters, a function that builds the scene, and reference values. */
@@ -145,7 +145,7 @@ typedef struct scene_file scene_file;
 /* Reference value that a file gives for a quantity at a parameter point. */
 typedef struct scene_truth {
     const double *parameter;       /* values of the parameters [CASE_MAX_PARAMETERS] */
-    double value, uncertainty, at; /* at: abscissa of a curve; NAN: not a curve */
+    double value, uncertainty, at; /* `at` is the abscissa on a curve, NAN for a scalar */
     const char *quantity, *unit, *kind, *formulation, *theory, *model, *convention, *source;
 } scene_truth;
 /* Receives a reference value, whose strings and numbers are valid only during the call. */

@@ -19,11 +19,11 @@ const char *arena_copy(arena *a, const char *text, size_t length);
  * and loop names. Earlier names remain visible. NULL: no names. */
 typedef struct scope {
     const char *name;
-    double number; /* value of the name; NAN: its expression has an error that has been reported */
-    const char *word;    /* word of a choice; NULL: the name stands for a number */
-    const char *choices; /* choices "a|b|c" of a parameter; NULL: unknown */
+    double number;    /* value of the name, or NAN after an error in its expression was reported */
+    const char *word; /* word of a choice, or NULL if the name stands for a number */
+    const char *choices; /* choices "a|b|c" of a parameter, or NULL if unknown */
     const double
-        *constants; /* constants of a section, whose name ends with a point; NULL: not a section */
+        *constants; /* constants of a section, whose name ends with a point; NULL for other names */
     const struct scope *before;
 } scope;
 
@@ -56,13 +56,13 @@ void build_sections(struct builder *b);
 /* An entry of a map or list after its loops `for` and its local names `let` have been expanded: $i
  * is replaced in its name and strings, and its local names have values. */
 typedef struct unrolled {
-    const char *name;           /* name of an entry of a map; NULL for a list */
+    const char *name;           /* name of an entry of a map, or NULL for a list */
     const document_node *place; /* position for messages, which is the key or the entry */
     const document_node *value;
     const document_node *written; /* the value as written in the file */
     const scope *names;
     const struct placement
-        *placed; /* instance of a part to which the entry belongs; NULL: the scene */
+        *placed; /* instance of a part to which the entry belongs, or NULL for the scene */
 } unrolled;
 
 enum { UNROLL_MOST = 10000 };
@@ -82,7 +82,7 @@ typedef struct placement {
     int turned;       /* 0: the axes of the instance are those of the scene */
     double R[9];      /* rotation matrix, row-major; its columns are the axes of the instance in the
                          scene */
-    const document_node *connect; /* PORT: NODE; NULL: none */
+    const document_node *connect; /* PORT: NODE, or NULL */
 } placement;
 
 enum { PLACEMENT_LISTS = 4 };
@@ -178,8 +178,8 @@ unsigned fields_words(const fields *f, const char *key, const char *choices);
 /* Returns the index of the entry that the key names, or SCENE_NONE. */
 int fields_entry(const fields *f, const char *key, scene_list list);
 int fields_entry_of(const fields *f, const document_node *name, scene_list list);
-/* Returns the name that a string denotes. This is the word of a name of the scope if there is one,
- * otherwise the string. */
+/* Returns the name that a string denotes. If the string is a name of the scope with a word, the
+ * result is this word, otherwise the string. */
 const char *fields_called(const fields *f, const document_node *name);
 /* Returns 1 if the key names an existing entry. Reports no error. */
 int fields_names(const fields *f, const char *key, scene_list list);
@@ -344,8 +344,8 @@ typedef struct writer {
 
 /* A function that writes a value in a special form, including its key. */
 typedef struct write_own {
-    const char *key; /* "where": in any map; "stress.where": only in the map of `stress`; NULL ends
-                        a list */
+    const char *key; /* "where" for a key in any map, "stress.where" for a key only in the map of
+                        `stress`; NULL ends the list */
     void (*write)(writer *, const void *entry);
 } write_own;
 
@@ -368,8 +368,8 @@ int write_values_any(int count, const double value[]);
 void write_values_if(writer *w, const char *key, double value, double otherwise);
 /* Writes the text in double quotes. */
 void write_values_quoted(writer *w, const char *text);
-/* Writes the name of an entry in the file. This is the name in the scene if it is unique and
- * allowed in a file, otherwise a name made from the index. */
+/* Writes the name of an entry in the file. The name of the scene is used if it is unique and
+ * allowed in a file, otherwise a name is made from the index. */
 void write_values_name(writer *w, scene_list list, int index);
 void write_values_motion(writer *w, int index);
 /* Writes `before` and the name of an entry. */

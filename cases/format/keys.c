@@ -175,7 +175,7 @@ const entry_field keys_root[] = {
 
 /* The names of two tables in one list. */
 typedef struct known_keys {
-    const entry_field *table, *loop; /* tables; loop is NULL if entries cannot have loops */
+    const entry_field *table, *loop; /* tables of keys; loop is NULL if entries cannot have loops */
 } known_keys;
 
 static const char *name_at(const void *context, int i)

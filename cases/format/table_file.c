@@ -16,8 +16,8 @@ typedef struct table_file {
     mistakes *mistakes;
     const char *name;              /* path as written in the scene file */
     const document_node *of[2];    /* how the scene file describes the columns */
-    int column[2], columns, begun; /* columns to be read, from 0; number of columns in the first
-                                      row; 1: the columns are known */
+    int column[2], columns, begun; /* columns to be read (from 0), number of columns in the first
+                                      row, and 1 if the columns are known */
     double last;                   /* last value in the first of the columns to be read */
     document_node *list[2];
     int line;

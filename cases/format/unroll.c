@@ -12,7 +12,7 @@ typedef struct unroller {
     mistakes *mistakes;
     unrolled *list;
     int count, failed;
-    const document_node *key, *value; /* of the current entry; key NULL: in a list */
+    const document_node *key, *value; /* current entry; the key is NULL in a list */
 } unroller;
 
 static void add(unroller *u, const scope *names)

@@ -62,8 +62,8 @@ static const write_own *find_own(const write_own own[], const char *of, const ch
     return NULL;
 }
 
-/* Returns 1 if the key must be written: it is required, its value is not the default, or it is
- * always written. */
+/* Returns 1 if the key must be written, because it is required, its value is not the default, or it
+ * is always written. */
 static int is_due(const entry_field *k, const void *entry)
 {
     const int must = k->always || (k->needed && k->group == 0);

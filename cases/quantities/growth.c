@@ -1,4 +1,4 @@
-/* Largest growth rate of all modes; 0 if the state is stable. */
+/* Largest growth rate of all modes, or 0 if the state is stable. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {QUANTITY_ANALYSIS, QUANTITY_TAKEN, {.name = NULL}};

@@ -36,7 +36,7 @@ double along_path_value(const scene_driver *d, double path)
     return interpolate(d->stations, d->path, d->value, path);
 }
 
-/* Range of the path in which loads or drivers change; begin > end if there is none. */
+/* Range of the path in which loads or drivers change, or begin > end if there is no such range. */
 typedef struct changes {
     double begin, end;
     scene_words last; /* name of the entry that changes last */
@@ -197,8 +197,8 @@ static int is_fed_back(const scene_load *l)
     return l->feedback.node != SCENE_NONE && acts && scene_load_acts(l);
 }
 
-/* Returns 1 if a load has feedback that the analysis cannot include. Damped modes are in the column
- * of modal analyses but include feedback, except about an instant. */
+/* Returns 1 if a load has feedback that the analysis cannot include. Modal analyses include
+ * feedback if their modes are damped, except about an instant. */
 static int has_feedback(const scene *s, int analysis, char *who, int size)
 {
     const scene_analysis *a = &s->analysis[analysis];

@@ -51,7 +51,7 @@ static const entry_field spin[] = {OMEGA(of.walk.frame), {.name = NULL}},
      ENTRY_IN(scene_analysis, follows),                                                            \
      .of = SCENE_ANALYSES}
 
-/* Keys for small motions about an instant. */
+/* Keys for small motions about an instant of a motion. */
 #define INSTANT                                                                                    \
     {"time",                                                                                       \
      ENTRY_NUMBER,                                                                                 \

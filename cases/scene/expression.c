@@ -135,7 +135,7 @@ static jet jet_of(jet_operation what, jet a, jet b)
 
 typedef struct expression_function {
     const char *name;
-    int arguments; /* number of arguments; 0: a constant; -1: two or more */
+    int arguments; /* number of arguments; 0 for a constant, -1 for two or more */
     double value;  /* value of a constant */
     double (*of_one)(double);
     double (*of_two)(double, double); /* for two or more arguments: applied repeatedly */
@@ -223,8 +223,8 @@ struct formula {
 
 typedef struct reader {
     const char *text;
-    int at, end;       /* position in the text; end of the expression */
-    int nested, depth; /* nesting depth of parentheses, signs and powers; depth of the stack */
+    int at, end;       /* current position in the text, and end of the expression */
+    int nested, depth; /* nesting depth of parentheses, signs and powers, and depth of the stack */
     int in_time;       /* 1: t is the time */
     expression_name *find;
     const void *names;

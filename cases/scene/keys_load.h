@@ -19,7 +19,7 @@ KEY(double, tension, , "tension", ENTRY_NUMBER, .needed = 1, .group = 1, .unit =
         "force that pulls the node and the node 'towards' together, along the line between them")
 KEY(int, towards, , "towards", ENTRY_NAME, .summary = "second node of a tension",
     .left_out = "none; required with tension", .of = SCENE_NODES)
-/* elongation between the ends of the range, in place of a temperature */
+/* elongation between the ends of the range, given instead of a temperature */
 KEY(double, elongation, , "elongation", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "m",
     .summary = "stress-free elongation of a member: an actuator, a turnbuckle")
 KEY(double, gradient, [2], "gradient", ENTRY_VECTOR, .count = 2, .unit = "K/m",

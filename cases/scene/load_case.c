@@ -139,7 +139,7 @@ status scene_validate_cases(const scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Returns an example of what to write, such as "combination: ULS". */
+/* Returns an example of the text to write, such as "combination: ULS". */
 static scene_words example(const scene *s)
 {
     scene_words out;

@@ -1,4 +1,4 @@
-/* Names of entries; descriptions of nodes, coordinates and ordinals. */
+/* Names of entries, and descriptions of nodes, coordinates and ordinals. */
 #include "cases/scene/scene.h"
 
 #include <stdlib.h>

@@ -33,8 +33,8 @@ typedef enum scene_analysis_kind {
                            coordinate */
     SCENE_ROTATION,     /* stationary rotation: equilibrium and frequencies in the rotating frame */
     SCENE_MOTION,       /* transient analysis: the path parameter is the time [s] */
-    SCENE_HARMONIC /* steady small vibration about a state; the path parameter is the frequency [Hz]
-                    */
+    SCENE_HARMONIC      /* steady small vibration about a state, for which the path parameter is the
+                           frequency [Hz] */
 } scene_analysis_kind;
 
 /* Convention of a reaction moment on a rotating node (harness/newton/newton.h). */
@@ -63,7 +63,7 @@ typedef struct scene_rotating_frame {
 /* Steps of a static analysis or a stationary rotation. */
 typedef struct scene_walk {
     scene_path path;
-    int steps_between; /* initial number of load steps between two stations; >= 1 */
+    int steps_between; /* initial number of load steps between two stations, at least 1 */
     int modes; /* for a rotation: number of modes of all families together that are computed first
                 */
     scene_rotating_frame frame;
@@ -82,10 +82,10 @@ typedef struct scene_compliance {
  * of (displacement/size of the scene)^2 + rotation^2, dimensionless. */
 typedef struct scene_control {
     int node, component;
-    int by_arc; /* 1: steps measure arc length; 0: steps measure the control coordinate */
-    double step, step_max; /* first and largest step [m; dimensionless for arc length] */
-    int constant_steps;    /* 1: all steps equal `step`, and a branch jump ends the path; 0: steps
-                              adapt and avoid jumps */
+    int by_arc; /* 1 if steps measure arc length, 0 if they measure the control coordinate */
+    double step, step_max; /* first and largest step [m, dimensionless for arc length] */
+    int constant_steps; /* 1 if all steps equal `step` and a branch jump ends the path, 0 if steps
+                           adapt and avoid jumps */
 } scene_control;
 
 typedef struct scene_continuation {
@@ -134,9 +134,9 @@ typedef struct scene_motion {
     scene_path path; /* times of output [s] */
     scene_scheme scheme;
     scene_alpha alpha;
-    double step; /* first step, or every step if there is no tolerance [s] */
-    double
-        tolerance; /* error of a step, relative to the size of the structure; 0: constant steps */
+    double step;      /* first step, or every step if there is no tolerance [s] */
+    double tolerance; /* error of a step, relative to the size of the structure; 0 for constant
+                         steps */
     scene_start start;
     scene_mass mass;
 } scene_motion;
@@ -164,12 +164,12 @@ typedef enum scene_turning {
 
 typedef struct scene_analysis {
     scene_analysis_kind kind;
-    int follows; /* analysis that provides the states about which this analysis is made; SCENE_NONE:
-                    the undeformed state */
-    double time; /* time of the instant of the motion about which the analysis is made [s]; NAN: the
-                    end of the motion */
+    int follows; /* analysis that provides the states about which this analysis is made, or
+                    SCENE_NONE for the undeformed state */
+    double time; /* time of the instant of the motion about which the analysis is made [s], or NAN
+                    for the end of the motion */
     scene_turning axes; /* axes of the small motions about the instant */
-    int axes_of;        /* ... or the axes that rotate with this node; SCENE_NONE: no such node */
+    int axes_of;        /* ... or SCENE_NONE, or a node with which the axes rotate */
     scene_acting acting;
     union {
         scene_walk walk;
@@ -183,7 +183,7 @@ typedef struct scene_analysis {
     int damped;     /* 1: modes include damping */
     int open_loops; /* 1: small vibrations do not include the feedback of loads */
     int by_modes;   /* 1: a harmonic analysis is solved by superposition of modes */
-    int modes;      /* number of modes; 0: all */
+    int modes;      /* number of modes, or 0 for all modes */
     char name[SCENE_NAME]; /* "": none */
 } scene_analysis;
 
@@ -207,7 +207,7 @@ void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame
  * analysis is not about a motion. */
 double scene_instant_of(const scene *, int analysis);
 
-/* Returns the key in a scene file, such as "linear" or "static". */
+/* Returns the key of an analysis in a scene file, such as "linear" or "static". */
 const char *scene_analysis_name(scene_analysis_kind);
 
 const scene_walk *scene_walk_of(const scene_analysis *a);
@@ -233,14 +233,15 @@ int scene_rotates(const scene_analysis *a);
  * functions and constants (expression_word), names and, in functions of time, the time t [s].
  *
  * The operator ^ has the highest precedence and is right-associative (-2^2 = -4, 2^3^2 = 512).
- * Signs, then * and /, then + and - follow. Values are SI, angles are in radians (30*deg*t); and
- * parts without t must be finite. A function with slope discontinuities, or whose derivatives are
- * not implemented, accepts only arguments without t. Functions of time with discontinuities are
- * given in pieces (scene_piece), so that steps can end at the discontinuities. */
+ * Signs follow, then * and /, then + and -. Values are in SI units and angles in radians
+ * (30*deg*t). Parts without t must be finite. A function with slope discontinuities, or whose
+ * derivatives are not implemented, accepts only arguments without t. Functions of time with
+ * discontinuities are given in pieces (scene_piece), so that steps can end at the
+ * discontinuities. */
 
 typedef struct expression_mistake {
     int at;                /* position of the character in the text, from 0 */
-    char what[FAULT_TEXT]; /* message with the remedy; "": already reported */
+    char what[FAULT_TEXT]; /* message with the remedy, or "" if the error was already reported */
 } expression_mistake;
 
 /* Sets *out to the value of the name at text[*at] and moves *at past the name. Returns 1, or 0
@@ -290,7 +291,7 @@ typedef struct scene_piece {
 typedef struct scene_function {
     int pieces;
     scene_piece *piece; /* pieces in ascending order [pieces] */
-    double scale;       /* factor of the value; 0 stands for 1 */
+    double scale;       /* factor of the value, where 0 stands for 1 */
 } scene_function;
 
 /* Appends a piece and copies the text. Returns -1 if out of memory. */
@@ -305,8 +306,8 @@ status function_check(const scene_function *, fault *);
  * are those of the second piece. */
 void function_at(const scene_function *, double t, double out[3]);
 /* Returns 1 if the function and this number of its derivatives (0 to 2) are finite from 0 to `end`.
- * They are checked at both ends of all pieces and at 63 times inside each piece. Otherwise returns
- * 0 and sets *time to a time at which they are not finite. */
+ * Otherwise returns 0 and sets *time to a time at which a value is not finite. The values are
+ * checked at both ends of all pieces and at 63 times inside each piece. */
 int function_finite(const scene_function *, double end, int derivatives, double *time);
 /* Returns 1 if value and velocity are continuous between pieces before `end`. Otherwise returns 0
  * and sets *time to the discontinuity, and *derivative to 0 for the value or 1 for the velocity. */
@@ -323,22 +324,22 @@ typedef enum scene_quantity_kind {
     SCENE_STIFFNESS_ENTRY,  /* reciprocal of compliance entry (i, i), while all fixed coordinates
                                remain fixed */
     SCENE_CRITICAL_FACTOR,  /* load factor of linear buckling */
-    SCENE_GROWTH,           /* largest growth rate of all modes [1/s]; 0: stable */
-    SCENE_FREQUENCY,        /* [Hz] */
-    SCENE_FACTOR_AT,        /* load factor of a continuation at a value of the control coordinate */
-    SCENE_CRITICAL_POINT,   /* critical point of a continuation */
-    SCENE_DRIVER_VALUE,     /* value of an unknown driver */
-    SCENE_INTERNAL,         /* resultant of the stresses on a cross-section of a member */
-    SCENE_STRESS,           /* largest stress of a cross-section or of a member */
-    SCENE_RATE,          /* velocity of a node, angular velocity in the axes of the node, or a time
-                            derivative of either */
-    SCENE_BALANCE,       /* energy or momentum of a motion */
-    SCENE_RELATIVE,      /* displacement or rotation of a node in the axes of another node */
-    SCENE_RESPONSE,      /* response in a harmonic analysis */
-    SCENE_DAMPING_RATIO, /* damping ratio of a damped mode, or its decay rate */
-    SCENE_DEFLECTION,    /* displacement or rotation of a cross-section of a member */
-    SCENE_ENVELOPE_OF,   /* largest or smallest of other quantities */
-    SCENE_READING        /* value of nodes that only the file of the quantity type evaluates */
+    SCENE_GROWTH,         /* largest growth rate of all modes [1/s], or 0 if the state is stable */
+    SCENE_FREQUENCY,      /* [Hz] */
+    SCENE_FACTOR_AT,      /* load factor of a continuation at a value of the control coordinate */
+    SCENE_CRITICAL_POINT, /* critical point of a continuation */
+    SCENE_DRIVER_VALUE,   /* value of an unknown driver */
+    SCENE_INTERNAL,       /* resultant of the stresses on a cross-section of a member */
+    SCENE_STRESS,         /* largest stress of a cross-section or of a member */
+    SCENE_RATE,           /* velocity of a node, angular velocity in the axes of the node, or a time
+                             derivative of either */
+    SCENE_BALANCE,        /* energy or momentum of a motion */
+    SCENE_RELATIVE,       /* displacement or rotation of a node in the axes of another node */
+    SCENE_RESPONSE,       /* response in a harmonic analysis */
+    SCENE_DAMPING_RATIO,  /* damping ratio of a damped mode, or its decay rate */
+    SCENE_DEFLECTION,     /* displacement or rotation of a cross-section of a member */
+    SCENE_ENVELOPE_OF,    /* largest or smallest of other quantities */
+    SCENE_READING         /* value of nodes that only the file of the quantity type evaluates */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
@@ -411,7 +412,7 @@ typedef struct scene_passing {
     double level; /* level of the extracted value, in SI units */
     scene_direction direction;
     int order;          /* index among the crossings in this direction, from 0 */
-    double from, until; /* start and end of the time window [s]; until 0: the end of the motion */
+    double from, until; /* time window [s], where `until` is 0 for the end of the motion */
     scene_taper taper;  /* window function of a spectrum */
 } scene_passing;
 
@@ -480,7 +481,8 @@ typedef enum scene_stress_measure {
 typedef struct scene_stress {
     int member;
     scene_stress_measure measure;
-    int whole;    /* 1: largest over all cross-sections of the member; 0: at the position ... */
+    int whole; /* 1 for the largest value over all cross-sections of the member, 0 for the value at
+                  the position ... */
     double place; /* ... as a fraction of the initial length, 0 at p to 1 at q */
     int before;   /* side at a discontinuity: 1 on the side of p, 0 on that of q */
 } scene_stress;
@@ -534,7 +536,7 @@ typedef enum scene_vibration_part {
 #define SCENE_VIBRATION_PARTS   "amplitude|phase|real|imaginary"
 typedef struct scene_response {
     int node, component;
-    int from;                 /* node whose response is subtracted; SCENE_NONE: none */
+    int from;                 /* node whose response is subtracted, or SCENE_NONE */
     int forced, forced_along; /* node and component of a force or moment; otherwise ... */
     int driver;               /* ... the driver that moves; otherwise ... */
     int reference;            /* ... the load with feedback whose reference moves; otherwise ... */
@@ -556,7 +558,7 @@ typedef struct scene_critical_load {
 typedef struct scene_mode {
     int order; /* index among the modes with this family and number of half-waves, from 0 */
     scene_family family;
-    int half_waves; /* number of half-waves; 0: any number */
+    int half_waves; /* number of half-waves, or 0 for any number */
     int decay;      /* for a damping ratio, 1: the decay rate [1/s] is extracted instead */
 } scene_mode;
 
@@ -629,8 +631,8 @@ scene_extract scene_beside(scene_extract what, int before);
 /* Abscissa of a curve. */
 typedef struct scene_abscissa {
     char name[SCENE_NAME], unit[SCENE_UNIT];
-    int is_quantity; /* 1: the abscissa is the curve of another quantity at the same stations, in
-                        the unit of that quantity; 0: the abscissa is ... */
+    int is_quantity; /* 1 if the abscissa is the curve of another quantity at the same stations, in
+                        the unit of that quantity; otherwise the abscissa is ... */
     double factor,
         offset; /* ... factor times the path parameter or control coordinate, plus offset */
 } scene_abscissa;
@@ -667,7 +669,7 @@ typedef struct scene_quantity {
     scene_passing passing;     /* event of a motion */
     scene_abscissa x;          /* of a curve */
     double factor, offset;     /* reported value = factor * extracted value + offset */
-    double near_zero;          /* scale for relative errors of values near zero; 0: |value| */
+    double near_zero;          /* scale for relative errors of values near zero, or 0 for |value| */
     double tolerance;   /* tolerance of the limit, relative to the reference value: SCENE_TOLERANCE
                            unless a case states a reason for another value */
     double least_order; /* lowest order of convergence with respect to the number of elements */
@@ -776,28 +778,28 @@ typedef struct scene_body {
 
 typedef struct scene_node {
     double position[3]; /* [m] */
-    int attached; /* node to which this node is rigidly attached, or SCENE_NONE; a node and the
-                     nodes attached to it form a rigid body */
-    int translation[3]; /* motion: SCENE_FREE, SCENE_HELD or a driver */
+    int attached; /* node to which this node is rigidly attached, or SCENE_NONE; the nodes that are
+                     attached to each other form a rigid body */
+    int translation[3]; /* SCENE_FREE, SCENE_HELD or a driver for each translation */
     scene_rotation rotation;
     int angle[3];      /* motion of the spatial components, the angles or the vector: SCENE_FREE,
                           SCENE_HELD or a driver */
     double axis[3][3]; /* rotation axes of the sequence, which ends at a zero axis; for a fork, the
                           axis of the cross-section and the direction of the web */
-    double axes[2]
-               [3]; /* x and y axes of the translations, of any length; zero: axes of the scene */
+    double axes[2][3]; /* x and y axes of the translations, of any length, or zero for the axes of
+                          the scene */
     scene_body body;
     char name[SCENE_NAME]; /* "": no name, as for every entry */
 } scene_node;
 
 /* Released components of a member end: rotations, in order, and translations that the end does not
- * transmit to its node. They are in the axes of the member at this end (y as in scene_member). With
- * r and R of the node, the end is at r + R_end s, where R_end = R exp(a_1 t_1) exp(a_2 t_2). Of two
- * rotations, the first axis belongs to the node and the second to the member (a universal joint).
- * Translations are along the rotated end. Three rotations are a ball joint. */
+ * transmit to its node. The components are in the axes of the member at this end (y as in
+ * scene_member). With r and R of the node, the end is at r + R_end s, where R_end = R exp(a_1 t_1)
+ * exp(a_2 t_2). Of two rotations, the first axis belongs to the node and the second to the member
+ * (a universal joint). Translations are along the rotated end. Three rotations are a ball joint. */
 enum { SCENE_RELEASED = 5 };
 typedef struct scene_release {
-    int count;                     /* number of released components; 0: rigidly joined */
+    int count; /* number of released components, or 0 if the end is rigidly joined */
     int component[SCENE_RELEASED]; /* SCENE_UX .. SCENE_RZ, each at most once */
 } scene_release;
 
@@ -815,11 +817,12 @@ typedef struct scene_member {
                        along y and z, relative to the straight line [m] */
     int half_waves; /* >= 1 */
     scene_release release[2]; /* at p, q */
-    double offset[2][3];      /* vectors from the nodes p, q to the ends of the member, which move
-                                 rigidly with the nodes; undeformed, in global axes [m] */
-    double foundation[6];     /* springs to the ground along the member [N/m^2, N]. They act on the
-                                 displacements and rotations of the cross-sections from the undeformed
-                                 state, along the initial axes of the member, which do not rotate */
+    double offset[2]
+                 [3]; /* vectors from the nodes p, q to the ends of the member, which move rigidly
+                         with the nodes, in global axes of the undeformed structure [m] */
+    double foundation[6]; /* springs to the ground along the member [N/m^2, N], which act on the
+                             displacements and rotations of the cross-sections from the undeformed
+                             state; they keep the directions of the initial axes of the member */
     char name[SCENE_NAME];
 } scene_member;
 
@@ -834,15 +837,15 @@ typedef struct scene_table {
 /* Spring between two nodes, or between a node and the ground, with the energy 1/2 d^T K d. d is the
  * motion of the frame of q relative to p from the undeformed state. Its six components are the
  * change of distance [m] and the rotation vector [rad], of less than 3 rad. The axes of d rotate
- * with p and were initially the global axes. */
+ * with p, and are initially the global axes. */
 typedef struct scene_spring {
-    int p, q;             /* nodes; SCENE_NONE for p: the ground */
+    int p, q;             /* nodes, where p is SCENE_NONE for the ground */
     double stiffness[36]; /* K, row-major [N/m, N, N m]. If K is not symmetric, the forces K d have
                              no potential */
     double damping[36]; /* damping matrix of forces on the rates of d, used in motions [N s/m, N s,
                            N m s] */
-    double asymmetry;   /* asymmetry of the given K relative to its diagonal, if it is only rounding
-                           and the symmetric part is used; otherwise 0 */
+    double asymmetry;   /* asymmetry of the given K relative to its diagonal if only the symmetric
+                           part is used because the asymmetry is due to rounding, otherwise 0 */
     double damping_asymmetry; /* the same for the damping matrix */
     scene_table table[6];     /* tables of the components of d, in addition to K */
     char name[SCENE_NAME];
@@ -861,27 +864,32 @@ typedef struct scene_constraint {
 /* A part of the stress-free initial shape of the structure: a mode computed for the perfect
  * structure, or shifts of nodes, between which members retain their shape. */
 typedef struct scene_imperfection {
-    int analysis, order; /* buckling or modal, and its mode from 0; SCENE_NONE: shifts */
+    int analysis, order; /* buckling or modal analysis and the number of its mode from 0, or
+                            SCENE_NONE for shifts */
     double amplitude;    /* for a mode: largest displacement of a point of a member [m] */
-    double direction[3]; /* direction of the largest displacement; zero: positive along an axis */
+    double direction[3]; /* direction of the largest displacement; zero if the displacement is
+                            positive along an axis */
     int nodes, *node;    /* [nodes] */
     double (*shift)[3];  /* [nodes] [m] */
     double factor;       /* factor of the shifts */
     char name[SCENE_NAME];
 } scene_imperfection;
 
-/* A scalar that prescribes coordinates. It is piecewise linear in the path parameter between its
- * stations. */
+/* A scalar that prescribes coordinates. The scalar is piecewise linear in the path parameter
+ * between its stations. */
 typedef struct scene_driver {
     char name[SCENE_NAME];
     int stations;
-    double *path,
-        *value; /* values at the stations [m or rad]; NULL: unknown, determined by the condition */
-    scene_function function; /* function of time in place of the stations; no pieces: none */
+    double *path, *value;    /* values at the stations [m or rad], or NULL if they are unknown and
+                                follow from the condition */
+    scene_function function; /* function of time, given instead of the stations; no pieces if
+                                stations are given */
     int condition_node,
-        condition_component; /* for an unknown driver: this coordinate is prescribed ... */
-    int condition_driver; /* ... and has the value of this driver; SCENE_NONE for a known driver */
-    int load_case; /* load case of the driver; SCENE_NONE: the driver moves in all load cases */
+        condition_component; /* for an unknown driver, the coordinate that is prescribed ... */
+    int condition_driver; /* ... and the driver that gives its value; SCENE_NONE for a known driver
+                           */
+    int load_case; /* load case of the driver, or SCENE_NONE if the driver moves in all load cases
+                    */
 } scene_driver;
 
 /* Returns 1 if the driver prescribes rotations. */
@@ -908,8 +916,8 @@ typedef enum scene_load_axes { SCENE_AXES_FIXED, SCENE_AXES_MEMBER } scene_load_
  * the measured component of a node. The reference is the function of time of the load, or 0 if the
  * load has none. */
 typedef struct scene_feedback {
-    int node, component; /* measured component; SCENE_NONE: no feedback */
-    int from;            /* node whose component is subtracted; SCENE_NONE: none */
+    int node, component; /* node and measured component, or SCENE_NONE without feedback */
+    int from;            /* node whose component is subtracted, or SCENE_NONE */
     double proportional, derivative, integral; /* [1/m, s/m, 1/(m s)], or rad for m */
     double limit;                              /* 0: none */
 } scene_feedback;
@@ -928,10 +936,10 @@ typedef struct scene_load {
                          distributed load, 0 and 1 are the whole member, as for gravity. For a force
                          or a moment inside a member, both are its position. For loads at nodes, both
                          are 0 */
-    int stations;     /* number of stations; 0: the factor equals the path parameter */
+    int stations;     /* number of stations, or 0 if the factor equals the path parameter */
     double *path, *factor;
-    scene_function
-        function; /* factor as a function of time, in place of the stations; no pieces: none */
+    scene_function function; /* factor as a function of time, given instead of the stations; no
+                                pieces if stations are given */
     scene_feedback feedback;
     char name[SCENE_NAME];
 } scene_load;
@@ -999,7 +1007,7 @@ struct scene {
     scene_imperfection *imperfection;
     scene_analysis *analysis;
     scene_quantity *quantity;
-    scene_plane plane; /* plane to which the scene is restricted; SCENE_SPACE: no restriction */
+    scene_plane plane; /* plane to which the scene is restricted, or SCENE_SPACE */
     unsigned omits;    /* bits of SCENE_OMITTABLE that the scene omits, set by scene_omit */
     unsigned demands;  /* FEATURE_* bits required in addition to those that the data require, set by
                           scene_demand */
@@ -1033,7 +1041,7 @@ int scene_add_member(scene *s, int p, int q, int profile,
  * pretension. */
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f);
 /* Returns 1 if the scene has a temperature load or a member with a stress-free elongation or
- * curvature. *`who` is the name of the load or member; `who` may be NULL. */
+ * curvature. *who is set to the name of the load or member, unless who is NULL. */
 int scene_is_free(const scene *s, scene_words *who);
 /* Return 1 if the member is tapered, or if any member of the scene is tapered. */
 int scene_member_tapers(const scene_member *m);
@@ -1076,8 +1084,8 @@ int scene_is_perfect(const scene *s, int analysis);
 /* Relation of a coordinate of a node (0 .. 5 as in translation and angle), which is `ratio` times
  * another coordinate. */
 typedef struct scene_tie {
-    int node, coordinate; /* the other coordinate, or the coordinate itself if others follow it;
-                             SCENE_NONE: no relation */
+    int node, coordinate; /* the other coordinate, or the coordinate itself if others follow it, or
+                             SCENE_NONE if there is no relation */
     double ratio;
 } scene_tie;
 /* Fills tie[6 nodes]. Returns REFUSED if constraints contradict each other or the supports. */
@@ -1127,8 +1135,9 @@ int scene_add_combination(scene *s, const char *name);
 /* Adds a load case to a combination. */
 void scene_add_term(scene *s, int combination, int load_case, double factor);
 /* Returns the number of the load case or combination that acts in the analysis or in the analysis
- * that it follows. Returns 0 if the scene has none, if all of them act one after the other
- * (scene_solves_all), or if the analysis is about the structure without loads. */
+ * that it follows. Returns 0 if the scene has no load cases, if all load cases and combinations act
+ * one after the other (scene_solves_all), or if the analysis is about the structure without
+ * loads. */
 int scene_acting_of(const scene *s, int analysis);
 /* Returns 1 for a linear analysis that solves every load case and combination. */
 int scene_solves_all(const scene *s, int analysis);
@@ -1168,9 +1177,9 @@ int scene_has_body(const scene_node *n);
 /* Returns 1 if any part of the scene has a mass. */
 int scene_has_mass(const scene *s);
 /* Finds rotations of a node that all members at the node release and that no other entry resists.
- * Such rotations are undefined and therefore fixed. Returns 0 if there are none, SCENE_IDLE_AXIS
- * for the rotation about `axis`, which rotates with the node, or SCENE_IDLE_ALL for all
- * rotations. */
+ * Such rotations are undefined and therefore fixed. Returns 0 if there are no such rotations,
+ * SCENE_IDLE_AXIS for the rotation about `axis`, which rotates with the node, or SCENE_IDLE_ALL for
+ * all rotations. */
 enum { SCENE_IDLE_AXIS = 1, SCENE_IDLE_ALL };
 int scene_idle_turn(const scene *s, int node, double axis[3]);
 /* Returns the convention of moments on which a quantity depends, or NULL if the quantity does not
@@ -1194,9 +1203,9 @@ void scene_meshes_doubled(scene *s, int first, int last);
  * changes. Not thread-safe. */
 status scene_constants(const scene *s, int i, section *out, fault *f);
 
-/* Makes the ends of pieces of functions of time equal if they differ only by rounding, and equal to
- * the end of a motion if they differ from it only by rounding. Otherwise a motion would make a step
- * between such times, and the rates of that step would be rounding errors. */
+/* Makes the ends of pieces of functions of time equal if they differ only by rounding. Ends that
+ * differ from the end of a motion only by rounding become equal to that end. Otherwise a motion
+ * would make a step between such times, and the rates of that step would be rounding errors. */
 void scene_join_instants(scene *s);
 /* Checks the scene. Returns REFUSED with the cause, for example indices out of range, members of
  * zero length, contradictory supports, unused drivers, or names that are not unique. */
@@ -1232,7 +1241,7 @@ typedef enum scene_edit_kind {
 
 typedef struct scene_edit {
     scene_edit_kind kind;
-    double amount; /* fraction of the length, 0 .. 1; or number of units in 1 m */
+    double amount; /* fraction of the length from 0 to 1, or number of units in 1 m */
 } scene_edit;
 
 /* Changes the scene. Returns REFUSED if the change is not possible for a member. */
@@ -1256,7 +1265,8 @@ typedef enum scene_list {
 } scene_list;
 enum { SCENE_LISTS = SCENE_IMPERFECTIONS + 1 };
 
-/* Return the number of entries of a list, and the singular of its name, such as "node". */
+/* Return the number of entries of a list, and the singular of the name of the list, such as
+ * "node". */
 int scene_count(const scene *s, scene_list list);
 const char *scene_list_word(scene_list list);
 /* Sets the name of an entry. A name that is too long is truncated. Nothing happens if there is no
@@ -1278,8 +1288,8 @@ scene_words scene_called(const scene *s, scene_list list, int index);
 typedef enum entry_kind {
     ENTRY_TEXT,   /* any text */
     ENTRY_NAME,   /* name of another entry: int, its index or SCENE_NONE */
-    ENTRY_WORD,   /* one of `words`, or a parameter with such choices: int; double: unchanged if the
-                     key is missing */
+    ENTRY_WORD,   /* one of `words`, or a parameter with such choices: an int, or a double that is
+                     unchanged if the key is missing */
     ENTRY_FLAG,   /* one of `words`, of which odd indices mean 1: int */
     ENTRY_WORDS,  /* one or several of `words`: unsigned, with one bit for each word */
     ENTRY_NUMBER, /* an expression: double */
@@ -1289,13 +1299,13 @@ typedef enum entry_kind {
     ENTRY_POSITION,  /* a position, which moves with the instance of a part */
     ENTRY_NUMBERS,   /* a list of any length, or a range: scene_path */
     ENTRY_FORMS,     /* several forms, which the summary describes */
-    ENTRY_MAP,       /* a map with the keys `below`, whose values are in the same struct */
-    ENTRY_ENTRIES,   /* entries with names; the value of each is a map with the keys `below` */
+    ENTRY_MAP,       /* a map with the keys `below`, whose values are members of the same struct */
+    ENTRY_ENTRIES,   /* entries with names, each of which has a map with the keys `below` */
     ENTRY_LIST,      /* a list of maps with the keys `below` */
     ENTRY_NAMES, /* user-defined names, each with one value that the first key of `below` describes
                   */
-    ENTRY_LATER  /* rejected; the summary is the replacement, or NULL if the key is not implemented
-                  */
+    ENTRY_LATER  /* rejected, with the summary as the replacement, or NULL if the key is not
+                    implemented */
 } entry_kind;
 
 /* How the components in a word change if the axes are rotated. */
@@ -1315,7 +1325,8 @@ typedef struct entry_field {
     const char *name; /* NULL ends the table */
     entry_kind kind;
     int needed; /* 1: required */
-    int group;  /* keys of one group > 0 exclude each other; if `needed`, one of them is required */
+    int group;  /* keys with the same group > 0 exclude each other; if `needed` is set, one key of
+                   the group is required */
     int count;
     const char *words; /* "a|b|c" */
     const struct entry_field *below;
@@ -1328,15 +1339,16 @@ typedef struct entry_field {
      * functions read and write the value. For a map, position of the int that selects the member of
      * a group. */
     size_t at, size;
-    int first, falls;   /* value of the first word, or of the map; the value decreases by 1 for each
-                           following word */
-    double otherwise;   /* numeric default if `usual` does not state it; NAN: no default */
-    double least, most; /* range of a number; both 0: no limits */
-    const char *range;  /* description of the range; NULL: derived from least and most */
+    int first, falls; /* value of the first word, or of the map, which decreases by 1 for each
+                         following word */
+    double
+        otherwise; /* numeric default if `usual` does not state it, or NAN if there is no default */
+    double least, most; /* range of a number; no limits if both are 0 */
+    const char *range;  /* description of the range, or NULL if derived from least and most */
     scene_list of;      /* NAME: the list to which it refers */
     size_t zeros;       /* position of the unsigned whose bit `zero` records that zero was given
                            explicitly */
-    unsigned zero;      /* bit of the key; 0: not recorded */
+    unsigned zero;      /* bit of the key, or 0 if the key is not recorded */
     int always;         /* 1: the key is written even if it has its default value */
     entry_turns turns;
     const struct quantity_type
@@ -1424,7 +1436,8 @@ typedef enum scene_part {
 typedef struct scene_input {
     const char *name;                   /* "loads that follow" */
     const char part[SCENE_COLUMNS + 1]; /* a scene_part for each column */
-    const char *why; /* reason for the rejection, and the remedy; NULL: never rejected */
+    const char
+        *why; /* reason for the rejection, and the remedy, or NULL if the entry is never rejected */
     /* Returns 1 if the scene or this analysis has the entry, and sets `who` to the name of the
      * entry, such as "load p". */
     int (*stands)(const scene *, int analysis, char *who, int size);
@@ -1485,8 +1498,8 @@ const char *scene_shear_word(scene_shear theory);
  * cases/quantities, which the build finds. The members below `path` belong to the kinds that
  * request them (scene_quantity_kind). A value of NAN is unknown, which the analysis reports. */
 typedef struct quantity_state {
-    /* displacement [m] or rotation-vector component [rad]; NAN if the direction of the rotation is
-     * undefined */
+    /* displacement [m] or component of the rotation vector [rad], or NAN if the direction of the
+     * rotation is undefined */
     double (*component)(const struct quantity_state *, int node, int component);
     /* displacement or rotation relative to the node `from`, in the axes of that node */
     double (*relative)(const struct quantity_state *, int from, int node, int component);

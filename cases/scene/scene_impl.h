@@ -9,7 +9,7 @@
 #define SCENE_TOLERANCE 1e-3
 
 /* Returns the first component whose table has a slope discontinuity at zero, where the stiffness of
- * the undeformed state is undefined. Returns SCENE_NONE if there is no such component. */
+ * the undeformed state is undefined, or SCENE_NONE. */
 int scene_spring_kink(const scene_spring *);
 
 /* Bits of rx, ry and rz. */

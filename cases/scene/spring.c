@@ -6,8 +6,8 @@
 
 #include "elements/math/dense.h"
 
-/* Sets A to `given`, or to the symmetric part of `given` if its asymmetry is only rounding. In the
- * latter case, returns the asymmetry relative to the diagonal, otherwise 0. */
+/* Sets A to `given`. If the asymmetry of `given` is only rounding, sets A to its symmetric part and
+ * returns the asymmetry relative to the diagonal. Otherwise returns 0. */
 static double take_matrix(const double given[36], double A[36])
 {
     memcpy(A, given, 36 * sizeof *A);

@@ -384,7 +384,7 @@ static int is_asked(const scene *s, int analysis)
 }
 
 /* Checks small motions about an instant of a motion. The rates at the instant cause forces that
- * undamped modes do not include. */
+ * only damped modes include. */
 static status check_about_motion(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_words who = scene_called(s, SCENE_ANALYSES, i);

@@ -50,8 +50,8 @@ static status check_fork(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if the inertia tensor is valid: no principal moment is negative or exceeds the sum of
- * the other two. */
+/* Returns 1 if the inertia tensor is valid, which requires that no principal moment is negative or
+ * exceeds the sum of the other two. */
 static int is_inertia(const double I[6])
 {
     const double half = (I[0] + I[1] + I[2]) / 2;

@@ -365,7 +365,7 @@ static int is_symmetric(const scene *s, int profile, const int sign[2])
 }
 
 typedef struct member_end {
-    int member, end; /* end: 0 at p, 1 at q */
+    int member, end; /* member, and its end (0 at p, 1 at q) */
 } member_end;
 
 static int *warp_of(scene *s, member_end e)
@@ -393,7 +393,7 @@ static int runs_on(const scene *s, member_end first, member_end second)
            is_symmetric(s, profile[0], sign);
 }
 
-/* Data of a node: number of element ends, sum of their indices, and whether the node belongs to a
+/* Data of a node: number of element ends, sum of their indices, and 1 if the node belongs to a
  * body, possibly with members or springs at other nodes. */
 typedef struct warping_place {
     int ends, tied;

@@ -225,8 +225,8 @@ static void add_sheet(const double value[], scene *s, int profile, int body, con
 }
 
 /* Adds a fold at one azimuth. If `up` is +1, the fold belongs to the first set, with the fold line
- * above the centre. If -1, the fold is the mirror image in the xy plane. The sheet on the side of
- * larger azimuth is attached to body[0], the other sheet to body[1]. */
+ * above the centre. If `up` is -1, the fold is the mirror image in the xy plane. The sheet on the
+ * side of larger azimuth is attached to body[0], the other sheet to body[1]. */
 static void add_fold(const double value[], scene *s, int profile, const double centre[3],
                      const double axes[9], double azimuth, int up, const int body[2])
 {

@@ -5,9 +5,9 @@
 #include "cases/case.h"
 #include "cases/scene/scene.h"
 
-/* The spherical flexure joint of N section 4.2. It consists of a base, three folded sheets, an
- * intermediate body, three more folded sheets, and an end effector. All fold lines pass through the
- * centre of the joint. The geometry is reconstructed from N Table 1 and the published
+/* The spherical flexure joint of N section 4.2. The joint consists of a base, three folded sheets,
+ * an intermediate body, three more folded sheets, and an end effector. All fold lines pass through
+ * the centre of the joint. The geometry is reconstructed from N Table 1 and the published
  * stiffnesses. */
 
 /* The first parameters of every case with such joints, in this order. */
@@ -111,10 +111,10 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
  * listed. */
 void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int count);
 
-/* Closed-form solution of a clamped-free sheet flexure (N section 3.5, Eq. 54). It was derived by
- * hand for the state of sheet_cantilever, where the tip is displaced along y and not rotated. The
- * solution uses one Hellinger-Reissner interpolation for the whole sheet and is therefore a
- * prediction with a model error. */
+/* Closed-form solution of a clamped-free sheet flexure (N section 3.5, Eq. 54). The solution was
+ * derived by hand for the state of sheet_cantilever, where the tip is displaced along y and not
+ * rotated. The solution uses one Hellinger-Reissner interpolation for the whole sheet and is
+ * therefore a prediction with a model error. */
 
 extern const char sheet_prediction_source[];
 

@@ -94,8 +94,8 @@ static void reversed_section(void)
 /* Loads on parts of a member of length 2 along x that is reversed or split in two. */
 static const struct {
     scene_load_kind kind;
-    double from, to, last; /* range, and value at its end relative to the start; last 0: the load
-                              does not vary */
+    double from, to, last; /* range of the load, and its value at the end relative to the start (0
+                              if the load does not vary) */
     double turned[3];      /* expected range and value at its start */
     double first[4], second[4]; /* split at 0.25: expected range and values at its start and end */
 } on_part[] = {

@@ -299,7 +299,7 @@ static void kinds_tests(void)
     static const struct {
         const char *name;
         kinds_reader *read;
-        unsigned analyses, quantities; /* kinds with these data; 0: not applicable */
+        unsigned analyses, quantities; /* kinds that have these data, or 0 if not applicable */
     } row[] = {
         {"walk", read_walk, 1 << SCENE_STATIC | 1 << SCENE_ROTATION, 0},
         {"compliance", read_compliance, 1 << SCENE_COMPLIANCE, 0},

@@ -72,7 +72,7 @@ def meet(walls):
 
 
 def warps(section):
-    """Returns whether the section has a warping constant."""
+    """Returns True if the section has a warping constant."""
     given = section.get("given", {})
     if "Iw" in given:
         return float(given["Iw"]) > 0
@@ -183,8 +183,8 @@ def openness(view, points):
 
 
 def choose_view(points, shifts, turns, solid):
-    """Returns the view of points [n x 3]. `shifts` and `turns` are directions of loads and motions. `solid` is True if
-    sections have a shape."""
+    """Returns the view of points [n x 3], where `shifts` and `turns` are directions of loads and motions. `solid` is
+    True if sections have a shape."""
     extent = np.ptp(points, axis=0)
     flat = extent <= FLAT * np.linalg.norm(extent)
     straight = flat.sum() == 2

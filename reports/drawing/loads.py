@@ -18,8 +18,8 @@ def unit(v):
 
 
 def arc(view, at, axis, radius=RADIUS, begin=-0.35, turn=1.5):
-    """Returns a right-handed arc around an axis through a point, on paper [n x 2]. `begin` and `turn` are the start and
-    the angle of the arc in units of pi."""
+    """Returns a right-handed arc around an axis through a point, on paper [n x 2], where `begin` and `turn` are the
+    start and the angle of the arc in units of pi."""
     axis = unit(axis)
     side = view.right - axis * (axis @ view.right)
     side = unit(side if np.linalg.norm(side) > 0.2 else view.up - axis * (axis @ view.up))

@@ -204,7 +204,7 @@ def put_ground(canvas, at, away):
 
 PLATE = 15  # half the side of the plate of a clamp [pt]
 HATCHES = 9  # number of hatching lines of a plate
-MOST_LETTERS = 4  # largest number of supports with letters; the list below the drawing contains the others
+MOST_LETTERS = 4  # largest number of supports with letters, where the list below the drawing contains the others
 
 
 def held_of(scene, node):

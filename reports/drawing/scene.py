@@ -46,8 +46,8 @@ class Member:
 @dataclass
 class Load:
     """A load. `kind` is force, moment, distributed, distributed_moment or gravity. `on` is a node or a member. `within`
-    contains the fractions of the member length between which the load acts, which are equal for a force or a moment;
-    it is None at a node. `last` is the vector at the end of this range."""
+    contains the fractions of the member length between which the load acts. The fractions are equal for a force or a
+    moment. `within` is None at a node. `last` is the vector at the end of this range."""
     name: str
     kind: str
     vector: np.ndarray

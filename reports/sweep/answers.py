@@ -149,7 +149,7 @@ class Group:
 
     @property
     def alike(self):
-        """Returns True if all answers have the same number of points within the tolerance."""
+        """Returns True if all answers have equal numbers of points within the tolerance."""
         return len({(a.first.good, a.first.box.points) for a in self.answers}) == 1
 
     @property

@@ -45,7 +45,7 @@ class Box:
         return self.points / self.whole if self.whole else 0.0
 
     def holds(self, at):
-        """Returns a mask of the points in the box; `at` is [points, axes]."""
+        """Returns a mask of the points in the box, where `at` is [points, axes]."""
         inside = np.ones(len(at), bool)
         for chosen, index in zip(self.chosen, self.lattice.index(at).T):
             if chosen is not None:

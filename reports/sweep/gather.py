@@ -65,7 +65,7 @@ class Lattice:
         return int(np.prod(self.shape))
 
     def index(self, at):
-        """Returns the part of each point in each column [points, columns]; `at` is [points, axes]."""
+        """Returns the part of each point in each column [points, columns], where `at` is [points, axes]."""
         return np.stack([p.index(values_of(c, at)) for c, p in zip(self.columns, self.parts)], 1)
 
     def cell_of(self, at):
@@ -83,7 +83,7 @@ def values_of(column, at):
 
 @dataclass
 class Extent:
-    """Range of an axis: its smallest and largest value, and its different values if there are few."""
+    """Range of an axis, with its smallest and largest value, and its different values if there are few."""
 
     levels: np.ndarray
     low: float = math.inf
@@ -132,8 +132,8 @@ def most_parts(sweep):
 
 
 def ratios_of(sweep, extents):
-    """Returns pairs of axes whose ratio may be more informative than the axes: they have the same unit, and all values
-    are positive."""
+    """Returns pairs of axes whose ratio may be more informative than the axes, that is, axes with one unit and positive
+    values."""
     pairs = []
     for i, j in itertools.combinations(range(min(AXES, len(sweep.axes))), 2):
         a, b = sweep.axes[i], sweep.axes[j]
@@ -247,17 +247,17 @@ def empty(sweep, lattices):
 
 
 def known_in(sweep, piece):
-    """Returns True where a reference value exists [points, Q+1]. The last entry is True if at least one quantity has a
+    """Returns True where a reference value exists [points, Q+1]. The last column is True if at least one quantity has a
     reference value."""
     own = ~np.isin(piece.kind, sweep.without)
     return np.concatenate([own, own.any(axis=1, keepdims=True)], axis=1)
 
 
 def asked_in(sweep, piece):
-    """Returns True where a formulation is compared with the reference value [points, F, Q+1]. It is not compared if it
-    does not support the physics, or if the reference value belongs to another theory (there is then a value but no
-    error). All quantities together are not compared if a quantity has a value but no error, unless another quantity is
-    never within the tolerance."""
+    """Returns True where a formulation is compared with the reference value [points, F, Q+1]. Formulations are not
+    compared if they do not support the physics, or if the reference value belongs to another theory, so that there is
+    a value but no error. All quantities together are not compared if a quantity has a value but no error, unless
+    another quantity is never within the tolerance."""
     own = np.repeat(known_in(sweep, piece)[:, None, :-1], len(sweep.keys), axis=1)
     own &= ~np.isin(piece.status, sweep.outcomes(stored.ABSENT)).any(axis=2)[..., None]
     open_ = (np.isfinite(piece.value) & np.isnan(piece.error)).any(axis=2)
@@ -268,7 +268,8 @@ def asked_in(sweep, piece):
 
 
 def errors_in(piece, asked):
-    """Returns the errors [points, F, Q+1, M]. They are -1 if there is no comparison, and infinite without a solution."""
+    """Returns the errors [points, F, Q+1, M], which are -1 if there is no comparison and infinite without a
+    solution."""
     own = np.where(np.isnan(piece.error), np.inf, np.abs(piece.error)).transpose(0, 1, 3, 2)
     own = np.where(asked[:, :, :-1, None], own, -1)
     whole = np.where(asked[:, :, -1:, None], own.max(axis=2, initial=-1, keepdims=True), -1)

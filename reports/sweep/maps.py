@@ -1,6 +1,6 @@
 """Maps of a sweep in separate SVG images, with a field for each cell of two axes. The colour and the sign of a field have
-the same meaning. Equal adjacent fields in a row are joined, which keeps files small. assets/sweep.js draws the same
-maps over other axes and must be changed together with this module."""
+one meaning. Equal adjacent fields in a row are joined, which keeps files small. assets/sweep.js draws the same maps
+over other axes and must be changed together with this module."""
 import numpy as np
 from markupsafe import escape
 from matplotlib import colormaps
@@ -120,7 +120,7 @@ def title_of(part):
 
 
 class Map:
-    """A map of two axes. x and y are gather.Parts; y may also be a list of names."""
+    """A map of two axes. x and y are gather.Parts, and y may also be a list of names."""
 
     def __init__(self, x, y, wide=WIDE):
         self.x, self.y = x, y

@@ -195,7 +195,7 @@ class Drawn(ProgramTest):
         self.assertIn("whose costs cannot be ranked", page)
 
     def test_results_without_costs(self):
-        """For files that were written before work had costs, the page states why there is no best formulation."""
+        """For files that were written before work had costs, the page must state why there is no best formulation."""
         old = self.folder / "old.h5"
         shutil.copy(self.results, old)
         with h5py.File(old, "r+") as file:

@@ -93,7 +93,7 @@ class Charts(unittest.TestCase):
         self.assertLess(y0, y1)  # a smaller error is farther down
 
 
-# Figures for papers, drawn by matplotlib from the same charts.
+# Figures for papers, drawn by matplotlib from the charts of the pages.
 class Papers(unittest.TestCase):
 
     def setUp(self):

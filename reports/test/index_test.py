@@ -202,7 +202,7 @@ RIGHT = ("pass", "low order", "undecided", "biased", "biased, as predicted")
 
 
 def texts():
-    """Returns {formulation: its text} of all formulations with a text."""
+    """Returns {formulation: text} of all formulations with a text."""
     return {path.stem: path.read_text(encoding="utf-8")
             for path in sorted((ROOT / "elements").glob("*.md")) if path.stem != "README"}
 

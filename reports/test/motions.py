@@ -80,7 +80,7 @@ VERDICT = {"judged": "fate", "case": "pendulum", "parameters": "", "formulation"
 
 def record(cases=("pendulum", "free_flight_space"),
            formulations=("geometrically_exact", "collocation")):
-    """Returns two cases with two formulations each; one run failed."""
+    """Returns two cases with two formulations each, where one run failed."""
     out = []
     for case in cases:
         for k, formulation in enumerate(formulations):

@@ -175,7 +175,7 @@ class Report(ProgramTest):
         self.assertEqual(len(done.stderr.strip().splitlines()), 1)
 
 
-# The report of a user-defined scene without reference values: its picture, and limits instead of verdicts.
+# The report of a user-defined scene without reference values, with a picture, and limits instead of verdicts.
 SWINGS = LEAF.replace("young: 210e9", "density: 7800, young: 210e9") + """
 analyses:
   swing: {motion: {stations: [0.005, 0.01], step: 1e-3}}
@@ -284,8 +284,8 @@ def point(*found):
 class Figures(unittest.TestCase):
 
     def test_below_the_digits(self):
-        """If the reference value is known to 1e-6, two of four markers are hollow and on this line, and the legend
-        explains them."""
+        """If the reference value is known to 1e-6, two of four markers must be hollow and on the line of this value,
+        and the legend must explain them."""
         site, own = Site(), point(series("beamw", (1e-2, 1e-4, 1e-8, -1e-9)))
         image = plots.errors_figure(site, own, "u", own.series, ("elements",), "f")
         self.assertIn(OPEN, html.unescape(image.markup))
@@ -310,7 +310,7 @@ class Figures(unittest.TestCase):
         shown, further = plots.leading(own, "u")
         self.assertEqual([s.key for s in shown], [*names, "f0:mass=lumped"])
         self.assertEqual([s.key for s in further], ["sheet_third_printed", "f1:mass=lumped"])
-        # f0 is on the front with its first mesh, f11 with its last mesh; of the other series, the most accurate are drawn
+        # f0 is on the front with its first mesh and f11 with its last mesh; of the other series, the most accurate are drawn
         many = point(*[series(f"f{i}", (1e-2, 10.0**-i)) for i in range(12)])
         shown, further = plots.leading(many, "u")
         self.assertEqual(len(shown), MOST_CURVES)

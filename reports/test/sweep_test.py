@@ -158,8 +158,8 @@ class Counts(ProgramTest):
         self.assertEqual(answers.held(made.first.box), "all 50 points; 50 of all 100 cannot be judged")
 
     def test_a_ratio(self):
-        """The ratio of two axes with the same unit is used if it is more informative than the axes. Its counts and its
-        exception are those of the points."""
+        """The ratio of two axes with one unit must be used if it is more informative than the axes. The counts and the
+        exception of the ratio must be those of the points."""
         axes = (("length", "m", "sobol", "linear"), ("width", "m", "sobol", "linear"), ANGLE)
         points = sweeps.scattered(3000, (1, 10), (1, 4), (0, 0.9))
 
@@ -181,8 +181,8 @@ class Counts(ProgramTest):
             self.assertTrue(inside[outlier.point] and not good[outlier.point])
 
     def test_the_quantity_that_decides(self):
-        """The deciding quantity needs more elements than the other. If neither is within the tolerance, no quantity
-        decides."""
+        """The deciding quantity needs more elements than the other quantity. If neither is within the tolerance, no
+        quantity decides."""
         def made(errors):
             sweep = stored.read(sweeps.store(self.folder / "d.h5", (WIDTH, ANGLE),
                                              sweeps.grid(WIDTH, ANGLE), {"beamw": errors},

@@ -42,7 +42,7 @@ KINDS = {
 FORCES, MOMENTS = ("force", "force within", "distributed"), ("moment", "moment within", "distributed moment")
 ON_MEMBERS = ("force within", "moment within", "distributed", "distributed moment")
 SPREAD = ("distributed", "distributed moment")
-# for each key, the kinds of loads that can have it; a force or a moment within a member already has `where`
+# for each key, the kinds of loads that can have it, except that a force or a moment within a member already has `where`
 KEYS = {
     "where: 0.75": (),
     "from: 0.25": SPREAD,
@@ -159,7 +159,6 @@ class LoadsTest(SceneCase):
         self.assertNotEqual(self.loads_of(text_of(loads(1000))), self.loads_of(text_of(loads(1))))
 
 
-
 BLOCK = """\
 beamwork: 1
 parameters:
@@ -187,6 +186,7 @@ PUSH = 1e-4
 
 
 class MotionTest(SceneCase):
+
     def block(self, time, analyses=SWING):
         text = BLOCK.replace(", TIME", f", {time}" if time else "")
         return self.scene(text.replace("ANALYSES", analyses))

@@ -88,7 +88,7 @@ quantities:
 
 
 def tables(schema):
-    """Returns the maps of the schema by name, each with its place and its properties."""
+    """Returns the maps of the schema by name, each with its path and its properties."""
 
     def below(node, place):
         if "properties" in node:
@@ -103,7 +103,7 @@ def tables(schema):
 
 
 def maps(scene, schema, place=()):
-    """Returns every map of a scene that the schema describes, with its place."""
+    """Returns every map of a scene that the schema describes, with its path."""
     if isinstance(scene, dict) and "properties" in schema:
         yield place, scene, schema["properties"]
         for key, value in scene.items():
@@ -193,7 +193,6 @@ class KeysTest(SceneCase):
                         tried.add((place, key))
         # keys of parts are those of the scene itself
         self.assertEqual({one for one in wanted - tried if one[0][:1] != ("parts",)}, set())
-
 
 
 # Units, one length unit in metres and one force unit in newtons, and the names of the units of values.
@@ -442,6 +441,7 @@ quantities: {dT: {critical_factor: {analysis: buck}, unit: K}}
 
 
 class Doubtful(SceneCase):
+
     def told(self, density, force):
         text = IN_MM.replace("DENSITY", density).replace("FORCE", force).replace(", divide: 2", "")
         return self.answered("solve", "--scene", self.scene(text), "-f", "beamw", "-n", 2)

@@ -11,7 +11,7 @@ from harness.tools.kit.program import run
 
 
 E, G, IT, IW, LENGTH, TORQUE = 210e9, 81e9, 4e-7, 9e-7, 3.0, 50.0
-K = math.sqrt(G * IT / (E * IW))  # 1/m; K*LENGTH is 1.2
+K = math.sqrt(G * IT / (E * IW))  # [1/m], for which K*LENGTH is 1.2
 SAINT_VENANT = TORQUE * LENGTH / (G * IT)
 ONE_HELD = TORQUE / (G * IT) * (LENGTH - math.tanh(K * LENGTH) / K)
 BOTH_HELD = TORQUE / (G * IT) * (LENGTH - 2 * math.tanh(K * LENGTH / 2) / K)
@@ -112,8 +112,8 @@ class WarpingTest(SceneCase):
                     [f"fixed, {told}"])
 
     def test_tied(self):
-        """Warping is restrained at the attached nodes of a body. It is also restrained at the node of the body if other
-        entries are joined to the body elsewhere."""
+        """Warping is restrained at the attached nodes of a body, and at the node of the body if other entries are
+        joined to the body elsewhere."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         part = base + "  body: {at: [4, 0, 0]}\n" + TIP + ", part_of: body}\n" + CANTILEVER
         self.assertEqual(self.words(part), ["fixed, fixed"])
@@ -279,7 +279,6 @@ instances:
         for base in ("hold: all", "hold: [ux, uy, uz, rx]"):
             scene = f"nodes:\n  base: {{at: [0, 0, 0], {base}}}\n{TIP}, hold: [uy, uz]}}\n{CANTILEVER}"
             self.same_again(self.scene(HEAD + scene + TWIST), "-n", 3)
-
 
 
 GUIDE = """beamwork: 1
