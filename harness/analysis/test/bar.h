@@ -31,7 +31,7 @@ static inline int bar_section(scene *s)
     return scene_add_section(s, &spec);
 }
 
-/* Critical loads of one scene; value[sign][order] is NAN if there is no such load. */
+/* Critical loads of one scene, where value[sign][order] is NAN if there is no such load. */
 typedef struct loads {
     char why[2][WANTED][FAULT_TEXT];
     double value[2][WANTED];

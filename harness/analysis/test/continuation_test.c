@@ -447,8 +447,8 @@ static void guesses_change_nothing(void)
     cell_result_free(&halved);
 }
 
-/* Formulations that treat both ends in the same way do not depend on the direction of the elements.
- * The others depend on it by a discretisation error. */
+/* Formulations that treat both ends in the same way must not depend on the direction of the
+ * elements. In other formulations, the direction causes a discretisation error. */
 static void directions(void)
 {
     static const struct {
@@ -492,7 +492,7 @@ static void fold_warping(void)
     gsl_test_rel(value[2], 9.92e5, 2e-3, "folds free to warp");
 }
 
-/* Builds a straight cantilever of length 1 with EIy = 4 EIz = 4 under P = path [N]. Its critical
+/* Builds a straight cantilever of length 1 with EIy = 4 EIz = 4 under P = path [N], whose critical
  * loads are (2k - 1)^2 pi^2 EI/4 in both planes. */
 static void straight_column(scene *s, int stations, const double path[])
 {

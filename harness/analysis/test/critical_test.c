@@ -206,8 +206,8 @@ static void angle_compressed(scene *s, const double direction[3])
     bar_push(s, head, direction, -1);
 }
 
-/* The loads of one sign must not depend on whether those of the other sign are requested or found.
- * Some formulations have one spurious load of the other sign per element. */
+/* The critical loads of one sign must not depend on whether loads of the other sign are requested
+ * or found. Some formulations have one spurious load of the other sign per element. */
 static void one_side_alone(const element_type *e, ask_tally *tally)
 {
     for (int n = 2; n <= 64; n *= 2) {

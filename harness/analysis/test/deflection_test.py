@@ -92,7 +92,7 @@ quantities:
   gone:  {hinge: {analysis: sta, member: rod, end: to, component: ux}}
 omit: [shear, trapeze, wagner_moments, wagner_torque]
 """
-# A cantilever with a release beside a beam that turns about its far end, both on axes askew in space.
+# A cantilever with a release next to a beam that rotates about its far end, both on oblique axes in space.
 RELEASED = """beamwork: 1
 sections: {s: {constants: {A: 1e-3, Iy: 2e-7, Iz: 1e-7, It: 1e-7}, young: 2e11, shear_modulus: 8e10}}
 nodes: {a: {at: [0, 0, 0], hold: all}, m: {at: [0.6, 0.8, 0]}, b: {at: [1.2, 1.6, 0], hold: [ux, uy, uz]}}
@@ -139,7 +139,8 @@ class Deflections(ProgramTest):
                 self.assertLess(abs(got[name]["value"]/value - 1), within, (formulation, name))
 
     def test_hinge_in_linear_analyses(self):
-        """A hinge has the closed form of a pinned beam; all releases agree with static paths under small loads."""
+        """A hinge must agree with the closed form of a pinned beam, and all releases with static paths under small
+        loads."""
         pinned = RELEASED.replace("[40, 10, 60]", "[48, -36, -80]").replace("[0, 0, 0, 3e3, 2e3, 4e3]", "[0, 0, 0, 1e-4, 0, 0]")
         text = pinned % ("rz", "  h: {hinge: {analysis: li, member: l, end: to, component: rz, case: one}}")
         for formulation in FORMULATIONS:
@@ -159,7 +160,7 @@ class Deflections(ProgramTest):
         for formulation, n, within in (("collocation", 8, 4e-3), ("geometrically_exact", 12, 4e-3), ("beamw", 12, 1e-2)):
             got, curves = self.solved(FAR % LINES, formulation, n)
             for a, c, t in PAIRS:
-                if a == "mo" and formulation == "beamw":  # its meshes are too coarse for that motion
+                if a == "mo" and formulation == "beamw":  # the meshes of beamw are too coarse for this motion
                     continue
                 one, two = got[f"w_{a}_{c}_{t}"], got[f"n_{a}_{c}_{t}"]
                 if one["status"] != "ok" or two["status"] != "ok":

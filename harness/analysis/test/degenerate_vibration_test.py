@@ -73,8 +73,8 @@ class Degenerate(ProgramTest):
                                      (found, right, *what))
 
     def test_two_of_each(self):
-        """If a section has equal stiffness in all directions, the frequencies occur in pairs. Those of a free bar follow
-        six zeros."""
+        """If a section has equal stiffness in all directions, the frequencies occur in pairs. The frequencies of a free
+        bar follow six zeros."""
         for formulation in self.each():
             within = 3e-2 if formulation.endswith("lumped") else 1e-3 if "exact" in formulation else 2e-4
             found = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=4, n=8)

@@ -6,7 +6,7 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# Clamped column of length 1, EI = 1, mass 1. Its shortening is P/EA = 2e-6.
+# Clamped column of length 1, EI = 1 and mass 1, whose shortening is P/EA = 2e-6.
 COLUMN = """beamwork: 1
 sections: {s: {constants: {A: 1e7, Iy: %(Iy)r, Iz: 1, It: 1, Ip: 2e-6}, young: 1, shear_modulus: 1e3%(density)s}}
 nodes: {base: {at: [0, 0, 0], hold: all}, tip: {at: %(at)s%(tip)s}}

@@ -17,7 +17,7 @@ static const double young = 2e11, density = 7800, side = 0.01, length = 1;
 static const double direction[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3}, y_axis[3] = {0.1, 1, 0.05};
 
 typedef struct request {
-    int held;            /* 1: held at one end; 0: free */
+    int held;            /* 1 if held at one end, 0 if free */
     double force;        /* force at the free end, along the bar ... */
     double arm;          /* ... or on a rigid arm beyond it [m] */
     scene_family family; /* family of all requested modes */
@@ -164,7 +164,7 @@ static void loaded(const element_type *e, ask_tally *tally)
 }
 
 /* If the load acts on an arm as long as the bar, the critical load is k^2 EI with k tan k = 1. The
- * frequency vanishes only at this load. */
+ * frequency vanishes only at the critical load. */
 static void loaded_on_arm(const element_type *e, ask_tally *tally)
 {
     const double critical = 0.86033358901937976 * 0.86033358901937976 * young * pow(side, 4) / 12;

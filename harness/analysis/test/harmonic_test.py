@@ -160,8 +160,8 @@ class DampedModesTest(ProgramTest):
         return path
 
     def test_dashpot_at_the_tip(self):
-        """The determinant of the exact beam vanishes at the eigenvalue: 1/u(s) = 0 by the secant method. This holds
-        without tension, about a state in tension, and beyond the critical load, where a mode grows."""
+        """The determinant of the exact beam vanishes at the eigenvalue: 1/u(s) = 0 by the secant method. The cases are
+        no tension, a state in tension, and a load beyond the critical load, where a mode grows."""
         scene = BEAM.replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {damped: yes%s}}")
         stretched = 1 + 2000/(210e9*0.02*0.01)
         load = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
@@ -255,8 +255,8 @@ class ByModesTest(ProgramTest):
             self.close(lambda k: text(damping + k), ", solution: modal", most=1e-4, least=1e-9)
 
     def test_loops(self):
-        """Closed loops of feedback, with all modes and with few; also undamped, with an integral, and with a loop that
-        drives a component that it does not measure."""
+        """Closed loops of feedback with all modes and with few modes, also without damping, with an integral, and with
+        a loop that drives a component that it does not measure."""
         acts = "path: [0, 1], factor: [0, 0], feedback: {node: tip, component:"
         for loops, commanded in ((f"servo: {{force: [0, 1, 0], on: tip, {acts} uy, proportional: 2000, derivative: 20, integral: 3000}}}}", 1),
                                  (f"servo: {{moment: [0, 0, 1], on: tip, {acts} uy, proportional: 9, derivative: 0.05}}}}, "

@@ -40,7 +40,7 @@ static void superposition(const scene_input *in, const element_type *e, const an
 }
 
 /* Computes the force, and the moment about x, of the load on the second member, from 0.5 to 1,
- * beyond `place`. The load is linear there, so Simpson's rule is exact. */
+ * beyond `place`. Simpson's rule is exact, because the load is linear in this range. */
 static void resultants(const scene_load *load, double place, double x, double out[6])
 {
     static const double weight[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
@@ -147,8 +147,8 @@ static int is_motion(const scene_input *in)
     return is_called(in, "motion of a node") || is_called(in, "motion of a case");
 }
 
-/* Returns the largest difference between values with the same names, from `first` on, relative to
- * the largest value. */
+/* Returns the largest difference between values with the same names, starting with value `first`,
+ * relative to the largest value. */
 static double largest_apart(const answer *a, const answer *b, const char *const name[])
 {
     double largest = 0, size = 1e-12;
@@ -229,8 +229,8 @@ static void law_of_modal(const scene_input *in, const element_type *e, const ans
     posed p = pose(in->name, SCENE_OF_MODAL_ABOUT, 1);
     p.end = 1e-9;
     p.turns = 0;
-    /* the bending due to a stress-free curvature changes it as much as the input, and the
-     * undeformed structure has no such bending */
+    /* a stress-free curvature changes the path by its own bending, which the undeformed structure
+     * does not have */
     if (is_called(in, "constant load") || is_called(in, "free curvature"))
         return;
     solve(&p, e, &about);

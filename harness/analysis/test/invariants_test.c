@@ -1,5 +1,5 @@
-/* Properties that need no reference value, for every formulation on every case that it runs: the
- * same mesh described differently, mirror images, rotated symmetric structures, reciprocity.
+/* Properties that need no reference value, for every formulation on every case that it runs:
+ * equivalent descriptions of a mesh, mirror images, rotated symmetric structures, and reciprocity.
  * Differences are relative to the size of the numbers. Two discretisations of the same continuum
  * may differ, but the difference must decrease as the mesh is refined. */
 #include <gsl/gsl_test.h>
@@ -72,8 +72,8 @@ typedef struct invariants_subject {
     const case_type *type;
     const element_type *formulation;
     ask_tally *tally;
-    int coarse; /* number of elements per member that the case needs; 2 if two can follow the path
-                 */
+    int coarse; /* number of elements per member that the case needs, or 2 if two can follow the
+                   path */
 } invariants_subject;
 
 static void ask_about(const invariants_subject *s, int n, int keep_all, scene_edit edit,
@@ -116,8 +116,8 @@ static void same(const invariants_subject *s, const char *what, const answer *be
              whose, apart);
 }
 
-/* Checks the retention of all coordinates. In some formulations, warping coordinates that are kept
- * although nothing warps make the twist cubic, which is a better mesh of the same continuum. Twice
+/* Checks the retention of all coordinates. In some formulations, the twist is cubic if warping
+ * coordinates are kept although nothing warps, which is a better mesh of the same continuum. Twice
  * the coarsest mesh must have an answer. */
 static void keep_all(const invariants_subject *s, const answer *fine)
 {

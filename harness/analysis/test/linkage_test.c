@@ -289,7 +289,7 @@ static void linkage_tests(void)
 
 #define SPRINGS "harness/analysis/test/springs.yaml"
 
-static const double length = 1.3, kappa = 3.7; /* kappa: stiffness of the springs, in EI/L */
+static const double length = 1.3, kappa = 3.7; /* kappa is the stiffness of the springs in EI/L */
 
 static void check(const cell_result *r, int i, double exact, double allowed, const char *chosen)
 {

@@ -188,8 +188,8 @@ loads:
             self.assertEqual("a mode grows at 3.754" in done.stderr, kd < 0, done.stderr)
 
     def test_integral_of_drive(self):
-        """The integral of a loop that pushes a driven component moves nothing. It has no pole, and the force of the motor
-        is its reaction."""
+        """The integral of a loop that pushes a driven component moves nothing. The loop has no pole, and the force of
+        the motor is its reaction."""
         plant = Plant()
         (self.folder / "scene.yaml").write_text((SCENE % {
             "k1": 300, "c": 4, "at": "tool", "time": "", "still": "", "analyses": POLES + STEADY.replace("[0, ", "["),

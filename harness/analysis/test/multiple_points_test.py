@@ -208,7 +208,7 @@ class MultiplePoints(ProgramTest):
         self.near(whole, fine, 1e-7)
 
     def test_static_paths_are_looked_into(self):
-        """The same thrust is applied on a static path with one station, whose steps end in the unstable range."""
+        """The same thrust is applied on a static path with one station, in steps that end in the unstable range."""
         path = self.folder / "scene.yaml"
         for more, well in (("", "stable"), (", z: {moment: [1e-3, 0, 0], on: b}", "no divergence")):
             for middle in (0.21, 0.3, 0.5, 0.66, 0.79):

@@ -371,8 +371,8 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
                  e->name, slenderness, n, k, a.value[k] / exact - direction[k]);
 }
 
-/* With one element, no correction reveals the error, because its forces are rounded in the same way
- * each time. */
+/* With one element, no correction reveals the error, because the forces of the element are rounded
+ * in the same way each time. */
 static void too_slender(const element_type *e)
 {
     static const double direction[3] = {0.8, 0.6, 0};
@@ -395,8 +395,8 @@ static void slender_bars(const element_type *e, ask_tally *tally)
                 pushed(e, tally, slenderness, direction[d], n);
 }
 
-/* If the factors have only two correct digits, the result must be that with fewer elements, for
- * which the refinement converges. */
+/* If the factors have only two correct digits, the result must equal the result with fewer
+ * elements, for which the refinement converges. */
 static void compliance_of_many(void)
 {
     static answer coarse, fine;

@@ -157,7 +157,7 @@ static void add(scene *s, const char *name)
         load->tension = 80;
     } else if (IS("elongation")) {
         scene_load_at(s, scene_add_load(s, SCENE_TEMPERATURE, 1, 0, 0, 0))->elongation =
-            s->node[TIP].position[1] > 0 ? -1e-4 : 1e-4; /* likewise */
+            s->node[TIP].position[1] > 0 ? -1e-4 : 1e-4;
         hold_tip(s);
     } else if (IS("strain of a member")) {
         scene_member_at(s, 0)->strain[0] = 2e-4;
@@ -221,13 +221,13 @@ static void add(scene *s, const char *name)
         const int shape = scene_add_imperfection(s);
         scene_shift_node(s, shape, MIDDLE, (const double[]){0.001, 0.004, 0.006});
         scene_shift_node(s, shape, TIP, (const double[]){0, -0.001, 0});
-    } else if (IS("nodes that are shifted")) { /* the same */
+    } else if (IS("nodes that are shifted")) {
         const double shift[2][3] = {{0.001, 0.004, 0.006}, {0, -0.001, 0}};
         for (int i = 0; i < 3; i++) {
             scene_node_at(s, MIDDLE)->position[i] += shift[0][i];
             scene_node_at(s, TIP)->position[i] += shift[1][i];
         }
-    } else if (IS("offset by bodies")) { /* the same */
+    } else if (IS("offset by bodies")) {
         scene_member_at(s, 1)->p = scene_add_attached(s, MIDDLE, s->node[MIDDLE].position[0],
                                                       s->node[MIDDLE].position[1] + 0.003, 0);
         scene_member_at(s, 1)->q =

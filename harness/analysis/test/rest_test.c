@@ -13,8 +13,8 @@
 #include "harness/study/study.h"
 
 enum { COMPONENTS = 6, CHOICES = 64 };
-/* Limits relative to the size of the structure, to one radian, and to the largest EA of its
- * members. They allow for rounding of the curvature of arcs in slender members. */
+/* Limits relative to the size of the structure, to one radian, and to the largest EA of the
+ * members. The limits allow for rounding of the curvature of arcs in slender members. */
 static const double still = 1e-10, unstressed = 1e-12;
 
 enum { FORMULATIONS = 64 };

@@ -36,7 +36,7 @@ static double value_of(const char *case_name, const char *chosen, int n,
 }
 
 /* With k = Omega L/c = 1/2, where c is the speed of sound, the elongation is L (tan k/k - 1).
- * Elements of higher order have this value on this mesh, the others in the limit. */
+ * Elements of higher order have this value on the mesh of the test, and others in the limit. */
 static void stretch(void)
 {
     const char *const thick[] = {"omega_star=5", "slenderness=10", NULL};
@@ -144,7 +144,7 @@ static void reference_point(void)
     }
 }
 
-/* Compares the counted work of the same path with and without a rotating frame. */
+/* Compares the counted work of one path with and without a rotating frame. */
 static void at_rest(void)
 {
     const char *const slow[] = {"omega=1e-6", NULL};

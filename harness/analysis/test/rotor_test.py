@@ -363,8 +363,8 @@ class Bearings(ProgramTest):
             self.assertEqual((code != 0, "a mode grows at" in told), (part > 1, part > 1), told)
 
     def test_motion(self):
-        """A motion z = y + i u from an initial velocity obeys m z'' + (c - i g) z' + (K - i q) z = 0. Its energy includes
-        the energy supplied by the films."""
+        """A motion z = y + i u from an initial velocity obeys m z'' + (c - i g) z' + (K - i q) z = 0. The energy of the
+        motion includes the energy supplied by the films."""
         m, K, q, c, g, t = 10, 192*200e9*8e-9 + 1e5, 3e4, 300, 900, 0.03
         half = complex(c, -g)/(2*m)
         root = cmath.sqrt(half**2 - complex(K, -q)/m)

@@ -77,7 +77,7 @@ static void nothing(scene *s)
     (void)s;
 }
 
-/* motion: components, of which the largest is 1; all zero: the beam is held */
+/* components of the motion, of which the largest is 1, or all zero if the beam is held */
 static const struct {
     const char *what;
     void (*change)(scene *);
@@ -167,8 +167,8 @@ static void all_cases_are_held(void)
     }
 }
 
-/* With stiffnesses that differ by 1e-20 or very many elements, no missing support may be reported,
- * and no number may be given as a result. */
+/* With stiffnesses that differ by 1e-20, or with very many elements, no missing support may be
+ * reported, and no number may be returned. */
 static void round_off(void)
 {
     static const struct {

@@ -164,7 +164,7 @@ static void pinned(const element_type *e, ask_tally *tally)
 }
 
 /* A hot column between walls, pushed at its middle. The forces P in one half and -P in the other
- * add to the thermal thrust, which does not grow. */
+ * half add to the thermal thrust, which does not increase. */
 static void column(const element_type *e, ask_tally *tally)
 {
     static answer a;
@@ -235,7 +235,7 @@ enum { PLANE = 1, BALL = 2 };
 static const double turn_E = 210e9, I = 1e-6, P = 960;
 
 /* Two members of 1 m that meet in hinges about their z axis, rotated by `R`. If `how` is PLANE,
- * motion out of the plane of the frame is held; if BALL, all rotations are released. */
+ * motion out of the plane of the frame is fixed. If `how` is BALL, all rotations are released. */
 static void two_hinges(scene *s, const double R[9], int how, int moment)
 {
     double at[3][3], y[3], force[3];
@@ -295,7 +295,7 @@ static void ask_one(const element_type *e, ask_tally *tally, const double R[9], 
     scene_free(&s);
     if (!ask_count(tally, &a, "%s", what))
         return;
-    /* two cantilevers share the load; with these sections, shear adds little */
+    /* two cantilevers share the load, and with these sections shear adds little */
     gsl_test_rel(along_force(&a, R), P / 6 / (turn_E * I), 5e-3, "%s: %s", e->name, what);
     gsl_test(!(a.value[4] > 0), "%s: %s has a frequency", e->name, what);
 }

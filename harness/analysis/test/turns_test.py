@@ -58,8 +58,8 @@ class AboutState(ProgramTest):
         self.assertRegex(said, r"no critical load from path 1 to [0-9.e+]+: the structure loses no stiffness")
 
 
-# The symmetry of a tangent depends on its own state. An analysis must not be rejected because loads could make the
-# tangent of a different state unsymmetric, and a zero load must change no bit.
+# The symmetry of a tangent depends on the state. An analysis must not be rejected because loads could make the tangent
+# of a different state unsymmetric, and a zero load must change no bit.
 BAR = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.005}, young: 210e9, shear_modulus: 81e9,
                density: 7850}}
@@ -182,7 +182,7 @@ quantities:
   curve: {internal: {analysis: st, member: rod, end: from, resultant: Mx, take: curve}}
   turn:  {displacement: {analysis: st, node: b, component: rx, take: curve}}
 """
-# G It/L = 160 N m/rad; in bending, E I/L = 200.
+# G It/L = 160 N m/rad, and E I/L = 200 N m/rad in bending.
 TWISTED = """beamwork: 1
 """ + ROD + """parameters: {load: {value: 1600, unit: N m, min: 0, max: 1e5, about: "at the end"}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]%s}}
@@ -269,7 +269,7 @@ class Turns(ProgramTest):
                 torque, = (q["value"] for q in json.loads(done.stdout)["quantities"])
                 part = angle/n
                 if formulation.startswith("beamw") and formulation != "beamw_consistent":
-                    right = math.sin(2*part)/(2*part)  # this formulation has the strain measure sin, which is inaccurate on a coarse mesh
+                    right = math.sin(2*part)/(2*part)  # strain measure sin, inaccurate on a coarse mesh
                     within = 1e-6
                 else:
                     right, within = 1, 5e-2 if formulation == "geometrically_exact" else 1e-6

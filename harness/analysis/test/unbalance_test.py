@@ -28,7 +28,7 @@ SIX = "ux", "uy", "uz", "rx", "ry", "rz"
 
 
 def matrix(**entries):
-    """Returns the 36 numbers of a spring; `uy_uz` is in row uy, column uz."""
+    """Returns the 36 numbers of a spring, where `uy_uz` is in row uy, column uz."""
     out = np.zeros((6, 6))
     for name, value in entries.items():
         row, column = name.split("_")
@@ -65,7 +65,7 @@ class Unbalance(ProgramTest):
         """The response y + i z in forward whirl is Z = w^2/(K - i q - m w^2 + i c w), and z lags y by 90 degrees."""
         K = 3*E*I/L**3
         for film, cross, damping in ((0, 0, 30), (4e3, 1e3, 40)):
-            # the disc can tilt freely: its rotations follow the shaft, without rotary inertia
+            # the disc can tilt freely, so its rotations follow the shaft, without rotary inertia
             scene = text(disc="hold: [ux, rx]", stiffness=matrix(uy_uy=film, uz_uz=film, uy_uz=cross, uz_uy=-cross),
                          damping=matrix(uy_uy=damping, uz_uz=damping), quantities=read("uy") + read("uz"))
             found = self.solved(scene.replace(", inertia: [0.01, 0.006, 0.006, 0, 0, 0]", ""))
@@ -147,7 +147,7 @@ class Unbalance(ProgramTest):
         (self.folder / "scene.yaml").write_text(scene, encoding="utf-8")
         record = self.record("solve", "--scene", self.folder / "scene.yaml", "-f", "collocation", "-n", 1)
         w = 10*np.pi
-        shift = 1000*w*w/(3*E*I/L**3 - MASS*w*w)    # [mm/(kg m)]; 1 kg m is 1 N s^2
+        shift = 1000*w*w/(3*E*I/L**3 - MASS*w*w)    # [mm/(kg m)], where 1 kg m is 1 N s^2
         expected = {"shift": (shift, "mm/(N s^2)"), "rate": (w*shift, "mm/(N s^3)"), "turn": (1.5e-3*shift/L, "rad/(N s^2)")}
         for q in record["quantities"]:
             value, unit = expected[q["quantity"]]

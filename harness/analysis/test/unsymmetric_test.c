@@ -475,7 +475,7 @@ static void in_direction(const double R[9])
                             (modes_part[]){{k, waves, k == 3 ? 1 / r : 1},
                                            {other, waves + 2, other == 3 ? 0.8 / r : 0.8}},
                             moved[k], waves, "the larger of two motions");
-            /* modes of cross-sections that rotate in place, and of warping */
+            /* modes of cross-sections that rotate without translation, and of warping */
             static const int turn[] = {TURN_Z, TURN_Y, WARPING};
             const double unit[] = {1 / r, 1 / r, 1 / (r * r)};
             for (int k = 0; k < 3; k++) {

@@ -413,9 +413,9 @@ static void fork_tests(void)
     refuse("an axis across the member", axis_across);
 }
 
-/* Compliance of a node whose prescribed motion is released: forces and moments about fixed axes are
- * dead, whether they are loads or reactions. Loads are not counted as reactions, so the compliance
- * must not depend on how the two share the force that holds the node. */
+/* Compliance of a node whose prescribed motion is released. Forces and moments about fixed axes are
+ * dead, both as loads and as reactions. Loads are not counted as reactions, so the compliance must
+ * not depend on how loads and reactions share the force that holds the node. */
 
 static const double young = 2e11, side = 0.02, length = 1;
 

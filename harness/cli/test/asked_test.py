@@ -231,7 +231,8 @@ class Had(ProgramTest):
         self.refused(2, "did you mean 'depth'", *words, "--set", "deptj=0.2")
 
     def test_matrices_of_damping(self):
-        """C contains member damping, proportional to K at rest, and dashpots. It is absent if nothing is damped."""
+        """C contains dashpots and the damping of members, which is proportional to K at rest. C is absent if nothing is
+        damped."""
         def entries(folder, letter):
             lines = (self.folder/folder/"undeformed"/f"{letter}.mtx").read_text(encoding="utf-8").splitlines()
             rows = [line.split() for line in lines if not line.startswith("%")][1:]

@@ -1,4 +1,4 @@
-"""Supports in their own axes: a scene that is rotated with its supports must give the same results in every analysis."""
+"""Supports in oblique axes: a scene that is rotated with its supports must give the same results in every analysis."""
 import json
 import math
 

@@ -55,7 +55,7 @@ STIFF = numpy.array([[0, 0], [2e4, 3e4], [1e4, 2e4], [5e3, 0]])
 
 def exact(time, stiff=1.0, gain=40):
     """Returns displacement, velocity and acceleration of each node, and the energies, of the floor with its three
-    coordinates. They are integrated by Dormand-Prince's method of order 8."""
+    coordinates, integrated by Dormand-Prince's method of order 8."""
     def rows(turn):
         across = numpy.array([[-math.sin(turn), -math.cos(turn)], [math.cos(turn), -math.sin(turn)]])
         return [(numpy.hstack([numpy.eye(2), (across @ a)[:, None]]), across @ numpy.array([-a[1], a[0]])) for a in ARM]
@@ -171,8 +171,8 @@ class DiaphragmsInTime(ConstraintsCase):
                 self.assertLess(abs(found["D"]), 1e-10 * found["E"])
 
     def test_conserving(self):
-        """The integrator conserving has order 2. It conserves the energy of a floor to round-off, and both momenta of a
-        free floor."""
+        """The integrator conserving has order 2, and conserves the energy of a floor and both momenta of a free floor
+        to round-off."""
         text = re.sub(r"  (k|gain): .*\n", "", FLOOR)
         wanted, errors = exact(1, gain=0), []
         for step in (2e-3, 1e-3):
@@ -245,7 +245,8 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
             self.assertLess(abs(found["D"]), 1e-6 * found["E"])
 
     def test_body(self):
-        """If its nodes do not tilt, a floor moves as a rigid body. If they do, it moves as a body on universal joints."""
+        """A floor whose nodes do not tilt must move as a rigid body. Otherwise the floor must move as a body on
+        universal joints."""
         for tilts, how, until, damps, close in (
                 (0, "radau, step: 0.002", 0.1, ", damping: 1e-4", 1e-8), (0, "alpha, step: 0.002, mass: consistent", 0.1, ", damping: 1e-4", 1e-8),
                 (0, "alpha, step: 0.002, mass: lumped", 0.1, "", 1e-8), (0, "explicit, step: 5e-6, mass: lumped", 0.0005, "", 1e-8),

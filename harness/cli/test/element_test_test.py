@@ -146,7 +146,7 @@ FORCE_FAULTS = {
         "of the undeformed element is", "not zero"),
 }
 
-# Typical errors of element authors. Each is consistent in itself and shows only in structures.
+# Typical errors of element authors. Each error is consistent in itself and only shows in structures.
 CLASSIC = {
     "swapped bending": (
         ("c->young * c->Iy, c->young * c->Iz}", "c->young * c->Iz, c->young * c->Iy}"),

@@ -1,5 +1,5 @@
-"""Every example of a formulation must be short and compile in the way an external author would compile it. It is
-evaluated on ten cases."""
+"""Every example of a formulation must be short, compile in the way an external author would compile it, and pass ten
+cases."""
 import re
 import shutil
 import subprocess

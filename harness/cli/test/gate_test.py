@@ -42,10 +42,10 @@ FAULTS = {
     "torsion": ("c->shear_modulus * c->It / l3", "0.9 * c->shear_modulus * c->It / l3", "fail"),
     "energy": ("out->sigma[i] = d->stiffness[i] * e[i];", "out->sigma[i] = 1.1 * d->stiffness[i] * e[i];", "fail"),
     "stub": ("energy += d->stiffness[i] * e[i] * e[i] / 2;", "energy += 0;", "fail"),
-    "coarse": ("cos(sqrt(square) / 2)", "cos(sqrt(square) / 2.1)", "pass"),  # has the same limits, but larger errors
+    "coarse": ("cos(sqrt(square) / 2)", "cos(sqrt(square) / 2.1)", "pass"),  # correct limits, but larger errors
 }
-# Forces along the element that the element applies: halves at its nodes, and clamping moments. They refer to its axes
-# at rest or, beyond linear analyses, to those of the scene.
+# Forces along the element that the element applies, with halves at the nodes, and clamping moments. The forces refer to
+# the axes of the element at rest or, beyond linear analyses, to the axes of the scene.
 OWN_LOADS = (("static int strains(const double options[])", """
 static void along(int count, const element_data *const data[], const node_state x[], along_output out[],
                   status outcome[])

@@ -123,7 +123,7 @@ class Tables(ProgramTest):
         self.refused(2, "solve takes no --beside", "solve", "elastica", "--beside", "x.h5")
 
     def test_each_is_used(self):
-        """Each option is used by its verb. 'merge' passes all options on."""
+        """Each verb must use each of its options. 'merge' passes all options on."""
         everything = "".join(path.read_text(encoding="utf-8") for path in self.CLI.glob("*.c"))
         for verb in EVERY_VERB:
             name = verb.replace("-", "_")

@@ -241,7 +241,7 @@ def on_terminal(*arguments, **changes):
         try:
             while more := os.read(parent, 65536):
                 written += more
-        except OSError:  # the other end is closed
+        except OSError:  # the other end of the pipe is closed
             pass
     os.close(parent)
     return written.decode(), process.returncode

@@ -87,7 +87,7 @@ class Shell(unittest.TestCase):
         for typed, wanted in LINES.items():
             closing = '"' if typed.count('"') == 1 else ""
             shell.say(f"beamwork {typed}\t")
-            # bash closes the quotation; a second pair is an empty piece of the same word
+            # bash closes the quotation, so a second pair is an empty piece of the same word
             shell.say(f'{closing}{closing}\n' if closing else "\n")
             text = shell.answer(">>")
             shown = text.partition("<<")[2].partition("|>>")[0].split("|")

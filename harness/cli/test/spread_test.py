@@ -182,7 +182,8 @@ class Verify(SpreadTest):
 class Killed(SpreadTest):
 
     def test_killed(self):
-        """Kills the process or its group twenty times. After the rest is computed, the hash must be the same."""
+        """Kills the process or its group twenty times. After the remaining cells are computed, the hash must be the
+        same."""
         alone = self.folder / "alone.h5"
         self.answered("verify", "-k", CASES, "-o", alone)
         parts = self.folder / "parts"

@@ -66,8 +66,8 @@ class Decks(ExportTest):
             self.assertAlmostEqual(float(off), -100 * twice / area, delta=1e-2, msg=section)
 
     def test_walls_are_where_the_section_says(self):
-        """For a channel with its y axis along x and its z axis along z, the web is at the distance b^2 tf/A from the
-        centroid."""
+        """For a channel with its y axis along x and its z axis along z, the web must be at the distance b^2 tf/A from
+        the centroid."""
         section = next(iter(WALLS))
         scene = self.scene(cantilever(1.0).replace(RECTANGLE, section))
         nodes, elements = mesh_of(self.deck(scene, "-n", "1"))
@@ -236,8 +236,8 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["held"] / -force, 1, delta=1e-5)
 
     def test_arc(self):
-        """Exact values for an end rotation a: deflection (1 - cos a) L/a, shortening (1 - sin a/a) L. They apply to an
-        oblique bar, whose rotation axis is not a coordinate axis."""
+        """Exact values for an end rotation a: deflection (1 - cos a) L/a and shortening (1 - sin a/a) L. The bar is
+        oblique, and its rotation axis is not a coordinate axis."""
         angle, c, s = 1.2, 0.8, 0.6
         text = cantilever(0.0, PATH).replace(
             "tip:  {at: [0.02, 0.1, 0]", "tip:  {at: [0.02, 0.08, 0.06], rotation: {vector: [none, "

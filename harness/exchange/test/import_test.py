@@ -116,7 +116,7 @@ class Import(ProgramTest):
 
     def test_axes(self):
         """If the x axis of the other program is the -y axis of beamwork, C_ux_Fx of that program is C_uy_Fy of beamwork.
-        An entry with only one such index changes sign."""
+        An entry with only one index of this kind changes sign."""
         self.read(HEAD + "# axes: x=-y y=x z=z\n" + COLUMNS +
                   "C_ux_Fx, m/N, 2,,,, 3,\nC_ux_Fy, m/N, 2,,,, 4,\n")
         found = {row["quantity"]: (row["value"], row["factor"]) for row in self.stored()}

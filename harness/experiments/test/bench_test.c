@@ -1,4 +1,4 @@
-/* A conclusion of a benchmark about times is drawn only if the noise allows it. The counted work
+/* A conclusion about times is drawn from a benchmark only if the noise allows it. The counted work
  * must be the same every time. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_test.h>
@@ -96,8 +96,8 @@ static void test_compare(void)
     gsl_test_int(rounds_compare(&even, &even), 0, "times that are equal do not differ");
 }
 
-/* For the errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %, the answer is the coarsest mesh for which it and
- * all finer meshes are within the level. */
+/* For the errors 20 %, 0.5 %, 3 %, 0.2 % and 0.05 %, the answer is the coarsest mesh from which all
+ * meshes are within the level. */
 static void test_reach(void)
 {
     const double error[5] = {0.2, -0.005, 0.03, 0.002, -0.0005};

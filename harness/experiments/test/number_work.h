@@ -1,4 +1,4 @@
-/* A work for tests. Each batch consists of some numbers, which are added in canonical order. */
+/* A job for tests. Each batch consists of some numbers, which are added in canonical order. */
 #ifndef BEAMWORK_TEST_NUMBER_WORK_H
 #define BEAMWORK_TEST_NUMBER_WORK_H
 
@@ -19,7 +19,7 @@ typedef struct numbers {
     int fails;   /* batch whose computation fails, or -1 */
     int wait;    /* [us] duration of a batch */
     double busy; /* [s] processor time of a batch */
-    double sign; /* sign of the numbers; -1 gives different results */
+    double sign; /* sign of the numbers, where -1 gives different results */
     int taken, next;
     double sum;
 } numbers;

@@ -1,5 +1,5 @@
-/* Faults injected into formulations that have none. Each must be detected, with a message that
- * names the cause. A fault changes the output of one function. */
+/* Faults injected into formulations without faults. Each fault changes the output of one function
+ * and must be detected, with a message that names the cause. */
 #include "harness/experiments/experiments_impl.h"
 #include <math.h>
 

@@ -63,7 +63,8 @@ static void two_folders(void)
     folder_remove(&other);
 }
 
-/* If the process of a batch ends, only this batch is lost. It is computed after a restart. */
+/* If the process of a batch ends, only this batch is lost. After a restart, the batch must be
+ * computed. */
 static void lost(void)
 {
     const test_folder of = folder_make();

@@ -1,4 +1,5 @@
-/* Folders with invalid files. Each file must be reported in one line, and none may be used. */
+/* Folders with invalid files. Each invalid file must be reported in one line, and no invalid file
+ * may be used. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>

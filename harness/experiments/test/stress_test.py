@@ -11,7 +11,7 @@ from harness.tools.kit import program
 from harness.tools.kit.program import ProgramTest, ROOT
 
 
-# `beamwork stress`: its exit status, the agreement of its output forms, and that a wrong number is always reported.
+# `beamwork stress`: exit status, agreement of the output forms, and reports of wrong numbers.
 SMALL = "decay_free or soft_square or twist_wagner"
 
 

@@ -126,7 +126,8 @@ class History(ProgramTest):
         self.assertEqual(compared, len([at for at in torque if at > 0]))
 
     def test_rejected_steps(self):
-        """Steps that are rejected leave nothing in the history; a station has that of the step that led to it."""
+        """Rejected steps leave nothing in the history. The history of a station is that of the step that led to the
+        station."""
         text = BESIDE + ("motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.8]}}\n"
                          "loads: {pull: {force: [-30000, 20000, 8000], on: d}}\n"
                          "analyses: {run: {static: {stations: 0..1/2}}}\n"
@@ -138,7 +139,8 @@ class History(ProgramTest):
             self.follows(curves["torque"], [s["path"] for s in record["steps"]], lambda at: 0.8 * at, n)
 
     def test_loads_and_stiffness(self):
-        """The tangent of an accepted state is that of the step that led to it; continuation commits its steps, too."""
+        """The tangent of an accepted state is that of the step that led to the state. Continuation also commits its
+        steps."""
         static = FREE + ("loads: {pull: {moment: [1000, 0, 0], on: b}}\n"
                          "analyses: {run: {static: {stations: 0..1/4}}, at: {compliance: {node: b, about: run}}}\n"
                          f"quantities: {{{TURN}, stiffness: "
@@ -171,7 +173,7 @@ class History(ProgramTest):
             self.follows(curves["torque"], steps, twist_of, close=1e-5)
             for time in (0.75, 1):
                 self.assertAlmostEqual(curves["then"][time] / curves["torque"][time], 1, delta=1e-5)
-        # stations within a step are steps of their own, which leave nothing behind
+        # stations within a step are separate steps, which leave nothing behind
         curves, _ = self.solved(text.replace("INTEGRATOR", "radau").replace("0..1/4", "0..1/12"))
         path = Path()
         for k in range(1, 13):
@@ -182,7 +184,7 @@ class History(ProgramTest):
                 path.accept(twist_of(time))
 
     def test_as_without(self):
-        """An element whose history has no effect gives the results of the same element without one."""
+        """An element whose history has no effect must give the same results as the element without a history."""
         text = (ROOT / "harness/formulations/test/midpoint.c").read_text(encoding="utf-8")
         source = self.folder / "plain.c"
         source.write_text(text.replace("1 + 10 * m * m", "1 + 0 * m"), encoding="utf-8")
@@ -199,7 +201,7 @@ class History(ProgramTest):
                     self.assertAlmostEqual(found[0][name], value, delta=1e-7 * abs(value), msg=(case, name))
 
     def test_process(self):
-        """The example in Python gives the results of the example in C; so does a motion."""
+        """The example in Python must give the results of the example in C, also in a motion."""
         scene = self.scene(FREE.replace("hold: [uy, uz, ry, rz]", "") + (
             "loads: {pull: {force: [-20, 30, 60], on: b}, turn: {moment: [30, 0, 0], on: b}}\n"
             "analyses: {run: {static: {stations: 0..1/3}}, go: {motion: {stations: [0.05], integrator: alpha, "

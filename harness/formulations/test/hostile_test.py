@@ -1,4 +1,4 @@
-"""Malicious or faulty processes. Each of them must lead to one line that names the formulation and what happened, in
+"""Malicious or faulty processes. Each of them must lead to one line that names the formulation and the failure, in
 `solve` and in every cell of `verify`, and no process may remain."""
 import json
 import textwrap

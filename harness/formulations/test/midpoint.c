@@ -1,14 +1,14 @@
 /* The beam of timoshenko.c with a torsional strain that is integrated along the path by the
- * midpoint rule: t the twist between the nodes, and the strain of the last accepted state plus
- * (t - T)(1 + 10 m^2), where T is the last accepted twist and m = (t + T)/2. It thus depends on
- * the accepted steps, and on nothing else. */
+ * midpoint rule: t is the twist between the nodes, and the strain is the strain of the last
+ * accepted state plus (t - T)(1 + 10 m^2), where T is the last accepted twist and m = (t + T)/2.
+ * The strain thus depends only on the accepted steps. */
 #define beamwork_element timoshenko
 #include "elements/examples/timoshenko.c"
 #undef beamwork_element
 
 enum { TWIST = 3 };
 
-/* history: the twist, and the strain per length */
+/* history [2]: the twist, and the strain per length */
 static double twist_strain(const double history[], double t)
 {
     const double m = (t + history[0]) / 2;

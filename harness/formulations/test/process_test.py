@@ -249,7 +249,7 @@ def command(script):
 class OctaveTest(ProgramTest):
 
     def altered(self, *changes):
-        """Writes the example with parts of its text replaced. Each part must exist."""
+        """Writes the example with parts of its text replaced. Each replaced part must exist."""
         text = EXAMPLE.read_text(encoding="utf-8")
         for before, after in ((HERE, f"addpath('{OCTAVE_EXAMPLES}');"), *changes):
             self.assertIn(before, text)
@@ -395,8 +395,8 @@ CONTRACT_EXAMPLES = ROOT / "elements" / "examples"
 
 
 class ManyAtOnce(ProgramTest):
-    """An error is reported if the value of the first element is used for all elements, and not if each element has its
-    own value."""
+    """An error must be reported if the value of the first element is used for all elements, but not if each element has
+    a separate value."""
 
     def test_one_value_for_all(self):
         text = (CONTRACT_EXAMPLES / "timoshenko.py").read_text(encoding="utf-8")

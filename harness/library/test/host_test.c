@@ -259,8 +259,8 @@ static void mind_the_end(void)
         _exit(1);
 }
 
-/* OpenBLAS 0.3.21 with its own threads occasionally gives one of several host threads different
- * last digits. The test sets it to one thread, which OpenBLAS reads when it is loaded. */
+/* If OpenBLAS 0.3.21 uses threads, one of several host threads occasionally obtains different last
+ * digits. The test sets the number of threads of OpenBLAS, which is read during loading, to one. */
 static void begin_again(char **arguments)
 {
     if (getenv("OPENBLAS_NUM_THREADS") != NULL)

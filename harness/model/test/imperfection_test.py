@@ -81,8 +81,8 @@ class ImperfectionTest(SceneCase):
                 self.assertLess(abs(value), 1e-3 * (1e-6 if name == "ux" else 1), (formulation, name))
 
     def test_either_order_of_ends(self):
-        """If the ends are exchanged, a bow must not change. y and its component are reversed. With an even number of
-        half-waves, the bow begins on the other side."""
+        """If the ends are exchanged, y and its component are reversed, and a bow must not change. With an even number
+        of half-waves, the bow begins on the other side."""
         for half_waves in (1, 2):
             sign = 1 if half_waves == 1 else -1
             for formulation in ("collocation", "beamw", "sheet_third"):

@@ -20,7 +20,7 @@ static const double young = 1e4, side[SECTIONS] = {0.1, 0.1 * (1 + 1e-6)};
 
 typedef struct kinds_link {
     int section;
-    double length, strain, curvature; /* curvature about z; 0: straight */
+    double length, strain, curvature; /* curvature about z, or 0 if straight */
 } kinds_link;
 
 /* Builds links in a row along x between two clamped nodes, with a force along x at the first
@@ -367,7 +367,7 @@ static void profile_tests(void)
 }
 
 /* If the section of a structure is described in axes rotated by any angle about the beam, every
- * formulation must give the same results. The test detects errors in terms of one axis only (a
+ * formulation must give the same results. The test detects errors in terms of a single axis (a
  * Wagner moment, a distance of the shear centre, an entry of D). */
 
 enum { ANGLE = CASE_MAX_PARAMETERS - 1, ORIGINAL = CASE_MAX_PARAMETERS - 2 };

@@ -100,7 +100,7 @@ static void whole_components(void)
         gsl_test(v.span[i] != (double)(i == 6 || i == 9), "unit vectors: %g at %d", v.span[i], i);
 }
 
-/* Columns with one component each, one of them repeated and one zero, must give the same motions as
+/* Columns with a single component, one of them repeated and one zero, must give the same motions as
  * without the detection of single components by their zeros. */
 static void components_alone(void)
 {

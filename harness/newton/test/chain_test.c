@@ -225,13 +225,13 @@ static void chain_tests(void)
 }
 
 /* The initial guess for the next state of a path must be exact for polynomial paths of a degree
- * that the number of stored states allows. It must not extrapolate further than the states
- * support. */
+ * that the number of stored states allows. The initial guess must not extrapolate further than the
+ * states support. */
 
 enum { MOST_DEGREE = MODEL_EXTRAPOLATED };
 
 /* Fills a state of a path that is a polynomial of the given degree in its parameter. Every vertex
- * rotates about its own axis. */
+ * rotates about a different axis. */
 static void extrapolate_fill(const model *m, int degree, double path, model_state *s)
 {
     uint64_t seed = 42;
@@ -254,7 +254,7 @@ static void extrapolate_fill(const model *m, int degree, double path, model_stat
     }
 }
 
-/* Returns the largest difference in vertices that have their own coordinates. */
+/* Returns the largest difference in vertices that have coordinates. */
 static double apart(const model *m, const model_state *a, const model_state *b)
 {
     double worst = 0;

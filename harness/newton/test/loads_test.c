@@ -118,7 +118,7 @@ static void factors(void)
     turned_body_release(&s);
 }
 
-/* Each load has its own factor: along x proportional to the path, along y given at stations. */
+/* Each load has a different factor: along x proportional to the path, along y given at stations. */
 static void reference(void)
 {
     static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
@@ -201,8 +201,9 @@ static void stiffness(int body)
     turned_body_release(&s);
 }
 
-/* If the coordinates are angles, the stiffness is the derivative of the generalised loads, even for
- * moments and follower loads, which have no potential. `at` [m] is the offset from the node. */
+/* If the coordinates are angles, the stiffness must be the derivative of the generalised loads,
+ * even for moments and follower loads, which have no potential. `at` [m] is the offset from the
+ * node. */
 static void stiffness_of_angles(int body, scene_load_kind kind, int follower, const double at[3])
 {
     turned_body s;

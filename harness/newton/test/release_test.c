@@ -337,14 +337,14 @@ static void advance_tests(void)
 }
 
 /* Condensed members must give the same results as the assembled tangent, for every case and for
- * released ends, with formulations of each family. They must give results where an assembled
+ * released ends, with formulations of each family. Results must exist even where an assembled
  * tangent has no digits left. */
 
 static const char *const formulations[] = {"beamw", "sheet_third", "geometrically_exact",
                                            "collocation"};
 enum { FORMULATIONS = sizeof formulations / sizeof formulations[0], NEVER = 1000000 };
 
-/* Shortens a motion to a fifth, which is solved with the same steps as the whole motion. */
+/* Shortens a motion to a fifth, solved with the same steps as the whole motion. */
 static void shorten(const case_type *type, double parameter[])
 {
     const int time = parameter_index(type->parameters, "time");

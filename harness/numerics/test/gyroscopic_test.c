@@ -234,8 +234,8 @@ static double large_rounding(void *context, const double x[])
     return part_of_rounding * sum;
 }
 
-/* The error of every frequency includes the effect of rounding in K. Without gyroscopic terms it is
- * at least half of the relative change and at most ten times that. */
+/* The error of every frequency includes the effect of rounding in K. Without gyroscopic terms, the
+ * error is between 0.5 and 10 times the relative change. */
 static void rounding_is_told(void)
 {
     static const double strength[] = {0, 2};

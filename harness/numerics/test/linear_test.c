@@ -139,7 +139,7 @@ static void random_matrices(kind what, const char *name, double allowed)
         matrix_factor *fa;
         failures += factor_alloc(&s, &fa, NULL) != STATUS_OK;
         for (int turn = 0; turn < 2;
-             turn++) { /* the second time with different values on the same pattern */
+             turn++) { /* the second round has different values on the same pattern */
             for (int k = 0; k < s.column[n]; k++)
                 s.value[k] *= turn == 0 ? 1 : -0.3;
             for (int i = 0; i < n * n; i++)
@@ -180,8 +180,8 @@ static void random_matrices(kind what, const char *name, double allowed)
 }
 
 /* The upper triangle and the full symmetric matrix have the same condition number. For a chain of n
- * springs held at one end, it is the exact one in the 1-norm, with rows and columns scaled to a
- * unit diagonal. */
+ * springs held at one end, the result is the exact condition number in the 1-norm, with rows and
+ * columns scaled to a unit diagonal. */
 static void condition_of_a_triangle(void)
 {
     enum { N = 6 };
@@ -402,7 +402,7 @@ static void no_more_than_there_is_room_for(int threads)
 enum { PIECES = 500 };
 
 typedef struct relay_log {
-    int held[TEAM_SLOTS], fills[PIECES], wrong, taken, last; /* last: index of the last piece */
+    int held[TEAM_SLOTS], fills[PIECES], wrong, taken, last; /* index of the last piece */
 } relay_log;
 
 static void write_piece(void *context, int piece, int slot)

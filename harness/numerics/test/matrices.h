@@ -63,7 +63,7 @@ static inline void matrices_free(sparse *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Returns the same matrix with all entries stored. */
+/* Returns the matrix with all entries stored. */
 static inline sparse matrices_both_triangles(const sparse *a)
 {
     const int n = a->n;

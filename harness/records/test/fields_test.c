@@ -281,8 +281,8 @@ static void fields_tests(void)
     scene_free(&b.p.scene);
 }
 
-/* The concluding line of a convergence table: order, ties, excluded formulations, and formulations
- * without their own cost coefficients. */
+/* The line after a convergence table: order, ties, excluded formulations, and formulations with
+ * general cost coefficients. */
 
 enum { LINE_MESHES = 5, SERIES = 4 };
 static const parameter_type parameter[] = {{.name = NULL}};

@@ -18,7 +18,7 @@ enum { DEEPEST = 8, NAME = 32, HEADER = 3 };
 /* Contents of a document according to an XML reader. */
 typedef struct tree {
     int bad;                                     /* 1: the document is not well-formed */
-    int tests, failures, skipped, both, outside; /* both: failed and skipped */
+    int tests, failures, skipped, both, outside; /* `both` counts failed and skipped tests */
     int header[HEADER];                          /* tests, failures and skipped of the suite */
     int depth;
     char open[DEEPEST][NAME];
@@ -359,7 +359,8 @@ static void csv_tests(void)
     no_number();
 }
 
-/* A section that is high at one end and wide at the other. Its corners stay in their quadrants. */
+/* A section that is high at one end and wide at the other end. The corners stay in their
+ * quadrants. */
 static void rectangles(void)
 {
     const section_spec high = section_spec_rectangle(2e11, 8e10, 0.1, 0.2),

@@ -59,7 +59,7 @@ static void write_failures(void)
     struct rlimit kept, small;
     getrlimit(RLIMIT_FSIZE, &kept);
     small = kept;
-    small.rlim_cur = 1000; /* bytes; a compressed file needs more, as on a full disk */
+    small.rlim_cur = 1000; /* bytes, which are too few for a compressed file, as on a full disk */
     signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
     write_record(path, folder, 0, "no room");

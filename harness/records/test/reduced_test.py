@@ -37,7 +37,7 @@ quantities:
   across: {response: {analysis: h, node: tip, component: uz, force: tip, along: uy, of: velocity}}
   other: {response: {analysis: h, node: tip, component: %s, force: tip, along: uz, of: acceleration}}
 """
-# scene; reduction; number of modes taken
+# scene, reduction, and number of modes used
 TABLE = [(CANTILEVER % dict(place, section=section), reduction, taken)
          for section, places, rows in ((RECTANGLE, (STRAIGHT, INCLINED), (("1", 1), ("3:mid", 3))),
                                        (TUBE, (STRAIGHT, INCLINED, SKEW), (("1", 2), ("2", 2), ("3", 4), ("1:mid", 2), ("4:mid", 4))))

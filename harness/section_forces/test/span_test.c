@@ -12,7 +12,7 @@
 #include "elements/math/rotation.h"
 #include "harness/section_forces/section_forces.h"
 
-/* state: r (3), q (4), force and moment in fixed axes (6), amplitude, bimoment */
+/* state: r (3), q (4), force and moment in fixed axes (6), amplitude and bimoment */
 enum { R = 0, Q = 3, FORCE = 7, MOMENT = 10, AMPLITUDE = 13, BIMOMENT = 14, STATE = 15 };
 
 typedef struct rod {

@@ -42,7 +42,7 @@ static inline formulation ending_good(void)
 static struct {
     element_type type;
     status (*prepare)(const element_request *, element_data *, fault *);
-    int end, says; /* says: descriptor to which an endless cell writes its process number */
+    int end, says; /* says is the descriptor to which an endless cell writes its process number */
 } ending;
 
 static inline status prepare_end(const element_request *request, element_data *data, fault *f)
@@ -53,7 +53,7 @@ static inline status prepare_end(const element_request *request, element_data *d
         _exit(3);
     if (ending.end == HANGING)
         never_end(ending.says);
-    if (ending.end == STOPPED) /* its own alarm has no effect while it is stopped */
+    if (ending.end == STOPPED) /* the alarm of a stopped process has no effect */
         raise(SIGSTOP);
     return ending.prepare(request, data, f);
 }

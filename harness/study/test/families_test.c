@@ -114,14 +114,14 @@ static void two_families(void)
     finish(&b);
 }
 
-/* If the limit of a third family is poorly known, it must worsen neither the agreed limit nor its
- * uncertainty. */
+/* If the limit of a third family is poorly known, the agreed limit and its uncertainty must not
+ * become worse. */
 static void known_badly(void)
 {
     families_bench b;
     make(&b);
     add(&b, GREEN_ONE, 3, 0.1);
-    for (int k = 0; k < MESHES; k++) /* its values alternate by 1e-4 */
+    for (int k = 0; k < MESHES; k++) /* the values alternate by 1e-4 */
         b.quantity[0][k].value = 3 * (1 + (k % 2 ? 1e-4 : -1e-4));
     add(&b, RED_ONE, 3, 0.1);
     add(&b, BLUE_ONE, 3.000003, 0.1);
@@ -349,8 +349,9 @@ typedef struct reach_bench {
     int count;
 } reach_bench;
 
-/* Makes four formulations without cost coefficients of their own, which are exact on every mesh.
- * The reference value is 1. The work of each is ten times that of the previous one. */
+/* Makes four formulations with general cost coefficients, which are exact on every mesh. The
+ * reference value is 1, and the work of each formulation is ten times that of the previous
+ * formulation. */
 static void reach_make(reach_bench *b)
 {
     static const char *const key[SERIES] = {"cheap", "dear", "other", "last"};

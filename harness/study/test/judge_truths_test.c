@@ -35,8 +35,8 @@ static void predictions(void)
     bench_free(&b);
 }
 
-/* A formulation is compared with the reference value of its own shear theory, whatever the scene
- * requests. */
+/* A formulation must be compared with the reference value of the shear theory in its equations,
+ * whatever theory the scene requests. */
 static void theories(void)
 {
     judge_bench b;
@@ -257,8 +257,8 @@ static void stored_values(void)
     bench_free(&b);
 }
 
-/* Stored values must be compared with their own series, even if this series follows one of another
- * formulation with other values on the same meshes. */
+/* Stored values must be compared with the series of the same formulation, even if the previous
+ * series has other values on the same meshes. */
 static void of_its_own_series(void)
 {
     judge_bench b;

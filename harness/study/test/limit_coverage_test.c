@@ -1,5 +1,5 @@
-/* Measures how often the limit of a sequence is within its own uncertainty of the known limit, for
- * families of sequences and under noise. Seeds are fixed. */
+/* Measures how often the known limit of a sequence is within the computed uncertainty of the limit,
+ * for families of sequences and under noise. Seeds are fixed. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_test.h>
@@ -259,12 +259,13 @@ static void coverage_under_noise(void)
 /* The verdict "low order" requires two orders below the minimum and, before them, an order below
  * the nominal one. The three orders must be monotonic (study/verdict.c). In families with a low
  * order, this criterion finds as many series as two orders alone. If terms of opposite sign cancel,
- * it finds most of them, because these cannot be distinguished from an accident. Of all passes of
- * verify with the 0 to 3 finest meshes omitted, two orders alone would give four low orders. Their
- * orders on doubled meshes are: bend_45 force=300 sheet_third_printed u_tangent 0.88 1.71 1.90 1.98
- * 2.04 (512); sheet_wagner wagner=0 sheet_second_consistent C_thy_My 0.98 0.80 1.43 1.82 1.95
- * (512); unsymmetric_column beamw frequency_1, lumped mass, 1.03 1.08 0.48 1.00 1.63 (256), and
- * frequency_2, averaged mass, 1.29 1.19 0.60 1.04 1.64 (256): above the least, 1.5, not yet 2. */
+ * the criterion finds most series, because they cannot be distinguished from an accident. Of all
+ * passes of verify with the 0 to 3 finest meshes omitted, two orders alone would give four low
+ * orders. Their orders on doubled meshes are: bend_45 force=300 sheet_third_printed u_tangent 0.88
+ * 1.71 1.90 1.98 2.04 (512); sheet_wagner wagner=0 sheet_second_consistent C_thy_My 0.98 0.80 1.43
+ * 1.82 1.95 (512); unsymmetric_column beamw frequency_1, lumped mass, 1.03 1.08 0.48 1.00 1.63
+ * (256), and frequency_2, averaged mass, 1.29 1.19 0.60 1.04 1.64 (256): above the least, 1.5, not
+ * yet 2. */
 static void low_orders(void)
 {
     static const coverage_family low[] = {
@@ -360,8 +361,8 @@ static void worked(void)
     gsl_test_abs(of_changes(3, pure, 0).limit_uncertainty, 0, 1e-12, "are of one term");
     gsl_test_rel(of_changes(3, pure, NAN).limit_uncertainty, 1.25 * 0.02 / 3, 1e-6,
                  "2 % of a step is doubted without a measure of noise");
-    /* ratios 5, 4, 4: the limits are -24 - 4/4 = -25, then twice -25.3333; the uncertainty is 1/3
-     * of the former change, reduced by orders 2 + 2 */
+    /* the ratios are 5, 4, 4, and the limits are -24 - 4/4 = -25, then twice -25.3333; the
+     * uncertainty is 1/3 of the former change, reduced by orders 2 + 2 */
     gsl_test_rel(of_changes(4, agreeing_by_accident, 0).limit_uncertainty,
                  1.25 * (1.0 / 3 - 0) / 16, 1e-9,
                  "a change of the limit that is small by accident");

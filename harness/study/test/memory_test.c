@@ -27,7 +27,7 @@ char *__wrap_strdup(const char *text);
 FILE *__wrap_open_memstream(char **text, size_t *size);
 char *__wrap_strndup(const char *text, size_t size);
 
-static long calls, refused_call, live; /* refused_call: number of the call that fails; 0: none */
+static long calls, refused_call, live; /* refused_call is the number of the call that fails, or 0 */
 
 static int refuse(void)
 {

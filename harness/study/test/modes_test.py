@@ -4,8 +4,7 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest
 
-# case, formulation, parameters, quantity, the quantity that has the mode on the coarsest mesh used; meshes: this one,
-# the next one, those of the verdict, one more
+# case, formulation, parameters, quantity, the quantity that has the mode on the coarsest mesh, and the meshes
 CROSSINGS = (
     ("c_column", "beamw:mass=lumped", (), "frequency_12", "frequency_11",
      (8, 16, 32, 64, 128, 256)),

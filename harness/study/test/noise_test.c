@@ -76,7 +76,7 @@ static int change(void *context, const sweep *s, int series_index)
     return 1;
 }
 
-/* If one value is changed, it differs from both repetitions by the change. */
+/* If one value is changed, the value must differ from both repetitions by the change. */
 static void size_of_it(const case_type *type)
 {
     for (int k = 0; k < 2; k++) {

@@ -59,7 +59,8 @@ static void shows(const run *r, int row, int column, const char *ascii, const ch
     overview_free(&o);
 }
 
-/* Each kind of verdict is shown if it is alone, and if the others are less severe, in any order. */
+/* Each kind of verdict must be shown if it occurs alone or if the others are less severe, in any
+ * order. */
 static void the_worst(void)
 {
     static const verdict_kind rising[] = {VERDICT_SKIP,
@@ -316,7 +317,7 @@ static void exit_codes(void)
         }
         judgement none = {0};
         set(&none, at, 1);
-        /* these make the run fail even if there is no verdict */
+        /* breaches and regressions make the run fail even if there is no verdict */
         const int broken =
             at == offsetof(judgement, breaches) || at == offsetof(judgement, regressions);
         gsl_test_int(judgement_exit(&none),
@@ -400,7 +401,7 @@ static void meshes_reached(void)
         for (int i = 0; i < MESHES; i++) {
             t.b.quantity[i].value = truth_value + error[i] * fabs(truth_value);
             error[i] = verdict_error(&t.b.p.scene.quantity[0], t.b.quantity[i].value, truth_value);
-            t.timing[i].as_is.round[0] = uniform(); /* this time must have no effect */
+            t.timing[i].as_is.round[0] = uniform(); /* the measured time must have no effect */
         }
         for (int k = 0; k < REACH_LEVELS; k++) {
             const int right = by_definition(error, reach_level[k]);

@@ -173,8 +173,7 @@ static void round_trips(dice *d)
             unwritten += serialise_write(file, &sent[i]) != 0;
         }
     rewind(file);
-    for (int i = 0; i < CELLS;
-         i++) { /* several cells one after the other, as a worker sends them */
+    for (int i = 0; i < CELLS; i++) { /* several cells in sequence, as a worker sends them */
         cell_result got;
         unread += serialise_read(file, &got) != 0;
         const difference here = compare_cells(&sent[i], &got);

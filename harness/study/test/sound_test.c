@@ -1,6 +1,6 @@
 /* The check of run records. One cell is artificial and consistent, and each of its numbers is
- * changed separately. Others are real, with every kind of analysis and form of Newton's method, and
- * their elements count their own evaluations. */
+ * changed separately. Other cells are real, with every kind of analysis and form of Newton's method
+ * and with elements that count evaluations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -255,8 +255,8 @@ static void sound_tests(void)
     actual("hexapod", 3, "sheet_third", "steps=3", NEWTON_MIXED, 1, 0);
 }
 
-/* Times of the parts of a solution and of the whole come from the same clock. Idle time is included
- * in neither, and no part is missing. */
+/* Times of the parts of a solution and of the whole must come from one clock. The times must not
+ * include idle time, and no part may be missing. */
 
 static const element_type *sleepy_type;
 

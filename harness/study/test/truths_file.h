@@ -158,7 +158,7 @@ static inline void truths_file_refused(const char *path, const char *word, recip
              "%s: %s", what, f.text);
 }
 
-/* Runs every test with the path of its own file. Returns the result of main. */
+/* Runs every test with the path of a separate file. Returns the result of main. */
 static int truths_file_run(int count, void (*const test[])(const char *path))
 {
     char path[] = "/tmp/beamwork-truths-XXXXXX";

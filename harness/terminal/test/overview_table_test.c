@@ -117,14 +117,15 @@ static void new_ones(void)
     free(text);
 }
 
-/* If there are many cases, those that pass share lines. Other cases never do. */
+/* If there are many cases, the cases that pass share lines. Other cases never share lines. */
 static void passing(void)
 {
     static table_bench b;
     make(&b, MOST, 4, "beam");
     b.cell[4 * 7 + 2] = (overview_cell){OVERVIEW_UNDECIDED, 0, 3};
     b.cell[4 * 9 + 1] = (overview_cell){OVERVIEW_BIASED, 1, 2};
-    for (int c = 0; c < 4; c++) /* its passes are not in the sentence about passing cases */
+    for (int c = 0; c < 4;
+         c++) /* passes of this case are not in the sentence about passing cases */
         b.cell[4 * 11 + c] =
             (overview_cell){c == 2 ? OVERVIEW_OTHER_MODEL : OVERVIEW_NOTHING, 0, 1};
     char *text = shown(&b, plain);

@@ -71,7 +71,7 @@ static void balanced(scene_scheme by, double step, double most)
 static const struct {
     double drift, turned, rounding, rho, tolerance;
     scene_scheme by;
-    const char *words; /* words of the message; NULL: the error is allowed */
+    const char *words; /* words of the message, or NULL if the error is allowed */
 } row[] = {
     {0.09, 0, 0, 0.9, 1e-4, SCENE_ALPHA, NULL},
     {0.11, 0, 0, 0.9, 1e-4, SCENE_ALPHA, "more energy than work was done, 1.1 % of 10 J"},

@@ -1,4 +1,4 @@
-"""Combinations of keys of scene files in one structure. Each key alone has separate tests."""
+"""Combinations of keys of scene files in one structure. Each key has separate tests."""
 from cases.format.test.scene_case import SceneCase, values
 
 HEAD = """beamwork: 1

@@ -294,7 +294,7 @@ static double drift(const case_type *type, scene_scheme scheme, double step, dou
     return moving_largest(&a, "drift") / energy;
 }
 
-/* for radau with the shortest step; for conserving with the first two steps */
+/* for radau with the shortest step, and for conserving with the first two steps */
 static const struct {
     const case_type *type;
     double step, end, conserving;
@@ -416,7 +416,8 @@ extern const element_type element_collocation;
 enum { ELEMENTS = 4 };
 
 typedef struct swing {
-    double iterations; /* iterations per step; NAN: the formulation does not support the motion */
+    double
+        iterations; /* iterations per step, or NAN if the formulation does not support the motion */
     long steps;
 } swing;
 

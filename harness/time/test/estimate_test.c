@@ -208,10 +208,10 @@ static void estimate_tests(void)
     explicit_one();
 }
 
-/* Bending rotations have no inertia, but the twist has: the gyroscopic moment of the twist loads
- * them. Rods with an oblique spin start in equilibrium with that moment and are integrated with the
- * order of each integrator. They are the limit of rods whose bending inertia decreases. A restart
- * in equilibrium changes nothing. */
+/* Only the twist has rotary inertia, and its gyroscopic moment acts on the bending rotations. Rods
+ * with an oblique spin start in equilibrium with that moment and are integrated with the order of
+ * each integrator. They are the limit of rods whose bending inertia decreases. A restart in
+ * equilibrium changes nothing. */
 
 extern const element_type element_geometrically_exact;
 
@@ -355,7 +355,7 @@ static void motion_massless_tests(void)
     for (how.joint = 0; how.joint < 2; how.joint++)
         for (int i = 0; i < 2; i++) {
             how.spin = spins[i];
-            if (how.joint) { /* these steps do not resolve the modes of the second rod */
+            if (how.joint) { /* the steps do not resolve the modes of the second rod */
                 agree(SCENE_ALPHA, 0.01, 3e-3);
             } else {
                 converge(SCENE_ALPHA, 0.02, 4);

@@ -8,7 +8,7 @@ from scipy.linalg import expm
 
 from harness.tools.kit.program import ProgramTest, run, values
 
-M1, M2, K = 1.0, 0.5, 100.0  # masses of the cart and of the tool [kg]; stiffness of the bar [N/m]
+M1, M2, K = 1.0, 0.5, 100.0  # masses of the cart and of the tool [kg], and stiffness of the bar [N/m]
 SCENE = """beamwork: 1
 sections:
   bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}

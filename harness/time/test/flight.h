@@ -27,7 +27,8 @@ typedef struct flight {
     carried_masses masses;
     motion_scheme *scheme;
     instant now, next;
-    int most, sum, steps; /* numbers of iterations: largest in a step, sum; number of steps */
+    int most, sum, steps; /* largest number of iterations in a step, sum of the iterations, and
+                             number of steps */
     fault why;
 } flight;
 

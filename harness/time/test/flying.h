@@ -88,7 +88,7 @@ static inline status flying_step(flying *f, double h)
     return outcome;
 }
 
-/* Copies all numbers of an instant, unless `numbers` is NULL. Returns their number. */
+/* Copies all numbers of an instant, unless `numbers` is NULL. Returns the number of numbers. */
 static inline size_t flying_numbers(const flying *f, const instant *at, double *numbers)
 {
     const size_t n = (size_t)model_all_coordinates(f->m), size = at->state->size,

@@ -1,6 +1,6 @@
-/* Fixed rotations of a node: the motion must not depend on whether their rows are kept or
- * eliminated. In both ways, the model must be rejected if two rotations about fixed axes remain
- * free, because they do not determine the orientation of the node. */
+/* Fixed rotations of a node. The motion must not depend on whether their rows are kept or
+ * eliminated. With kept and with eliminated rows, the model must be rejected if two rotations about
+ * fixed axes remain free, because they do not determine the orientation of the node. */
 #include <math.h>
 #include <stdio.h>
 

@@ -115,7 +115,7 @@ static double energy_of(double of, const double beside[3], const double J[9], co
     return (of * vec3_dot(at, at) + vec3_dot(W, JW)) / 2;
 }
 
-/* Computes the velocity of any vertex in its own axes. */
+/* Computes the velocity of any vertex in the axes of the vertex. */
 static void own_rates(const moving_one *o, int vertex, double v[3], double W[3])
 {
     const mesh_vertex *at = model_vertex(o->m, vertex);

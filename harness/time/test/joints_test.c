@@ -185,7 +185,8 @@ static const double bodies_y_axis[] = {0, 1, 0};
 
 static struct {
     double stiffness;
-    int rod; /* 0: one body; 1: two bodies that together equal the one body; 2: bodies at offsets */
+    int rod; /* 0 for one body, 1 for two bodies that together equal the one body, 2 for bodies at
+                offsets */
 } how;
 
 static int profile_of(scene *s, double E, double mass)

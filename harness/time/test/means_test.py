@@ -59,7 +59,7 @@ WINDOWS = {"whole": (0, 2), "part": (0.333, 1.777), "step": (0.5003, 0.5007)}
 SCHEMES = (("radau", 0.01, 1e-7, {}), ("explicit", 0.02, 1e-7, {}),
            ("alpha", 0.005, 6e-4, {"jerk"}), ("conserving", 0.005, 6e-4, {"acceleration", "jerk"}))
 
-# A load jumps on a node that is held: its reaction is -1 N, from 0.3 s on 2 N, and a mass on a spring follows.
+# A load jumps on a node that is held, with the reaction -1 N, or 2 N from 0.3 s on, and a mass on a spring follows.
 JUMP = """beamwork: 1
 sections: {bar: {constants: {A: 1, Iy: 1, Iz: 1, It: 1}, young: 100, shear_modulus: 100}}
 nodes:
@@ -116,7 +116,7 @@ class MeansTest(SceneCase):
         return record, {one["quantity"]: one for one in record["quantities"]}
 
     def test_table(self):
-        """Every integrator, kind, statistic and window; the stated error covers slopes that jump."""
+        """Every integrator, kind, statistic and window. The stated error must cover slopes that jump."""
         for scheme, step, most, none in SCHEMES:
             lines = []
             for kind, (keys, _, passes) in KINDS.items():

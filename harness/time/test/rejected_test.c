@@ -1,6 +1,6 @@
-/* A rejected step must have no effect: it must change no bit of the instant from which it started,
- * nor of the following steps, with inner unknowns, springs, damping and prescribed motions. It must
- * not affect watched quantities, stations and records. */
+/* A rejected step must have no effect. No bit of the instant from which the step started and of the
+ * following steps may change, with inner unknowns, springs, damping and prescribed motions, nor any
+ * watched quantity, station or record. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -31,7 +31,7 @@ static void shake_rods(scene *s, scene_scheme by)
 {
     scenes_read(s, REJECTED_SWUNG, "base=shaken;second=%s;integrator=%s;step=0.02",
                 by == SCENE_EXPLICIT ? "joined" : "slides", scenes_integrator[by]);
-    /* the reader would not accept this body, because no such body exists */
+    /* the reader would not accept this body, which cannot exist */
     scene_set_body(s, scenes_find(s, SCENE_NODES, "tip_free"),
                    (scene_body){0.3, {0, 0.1, 0.1}, {0.1, 0.2, 0.3, 0, 0.01, 0}});
 }
@@ -117,7 +117,8 @@ static void near(int by, const char *what, double found, double expected)
 }
 
 /* Each crossing must be counted once, whatever steps were tried before. Stations are those of the
- * accepted steps: they must agree within `close` [m] with the motion of the tip for short steps. */
+ * accepted steps, which must agree within `close` [m] with the motion of the tip for short
+ * steps. */
 static void pass(int by, double step, double tolerance, double close, const cell_result *exact)
 {
     cell_result r;
@@ -302,7 +303,7 @@ static void launch_there(const char *then, double least, double most)
         gsl_test(flying_step(&f, (0.0205 - f.now.time) / (steps - i)) != STATUS_OK, "step %d: %s",
                  i, f.why.text);
     for (int k = 0; k < model_elements(f.m) * model_strains(f.m); k++)
-        f.now.state->e[k] *= 1 + 1e-9; /* gaps such as iterations leave */
+        f.now.state->e[k] *= 1 + 1e-9; /* gaps such as those that iterations leave */
     kinematics_frame(f.m, f.now.state, 1, r, before);
     double *rates = malloc((size_t)model_unknowns(f.m) * sizeof *rates);
     memcpy(rates, f.now.v, (size_t)model_unknowns(f.m) * sizeof *rates);

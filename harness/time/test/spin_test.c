@@ -19,7 +19,7 @@ enum { STEPS = 30, SPIN_STAGES = 4, ITERATIONS = 40 };
 static const double rate = 3, stretch = 0.02, first[3] = {0.5, 0.2, 0.1}, along[3] = {1, 0, 0};
 
 static struct {
-    double axis[3], turn; /* unit vector; rotation per step [rad] */
+    double axis[3], turn; /* unit vector, and rotation per step [rad] */
     double h;             /* rate = (2/h) tan(turn/2) */
 } present;
 
@@ -228,7 +228,7 @@ static void spin_tests(void)
  * Results must depend neither on the axes nor on the direction of the member. */
 
 static struct {
-    double stiffening, turn[4]; /* turn: axes of the scene, as a quaternion */
+    double stiffening, turn[4]; /* turn is the quaternion of the axes of the scene */
 } how = {1, {1, 0, 0, 0}};
 
 static const double flights_h = 0.05, thrown = 5; /* step size, and end of the loads [s] */

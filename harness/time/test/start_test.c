@@ -176,7 +176,7 @@ static void linked_tests(void)
     }
 }
 
-/* Ends that are released from their nodes have their inertia at their own position, with every
+/* Ends that are released from their nodes have inertia at the position of the end, with every
  * integrator. All integrators must give the same motion and reaction, with errors of second order
  * or smaller. */
 

@@ -158,7 +158,7 @@ static void follow(scene_scheme by, double order, double tolerance)
 }
 
 /* If errors of steps add up, the allowed error of a step is proportional to its size. The total
- * error must be below the tolerance, but not by more than a factor of ten. */
+ * error must be below the tolerance, but by less than a factor of ten. */
 static void share(scene_scheme by, double tolerance)
 {
     cell_result r;

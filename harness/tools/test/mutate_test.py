@@ -120,7 +120,8 @@ class Sample(unittest.TestCase):
 class Touched(unittest.TestCase):
 
     def test_lines_of_commits(self):
-        """For a range of commits, only lines that these commits wrote and that have not changed since are edited."""
+        """For a range of commits, only lines that these commits wrote and that have not changed since must be
+        edited."""
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             commits = []
@@ -146,7 +147,7 @@ class Touched(unittest.TestCase):
 class Equivalent(unittest.TestCase):
 
     def test_each_has_its_place_and_reason(self):
-        """If a line changes, its equivalent faults must be removed from the table."""
+        """If a line changes, the equivalent faults of the line must be removed from the table."""
         made = {}
         for (file, function, line, edit), reason in mutate.equivalent().items():
             if file not in made:

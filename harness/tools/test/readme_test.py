@@ -31,7 +31,7 @@ class Readme(unittest.TestCase):
     def test_paths_exist(self):
         found = 0
         for readme in files(".md"):
-            if readme.match("docs/index.md"):  # generated pages; Sphinx checks them
+            if readme.match("docs/index.md"):  # generated pages, which Sphinx checks
                 continue
             text = readme.read_text(encoding="utf-8")
             if readme.name == "CHANGELOG.md":  # releases name folders of their time
@@ -57,7 +57,8 @@ class Readme(unittest.TestCase):
                 self.assertFalse(below & set(included))
 
 
-# Files that may use the unions. Each file of `quantities` belongs to one kind, and the builder checks the kind first.
+# Files that may use the unions. Each file of `quantities` belongs to a single kind, and the builder checks the kind
+# first.
 THEIRS = (ROOT / "cases" / "scene", ROOT / "cases" / "quantities",
           ROOT / "cases" / "format" / "builder_members.c")
 

@@ -22,8 +22,8 @@ SECONDS = re.compile(r'"seconds_\w+": [^,\n]+')
 
 
 def variables():
-    """Returns the variables of make for the same program as these tests. The file names are the same, because otherwise
-    everything would be linked again while other tests run it."""
+    """Returns the variables of make for the same program as these tests. The file names must not differ, because
+    otherwise everything would be linked again while other tests run the program."""
     given = shlex.split(os.environ.get("MAKEFLAGS", "").partition(" -- ")[2])
     return [f"BUILD={os.path.relpath(BUILD, ROOT)}", *(word for word in given if "=" in word)]
 

@@ -281,7 +281,7 @@ class Processes(ModuleTest):
 
 
 CYCLES = 1000
-BOUND = 300 * CYCLES  # bytes: a third of a leak of 1 kB per cycle
+BOUND = 300 * CYCLES  # bytes, a third of a leak of 1 kB per cycle
 
 
 class Arena(ctypes.Structure):

@@ -202,7 +202,8 @@ class Running(ModuleTest):
         self.one_line(bw.Refused, "--colour", bw.stress, colour="red")
 
     def test_progress(self):
-        """The function receives what the program writes to a terminal; an exception in it is raised afterwards."""
+        """The function receives what the program writes to a terminal. An exception in the function is raised
+        afterwards."""
         program = self.folder / "program"
         program.write_text("#!/bin/sh\n[ -t 2 ] || exit 4\nprintf '\\rcells 3 of 7, 40 %%, about 3 s left: elastica, "
                            "beamw, n = 2\\r   \\r\\rtimes of points 4 of 7, 50 %%: x\\r' >&2\n"
@@ -217,7 +218,7 @@ class Running(ModuleTest):
             self.one_line(bw.Fault, "status 4", bw.stress)
 
     def test_interrupt(self):
-        """Ctrl-C ends the program and raises KeyboardInterrupt; afterwards, other work is possible."""
+        """Ctrl-C must end the program and raise KeyboardInterrupt. Other work must be possible afterwards."""
         timer = threading.Timer(1.5, os.kill, [os.getpid(), signal.SIGINT])
         timer.start()
         begun = time.monotonic()

@@ -1,5 +1,5 @@
-/* A user program in C and C++. It solves a case and a scene, prints the values with all digits and
- * the documents, and misspells a name. */
+/* A user program in C and C++, which solves a case and a scene, prints the values with all digits
+ * and the documents, and misspells a name. */
 #include <beamwork.h>
 #include <stdio.h>
 #include <string.h>
