@@ -1041,7 +1041,7 @@ int scene_add_member(scene *s, int p, int q, int profile,
  * pretension. */
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f);
 /* Returns 1 if the scene has a temperature load or a member with a stress-free elongation or
- * curvature. *who is set to the name of the load or member, unless who is NULL. */
+ * curvature. Writes the name of the load or member to `who`, which may be NULL. */
 int scene_is_free(const scene *s, scene_words *who);
 /* Return 1 if the member is tapered, or if any member of the scene is tapered. */
 int scene_member_tapers(const scene_member *m);
