@@ -1,11 +1,12 @@
 """Tables of results: lists of records, as arrays and as pandas data frames."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy
 
-from . import display
+from . import display, plots
 
 if TYPE_CHECKING:
     import pandas
@@ -39,6 +40,11 @@ class Records(list[dict[str, Any]]):
         found: pandas.DataFrame = pandas.DataFrame.from_records(list(self))
         return found
 
+    def plot(self, x: str, y: str, by: str | Sequence[str] = (), log: bool = False) -> Any:
+        """Returns a matplotlib Figure of column y over column x, with a line for each value of `by`, for example
+        plot("load", "error", by=["formulation", "elements"], log=True). log: sizes on a logarithmic scale."""
+        return plots.records(self, x, y, by, log)
+
     def _repr_html_(self) -> str:
         keys = list(dict.fromkeys(k for record in self for k in record))
         return display.table(keys, ([display.plain(r.get(k)) for k in keys] for r in self))
@@ -67,6 +73,10 @@ class Document(dict[str, Any]):
         if table not in tables:
             raise KeyError(f"no table {table!r}: {', '.join(tables)}")
         return tables[table].frame()
+
+    def plot(self, table: str, x: str, y: str, by: str | Sequence[str] = (), log: bool = False) -> Any:
+        """Returns a matplotlib Figure of a table; see Records.plot."""
+        return self.tables[table].plot(x, y, by, log)
 
     def _repr_html_(self) -> str:
         return "".join(display.folded(f"{name}: {len(table)} records", table._repr_html_())
@@ -100,6 +110,10 @@ class Convergence(Records):
     def __repr__(self) -> str:
         return f"<Convergence, {len(self)} records: {self.sentence}>"
 
+    def plot(self, *quantities: str) -> Any:  # type: ignore[override]
+        """Returns a matplotlib Figure of the errors over the number of elements; without names, of all quantities."""
+        return plots.convergence(self, quantities)
+
     def _repr_html_(self) -> str:
         return display.convergence(self)
 
@@ -128,6 +142,10 @@ class Verdicts(Records):
 
     def __repr__(self) -> str:
         return f"<Verdicts, {display.outcome(self)}>"
+
+    def plot(self) -> Any:  # type: ignore[override]
+        """Returns a matplotlib Figure of the number of each verdict for each formulation."""
+        return plots.verdicts(self)
 
     def _repr_html_(self) -> str:
         return display.verdicts(self)

@@ -8,12 +8,16 @@ import json
 import math
 import types
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy
 
-from . import display
+from . import display, plots
 from .library import Owned, ask, text_of
+from .records import Records
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class Curve(NamedTuple):
@@ -30,6 +34,10 @@ class Shapes(NamedTuple):
     first: numpy.ndarray[Any, Any]
     kinds: list[str]
     values: numpy.ndarray[Any, Any]
+
+    def plot(self, scale: float = 1) -> Any:
+        """Returns a matplotlib Figure of the centre lines. scale: factor of the displacements."""
+        return plots.shapes(self, scale)
 
 
 MOTION = ("time", "step", "iterations", "rejected", "error", "kinetic", "strain", "work",
@@ -211,6 +219,15 @@ class Result:
 
         return [{**m, "compliance": array(m["compliance"]), "stiffness": array(m["stiffness"])}
                 for m in self.document.get("matrices", [])]
+
+    def plot(self, *names: str) -> Any:
+        """Returns a matplotlib Figure of curves of quantities; without names, of all curves."""
+        return plots.result(self, names)
+
+    def frame(self) -> pandas.DataFrame:
+        """Returns a pandas.DataFrame with a row for each value: quantity, value, unit, error, at."""
+        return Records({"quantity": name, "value": value, "unit": self.units[name], "error": self.errors.get(name),
+                        "at": self.at.get(name)} for name, value in self.values.items()).frame()
 
     def close(self) -> None:
         """Releases the memory of the library. Arrays of curves keep their memory."""

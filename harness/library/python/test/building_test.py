@@ -319,5 +319,50 @@ class Tables(ModuleTest):
             self.one_line(ImportError, "pandas", records.frame)
 
 
+@unittest.skipUnless(importlib.util.find_spec("matplotlib"), "needs matplotlib")
+class Drawn(ModuleTest):
+
+    def lines(self, figure, axes=0):
+        """Returns the points of the lines of an axes, after drawing the figure."""
+        figure.savefig(self.folder / "figure.png")
+        self.assertGreater((self.folder / "figure.png").stat().st_size, 1000)
+        return [line.get_xydata() for line in figure.axes[axes].get_lines()]
+
+    def test_result(self):
+        """Curves of paths and motions, and shapes."""
+        result = bw.Scene.case("sheet_cantilever").solve("sheet_third", 1)
+        line, = self.lines(result.plot("C_zz_curve"))
+        self.assertTrue((line == numpy.transpose(result.curve("C_zz_curve"))).all())
+        self.assertEqual(len(result.plot().axes), len(result.curves))
+        moving = swing().solve("beamw", 2, shapes=20)
+        figure = moving.plot("bend")
+        self.lines(figure)
+        self.assertEqual([figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()], ["time [s]", "bend [m]"])
+        self.assertGreater(len(self.lines(moving.shapes.plot(scale=2))), 10)
+        self.one_line(ValueError, "no curve", leaf().solve("beamw", 2).plot)
+
+    def test_tables(self):
+        convergence = bw.Scene.case("elastica").converge("beamw", "collocation", meshes=[1, 2])
+        figure = convergence.plot("w_over_L")
+        errors = [abs(r["error"]) for r in convergence.where(formulation="beamw", quantity="w_over_L")]
+        self.assertEqual(list(self.lines(figure)[0][:, 1]), errors)
+        self.assertEqual(len(convergence.plot().axes), 3)
+        self.lines(bw.verify("collocation", select="elastica/default").plot())
+        records = bw.Records([{"load": 1, "error": -0.1, "f": "a"}, {"load": 2, "error": 0.2, "f": "a"},
+                              {"load": 2, "error": None, "f": "b"}])
+        line, = self.lines(records.plot("load", "error", by="f", log=True))
+        self.assertEqual(line.tolist(), [[1, 0.1], [2, 0.2]])
+        self.one_line(KeyError, "no column 'g'", records.plot, "load", "error", "g")
+        self.assertEqual(len(self.lines(bw.Document({"t": list(records)}).plot("t", "load", "error"))), 1)
+
+    @unittest.skipUnless(importlib.util.find_spec("pandas"), "needs pandas")
+    def test_frames(self):
+        result = swing().solve("beamw", 2)
+        frame = result.frame().set_index("quantity")
+        self.assertEqual(frame["value"]["ahead"], result["ahead"])
+        self.assertEqual(frame["at"]["ahead"], result.at["ahead"])
+        self.assertEqual(bw.schema().frame("records").shape[0], len(bw.schema()["records"]))
+
+
 if __name__ == "__main__":
     unittest.main()
