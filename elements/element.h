@@ -364,6 +364,7 @@ static inline int element_memory(const element_type *t, const double options[])
     return t->memory ? t->memory(options) : 0;
 }
 
+/* Returns the number of values of the history of an element; 0: there is no history. */
 static inline int element_history(const element_type *t, const double options[])
 {
     if (t->history)
