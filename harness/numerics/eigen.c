@@ -149,7 +149,8 @@ static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, e
 }
 
 /* Removes values that are rounding errors of A. If a value is a rounding error, all smaller values
- * are. The largest value is tested, and all values that are small compared with it. */
+ * are also rounding errors. Tests the largest value, and all values that are small compared with
+ * it. */
 static void drop_rounding(candidates *p, eigen_side *out)
 {
     const double suspect = 1e-6; /* fraction of the largest value */

@@ -261,7 +261,7 @@ static int exhausted(const scene *s, const runner *r)
 
 /* Estimates the remaining change if the order is below one. The remaining change then exceeds the
  * last change c. It is estimated as c (q + q^2 + ...), where q is the ratio of the last change to
- * the former change. */
+ * the previous change. */
 static void expect_more(const scene *s, runner *r)
 {
     /* smallest relative change that gives an order, and largest multiple of the last change */
