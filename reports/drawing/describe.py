@@ -1,7 +1,7 @@
 """Describes the contents of a drawing: supports, motions, loads, springs and sections."""
 import numpy as np
 
-from reports.drawing import geometry, loads
+from reports.drawing import geometry, joints, loads
 from reports.drawing.canvas import length, number, vector
 from reports.drawing.members import ends_that_warp, held_of, spring_words
 
@@ -88,6 +88,16 @@ def section(name, said):
     return f"{name}: {'; '.join([shape(said)] + material)}"
 
 
+def offsets(member):
+    """Describes the offsets of the ends of a member."""
+    return [f"{member.name} at {node}: {place(offset)} m from it"
+            for node, offset in zip(member.ends, member.offset) if offset.any()]
+
+
+def constraint(one):
+    return joints.words_of(one) + (f" ({', '.join(one.nodes)})" if one.kind != "ratio" else "")
+
+
 def mass(node):
     return f"{node.name}: {number(node.mass)} kg, {place(node.centre)} m from it"
 
@@ -126,6 +136,8 @@ def describe(scene):
              ("Axes turn with", turning),
              ("Loads", [load(one) for one in scene.loads]),
              ("Springs", [spring(one) for one in scene.springs]),
+             ("Offset ends", [line for m in scene.members.values() for line in offsets(m)]),
+             ("Constraints", [constraint(one) for one in scene.constraints]),
              ("Masses", [mass(n) for n in scene.nodes.values() if n.mass]),
              ("Sections", [section(*s) for s in scene.sections.items()]))
     return [(heading, shortened(lines)) for heading, lines in kinds if any(lines)]

@@ -3,7 +3,7 @@ import itertools
 
 import numpy as np
 
-from reports.drawing import geometry, loads, members
+from reports.drawing import geometry, joints, loads, members
 from reports.drawing.canvas import Canvas, INK, SOFT, STEEL, length
 
 # Main dimensions of a structure, and its axes.
@@ -246,6 +246,8 @@ def compose(scene):
     for name, member in scene.members.items():
         members.put_member(canvas, look, scene, member, lines[name])
         members.put_hinges(canvas, look, member, lines[name])
+    joints.put_offsets(canvas, look, scene)
+    joints.put_constraints(canvas, look, scene)
     members.put_warping(canvas, look, scene, lines)
     members.put_springs(canvas, look, scene)
     members.put_masses(canvas, look, scene)

@@ -46,8 +46,8 @@ def arc_length(k, distance):
 
 
 def line_of(scene, member):
-    """Returns the axis of a member between its nodes."""
-    p, q = (scene.nodes[name].position for name in member.ends)
+    """Returns the axis of a member between its ends, which may be offset from its nodes."""
+    p, q = (scene.nodes[name].position + offset for name, offset in zip(member.ends, member.offset))
     B = triad(q - p, member.y)
     k = member.curvature
     if not k.any():

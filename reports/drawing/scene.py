@@ -41,6 +41,7 @@ class Member:
     curvature: np.ndarray
     released: tuple
     warping: tuple = ("", "")
+    offset: np.ndarray = field(default_factory=lambda: np.zeros((2, 3)))  # from the nodes to the ends of the member [m]
 
 
 @dataclass
@@ -80,6 +81,18 @@ class Spring:
 
 
 @dataclass
+class Constraint:
+    """A condition between components of nodes: a diaphragm (`master` and `normal`), equal components, or a ratio. The first
+    of `nodes` is the master, or the node with the ratio."""
+    name: str
+    kind: str
+    nodes: tuple
+    components: tuple = ()
+    ratio: str = ""
+    normal: str = ""
+
+
+@dataclass
 class Spin:
     """Rotating axes. `omega` is the angular velocity [rad/s] at the end of the path, and `centre` is a point of the axis
     [m]."""
@@ -96,6 +109,7 @@ class Scene:
     members: dict
     loads: list
     springs: list
+    constraints: list
     motions: dict  # name -> (smallest, largest value), () for a function of time, or None if unknown
     spin: Spin = None
     asked: set = field(default_factory=set)  # nodes at which quantities are defined
@@ -135,7 +149,16 @@ def read_member(name, said):
     return Member(name, (said["from"], said["to"]), both, numbers(said["y"]),
                   numbers(said.get("curvature", (0, 0, 0))),
                   (tuple(release.get("from", ())), tuple(release.get("to", ()))),
-                  tuple("shared" if isinstance(word, dict) else word for word in warping))
+                  tuple("shared" if isinstance(word, dict) else word for word in warping),
+                  np.array([numbers(said.get("offset", {}).get(end, (0, 0, 0))) for end in ("from", "to")]))
+
+
+def read_constraint(name, said):
+    if "diaphragm" in said:
+        return Constraint(name, "diaphragm", (said["master"], *said["diaphragm"]), normal=said["normal"])
+    if "equal" in said:
+        return Constraint(name, "equal", tuple(said["equal"]), tuple(said["components"]))
+    return Constraint(name, "ratio", (said["node"], said["of"]), (said["component"],), said["ratio"])
 
 
 IN_TIME = ("time", "pieces", "table")  # keys that make a motion a function of time
@@ -210,6 +233,6 @@ def read(text):
 
     return Scene(said["name"], said["sections"], all_of("nodes", read_node),
                  all_of("members", read_member), [load for load in all_of("loads", read_load).values() if load],
-                 list(all_of("springs", read_spring).values()),
+                 list(all_of("springs", read_spring).values()), list(all_of("constraints", read_constraint).values()),
                  all_of("motions", lambda _, what: read_motion(what)), read_spin(said["analyses"]),
                  nodes_asked(said), tuple(words_of(said.get("omit", ()))))

@@ -60,12 +60,23 @@ class Drawings(unittest.TestCase):
             marks = [a.get_gid() for a in figure.findobj() if a.get_gid()]
             wanted = [load.name for load in one.loads] + [s.name for s in one.springs]
             wanted += [f"support_{n.name}" for n in members.supported(one)]
+            wanted += [f"constraint_{c.name}" for c in one.constraints]
+            wanted += [f"offset_{m.name}_{end}" for m in one.members.values() for end in (0, 1) if m.offset[end].any()]
             wanted += ["spin"] if one.spin is not None and one.spin.omega.any() else []
             for mark in wanted:
                 self.assertEqual(marks.count(mark), 1, f"{name}: {mark}")
             moved = [n.name for n in one.nodes.values() for _ in loads.motions_of(one, n)]
             self.assertEqual(len([m for m in marks if m.startswith("motion_")]), len(moved), name)
             plt.close(figure)
+
+    def test_offsets_and_constraints(self):
+        one = self.scenes["composite_beam"]
+        line = geometry.line_of(one, one.members["upper"])
+        np.testing.assert_allclose(line.points, [[0, 0.01, 0], [2, 0.01, 0]])
+        self.assertEqual(dict(describe.describe(one))["Offset ends"][1], "upper at end: (0, 0.01, 0) m from it")
+        said = [line for name in ("eccentric_storey", "geared_shafts") for line in dict(describe.describe(self.scenes[name]))["Constraints"]]
+        self.assertEqual(said, ["floor: rigid in its plane (middle, a, b, c, d)", "gear: rz of wheel_2 = -2 rz of wheel_1",
+                                "coupled: rz equal (wheel_2, clutch)"])
 
     def test_loads_on_parts_of_members(self):
         """Arrows are only on the loaded part and are longer where the load is larger. A load at a position has one arrow."""
