@@ -92,7 +92,7 @@ status beamw_spread_inertia(const beamw_spread *, const node_state x[2],
 /* Mass along a two-node element in transient analysis: inertia forces and their derivatives. The
  * masses follow the displacements defined above, but the warping mass is at the nodes. Without
  * rotary inertia, the twist is linear between the nodes. If the nodes move as a rigid body, all
- * masses do. */
+ * masses move as part of this body. */
 
 /* Adds M, taken, C and K at the rate in `out` to `out`. Only the upper half of M is set. The second
  * function is for processors with AVX2 and gives bit-for-bit identical results

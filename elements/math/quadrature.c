@@ -6,7 +6,7 @@
 #include <pthread.h>
 
 /* Tables of points and weights, which are read-only after creation. GSL stores some tables with
- * full precision and computes others. */
+ * full precision and computes the other tables. */
 static gsl_integration_glfixed_table *tables[QUADRATURE_MAX_POINTS + 1];
 static pthread_once_t prepared = PTHREAD_ONCE_INIT;
 

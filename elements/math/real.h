@@ -104,7 +104,7 @@ static inline void real_deny(real_truth *t, int lane)
 {
     (*t)[lane] = 0;
 }
-/* Returns a in the lanes where the condition is true, and b in the others. */
+/* Returns a in the lanes where the condition is true, and b in the other lanes. */
 static inline real real_choose(real_truth t, real a, real b)
 {
     return (real)((t & (real_truth)a) | (~t & (real_truth)b));

@@ -6,7 +6,7 @@
 
 #define PI 3.14159265358979323846
 
-/* Returns the larger of two numbers. Unlike fmax, returns NAN if one of them is NAN. */
+/* Returns the larger of two numbers. Unlike fmax, returns NAN if either number is NAN. */
 static inline double larger(double a, double b)
 {
     return a >= b || isnan(a) ? a : b;

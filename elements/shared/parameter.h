@@ -18,7 +18,7 @@ typedef struct parameter_type {
 } parameter_type;
 
 /* Largest number of consecutive tables. Several tables allow common entries to be defined once. If
- * there are fewer, NULL follows the last table. */
+ * there are fewer tables, NULL follows the last table. */
 enum { PARAMETER_PARTS = 5 };
 
 /* Returns the number of entries of all tables. */

@@ -15,7 +15,7 @@ double random_number(uint64_t *seed);
 /* Returns an integer from 0 to count - 1. */
 int random_below(uint64_t *seed, int count);
 
-/* Returns the larger of two errors, or NaN if one of them is NaN, which fmax would ignore. */
+/* Returns the larger of two errors, or NaN if either error is NaN, which fmax would ignore. */
 static inline double worst_of(double a, double b)
 {
     return isnan(a) || a > b ? a : b;

@@ -20,7 +20,7 @@
 
 enum { MANY = 11, S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES, INNER = 24 };
 
-/* All outputs of one element, and which of them are requested. */
+/* All outputs of one element, and a mask of the requested outputs. */
 typedef struct answers {
     double e[S], J[S * X], H[X * X], energy, sigma[S], C[S * S], residual, memory[INNER * S];
     status outcome;

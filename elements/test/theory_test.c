@@ -154,7 +154,7 @@ static void theory_tests(void)
 }
 
 /* Elimination inside a collocation element must need no row exchange for suitable matrices, and
- * must be correct for all others. */
+ * must be correct for all other matrices. */
 
 extern const element_type element_collocation;
 

@@ -242,9 +242,9 @@ static void wagner_tests(void)
     ring();
 }
 
-/* Stresses at the points of sections. Their integrals over the walls must equal the resultants. In
- * torsion of a rectangle, they must have the coefficients published by Timoshenko (Theory of
- * Elasticity, 1970, section 109). */
+/* Stresses at the points of sections. The integrals of the stresses over the walls must equal the
+ * resultants. In torsion of a rectangle, the stresses must have the coefficients published by
+ * Timoshenko (Theory of Elasticity, 1970, section 109). */
 
 static stress_points points_of(const section_spec *spec, const section *c)
 {
