@@ -23,7 +23,7 @@ def texts(case):
 
 
 def value(text):
-    """Converts text to a number, which is an int if it is whole, or returns the text if it is a word."""
+    """Converts text to an integer or a number, or returns the text if it is a word."""
     try:
         return float(text) if not text.lstrip("-").isdigit() else int(text)
     except ValueError:

@@ -24,7 +24,7 @@ from reference.derive.predicted_rows import (  # noqa: E402
     differences, exact_values, row_of, write)
 
 # Relative uncertainties of values from beams and from closed forms. For sheets, the uncertainty is that of the exact
-# value. predicted_test.py verifies all of them.
+# value. predicted_test.py verifies all uncertainties.
 RELATIVE, CLOSED = 1e-9, 1e-12
 # A value within this number of uncertainties of the exact value is not a prediction. The number is one if the stated
 # uncertainty is hundreds of times the change due to other intervals and nodes, otherwise ten.

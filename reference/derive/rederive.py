@@ -61,7 +61,7 @@ def is_solid(name):
 
 def kind_of(name):
     """Returns the kind of the rows of a program: its KIND or, by default, `independent` for solids and `exact` for
-    others."""
+    other programs."""
     module = importlib.import_module(f"reference.derive.{name}")
     return getattr(module, "KIND", "independent" if is_solid(name) else "exact")
 

@@ -38,7 +38,7 @@ def _constants():
 def rates(t):
     """Returns the body rates [rad/s] at t [s]."""
     (a1, a2, a3), p, m = _constants()
-    # J2 w2' = (J3 - J1) w3 w1 > 0 while w1, w3 > 0: sn increases, as it does here
+    # w2 increases while w1 and w3 are positive, because J2 w2' = (J3 - J1) w3 w1 > 0, and so does sn u
     u = p * t + ellipf(atan2(START[1] / a2, START[0] / a1), m)
     return (a1 * ellipfun("cn", u, m=m), a2 * ellipfun("sn", u, m=m), a3 * ellipfun("dn", u, m=m))
 

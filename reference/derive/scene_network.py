@@ -427,7 +427,8 @@ def whole(piece, members):
 
 
 def cut(scene):
-    """Returns an equivalent scene whose loads act on whole members. Returns the scene itself if its loads already do."""
+    """Returns an equivalent scene whose loads act on whole members, or the scene itself if all loads already act on
+    whole members."""
     loads = scene.get("loads", {})
     if not any(key in entry for entry in loads.values() for key in OF_PART):
         return scene

@@ -203,8 +203,8 @@ def strains(q):
 
 
 def against_sheet():
-    """Returns the differences of e1 .. e6 of N with shear from those derived here, for u = 0. Returns the differences
-    with u, which are due to the factor l/l0 in the shear strain."""
+    """Returns the differences of e1 .. e6 of N with shear from the strains derived in this script for u = 0, and
+    the differences with u, which are due to the factor l/l0 in the shear strain."""
     Phi = (Q(7, 5), Q(3, 8))
     inner, outer = [], []
     for q in directions():
@@ -215,7 +215,7 @@ def against_sheet():
         theirs = nijenhuis(q, Phi)
         gap = [s.c[2] + o - n for s, o, n in zip(screw(q), ours, theirs)]
         (inner if q["u"] == 0 else outer).append((q, gap, [q["u"] * (a - b) for a, b in zip(h, hg)]))
-    # the shear strains derived here have the factor 1 + u/L; those of N do not
+    # the shear strains derived in this script have the factor 1 + u/L, unlike those of N
     stretched = [[x - y for x, y in zip(gap, (0, 0, -g[1], g[1], g[0], -g[0]))] for _, gap, g in outer]
     return [gap for _, gap, _ in inner], stretched
 

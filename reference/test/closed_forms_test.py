@@ -43,7 +43,7 @@ class Sections(unittest.TestCase):
 class Torsion(unittest.TestCase):
 
     def test_rectangles(self):
-        """The constant must agree with the series in which tanh x = 1 - 2/(exp 2x + 1). The sum of the ones is 31/32
+        """The constant must agree with the series in which tanh x = 1 - 2/(exp 2x + 1). The terms 1 have the sum 31/32
         zeta(5), and the other terms decrease rapidly."""
         for w, t in ((1, 1), (2, 1), (mpf("0.05"), mpf("0.0005"))):
             rest = sum(mpf(2) / n ** 5 / (exp(n * pi * w / t) + 1) for n in range(1, 40, 2))

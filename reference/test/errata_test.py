@@ -193,7 +193,7 @@ class Modified(unittest.TestCase):
         return (2 * e3 ** 2 + e3 * e4 + 2 * e4 ** 2) / 30
 
     def test_eccentric_shear_centre(self):
-        """The exact integral has a closed form for any shear and twist. J Eq. 66 includes neither."""
+        """The exact integral has a closed form for any shear and twist. J Eq. 66 includes neither shear nor twist."""
         ys, e = 0.7, {2: 0.6, 3: 0.8, 4: -0.5, 7: 0.4, 8: -0.3}
         for Phi in (0.0, 2.0):
             tw = (e[2] - (e[7] + e[8]) / 2) / (1 + Phi)

@@ -20,7 +20,7 @@ from reference.derive.predicted_column import compression, critical, pinned_squa
 
 
 def planar(name, GA):
-    """Returns the network of shear_elastica. Its level is the fraction of the load."""
+    """Returns the network of shear_elastica, whose level is the fraction of the load."""
     beam = Printed(Beam(1.0, EA=1e9, EIy=10.0, EIz=10.0, GJ=10.0, fy=1 / GA, fz=1 / GA), name)
     net = Network(1.0, 10.0, intervals=6)
     root = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0)))

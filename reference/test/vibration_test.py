@@ -133,8 +133,8 @@ class TransferMatrices(unittest.TestCase):
             self.assertLess(abs(got / value - 1), 1e-25)
 
     def test_pinned_timoshenko_beam(self):
-        """For k = pi/L, the frequencies satisfy (rho I o^2 - S - EI k^2)(rho A o^2 - S k^2) = S^2 k^2, here with rho A =
-        rho I = EI = S = L = 1."""
+        """For k = pi/L, the frequencies satisfy (rho I o^2 - S - EI k^2)(rho A o^2 - S k^2) = S^2 k^2, in this test
+        with rho A = rho I = EI = S = L = 1."""
         k2 = pi ** 2
         b = 1 + 2 * k2
         values = [sqrt((b - s * sqrt(b ** 2 - 4 * k2 ** 2)) / 2) for s in (1, -1)]
