@@ -36,7 +36,7 @@ class Way:
     error: float  # largest error of the requested quantities on the mesh
     worst: object  # data.Verdict: the worst verdict on the requested quantities
     defects: list  # the verdicts other than pass
-    priced: bool = True  # True if the formulation has separate cost coefficients, False for the general ones
+    priced: bool = True  # True if the formulation has separate cost coefficients, False for general ones
     unranked: str = ""  # reason why the formulation has no rank and therefore no cost
 
     @property

@@ -31,7 +31,8 @@ def points_of(points, measure):
 
 
 def read(path):
-    """Reads the results of `beamwork element-test`, with the parts of each formulation. Returns None if there are none."""
+    """Reads the results of `beamwork element-test`, with the parts of each formulation. Returns None if there are no
+    results."""
     record = experiments.read(path, "element-test")
     if record is None:
         return None

@@ -13,8 +13,8 @@ from reports.verdicts import OWN_LIMITS
 
 
 def peers_figure(site, ours, others, name):
-    """Draws errors against unknowns and time for formulations of beamwork and for other programs, which were run
-    elsewhere. `ours` is [(key, meshes)], and `others` is {program: [data.Mesh]}."""
+    """Draws errors against unknowns and time for formulations of beamwork, `ours` [(key, meshes)], and for other
+    programs, `others` {program: [data.Mesh]}."""
     chart = Chart(2, (470, 260))
     labels = ("unknowns", "time of the solution [ms]; open marks: measured elsewhere")
     for quantity in ("C_xx", "C_zz"):
@@ -311,7 +311,7 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_papers, site)]
 
 
-# The papers compared with the values measured here, figure by figure (reference/papers.csv) and equation by equation
+# The papers compared with the measured values, figure by figure (reference/papers.csv) and equation by equation
 # (reference/equations.csv).
 
 TABLE = ROOT / "reference" / "papers.csv"

@@ -144,7 +144,7 @@ def read_points(group, meshes, units, noise):
             series[of_series(row)].other = row["not_modelled"]
     for (point, key, _), mesh in sorted(meshes.items()):
         series[point, key].meshes.append(mesh)
-        if series[point, key].other:  # drawn together with the others, but never ranked
+        if series[point, key].other:  # drawn together with the other series, but never ranked
             mesh.errors.update(mesh.model_errors)
     for row in rows(group, "verdicts"):
         series[of_series(row)].verdicts.append(read_verdict(row))

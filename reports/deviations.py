@@ -80,7 +80,7 @@ def line(rule, rows, titles):
 
 
 def unexplained(rows):
-    """Returns [((formulation, verdict), number)] of verdicts that differ from the expected ones."""
+    """Returns [((formulation, verdict), number)] of verdicts that differ from the expected verdicts."""
     found = {}
     for r in rows:
         if not r.verdict.as_expected and r.standing == verdicts.OWN:

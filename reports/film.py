@@ -99,7 +99,7 @@ def page(path, wanted=None):
 
 
 def write(text, path):
-    """Writes the file completely or not at all."""
+    """Writes the file completely, or leaves it unchanged after an error."""
     part = f"{path}.part"
     try:
         with open(part, "w", encoding="utf-8") as out:

@@ -20,7 +20,7 @@ def present(site):
 
 @functools.lru_cache(maxsize=4)
 def terms(truths):
-    """Returns [{term, also, group, meaning, see}] in the order of the file, or [] if there is none."""
+    """Returns [{term, also, group, meaning, see}] in the order of the file, or [] if the file has no glossary."""
     return data.read_glossary(truths)
 
 

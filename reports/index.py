@@ -175,7 +175,8 @@ def of_trust(cases, rows):
 
 
 def of_truths(cases):
-    """Returns the number of reference values in verdicts, their kinds and their uncertainties, or None if there are none."""
+    """Returns the number of reference values in verdicts, their kinds and their uncertainties, or None without
+    reference values."""
     known = {}
     for row in verdicts.rows(cases):
         v = row.verdict

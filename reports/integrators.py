@@ -323,7 +323,7 @@ def series(problem, scheme):
 
 
 def doubt(problem, way):
-    """Returns the reason why the error of a run may be wrong, or an empty string if there is none."""
+    """Returns the reason why the error of a run may be wrong, or an empty string."""
     ladder = problem.ladder(way.scheme)
     if ladder is not None and ladder.verdict == "low order":
         return f"its error falls with order {ladder.order:.1f}, not {ladder.nominal:g}"

@@ -58,7 +58,7 @@ class Motion:
         return np.stack([self.columns[name] for name in MOMENTA[which]], axis=1)
 
     def stays(self, which):
-        """Returns the largest relative change of a momentum, or NaN if there is none."""
+        """Returns the largest relative change of a momentum, or NaN if the momentum is zero."""
         found = self.momentum(which)
         size = np.linalg.norm(found, axis=1).max()
         change = np.linalg.norm(found - found[0], axis=1).max()
@@ -193,7 +193,8 @@ def whenever(meaning):
 
 
 def spread(motions):
-    """Compares the first motion with those of other formulations. Returns an empty string if there are none."""
+    """Compares the first motion with those of other formulations. Returns an empty string if there is no other
+    motion."""
     if len(motions) < 2:
         return ""
     drifts = [float(np.abs(m.drift).max()) for m in motions]

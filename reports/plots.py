@@ -103,8 +103,8 @@ def leading(point, quantity):
 
 
 def telling(point, quantities):
-    """Returns the first of these quantities for which most formulations differ from the reference value on their coarsest
-    mesh, or the first quantity if there is none."""
+    """Returns the first of these quantities for which most formulations differ from the reference value on their
+    coarsest mesh. Returns the first quantity if no quantity meets this condition."""
     def tells(quantity):
         least = max(digits_of(point, quantity) or 0, NEARLY)
         first = [pairs[0][1] for pairs in (finite(s, quantity) for s in point.series) if pairs]
@@ -198,7 +198,8 @@ SMALL = (250, 150)  # size of the axes of one of many panels [pixels]
 
 def errors_figure(site, point, quantity, shown, abscissae, name, told=True):
     """Draws the error of one quantity against elements, time, unknowns or work, with a panel for each of the given
-    abscissae. Returns None if there is no error. If `told` is True, the markers have tooltips with their values."""
+    abscissae. Returns None if no series has an error. If `told` is True, the markers have tooltips with their
+    values."""
     if not any(finite(s, quantity) for s in [*shown, *point.others]):
         return None
     chart = Chart(len(abscissae), ONE if len(abscissae) == 1 else TWO)
@@ -276,7 +277,8 @@ def small_multiples(site, point, quantities, name, errors="errors", ylabel="rela
 
 def curves(site, point, quantity, name):
     """Draws the curve of every formulation on its finest mesh, at most MOST_CURVES. Curves over frequency have
-    logarithmic frequencies, as in a Bode plot. Their values are logarithmic if all values are amplitudes."""
+    logarithmic frequencies, as in a Bode plot. The values of such curves are logarithmic if all values are
+    amplitudes."""
     found = [(s, [m for m in s.meshes if quantity in m.curves and len(m.curves[quantity][0])])
              for s in point.series]
     found = sorted((f for f in found if f[1]),

@@ -107,7 +107,8 @@ def weights(found, key=None):
 
 
 def paid(problem, keys, level, count, forbids=defect):
-    """Returns {formulation: cost of the mesh that solves the problem}. The cost is infinite if no mesh does."""
+    """Returns {formulation: cost of the mesh that solves the problem}. The cost is infinite if no mesh solves the
+    problem."""
     meshes = {key: solved(problem, key, level, forbids) for key in keys}
     return {key: COUNTS[count](m) if m else math.inf for key, m in meshes.items()}
 

@@ -52,7 +52,7 @@ class Mesh:
     dense: Dense = None
     predictions: dict = field(default_factory=dict)  # quantity -> value of an analytic model
     cost: float = math.nan  # cost of counted work, with the cost coefficients of the reference machine [s]
-    priced: bool = True  # True if the formulation has separate cost coefficients, False for the general ones
+    priced: bool = True  # True if the formulation has separate cost coefficients, False for general ones
 
     @property
     def seconds(self):

@@ -122,8 +122,8 @@ NAMED = ("not converged", "singular", "refused", "no value")
 
 
 def read(path):
-    """Reads the results of `beamwork stress`, each extreme with its values of x and its quantities. Returns None if there
-    are none."""
+    """Reads the results of `beamwork stress`, each extreme with its values of x and its quantities. Returns None if
+    there are no results."""
     record = experiments.read(path, "stress")
     if record is None:
         return None

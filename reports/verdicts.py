@@ -161,7 +161,7 @@ def rows(cases):
 
 
 def counts(found):
-    """Returns {verdict: number} of the counted verdicts, and {standing: number} of the others."""
+    """Returns {verdict: number} of the counted verdicts, and {standing: number} of the other verdicts."""
     by_verdict, left_out = {}, {}
     for row in found:
         own = row.standing == OWN

@@ -52,8 +52,8 @@ static scene_load at_centre(const scene_load *what)
     return out;
 }
 
-/* Adds gravity for each member with a density and each body with a mass. An error that several of
- * them have is reported only once. */
+/* Adds gravity for each member with a density and each body with a mass. An error that occurs in
+ * several entries is reported only once. */
 static void weigh_all(const fields *f, scene_load *what)
 {
     const scene *s = f->b->scene;

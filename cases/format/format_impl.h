@@ -277,8 +277,8 @@ int keys_check(const document_node *root, mistakes *m);
 
 typedef struct document_packed {
     int kind, line, column, inset; /* values of document_node */
-    /* Position of a string among all strings. List: first entry, which the others follow. Map:
-     * first key, which the other keys and then the entries follow. */
+    /* Position of a string among all strings. List: first entry, which the other entries follow.
+     * Map: first key, which the other keys and then the entries follow. */
     int first;
     int count;
 } document_packed;

@@ -261,8 +261,8 @@ static int named_value(const scene_file *file, const fields *f, const document_n
     return index;
 }
 
-/* Sets the parameters in `point` to the values that the reference value names. Returns 1 if they
- * already had these values. */
+/* Sets the parameters in `point` to the values that the reference value names. Returns 1 if the
+ * parameters already had these values. */
 static int visit_point(const scene_file *file, const fields *f, double point[])
 {
     const document_node *those = document_find(f->map, "parameters");

@@ -267,7 +267,7 @@ static FILE *open_beside(const char *beside, const char *name, arena *a)
     return line_open(path);
 }
 
-/* Opens the file that a map names. Returns NULL if there is none or after an error. */
+/* Opens the file that a map names. Returns NULL after an error or if the map names no file. */
 static FILE *open_file(table_file *t, const char *beside)
 {
     const document_node *file = t->place;

@@ -186,7 +186,7 @@ int choose_holds(const document_node *conditions, const scope *names, mistakes *
     return holds;
 }
 
-/* Returns the entry of the matching key or of `else`. Returns NULL if there is none or after an
+/* Returns the entry of the matching key or of `else`, or NULL if there is no such entry or after an
  * error. */
 static const document_node *entry_of(const scope *known, const document_node *map,
                                      const scope *names, mistakes *m)

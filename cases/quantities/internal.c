@@ -5,7 +5,7 @@ static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     {"member", ENTRY_NAME, .needed = 1, .summary = "name of a member",
      ENTRY_IN(scene_quantity, what.of.internal.member), .of = SCENE_MEMBERS},
-    /* must precede `end`, which is also a position */
+    /* must precede `end`, because `end` is also a position */
     {"where", ENTRY_NUMBER, .needed = 1, .group = 2,
      .summary = "position in the member, from 0 at its start to 1 at its end",
      ENTRY_IN(scene_quantity, what.of.internal.place), .most = 1,

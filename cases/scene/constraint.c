@@ -84,8 +84,8 @@ static status refuse(const scene *s, int constraint, int node, int component, co
                      scene_called(s, SCENE_NODES, node).text, why);
 }
 
-/* Returns 1 if all rotations of the node are free and the constraint couples all three of them with
- * ratio 1. */
+/* Returns 1 if all rotations of the node are free and the constraint couples all three rotations
+ * with ratio 1. */
 static int turns_together(const scene_node *n, const scene_constraint *c)
 {
     return n->rotation == SCENE_ROTATION_SPATIAL && n->angle[0] == SCENE_FREE &&

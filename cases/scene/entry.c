@@ -6,8 +6,8 @@
 
 #include "elements/shared/choice.h"
 
-/* Returns 1 if the map is the one of its group that the entry has, or if the key is not a map of a
- * group. */
+/* Returns 1 if the key is not a map of a group, or if it is the map of its group that the entry
+ * has. */
 static int entry_stands(const entry_field *, const void *entry);
 
 /* Returns the member of the entry that the key sets. */

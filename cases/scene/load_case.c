@@ -182,7 +182,7 @@ status scene_validate_acting(const scene *s, int i, fault *f)
 
 status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
 {
-    if (q->what.kind == SCENE_ENVELOPE_OF) /* its quantities specify the load case */
+    if (q->what.kind == SCENE_ENVELOPE_OF) /* specified by the quantities of the envelope */
         return STATUS_OK;
     const int all = scene_solves_all(s, q->analysis),
               says = q->envelope != SCENE_ENVELOPE_NONE || scene_acting_number(s, q->acting) > 0;

@@ -249,8 +249,8 @@ typedef struct expression_mistake {
 typedef int expression_name(const void *names, const char *text, int *at, double *out,
                             expression_mistake *);
 
-/* Returns the length of the name at the start of the text, or 0 if there is none. A name consists
- * of letters, digits and underscores and does not start with a digit. */
+/* Returns the length of the name at the start of the text, or 0 if the text does not start with a
+ * name. A name consists of letters, digits and underscores and does not start with a digit. */
 size_t expression_name_length(const char *text);
 /* Returns the name of function or constant number i, or NULL after the last. */
 const char *expression_word(int i);
@@ -1066,7 +1066,7 @@ double scene_table_work(const scene_table *, double from, double to);
 void scene_release_end(scene *s, int member, int end, int component);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
 /* Adds a constraint without nodes. All nodes that are added to the constraint follow the first
- * one. */
+ * node. */
 int scene_add_constraint(scene *s, unsigned components, double ratio);
 void scene_constrain(scene *s, int constraint, int node);
 /* Adds a diaphragm, to which scene_constrain adds nodes. From then on, these nodes rotate by a
@@ -1203,9 +1203,10 @@ void scene_meshes_doubled(scene *s, int first, int last);
  * changes. Not thread-safe. */
 status scene_constants(const scene *s, int i, section *out, fault *f);
 
-/* Makes the ends of pieces of functions of time equal if they differ only by rounding. Ends that
- * differ from the end of a motion only by rounding become equal to that end. Otherwise a motion
- * would make a step between such times, and the rates of that step would be rounding errors. */
+/* Makes the ends of pieces of functions of time equal if the ends differ only by rounding. Ends
+ * that differ from the end of a motion only by rounding become equal to that end. Otherwise a
+ * motion would make a step between such times, and the rates of that step would be rounding
+ * errors. */
 void scene_join_instants(scene *s);
 /* Checks the scene. Returns REFUSED with the cause, for example indices out of range, members of
  * zero length, contradictory supports, unused drivers, or names that are not unique. */
@@ -1349,7 +1350,7 @@ typedef struct entry_field {
     size_t zeros;       /* position of the unsigned whose bit `zero` records that zero was given
                            explicitly */
     unsigned zero;      /* bit of the key, or 0 if the key is not recorded */
-    int always;         /* 1: the key is written even if it has its default value */
+    int always;         /* 1 if the key is written even if its value is the default */
     entry_turns turns;
     const struct quantity_type
         *type; /* kind of quantity of a map, with its summary, keys and value */
@@ -1553,9 +1554,9 @@ typedef struct quantity_type {
     double (*read)(const scene_quantity *, const quantity_state *);
     double (*eigenvalue)(const scene_quantity *, const quantity_eigenvalue *, double *part);
     /* The following functions are NULL for most kinds. `turns` sets *out to the i-th rotation
-     * component that the quantity needs and returns 1, or returns 0 if there are no more. `settle`
-     * completes the data read from a file, and returns an error message for *key, or NULL. `check`
-     * returns REFUSED for errors that the table does not cover. */
+     * component that the quantity needs and returns 1, or returns 0 if there are no more
+     * components. `settle` completes the data read from a file, and returns an error message for
+     * *key, or NULL. `check` returns REFUSED for errors that the table does not cover. */
     int (*turns)(const scene *, const scene_quantity *, int i, scene_component *out);
     const char *(*settle)(const scene *, scene_quantity *, const char **key);
     status (*check)(const scene *, const scene_quantity *, fault *);

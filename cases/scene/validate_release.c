@@ -123,7 +123,7 @@ static void add_springs(const scene *s, int node, double P[9])
                         s->spring[k].table[3 + i].at.stations > 0;
 }
 
-/* Finds an axis about which P resists no rotation. Returns 0 if there is none. */
+/* Finds an axis about which P resists no rotation. Returns 0 if no axis exists. */
 static int loose_axis(const double P[9], double axis[3])
 {
     double A[9], largest = 0;

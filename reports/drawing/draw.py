@@ -212,7 +212,7 @@ def directions(scene):
 
 
 def put_names(canvas, look, scene):
-    """Draws the names of all nodes. If there are many, draws only those of nodes with quantities."""
+    """Draws the names of all nodes or, if there are many nodes, of nodes with quantities."""
     asked = [n for n in scene.nodes.values() if n.name in scene.asked]
     named = asked if len(scene.nodes) > MOST_NAMES else list(scene.nodes.values())
     if len(named) > MOST_NAMES:

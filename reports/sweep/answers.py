@@ -215,8 +215,8 @@ def outcomes(sweep, found):
 
 
 def proven(rows):
-    """Returns the quantities that have reference values at some points and only limits at others, and the largest number
-    of their points with reference values. `rows` is the result of references()."""
+    """Returns the quantities that have reference values at some points and only limits at other points, and the largest
+    number of their points with reference values. `rows` is the result of references()."""
     mixed = []
     for quantity, kinds, *_ in rows:
         truths = sum(n for kind, n in kinds.items() if kind.startswith("truth"))
@@ -258,7 +258,7 @@ def many(number, noun):
 
 
 def percent(share):
-    """Returns a share in percent in text form. 0 and 100 occur only if they are exact."""
+    """Returns a share in percent in text form. 0 and 100 are printed only if they are exact."""
     value = 100 * share
     if 0 < value < 1:
         return "less than 1 %"

@@ -117,8 +117,8 @@ def scored(good, bad, whole):
 
 
 class Search:
-    """Search for the best boxes. `good` and `bad` are the numbers of points in each cell of a lattice [cells]. `whole` is
-    the number of all points, including those that are neither, or None if there are no others."""
+    """Search for the best boxes. `good` and `bad` are the numbers of points in each cell of a lattice [cells]. `whole`
+    is the number of all points, or None if every point is good or bad."""
 
     def __init__(self, lattice, good, bad, whole=None):
         self.lattice = lattice

@@ -210,7 +210,7 @@ def axes_of(file):
 
 
 def check(file, sweep):
-    """Raises ValueError if the size of a table does not match the others."""
+    """Raises ValueError if the size of a table does not match the sizes of the other tables."""
     f, m, q = len(sweep.keys), len(sweep.meshes), len(sweep.quantities)
     whole = {"points": (len(sweep.axes),), "reference_doubt": (q,), "reference_kind": (q,),
              "value": (f, m, q), "error": (f, m, q), "status": (f, m), "cost": (f, m),

@@ -282,8 +282,8 @@ class Geometry(unittest.TestCase):
 
 
     def test_view_of_a_plane(self):
-        """A motion in the xy plane is viewed from above, with x to the right. A motion in space or along z, even a small
-        one, is not."""
+        """A motion in the xy plane must be viewed from above, with x to the right. A motion in space or along z, even a
+        small one, must not be viewed from above."""
         flat = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 1, 0]]], float)
         lifted = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [1, 0, 0.01]]], float)
         for points, wanted in ((flat, (-90, 74)), (flat[..., [0, 2, 1]], (-58, 24)),

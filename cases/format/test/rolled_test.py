@@ -244,7 +244,7 @@ class ProfilesTest(SceneCase):
 
     def test_stresses_of_an_angle(self):
         """Stresses at the heel and the sharp toes are -M (Iy y - Iyz z)/(Iy Iz - Iyz^2) about axes along the legs. The
-        constants are integrated here over the outline with fillets."""
+        constants are integrated over the outline with fillets."""
         def spandrel(sign, y, z, sy, sz, r, n=4000):
             strips = [(r / n * h, (i + 0.5) * r / n, h) for i in range(n)
                       for h in [r - math.sqrt(r * r - (r - (i + 0.5) * r / n)**2)]]
