@@ -1,6 +1,6 @@
 /* Resultants inside members compared with statics, the elastica and Vlasov torsion. Values inside
- * members must converge as those at the ends do. Resultants and stresses are also checked inside
- * members that twist far, rotate steadily, or have an eccentric shear centre. */
+ * members must converge in the same way as values at the ends. Resultants and stresses are also
+ * checked inside members that twist far, rotate steadily, or have an eccentric shear centre. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

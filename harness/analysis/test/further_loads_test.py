@@ -1,5 +1,5 @@
-"""Critical loads above the first one, about static paths: single, double, triple and almost equal loads, and loads near
-which round-off hinders Newton's method."""
+"""Critical loads above the first critical load, about static paths: single, double, triple and almost equal loads, and
+loads near which round-off hinders Newton's method."""
 import json
 import math
 import unittest

@@ -95,7 +95,7 @@ static void roof(const char *chosen)
 enum { REACTIONS = 3 };
 
 /* The nodes are clamped, and their reactions have no component along the axes of the hinges. The
- * test lists which of the six components are zero. The others are clamping moments. */
+ * test lists which of the six components are zero. The other components are clamping moments. */
 static void axes(const char *of, const char *chosen, int n, unsigned released, double least)
 {
     cell_result r;

@@ -492,8 +492,8 @@ static void obey(const scene_input *in, scene_column column, const element_type 
     }
 }
 
-/* An input that has an effect in rotating axes, or without a potential, must have this effect
- * here. */
+/* An input that has an effect in rotating axes, or without a potential, must have this effect in
+ * the analysis. */
 static void part_of_inertia(const scene_input *in, scene_column column, const element_type *e)
 {
     static answer with, without;
@@ -588,7 +588,8 @@ static void alike(const char *name, const char *other, scene_column column, cons
 }
 
 /* An arm at rest in rotating axes keeps rotating with its drive, apart from the effect of its mass.
- * The mass is distributed along the elements in the rotation and lumped at the nodes here. */
+ * The mass is distributed along the elements in the rotation and lumped at the nodes in the
+ * motion. */
 static void start_turning(const element_type *e)
 {
     static answer a;

@@ -110,7 +110,7 @@ class MultiplePoints(ProgramTest):
             self.assertLess(abs(value / right - 1), part, (found, about))
 
     def test_equal_and_almost_equal(self):
-        """Two points or one double point must be found, both in one step over all of them and in many steps."""
+        """Two points or one double point must be found, both in one step over all points and in many steps."""
         for off in (0, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3):
             for step in (1e-6, 1e-5, 4.5e-5):
                 self.near(self.points(Iy=1 + off, step=step, to=4.5e-5, **PINNED),

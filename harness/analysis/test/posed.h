@@ -102,7 +102,7 @@ static void combine(scene *s)
     scene_add_term(s, all, scene_add_case(s, "live"), -1.5);
 }
 
-/* Adds what the input requires, then the input. */
+/* Adds the input, after the entries that it requires. */
 static void add(scene *s, const char *name)
 {
     static const double from = 0, whole = 1;
@@ -303,7 +303,7 @@ static void add(scene *s, const char *name)
 #undef IS
 }
 
-/* Adds what the input requires, without the input. */
+/* Adds the entries that the input requires, without the input. */
 static void carry(scene *s, const char *name)
 {
     static const char *const held[] = {"temperature",       "strain of a member", "pretension",

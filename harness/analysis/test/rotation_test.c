@@ -36,7 +36,8 @@ static double value_of(const char *case_name, const char *chosen, int n,
 }
 
 /* With k = Omega L/c = 1/2, where c is the speed of sound, the elongation is L (tan k/k - 1).
- * Elements of higher order have this value on the mesh of the test, and others in the limit. */
+ * Elements of higher order have this value on the mesh of the test, and other elements in the
+ * limit. */
 static void stretch(void)
 {
     const char *const thick[] = {"omega_star=5", "slenderness=10", NULL};
@@ -304,7 +305,7 @@ static void fine_mesh(void)
 }
 
 /* Far below the largest values, the geometric stiffness alone determines the pivots of K - A/s,
- * which vanish here. */
+ * which vanish for these strips. */
 static void frame_of_strips(void)
 {
     const double exact = 0.6222080872197;
@@ -325,8 +326,8 @@ static void equal_elements(void)
     gsl_test_rel(critical, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
 }
 
-/* Two elements on fork supports have 14 modes, two of them axial. In some of the others no node
- * moves, and only cross-sections rotate and warp, so these modes are not axial either. */
+/* Two elements on fork supports have 14 modes, of which two are axial. In some of the other modes,
+ * no node moves and only cross-sections rotate and warp, so these modes are not axial. */
 static void modes_in_place(void)
 {
     for (int keep_all = 0; keep_all < 2; keep_all++)

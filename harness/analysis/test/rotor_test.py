@@ -167,8 +167,8 @@ class Rotors(ProgramTest):
             self.assertLess(abs(q["value"]/right - 1), q["rounding"] + floor, (formulation, n, q["quantity"]))
 
     def test_massless(self):
-        """Three coordinates have a mass, and the others have no frequency. With 200e9 Pa the matrix of 32 elements has
-        only 3 digits for the soft modes, but the frequencies keep all their digits."""
+        """Three coordinates have a mass, and the other coordinates have no frequency. With 200e9 Pa, the matrix of 32
+        elements has only 3 digits for the soft modes, but the frequencies must keep all digits."""
         exact = (math.sqrt(400/9 + 1/0.81)/2/math.pi, math.sqrt(400*(1 + 1/9) + 1/0.81)/2/math.pi)
         for young, stretch in (("20e9", 1e-5), ("200e9", 1e-6)):
             for formulation in ("geometrically_exact", "collocation", "beamw"):

@@ -82,7 +82,7 @@ static const struct {
     const char *what;
     void (*change)(scene *);
     double motion[6];
-    int any; /* several motions are free, and any of them may be named */
+    int any; /* 1 if several motions are free, of which any may be named */
 } changes[] = {
     {"all is held", nothing, {0}, 0},
     {"nothing holds it", everywhere, {0}, 1},

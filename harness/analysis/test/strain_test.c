@@ -58,7 +58,7 @@ static int asked(scene *s, const element_type *e, ask_tally *tally, int n, answe
     return ask_count(tally, a, "%s, %d elements", s->name, n);
 }
 
-/* Two clamped members, one of them hot: N = -EA eps/2, and the node in the middle moves by eps
+/* Two clamped members, one of which is hot: N = -EA eps/2, and the node in the middle moves by eps
  * L/4. */
 static void clamped(const element_type *e, ask_tally *tally)
 {
@@ -175,7 +175,7 @@ static void column(const element_type *e, ask_tally *tally)
     scene_add_load(&s, SCENE_FORCE, 1, -2, 0, 0);
     scene_add_quantity(&s, "P", "N", scene_add_buckling(&s, SCENE_NONE),
                        scene_critical_factor(1, 0));
-    if (asked(&s, e, tally, 16, &a)) /* from the determinant of two spans, derived here */
+    if (asked(&s, e, tally, 16, &a)) /* from the determinant of two spans */
         gsl_test_rel(2 * a.value[0], 28005.43, 1e-5, "%s: critical load of a hot column", e->name);
 }
 

@@ -109,8 +109,8 @@ class Unbalance(ProgramTest):
             self.assertLess(np.abs(modal[name] - values).max(), 1e-8*np.abs(values).max(), name)
 
     def test_axes(self):
-        """The unbalance starts along the next axis and points along the following axis 90 degrees later. Its force acts
-        on the base."""
+        """The unbalance starts along the next axis and points along the following axis 90 degrees later. The force of
+        the unbalance acts on the base."""
         free = text(root="hold: all", disc="hold: [rx, ry, rz]", stiffness=matrix(ux_ux=1e4, uy_uy=2e4, uz_uz=3e4),
                     damping=matrix(ux_ux=30, uy_uy=30, uz_uz=30),
                     quantities="".join(read(c, axis) for axis in ("rx", "ry", "rz") for c in ("ux", "uy", "uz")))

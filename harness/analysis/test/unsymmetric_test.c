@@ -233,7 +233,8 @@ static const double mass[MASSES] = {0.31, 0.17, 0.23, 0.41}, hub_at[3] = {0.53, 
                                         {0.58, 0.13, -0.16},
                                         {0.66, 0.02, -0.09}};
 
-/* Returns the body that is equivalent to the points. Its centre is measured from `from`. */
+/* Returns the body that is equivalent to the points. The centre of the body is measured from
+ * `from`. */
 static scene_body body_of_points(const double from[3])
 {
     scene_body b = {0};
@@ -434,7 +435,7 @@ static void add(const model *m, const double R[9], int member, int k, int waves,
 }
 
 typedef struct modes_part {
-    int component, waves; /* in the axes of the member, the first one */
+    int component, waves; /* component in the axes of the first member */
     double size;
 } modes_part;
 

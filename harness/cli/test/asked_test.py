@@ -272,8 +272,8 @@ class Solve(ProgramTest):
             self.assertLess(min(abs(t["error"]) for t in truths), 1e-3)
 
     def test_cost(self):
-        """The chosen formulation must cost at most twice as much as the cheapest one for 0.1 % according to converge,
-        which runs all of them."""
+        """The chosen formulation must cost at most twice as much as the cheapest formulation for 0.1 % according to
+        converge, which runs all formulations."""
         for case in ("elastica", "bend_45", "angle_column", "cross_flexure", "deep_beam", "lateral_buckling",
                      "carried_rod", "geradin_cardona", "loaded_cantilever", "weighted_column"):
             chosen = self.record("solve", case)["formulation"]

@@ -110,8 +110,8 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
                 self.assertLess(abs(q["error"]), 1e-6, f"{name}: {q['quantity']}")
 
     def test_slide(self):
-        """A pendulum that hangs perpendicular to the slope that it slides down keeps this direction, and everything
-        accelerates by g sin(slope)."""
+        """A pendulum that slides down a slope and hangs perpendicular to it must keep this direction, and every point
+        must accelerate by g sin(slope)."""
         fall = 9.81 * math.sin(0.5) * 0.2**2 / 2
         for kind in ("alpha", "conserving", "radau"):
             found = self.values(SLIDE.replace("KIND", kind))

@@ -77,8 +77,8 @@ class ConstraintsInTime(ConstraintsCase):
                 self.assertLess(abs(b["D"]), 1e-11 * abs(b["E"]), how)
 
     def test_half(self):
-        """Two halves, one of them displaced and in rotated axes, that are equal in the plane of symmetry must move in
-        the same way as the whole structure, starting from a static state."""
+        """Two halves, one of which is displaced and in rotated axes, that are equal in the plane of symmetry must move
+        in the same way as the whole structure, starting from a static state."""
         for how in ("alpha, step: 0.001", "radau, step: 0.002", "conserving, step: 0.001", "explicit, step: 1e-5, mass: lumped"):
             found = []
             for half in (0, 1):

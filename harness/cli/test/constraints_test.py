@@ -134,8 +134,8 @@ class Constraints(ConstraintsCase):
                              [line for line in b if not line.startswith("%")])
 
     def test_harmonic_reaction(self):
-        """The reaction of a motion that other components follow by constraints is rejected, because it would be the sum
-        for all of them."""
+        """The reaction of a motion that other components follow by constraints must be rejected, because it would be
+        the sum for all components."""
         path = self.folder / "followed.yaml"
         path.write_text(HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0]}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], drive: {uy: go}}, c: {at: [2, 0, 0]}}

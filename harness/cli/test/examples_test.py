@@ -74,7 +74,7 @@ class Judged:
         return [q["value"] for q in record["quantities"] if q["value"] is not None]
 
     def same_values(self, other, name, case):
-        """Checks that the values agree with those of another element, which shares no code with the first one."""
+        """Checks that the values agree with those of another element, which shares no code with the example."""
         own, theirs = (self.values(*of, case, "-n", "4")
                        for of in ((self.object, self.name()), (other, name)))
         self.assertGreater(len(own), 2)
@@ -99,7 +99,7 @@ class Corotational(Judged, PluginTest):
 
     def test_converges_as_the_others(self):
         """With an unsymmetric tangent, or a chord with little axial strain, the element must take as few iterations as
-        the others."""
+        the other elements."""
         for axial in ("1e4", "1e12"):
             iterations = {
                 name: self.record("solve", "elastica", "--element", self.object, "-f", name, "-n",

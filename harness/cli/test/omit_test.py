@@ -114,7 +114,7 @@ quantities:
             more="omit: [trapeze]\n")
 
     def test_numbers_that_are_not_given(self):
-        """Constants that a section does not define are zero. The program reports these constants unless they have no
+        """Constants that a section does not define are zero. The program must report such constants unless they have no
         effect, are omitted, or follow from the shape."""
         constants = "constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8%s}, young: 2e11, shear_modulus: 8e10"
         full = ", F: [1200, 0, 0, 0, 1200, 0, 0, 0, 0], Iw: 1e-10"

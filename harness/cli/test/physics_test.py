@@ -84,8 +84,8 @@ class PhysicsTest(SceneCase):
                   204800, 1e-6)
 
     def test_channel_as_the_case(self):
-        """The expected values are those of the built-in column of that section, and those of Timoshenko and Gere if the
-        physics that they neglect is omitted."""
+        """The expected values are those of the built-in column with this section or, without the physics that
+        Timoshenko and Gere neglect, the values of Timoshenko and Gere."""
         section = "channel: {depth: 98e-3, flange: 49e-3, flange_thickness: 2e-3, web_thickness: 2e-3}"
         sizes = ("length=2", "height=0.098", "width=0.049", "flange_thickness=2e-3",
                  "web_thickness=2e-3", "young=210e9", "shear_modulus=81e9", "density=7850")

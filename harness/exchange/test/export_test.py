@@ -214,7 +214,7 @@ class Answers(ExportTest):
         self.assertIn("4 values, 1 mesh; another model: solid", told)
 
 
-# The results of CalculiX, if it is installed, compared with those of beams and plates.
+# Results of CalculiX (if installed) compared with those of beams and plates.
 @needs_ccx
 class Solved(ExportTest):
 

@@ -208,7 +208,7 @@ class Import(ProgramTest):
                 self.assertEqual(done.returncode, code, (name, done.stdout))
                 self.assertIn(words, done.stdout)
                 self.assertEqual(done.stdout.count("gone     "), code, done.stdout)
-        # an additional mesh does not hide larger errors on the others
+        # an additional mesh does not hide larger errors on the other meshes
         worse = [f"w_over_L, 1, {n}, {0.30172077577 + 1.1 * (value - 0.30172077577)}\n" for n, value in values]
         done = self.beside(text.format("mine", "4.2") + "".join(worse) + "w_over_L, 1, 64, 0.3017225\n", "new.h5",
                            "--imported-must-pass", "--not-worse-than", table)

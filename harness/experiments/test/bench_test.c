@@ -441,7 +441,7 @@ static int exact_extreme(void)
 }
 
 /* `own` is the number of elements of the mesh that is evaluated, and error[0] is its relative
- * error. The others are errors of its neighbours. NAN: no value. */
+ * error. The other entries are errors of its neighbours. NAN: no value. */
 static void make(int own, const int mesh[OUTCOME_NEIGHBOURS], const double error[MESHES],
                  neighbours_bench *b)
 {

@@ -193,7 +193,7 @@ static status no_reason(const element_request *request, element_data *out, fault
     return request->features & FEATURE_SHEAR ? base->prepare(request, out, f) : STATUS_REFUSED;
 }
 
-/* In a call for many elements, returns the energy of the first element for all of them. */
+/* In a call for many elements, returns the energy of the first element for all elements. */
 static void one_energy(int count, const element_data *const data[], const double *const e[],
                        const double *const inner[], stress_output out[], status outcome[])
 {

@@ -136,7 +136,7 @@ static void killed(void)
         }
         setpgid(child, child);
         usleep((useconds_t)random_below(&seed, 4000));
-        kill(i % 2 == 0 ? -child : child, SIGKILL); /* all processes, or only the first one */
+        kill(i % 2 == 0 ? -child : child, SIGKILL); /* all processes, or only the first process */
         waitpid(child, NULL, 0);
     }
     gsl_test(numbers_shard(&w, of.path, 0, 1, &done, &f) != STATUS_OK, "%s", f.text);

@@ -323,8 +323,7 @@ enum { ELEMENTS = 5, GATHER_M = ELEMENT_MAX_STRAINS, GATHER_N = ELEMENT_MAX_COOR
 
 static const element_type *gather_source;
 static double gather_options[ELEMENT_MAX_OPTIONS];
-static int requests, most; /* number of requests for many elements, and largest number of
-                              elements in one */
+static int requests, most; /* requests for many elements, and most elements in one request */
 
 static void note(int count)
 {

@@ -1,4 +1,4 @@
-"""Histories of elements: committed at accepted steps and never at rejected ones, in every analysis."""
+"""Histories of elements, which must be committed at accepted steps and never at rejected steps, in every analysis."""
 import json
 import shutil
 import subprocess
@@ -160,7 +160,7 @@ class History(ProgramTest):
             path.accept(twist)
 
     def test_motions(self):
-        """Motions commit their steps, also if they continue another motion or begin from a static state."""
+        """Motions commit their steps, even if a motion continues another motion or begins from a static state."""
         text = DRIVEN + ("motions: {turn: {unit: rad, time: 0.8*t^2}}\n"
                          "analyses:\n"
                          "  run: {motion: {stations: 0..1/4, integrator: INTEGRATOR, step: 0.25}}\n"

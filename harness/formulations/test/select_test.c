@@ -62,7 +62,7 @@ static int grow(sample *s, uint64_t *seed, int depth, int around)
     return value;
 }
 
-/* Removes the k-th pair of brackets from the expression. Returns 0 if there is none. */
+/* Removes the k-th pair of brackets from the expression. Returns 0 if there is no such pair. */
 static int without_bracket(const char *expression, int k, char out[LONGEST])
 {
     const char *at = expression - 1;

@@ -100,8 +100,8 @@ static void whole_components(void)
         gsl_test(v.span[i] != (double)(i == 6 || i == 9), "unit vectors: %g at %d", v.span[i], i);
 }
 
-/* Columns with a single component, one of them repeated and one zero, must give the same motions as
- * without the detection of single components by their zeros. */
+/* Columns with a single component must give the same motions as without the detection of single
+ * components by their zeros. One component is repeated, and one is zero. */
 static void components_alone(void)
 {
     const double alone[24] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0,
@@ -127,8 +127,8 @@ static void nothing(void)
     gsl_test(v.count != 0, "no coordinates: %d dimensions", v.count);
 }
 
-/* Free rotations transmit no moment. The remaining moment is perpendicular to them, and exactly
- * zero if they span space. */
+/* Free rotations transmit no moment. The remaining moment is perpendicular to the free rotations,
+ * and exactly zero if these span space. */
 static void prescribed_moment(void)
 {
     uint64_t state = 3;

@@ -167,8 +167,8 @@ static void random_rows(void)
     gsl_test(negative < 20, "%d negative eigenvalues were there to be counted", negative);
 }
 
-/* A link of a clamped beam with unit length and unit stiffnesses. Its strains are the motion of the
- * second joint relative to the first. */
+/* A link of a clamped beam with unit length and unit stiffnesses. The strains of the link are the
+ * motion of the second joint relative to the first. */
 static void uniform_link(double l, double J[], double C[], double H[], double r[])
 {
     const int n = 2 * NODE_COORDINATES;
@@ -301,7 +301,7 @@ static double error_of_guess(const model *m, int degree, double kink, int count,
     return error;
 }
 
-/* Checks steps of different lengths, more of them than are stored. */
+/* Checks steps of different lengths, in a larger number than are stored. */
 static void smooth_paths(const model *m)
 {
     static const double path[] = {0.04, 0.09, 0.15, 0.2,  0.26, 0.33, 0.39, 0.46,

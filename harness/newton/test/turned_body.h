@@ -65,7 +65,7 @@ static inline void turned_body_move(const turned_body *s, const model_state *fro
     run_state_end(&run);
 }
 
-/* A state far from the undeformed one, rotated about a general axis. */
+/* A state far from the undeformed state, rotated about a general axis. */
 static inline void turned_body_prepare(int body, scene_load_kind kind, turned_body *s)
 {
     fault f = {""};

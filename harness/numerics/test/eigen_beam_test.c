@@ -218,8 +218,8 @@ static void eigen_beam_tests(void)
     test_beam(2000, 3e-9);
 }
 
-/* If the iteration has found one copy of a repeated eigenvalue, the inertia shows it, and the
- * others are found in the complement of that copy. */
+/* If the iteration has found one copy of a repeated eigenvalue, the inertia shows that copies are
+ * missing, and the other copies are found in the complement of that copy. */
 static void test_missed_copies(void)
 {
     enum { COPIES = 3, MASSES = 40, N = COPIES * MASSES };
@@ -300,8 +300,9 @@ static double broken_energy(void *context, const double x[])
     return size > b->least && size < b->most ? NAN : energy;
 }
 
-/* Values of both signs, where those of one sign are lost as soon as they are found. The other side
- * must be found as if it alone had been requested, and the lost side must be reported. */
+/* Values of both signs, where those of one sign are lost as soon as they are found. The values of
+ * the other sign must be found as if they alone had been requested, and the loss must be
+ * reported. */
 static void test_sides_apart(void)
 {
     enum { N = 800, WANTED = 4 };
@@ -442,7 +443,7 @@ static void test_strings(int copies, int masses, double spread, int wanted, int 
     strings_free(&s);
 }
 
-/* Compares the first values of both signs, if all of them were found. */
+/* Compares the first values of both signs, if all values were found. */
 static void compare_sides(const eigen_result *sparse_way, const eigen_result *dense_way, int wanted,
                           double tolerance, const char *what)
 {

@@ -80,8 +80,9 @@ static void equal_frequencies(void)
     }
 }
 
-/* A problem with two unknowns diverges without gyroscopic terms and is stable with strong ones. The
- * eigenvalues are the roots of lambda^4 + (k1 + k2 + g^2) lambda^2 + k1 k2. */
+/* A problem with two unknowns diverges without gyroscopic terms and is stable with strong
+ * gyroscopic terms. The eigenvalues are the roots of lambda^4 + (k1 + k2 + g^2) lambda^2 + k1
+ * k2. */
 static void indefinite(void)
 {
     static const double k1 = -1, k2 = -2, g[] = {0.5, 4};
@@ -140,7 +141,7 @@ static void held_from(void)
 }
 
 /* With heavy, light and massless coordinates and an indefinite K, the requested modes with mass
- * must be found, and no others. */
+ * must be found, and no other modes. */
 static void light_and_massless(void)
 {
     for (int decade = 0; decade <= 16; decade += 2)
@@ -326,8 +327,8 @@ static void counts(void)
             }
 }
 
-/* Makes `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, followed by others of stiffness 1e6.
- * The first two of the latter form a top whose slow precession is `slow` [rad/s]. */
+/* Makes `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, followed by oscillators of stiffness
+ * 1e6. The first two of the latter form a top whose slow precession is `slow` [rad/s]. */
 static void oscillators_and_top(int masses, int behind, double slow, problem *p)
 {
     const double k = 1e6, g = (k / slow) - slow; /* root of w^2 + g w - k */

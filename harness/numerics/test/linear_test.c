@@ -110,7 +110,7 @@ static int determinant_sign(int n, const double A[])
 }
 
 /* Returns the number of right-hand sides whose joint solution is not bitwise equal to the separate
- * one. Numbers stored between the right-hand sides must not change. */
+ * solution. Numbers stored between the right-hand sides must not change. */
 static int apart_together(matrix_factor *fa, uint64_t *seed)
 {
     enum { SIDES = 7, STRIDE = MOST + 2 };
@@ -372,7 +372,7 @@ static void every_index_once(int threads)
             expected += visits[i] == (i < count);
         if (round % 500 == 0)
             nanosleep(&(struct timespec){.tv_nsec = 2000000},
-                      NULL); /* long enough for the others to fall asleep */
+                      NULL); /* long enough for the other threads to fall asleep */
     }
     gsl_test_int(expected, 2000 * TEST_TEAM_MOST, "%d threads: every index once in every round",
                  threads);

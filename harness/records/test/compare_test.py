@@ -15,7 +15,7 @@ def of_cell(table):
 
 
 def change_rows(file, name, change):
-    """Applies change(rows of the cell) to a table. Removes the rows if it returns False."""
+    """Applies change(rows of the cell) to a table. Removes the rows if `change` returns False."""
     group, rows = file[TABLES], file[TABLES][name][()]
     own = of_cell(rows)
     part = rows[own]

@@ -302,8 +302,8 @@ typedef struct reach_line_bench {
     truths t;
 } reach_line_bench;
 
-/* Adds a series with values limit (1 + 0.1 n^-2), and `work` evaluations on the coarsest mesh.
- * Their number doubles on each finer mesh. */
+/* Adds a series with values limit (1 + 0.1 n^-2), and `work` evaluations on the coarsest mesh. The
+ * number of evaluations doubles on each finer mesh. */
 static void add(reach_line_bench *b, double limit, long work)
 {
     const int i = b->s.seriess++;

@@ -1,4 +1,4 @@
-/* One file for many experiments: groups that are replaced completely while others remain,
+/* One file for many experiments: groups that are replaced completely while other groups remain,
  * simultaneous runs, and killed runs. */
 #include <gsl/gsl_test.h>
 #include <signal.h>
@@ -36,7 +36,7 @@ static status leave(const char *path, const char *name, double mark)
     return kept_close(&r, name, path, &f);
 }
 
-/* Returns the mark of a group if the group is complete, or -1 if it is missing or incomplete. */
+/* Returns the mark of a group, or -1 if the group is missing or incomplete. */
 static long mark_of(const char *path, const char *name)
 {
     static double all[COUNT];

@@ -348,8 +348,8 @@ class StateSpace(Matrices):
         self.assertLess(max(poles.real), 1e-3)
 
     def test_without_mass(self):
-        """Massless coordinates with damping are of first order, and others are eliminated. An output rate that follows
-        its force instantaneously is rejected."""
+        """Massless coordinates with damping are of first order, and other massless coordinates are eliminated. An
+        output rate that follows its force instantaneously is rejected."""
         scene = BENT.replace("  modes: {modal: {damped: yes%s}}\n", "%.0s")
         scene = scene[:scene.index("  f_$n")] + scene[scene.index("mass: lumped"):]
         holds = (0, SHAKEN, "", "", "", "", "")

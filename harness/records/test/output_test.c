@@ -1,5 +1,5 @@
-/* Files must appear complete or not at all: replaced files, files written directly, permissions,
- * full disks. */
+/* Files must appear completely or not at all: replaced files, files written directly, permissions
+ * and full disks. */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
 #include <signal.h>

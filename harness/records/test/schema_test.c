@@ -201,8 +201,9 @@ static int lines_with(const char *text, const char *part)
     return count;
 }
 
-/* At most fifty rows of a list are written, with the number of the remaining ones. If there are
- * more cases than rows, those that pass are named, and separately those without a verdict. */
+/* At most fifty rows of a list must be written, followed by the number of the remaining rows. If
+ * there are more cases than rows, the cases that pass must be named, and separately the cases
+ * without a verdict. */
 static void long_lists(void)
 {
     enum { MANY = 60, JUDGED = 40, WORSE = 53 };

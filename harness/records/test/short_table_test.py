@@ -98,8 +98,8 @@ class ShortTable(ProgramTest):
         )
 
     def test_work(self):
-        """One more iteration or factorisation in any mesh must be detected, and 50 % more evaluations in any mesh except
-        the coarse ones, whose share of the sum is small."""
+        """One more iteration or factorisation in any mesh must be detected, as must 50 % more evaluations in any mesh
+        except the coarse meshes, whose share of the sum is small."""
 
         def one(column):
             def more(rows, i):

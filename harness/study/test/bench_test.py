@@ -147,8 +147,8 @@ class Bench(ProgramTest):
         self.assertIsNone(missed["elements_b"])
 
     def test_equal_error_of_a_scene(self):
-        """By default, the compared errors are those that both formulations reach. If one of them converges to a different
-        limit, this is stated."""
+        """By default, the compared errors are those that both formulations reach. If a formulation converges to a
+        different limit, this must be stated."""
         text = self.answered("bench", "--scene", LEAF, "-f", "sheet_third", "--against",
                              "collocation", "-k", "k_pushed").stdout
         self.assertEqual(re.findall(r"(?m)^at ([\d.]+) %: ", text), ["10", "1", "0.1"])

@@ -1,5 +1,5 @@
-/* Cross-formulation agreement: how many families it requires, which limit it gives, and when there
- * is none. */
+/* Cross-formulation agreement: the number of families that it requires, its limit, and its
+ * absence. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -405,8 +405,8 @@ static void by_work(void)
     expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "whatever the clock says");
 }
 
-/* A formulation that is within 1 % on the coarsest mesh, but not on the next one, is ranked by the
- * third mesh, with the work on that mesh. */
+/* A formulation that is within 1 % on the coarsest mesh, but not on the second mesh, must be ranked
+ * by the third mesh, with the work on that mesh. */
 static void by_accident(void)
 {
     reach_bench b;

@@ -20,7 +20,7 @@ typedef struct family {
     int says;
 } family;
 
-/* Runs in the child process. Exits with 0 if `sound` cells, followed by endless ones, gave the
+/* Runs in the child process. Exits with 0 if `sound` cells, followed by endless cells, gave the
  * expected results. */
 static int run_endless(const sweep_request *request, int sound, int says)
 {

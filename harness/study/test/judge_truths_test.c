@@ -192,8 +192,8 @@ static void expectations(void)
     bench_free(&b);
 }
 
-/* A reference value of a motion at a time that the run does not evaluate is not used and does not
- * count as unmet. A reference value of a case without a motion does. */
+/* A reference value at a time that the run of a motion does not evaluate must neither be used nor
+ * count as unmet. A reference value of a case without a motion must count as unmet. */
 static void other_instants(void)
 {
     static const parameter_type both[] = {{"length", "m", 2, 1, 9, NULL, "some length"},

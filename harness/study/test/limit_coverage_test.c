@@ -21,7 +21,7 @@ static const int grid[GRIDS][MOST] = {
 /* Parameters of one random sequence. */
 typedef struct draw {
     double order, order_2, order_3;
-    double ratio, ratio_3; /* signed ratios of the second and the third term to the first one, on
+    double ratio, ratio_3; /* signed ratios of the second and the third term to the first term, on
                               the coarsest mesh */
     double bend;           /* number of elements at which the behaviour changes */
     double phase;
@@ -257,7 +257,7 @@ static void coverage_under_noise(void)
 }
 
 /* The verdict "low order" requires two orders below the minimum and, before them, an order below
- * the nominal one. The three orders must be monotonic (study/verdict.c). In families with a low
+ * the nominal order. The three orders must be monotonic (study/verdict.c). In families with a low
  * order, this criterion finds as many series as two orders alone. If terms of opposite sign cancel,
  * the criterion finds most series, because they cannot be distinguished from an accident. Of all
  * passes of verify with the 0 to 3 finest meshes omitted, two orders alone would give four low

@@ -194,8 +194,8 @@ static void noise_tests(void)
     larger_of_two(case_find("elastica", &f));
 }
 
-/* Every cell occurs once among the tasks. Cells of the most expensive series come first, and the
- * others follow in order. Within a series, the finest mesh comes first. */
+/* Every cell must occur once among the tasks. Cells of the most expensive series come first, and
+ * the other cells follow in order. Within a series, the finest mesh comes first. */
 
 static const int mesh[] = {1, 2, 4};
 

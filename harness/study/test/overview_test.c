@@ -59,8 +59,8 @@ static void shows(const run *r, int row, int column, const char *ascii, const ch
     overview_free(&o);
 }
 
-/* Each kind of verdict must be shown if it occurs alone or if the others are less severe, in any
- * order. */
+/* Each kind of verdict must be shown if it occurs alone or if the other verdicts are less severe,
+ * in any order. */
 static void the_worst(void)
 {
     static const verdict_kind rising[] = {VERDICT_SKIP,

@@ -74,8 +74,8 @@ static void of_case(const case_type *type)
     scene_free(&s);
 }
 
-/* The chosen mesh is one of the meshes of the scene or the finest of them doubled. It has converged
- * unless stated otherwise. */
+/* The chosen mesh must be one of the meshes of the scene or the finest mesh of the scene doubled,
+ * and must have converged unless stated otherwise. */
 static void of_meshes(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};

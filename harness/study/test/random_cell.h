@@ -27,7 +27,7 @@ static inline int whole(dice *d, int most)
     return (int)(roll(d) % (uint64_t)(most + 1));
 }
 
-/* Returns a random number, sometimes a special one. */
+/* Returns a random number, which is sometimes a special value. */
 static inline double number(dice *d)
 {
     static const double odd[] = {0, -0.0, INFINITY, -INFINITY, NAN, 5e-324, 1.7e308};
@@ -211,8 +211,8 @@ static inline cell_result random_cell(dice *d)
     return c;
 }
 
-/* Checks that every member is filled. If a struct has grown (padding included), its new member must
- * be added here. */
+/* Checks that every member is filled. If this test fails, a struct has a new member, which must be
+ * added above. */
 static inline void random_cell_complete(void)
 {
     gsl_test_int((int)(sizeof(counters) % sizeof(uint64_t)), 0, "counters are filled by words");

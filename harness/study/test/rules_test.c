@@ -1,5 +1,5 @@
-/* Rules of the list of known deviations: the verdicts to which they apply, their conditions, and
- * when they count as observed. */
+/* Rules of the list of known deviations: the verdicts to which the rules apply, their conditions,
+ * and their observation. */
 #include <gsl/gsl_test.h>
 #include <stdio.h>
 #include <stdlib.h>

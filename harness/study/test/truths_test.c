@@ -208,8 +208,8 @@ static void damaged_files(const char *path)
     gsl_test_int(broken, 0, "damaged files without a clear refusal");
 }
 
-/* The verdicts on formulations in the table affect the exit status, and those on other built-in
- * formulations do not. Until a table is read, all verdicts do. */
+/* The verdicts on formulations in the table must affect the exit status, and verdicts on other
+ * built-in formulations must not. Until a table is read, all verdicts affect the exit status. */
 static void accepted_ones(const char *path)
 {
     truths t;

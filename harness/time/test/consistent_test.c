@@ -468,7 +468,8 @@ static void compare(const element_type *type, scene_scheme by, double step, doub
     }
 }
 
-/* One element, whose forces have no more digits than eps EA allows, but whose moments do. */
+/* One element whose moments have more digits than its forces, which have no more digits than eps EA
+ * allows. */
 static void one_element(void)
 {
     const int steps = 60;

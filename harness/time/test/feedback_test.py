@@ -91,7 +91,7 @@ class Feedback(ProgramTest):
             self.assertAlmostEqual(centre / (3 * 1.5**2 / 2 / (M1 + M2)), 1, 5)
 
     def test_continued(self):
-        """The integral continues in a motion that continues another one, even if the reference value jumps."""
+        """The integral must continue in a motion that continues another motion, even if the reference value jumps."""
         gains = "node: tool, component: ux, proportional: 20, derivative: 3, integral: 40"
         jump = "pieces: [{until: 0.5, is: 0.01}, {is: 0.03 + 0.01*t}],"
         for scheme in ("radau", "alpha", "explicit"):

@@ -183,7 +183,7 @@ static void inertia_tests(void)
     }
 }
 
-/* Interpolation between two instants must reproduce both of them: positions, shifts, angles,
+/* Interpolation between two instants must reproduce both instants: positions, shifts, angles,
  * warping, rates and accelerations, for bodies, sequences of angles and released ends that rotate
  * by half a radian. */
 

@@ -55,7 +55,7 @@ KINDS = {
                      (math.pi/10, math.pi/10)),
     "jerk": ("rate: {analysis: go, node: tip, component: uy, of: jerk", lambda t: -25*vy(t), (math.pi/10, math.pi/5))}
 WINDOWS = {"whole": (0, 2), "part": (0.333, 1.777), "step": (0.5003, 0.5007)}
-# integrator, step, error relative to the root mean square, and the kinds that it does not compute
+# integrator, step, error relative to the root mean square, and the kinds that the integrator does not compute
 SCHEMES = (("radau", 0.01, 1e-7, {}), ("explicit", 0.02, 1e-7, {}),
            ("alpha", 0.005, 6e-4, {"jerk"}), ("conserving", 0.005, 6e-4, {"acceleration", "jerk"}))
 

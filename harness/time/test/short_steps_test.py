@@ -57,7 +57,7 @@ class ShortStepsTest(SceneCase):
                     self.assertAlmostEqual(got["early"], -100*math.cos(4), delta=0.05, msg=why)
 
     def test_remainder(self):
-        """A tiny remainder is added to the last step. The last two steps share a short one."""
+        """A tiny remainder must be added to the last step. The last two steps must share a short remainder."""
         for scheme, _ in SCHEMES:
             for beyond, count, last in ((1e-9, 10, 0.1), (1e-4, 11, 0.05), (0.03, 11, 0.03)):
                 _, steps = self.solve(FREE % (1 + beyond, scheme, "0.1"))

@@ -23,8 +23,8 @@ static struct {
     double h;             /* rate = (2/h) tan(turn/2) */
 } present;
 
-/* Prescribes the motion of a node at r around the origin. Its end is displaced by d at the
- * start. */
+/* Prescribes the motion of a node around the origin, from the position r + d, where r is the
+ * undeformed position. */
 static void drive(scene *s, int node, const int vector[3], const double r[3], const double d[3])
 {
     const double *n = present.axis, spin = present.turn / present.h;

@@ -100,7 +100,7 @@ static double expected(int i)
     return EA * (cos(k * place[i] * length) / cos(k * length) - 1);
 }
 
-/* Checks a formulation. `order` is the minimum order between the two finest meshes. If it is 2, it
+/* Checks a formulation. `order` is the minimum order between the two finest meshes. An order of 2
  * is also the maximum. */
 static void spin(const element_type *type, scene_scheme scheme, double order)
 {

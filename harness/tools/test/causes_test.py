@@ -212,7 +212,8 @@ class Bounds(unittest.TestCase):
             self.assertIn("should allow 0.0003", bounds.text_of(one))
 
     def test_loose(self):
-        """A bound is loose beyond ten times the observed error with a derived limit, and beyond 1.5 times without one."""
+        """A bound is loose if it exceeds ten times the observed error with a derived limit, or 1.5 times without a
+        derived limit."""
         derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}  # by 1e-3
         for allowed, verdicts, loose in (("1e-2", [derived], False), ("1.1e-2", [derived], True),
                                          ("1.5e-3", [verdict_of_bounds(1e-3)], False), ("1.6e-3", [verdict_of_bounds(1e-3)], True),
@@ -222,7 +223,7 @@ class Bounds(unittest.TestCase):
         self.assertIn("a separate entry", bounds.text_of(self.said("1e-3", [derived, verdict_of_bounds(1e-9)])))
 
     def test_derived_limits_bind(self):
-        """The distance is measured from the derived limit if there is one, relative to the reference value."""
+        """The distance must be measured from the derived limit if there is one, relative to the reference value."""
         derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}
         self.assertAlmostEqual(self.said("1e-3", [derived])["seen"], 1e-3)
         self.assertAlmostEqual(self.said("1", [derived, verdict_of_bounds(2e-3)])["seen"], 2e-3)

@@ -369,7 +369,7 @@ class Make(Folder):
                          ["quick", "slow"])
 
     def test_clean_before_all_else(self):
-        """`clean` runs before all other targets, which then still find all files that they need."""
+        """`clean` runs before all other targets, which must still find all files that they need."""
         told = self.make("-n", "V=1", "QUIET=", f"BUILD={self.folder}/b", "clean", "all")
         compiled = [line for line in told if line.endswith("-c harness/cli/main.c -o "
                                                            f"{self.folder}/b/harness/cli/main.o")]

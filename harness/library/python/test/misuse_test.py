@@ -1,4 +1,4 @@
-"""Wrong use of the module, and the memory that it uses."""
+"""Wrong use of the module, and the memory use of the module."""
 import copy
 import ctypes
 import gc
@@ -258,7 +258,7 @@ class Processes(ModuleTest):
         scene = bw.Scene.case("elastica")
         self.assertTrue(scene.converge("beamw", meshes=[1, 2], stop=readable))
         os.write(writable, b"x")
-        many = bw.Scene.case(CASE)  # so many runs that some remain when the others have ended
+        many = bw.Scene.case(CASE)  # so many runs that some runs remain when others have ended
         for call in (lambda: many.converge(stop=readable), lambda: many.verify(stop=readable),
                      lambda: bw.verify(select=CASE, stop=readable)):
             self.one_line(bw.TimeLimit, "stopped before", call)
