@@ -194,7 +194,7 @@ static void conclude(element_measure *one, const char *holds, const char *fails)
 static void superposed(const specimen *s, measures *out)
 {
     static const double axis[3] = {0.36, 0.48, 0.8};
-    static walker at, there;
+    walker at, there;
     double most = 0;
     walker_begin(s, &at);
     walker_begin(s, &there);
@@ -228,7 +228,7 @@ static void superposed(const specimen *s, measures *out)
 /* Follows closed cycles, and compares the states at their ends with the undeformed state. */
 static void cycles(const specimen *s, measures *out)
 {
-    static walker at;
+    walker at;
     element_measure *strains, *forces;
     walker_begin(s, &at);
     if (!at.strains)

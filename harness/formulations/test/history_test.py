@@ -239,6 +239,38 @@ class History(ProgramTest):
         done = self.answered("element-test", "--element", element, "--format", "json")
         self.assertEqual(broken(json.loads(done.stdout)), [])
 
+    def faults(self, *changes, file=ROOT / "harness/formulations/test/midpoint.c"):
+        """Returns the violated requirements of an element in C with changes, and its measures."""
+        text = file.read_text(encoding="utf-8")
+        for before, after in changes:
+            self.assertIn(before, text)
+            text = text.replace(before, after, 1)
+        source = self.folder / "changed.c"
+        source.write_text(text, encoding="utf-8")
+        made = compile_shared(source, self.folder / "changed.so")
+        done = self.answered("element-test", "--element", made, "--format", "json", code=1 if changes else 0)
+        record = json.loads(done.stdout)
+        points = {}
+        for point in record["measured_points"]:
+            points.setdefault(point["name"], []).append(point["error"])
+        return " ".join(broken(record)), points
+
+    def test_element_test(self):
+        """Defects that an element does not declare, and histories that are not continued, are violations; the error of
+        the midpoint rule is the same in every cycle."""
+        none, points = self.faults()
+        self.assertEqual(none, "")
+        one, ten, hundred = points["strains after closed cycles"]
+        self.assertGreater(one, 1e-4)
+        self.assertAlmostEqual(ten / one, 10, delta=1e-6)
+        self.assertAlmostEqual(hundred / one, 100, delta=1e-5)
+        self.assertLess(max(points["strains, turns superposed"]), 1e-12)
+        self.assertIn("declare LIMIT_PATH_DEPENDENT", self.faults((" | LIMIT_PATH_DEPENDENT", ""))[0])
+        self.assertIn("declare LIMIT_NOT_OBJECTIVE",
+                      self.faults(("LIMIT_NOT_OBJECTIVE | ", ""), file=EXAMPLES / "incremental.c")[0])
+        self.assertIn("changes from", self.faults(("history[0] = t;", "history[0] = t / 2;"))[0])
+        self.assertIn("after a second commit", self.faults(("history[0] = t;", "history[0] += t;"))[0])
+
     def test_octave(self):
         if shutil.which("octave-cli") is None:
             self.skipTest("needs octave-cli")
