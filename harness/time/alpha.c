@@ -148,6 +148,7 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     relate(s, from, h, &r);
     drive_at(&s->stage.c->eq, from->state, time, s->inc, to->v, to->a);
     kinematics_state_copy(m, from->state, to->state);
+    kinematics_commit(m, to->state);
     relate_strains(s, from, h, to);
     instant_recall(from, &s->stage.arrival);
     TRY(stage_solve(&s->stage, from->state, time, &r, to->state, record, f));

@@ -56,6 +56,7 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     if (s->of.c->run->damping != NULL) /* dashpots depend on the rates of the coordinates */
         damping_follow(&s->of.c->eq, 0, s->of.c->run->damping->none, NULL);
     kinematics_state_copy(m, from->state, to->state);
+    kinematics_commit(m, to->state);
     if (advance(s, from, h) != GSL_SUCCESS)
         return fault_set(f, s->outcome == STATUS_OK ? STATUS_NOT_CONVERGED : s->outcome, "%s",
                          s->why.text);
@@ -397,7 +398,8 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
         kinematics_gather(m, s->at->state, model_element(m, i), x);
         model_type(m)->strain(
             model_kind_of(m, i)->data, x,
-            &(strain_output){.e = s->at->state->e + (size_t)i * (size_t)model_strains(m)});
+            &(strain_output){.e = s->at->state->e + (size_t)i * (size_t)model_strains(m),
+                             .history = model_history_of(m, s->at->state, i)});
         free_strain_subtract(&s->of.c->eq, i, time,
                              s->at->state->e + (size_t)i * (size_t)model_strains(m));
         TRY(settle_rates(s, i, time, f));

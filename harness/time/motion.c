@@ -165,7 +165,6 @@ static void lengthen(motion_course *w, double step, double whole, int rejected)
 /* Makes one step. After a failure, tries shorter steps until a step succeeds. */
 static status take_step(motion_course *w, double target, fault *f)
 {
-    kinematics_commit(w->c->model, w->now.state);
     for (int rejected = 0;; rejected++) {
         const double left = target - w->now.time - w->rest, whole = w->h;
         const int last = left <= whole * (1 + least_rest);

@@ -88,6 +88,7 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
             one->inc[c] = t * from->v[c] + t * t / 2 * from->a[c];
         drive_at(&r->of.c->eq, from->state, time, one->inc, one->v, one->a);
         kinematics_state_copy(m, from->state, one->state);
+        kinematics_commit(m, one->state);
         increment_apply(m, from->state, one->inc, time, one->state);
     }
     radau_rates(r, from, h);

@@ -199,8 +199,6 @@ static void blend_elements(const step_between *b, double s, model_state *at)
     blend(strains, s, from->e, to->e, at->e);
     blend(strains, s, from->sigma, to->sigma, at->sigma);
     blend(inner, s, from->inner, to->inner, at->inner);
-    memcpy(at->history, to->history,
-           (size_t)model_elements(m) * (size_t)model_history(m) * sizeof *at->history);
 }
 
 /* Sets positions and rates at a time [s] inside the step or near the step. */
@@ -226,6 +224,8 @@ static void between_places(const step_between *b, double time, instant *at)
     drive_at(b->eq, b->from->state, time, inc, at->v, at->a);
     memcpy(at->algorithm, at->a, (size_t)all * sizeof *at->a);
     increment_apply(m, b->from->state, inc, time, at->state);
+    memcpy(at->state->history, b->to->state->history,
+           (size_t)model_elements(m) * (size_t)model_history(m) * sizeof *at->state->history);
     at->time = time;
     at->ends_known = 0;
 }

@@ -236,8 +236,6 @@ class History(ProgramTest):
         done = self.answered("solve", scene, "--element", element, "-f", name, "-n", 2, "--format", "json")
         curve = json.loads(done.stdout)["curves"][0]
         self.follows(dict(zip(curve["curve_x"], curve["curve_value"])), curve["curve_x"][1:], lambda at: 0.8 * at, 2)
-        done = self.answered("element-test", "--element", element, "--format", "json")
-        self.assertEqual(broken(json.loads(done.stdout)), [])
 
     def faults(self, *changes, file=ROOT / "harness/formulations/test/midpoint.c"):
         """Returns the violated requirements of an element in C with changes, and its measures."""
@@ -284,6 +282,8 @@ class History(ProgramTest):
         path, made = self.changed("timoshenko.f90", FORTRAN), self.folder / "mine.so"
         subprocess.run(["gfortran", "-O1", "-shared", "-fPIC", path, "-o", made], check=True, cwd=self.folder)
         self.follows_in(made, "timoshenko_f90")
+        done = self.answered("element-test", "--element", made, "--format", "json")
+        self.assertEqual(broken(json.loads(done.stdout)), [])
 
     def test_refused(self):
         """What requires strains of the state alone is refused, with a remedy."""
