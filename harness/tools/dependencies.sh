@@ -3,6 +3,7 @@
 # Only .ci/run requires the packages of single tests (chromium, gfortran, octave-cli, python3-vtk9). Without these packages, the tests are skipped.
 # usage: dependencies.sh build FLAGS.mk     libraries for the compiler; writes their flags
 #        dependencies.sh verify|report|docs|test|truths
+#        dependencies.sh deb                 tools that build and check the Debian packages
 #        dependencies.sh layout              tools of clang, in the version that both Debian 12 and Debian 13 contain
 #        dependencies.sh ci                  tools of `layout`, and all packages without which a test is skipped
 set -eu
@@ -18,11 +19,15 @@ docs) modules="h5py numpy matplotlib markupsafe sphinx myst_parser:python3-myst-
 truths) modules="numpy scipy mpmath yaml" ;;
 test) modules="h5py numpy scipy matplotlib jinja2 markdown mpmath yaml" ;;
 layout) tools=$clang ;;
+deb)
+    tools="c++:build-essential dpkg-buildpackage:dpkg-dev dh:debhelper doxygen lintian"
+    modules="h5py numpy"
+    ;;
 ci)
     tools="$clang c++:g++ cmake gfortran octave-cli:octave ccx:calculix-ccx sphinx-build:python3-sphinx chromium doxygen mandoc mypy zsh"
     modules="h5py numpy scipy matplotlib jinja2 markdown mpmath yaml pandas myst_parser:python3-myst-parser furo:furo vtk:python3-vtk9 nbclient nbformat ipykernel pip venv:python3-venv"
     ;;
-*) echo "dependencies.sh: unknown command '$command'; give build, verify, report, docs, truths, test, layout or ci" >&2; exit 2 ;;
+*) echo "dependencies.sh: unknown command '$command'; give build, verify, report, docs, truths, test, deb, layout or ci" >&2; exit 2 ;;
 esac
 
 packages=
@@ -47,7 +52,7 @@ find_libraries() {
 
 find_missing() {
     packages=
-    [ "$command" != build ] || find_libraries
+    case $command in build | deb) find_libraries ;; esac
     [ "$command" != ci ] || [ -e /usr/share/bash-completion/bash_completion ] || need bash-completion
     for tool in $tools; do # or tool:package
         command -v "${tool%:*}" >/dev/null 2>&1 || need "${tool#*:}"

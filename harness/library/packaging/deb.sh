@@ -1,14 +1,12 @@
 #!/bin/sh
-# Builds the Debian packages in a copy of the source and writes them to FOLDER. Nothing is fetched from the network.
+# Builds the Debian packages in a copy of the source and writes them to FOLDER. As root, missing tools are installed first;
+# the build itself fetches nothing from the network.
 # usage: deb.sh VERSION RELEASED FOLDER
 set -eu
 version=$1 released=$2 folder=$3
 here=$(dirname "$0")
 cd "$here/../../.."
-[ -e /usr/share/perl5/Debian/Debhelper ] && command -v dpkg-buildpackage >/dev/null || {
-    echo "skipped: Debian packages need debhelper; run: sudo apt-get install debhelper"
-    exit 0
-}
+harness/tools/dependencies.sh deb
 rm -rf "$folder"
 copy=$folder/beamwork-$version
 mkdir -p "$copy"

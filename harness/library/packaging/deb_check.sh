@@ -10,11 +10,7 @@ root=$tree/root
 mkdir "$root" "$tree/work"
 cd "$tree/work"
 
-if command -v lintian >/dev/null; then
-    lintian --allow-root --fail-on error,warning "$folder"/*.changes
-else
-    echo "skipped: lintian is not installed"
-fi
+lintian --allow-root --fail-on error,warning "$folder"/*.changes
 for package in "$folder"/*.deb; do dpkg-deb -x "$package" "$root"; done
 libraries=$(dirname "$(find "$root/usr/lib" -name 'libbeamwork.so.0')")
 
