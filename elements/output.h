@@ -66,7 +66,7 @@ enum { ELEMENT_ALONG_POINTS = 8, ELEMENT_ALONG_COORDINATES = 14 };
  * frame. */
 typedef struct along_output {
     const double *force; /* in: [8 x 3] at the Gauss points of [0, 1], in global axes [N/m] */
-    const double *rate;  /* in: direction in which the force changes, in the form of `force`, or
+    const double *rate;  /* in: direction in which the force changes, with the layout of `force`, or
                             NULL. If it is not NULL, sigma, moment and ends are derivatives with
                             respect to the size of `rate`, and other outputs are not used */
     const double *e; /* in: [strains], or NULL for an undeformed element, whose outputs are linear

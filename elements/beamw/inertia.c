@@ -176,9 +176,9 @@ void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_ki
  *   v_c = v_s + zs phi, w_c = w_s - ys phi,
  *   theta_z = v_s' - g_y, theta_y = -(w_s' - g_z), a = phi' - g_w,
  *
- * The code writes each field in the form of interpolated nodal values plus functionals of the
- * strains, such as v_c = lin(v) + nu_y . e. In the deformed state, the functionals act along m_k,
- * the mean of the unit vectors of the nodes (derived here):
+ * The code writes each field as interpolated nodal values plus functionals of the strains, such as
+ * v_c = lin(v) + nu_y . e. In the deformed state, the functionals act along m_k, the mean of the
+ * unit vectors of the nodes (derived here):
  *
  *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),
  *   n_y = lin(n_y) + m_z (chi_x . e) - m_x (chi_z . e), ...

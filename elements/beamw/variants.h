@@ -7,7 +7,7 @@
 #include "elements/element.h"
 #include "elements/shared/lanes.h"
 
-/* Quadratic parts of functions of the strains, in the form of lists of nonzero terms. */
+/* Quadratic parts of functions of the strains, as lists of nonzero terms. */
 
 /* A term: d2(row)/dy_i dy_j = c for i <= j. */
 typedef struct beamw_quadratic_term {

@@ -355,7 +355,8 @@ def taken(functions, words):
 
 
 def answer_all(requests, to, functions, said):
-    """Answers requests from a stream until it ends; writes the answers to another stream. functions, said: of taken()."""
+    """Answers requests from a stream until the end of the stream, and writes the answers to another stream. functions,
+    said: of taken()."""
     functions, kinds = dict(functions), {}
     to.write(json.dumps(said).encode() + b"\n")
     to.flush()

@@ -24,7 +24,7 @@ const char *choice_nearest(const char *word, const char *(*next)(const void *con
                            const void *context);
 
 /* Returns the number of letters to change, add or remove to convert a to b. Only the first 63
- * letters count. */
+ * letters are compared. */
 int choice_distance(const char *a, const char *b);
 
 #endif

@@ -174,8 +174,8 @@ static void closed_path(const displacement_field *f, int kind, const char *name)
     for (int step = 0; step < STEPS; step++) {
         const double pi = acos(-1), t = 2 * pi * (step + 0.5) / STEPS, h = 2 * pi / STEPS;
         double at[N], F[N];
-        /* Translations and warping follow a circle. Rotations go back and forth about one axis per
-         * node, because increments about different axes do not add up. */
+        /* Translations and warping follow a circle. Rotations alternate about one axis per node,
+         * because increments about different axes do not add up. */
         for (int i = 0; i < N; i++)
             at[i] = cos(t) * d[i] +
                     (i % NODE_COORDINATES >= 3 && i % NODE_COORDINATES < 6 ? 0 : sin(t) * more[i]);

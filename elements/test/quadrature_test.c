@@ -1,6 +1,6 @@
 /* The points of the Gauss rule must be the roots of the Legendre polynomials, and its weights must
  * agree with their slopes, to the last digit. The rule must integrate monomials up to its degree
- * exactly. Threads and forked processes that request tables simultaneously must get the same
+ * exactly. Threads and forked processes that request tables simultaneously must receive the same
  * tables. */
 #include <float.h>
 #include <gsl/gsl_test.h>

@@ -87,7 +87,7 @@ static void batch_free(batch *b)
     free(b->kind[1]);
 }
 
-/* Number of sets of features with which batches are set up in turn. */
+/* Number of sets of features with which batches are set up. */
 enum { BATCH_FEATURES = 3 };
 static unsigned batch_features(int turn)
 {
