@@ -141,7 +141,7 @@ def truth_key(row):
 
 
 def read_truths(folders, defaults):
-    """Returns {case: rows} from the tables in the folders. A table that does not exist counts as empty."""
+    """Returns {case: rows} from the tables in the folders. A table that does not exist is treated as empty."""
     cases, seen, units = {}, {}, {}
     for path in [path for folder in folders for path in sorted(folder.glob("*.csv"))]:
         for number, row in read_csv(path, COLUMNS):

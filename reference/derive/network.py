@@ -365,7 +365,7 @@ class Network:
         return size
 
     def solve(self, path=(1.0, ), tolerance=1e-12):
-        """Solves for equilibrium at each level in turn, and at the last level to round-off."""
+        """Solves for equilibrium at each level in succession, and at the last level to round-off."""
         for level in path:
             for _ in range(30):
                 if self.iterate(level) <= tolerance:

@@ -3,7 +3,7 @@ reactions, stiffnesses, resultants at the ends of members, and frequencies about
 
 usage: of_scene.py [FILE]     FILE or standard input is a scene in the form that 'beamwork scene' writes.
 
-Prints one line for each quantity, in the form of at.py. The exit status is 0, or 3 if the scene or all of its
+Prints one line for each quantity, in the format of at.py. The exit status is 0, or 3 if the scene or all of its
 quantities are not supported by this program; a line for each gives the reason.
 
 Each value is that of the finer of two grids. The uncertainty is twice the difference between both, and at least

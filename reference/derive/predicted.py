@@ -4,7 +4,7 @@ usage: predicted.py [--write] [CASE...]     derives reference/predicted/CASE.csv
 
 The beam to which a formulation converges (predicted_beam.py) replaces the exact beam in the programs that derive exact
 values. predicted_column.py supplies the half-waves. A value that agrees with the exact value is not listed as a
-prediction. shear_stability=* means that these formulations have one second-order form, whatever theory a case
+prediction. shear_stability=* states that these formulations have one second-order form, whatever theory a case
 requests.
 """
 import pathlib
@@ -125,7 +125,7 @@ JOINTS = (({}, SHEETS), ({"wagner": 0}, ("beamw", "beamw_first", "sheet_third"))
 
 
 def joints():
-    """Yields predictions for joints, each of which takes twenty seconds."""
+    """Yields predictions for joints, each of which requires twenty seconds."""
     for given, names in JOINTS:
         at = sheets.parameters(given)
         for name in names:
@@ -140,7 +140,7 @@ HEXAPODS = (({}, SHEETS), ({"wagner": 0}, ("beamw", *SHEETS)))
 
 
 def hexapods():
-    """Yields predictions for hexapods, each of which takes a minute and a half."""
+    """Yields predictions for hexapods, each of which requires a minute and a half."""
     for given, names in HEXAPODS:
         at = sheets.parameters(given)
         for name in names:

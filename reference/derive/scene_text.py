@@ -17,7 +17,7 @@ class Refused(Exception):
 
 
 def read(text):
-    """Returns the scene in the form of nested dictionaries and lists of words."""
+    """Returns the scene as nested dictionaries and lists of words."""
     try:
         scene = yaml.load(text, Loader=yaml.BaseLoader)
     except yaml.YAMLError as error:

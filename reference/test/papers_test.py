@@ -37,7 +37,7 @@ def rows(name="papers.csv"):
 
 
 def numbers(text):
-    """Returns the numbers of equations such as '1-3,7' in the form of a list of strings."""
+    """Returns the numbers of equations such as '1-3,7' as a list of strings."""
     out = []
     for part in (p.strip() for p in re.sub(r"^(Figs?\.|Eqs\.) ", "", text).split(",")):
         first, _, last = part.partition("-")
