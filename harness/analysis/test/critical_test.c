@@ -86,7 +86,7 @@ static void expect_none(const element_type *e, const char *what, const loads *l,
                  "%s, %s: %g, %s", e->name, what, l->value[sign][i], l->why[sign][i]);
 }
 
-/* Every load occurs twice, about y and about z. */
+/* Every critical load occurs twice, about y and about z. */
 static void columns(const element_type *e, ask_tally *tally, const double direction[3])
 {
     const double first = bar_euler() / 4, exact[WANTED] = {first, first, 9 * first, 9 * first};
@@ -212,7 +212,7 @@ static void one_side_alone(const element_type *e, ask_tally *tally)
 {
     for (int n = 2; n <= 64; n *= 2) {
         loads both, alone;
-        ask_tally any = {0}; /* negative ones may not be found */
+        ask_tally any = {0}; /* negative loads may not be found */
         if (!bar_find_signs(e, tally, angle_compressed, along_x, n, 1, &alone))
             return;
         bar_find_signs(e, &any, angle_compressed, along_x, n, 2, &both);

@@ -114,7 +114,8 @@ class CrossTerms(ProgramTest):
                     self.near(found[name], value, abs(value), f"{formulation}, release {release}: {name}")
 
     def test_rounding(self):
-        """An asymmetry of up to 1e-6 of the diagonal is dropped, which a line says, for stiffness and for damping; a larger one acts."""
+        """An asymmetry of up to 1e-6 of the diagonal of stiffness or damping must be dropped and reported, and a larger
+        asymmetry must be included."""
         bar = """beamwork: 1
 sections: {s: {constants: {A: 6e-4, Iy: 2e-8, Iz: 4.5e-8, It: 4e-8}, young: 2e9, shear_modulus: 0.8e9}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], mass: 3, hold: [rx, ry, rz]}}

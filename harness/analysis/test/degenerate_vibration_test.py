@@ -159,8 +159,8 @@ class Degenerate(ProgramTest):
             self.assertEqual(bare, none, formulation)
 
     def test_released_at_both_ends(self):
-        """A bar with hinges in both directions at both ends has the factors pi^2 and 4 pi^2 twice, as a bar whose nodes
-        rotate has."""
+        """A bar with hinges in both directions at both ends has the factors pi^2 and 4 pi^2 twice, like a bar whose
+        nodes rotate."""
         ends = f"{HELD}, {tip(', hold: all')}"
         hinged = bar(more=", release: {from: [ry, rz], to: [ry, rz]}")
         turning = "a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, b: {at: [1, 0, 0], hold: [ux, uy, uz, rx]}"

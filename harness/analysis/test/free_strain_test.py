@@ -215,7 +215,7 @@ quantities: {{li: {{internal: {{analysis: li, member: n, end: to, resultant: N}}
 
     def test_bent(self):
         """A straight blank mounted along an arc between two clamps has the moment -EI k, and a bent blank mounted
-        straight has EI k. If one end is released, both take their stress-free shape."""
+        straight has EI k. If one end is released, both blanks have their stress-free shape."""
         k = 0.5
         for formulation in ("collocation", "geometrically_exact", "sheet_second_consistent"):
             for own, free in ((k, -k), (0, k)):

@@ -587,9 +587,9 @@ static void alike(const char *name, const char *other, scene_column column, cons
              e->name, scene_column_name[column], name, other, off, one.reason, two.reason);
 }
 
-/* An arm at rest in rotating axes keeps rotating with its drive, apart from the effect of its mass.
- * The mass is distributed along the elements in the rotation and lumped at the nodes in the
- * motion. */
+/* An arm at rest in rotating axes must continue to rotate with its drive, apart from the effect of
+ * its mass. The mass is distributed along the elements in the rotation and lumped at the nodes in
+ * the motion. */
 static void start_turning(const element_type *e)
 {
     static answer a;

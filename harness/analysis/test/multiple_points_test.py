@@ -176,7 +176,8 @@ class MultiplePoints(ProgramTest):
             self.assertEqual(found[len(exact):], [None] * (4 - len(exact)), (eta, step))
 
     def test_words_without_symmetry(self):
-        """Without mass, no divergence is reported up to the first point. With mass, the frequencies decide."""
+        """Without mass, no divergence is reported up to the first point. With mass, the frequencies determine the
+        stability."""
         for density, said in ((0, ["no divergence"] * 3 + ["unstable (2)"] * 3),
                               (1e-9, ["stable"] * 3 + ["unstable: grows"] * 3)):
             path = self.folder / "scene.yaml"

@@ -155,7 +155,7 @@ quantities: {u: {displacement: {analysis: path, node: b, component: uy}, unit: m
                 self.assertEqual(last, "stable")
 
     def test_what_is_not_symmetric_has_frequencies(self):
-        """The frequencies are those of the unloaded bar, apart from the effect of a small moment."""
+        """The frequencies must be those of the unloaded bar, apart from the effect of a small moment."""
         rest = """analyses: {path: {static: {stations: [1]}}, v: {modal: {about: path, wanted: 1}}}
 quantities: {f: {frequency: {analysis: v, which: 0}, unit: Hz}}
 """

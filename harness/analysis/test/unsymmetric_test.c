@@ -83,8 +83,8 @@ static void solve(const checked_column *c, int damped, int wanted, unsymmetric_r
     factor_free(fa);
 }
 
-/* Returns the square of half the difference of the first two squares of frequencies. It is negative
- * beyond the load at which they meet. */
+/* Returns the square of half the difference of the first two squares of frequencies. The result is
+ * negative beyond the load at which the two frequencies meet. */
 static double difference(double P, int elements, double tip)
 {
     checked_column c;
@@ -99,7 +99,7 @@ static double difference(double P, int elements, double tip)
     return value;
 }
 
-/* Returns the load at which two frequencies meet, found by bisection and then by linear
+/* Returns the load at which two frequencies coincide, found by bisection and then by linear
  * interpolation on the unstable side. */
 static double flutter_load(double low, double high, int elements, double tip)
 {
@@ -131,8 +131,8 @@ static void columns(void)
     gsl_test_rel(flutter_load(12, 25, 16, 1), 16.21213, 2e-5, "Pflueger 1");
 }
 
-/* Checks the frequencies, the sum and product of the two that meet, and that nothing grows below
- * the flutter load. */
+/* Checks the frequencies, the sum and product of the two that coincide, and that nothing grows
+ * below the flutter load. */
 static void near_flutter(void)
 {
     static const double load[] = {19, 20.05, 20.0509, 20.052, 20.1, 22};

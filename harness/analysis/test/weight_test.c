@@ -26,7 +26,7 @@ static int leaf_profile(scene *s)
 static const scene_body heavy = {
     .mass = 0.4, .centre = {0.02, -0.03, 0.05}, .inertia = {2e-4, 3e-4, 4e-4, 1e-5, 0, 0}};
 
-/* Adds the weight, by gravity or in the form of an explicit force. */
+/* Adds the weight, by gravity or as an explicit force. */
 static void add_weight(scene *s, int node, const double by[3], int by_hand)
 {
     const double m = by_hand ? s->node[node].body.mass : 1;

@@ -118,7 +118,8 @@ class Forms(unittest.TestCase):
         self.assertFalse(converge("text").endswith("\n\n"))
 
     def test_without_a_truth_families_agree(self):
-        """The stored reference values belong to a different stroke, so the agreement of formulations decides."""
+        """The stored reference values belong to a different stroke, so the verdicts follow from the agreement of
+        formulations."""
         new = ("converge", "--scene", str(LEAF), "--set", "stroke=0.009")
         done = run(*new, "-f", "all", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -235,7 +235,8 @@ class Planted(Tested):
 
 
     def test_linear(self):
-        """A formulation is tested only for what it supports: first-order strains are right without large rotations."""
+        """A formulation must be tested only for supported features: first-order strains are correct without large
+        rotations."""
         first = ("        out->e[i] = (p[i] + q[i]) / (2 * c) + k * along * psi[i];\n",
                  "        out->e[i] = p[i] + (i == 1 ? -d->length * psi[2] / 2 : i == 2 ? d->length * psi[1] / 2 : 0);\n")
         small = ("FEATURE_GEOMETRIC | FEATURE_LARGE | ", "")

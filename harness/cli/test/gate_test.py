@@ -1,5 +1,5 @@
-"""Requested formulations affect the exit status: wrong elements must be reported in every form in which a run states its
-outcome."""
+"""Requested formulations affect the exit status. Wrong elements must be reported in every form in which a run states
+its outcome."""
 import json
 import pathlib
 import subprocess

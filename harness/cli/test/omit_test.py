@@ -208,7 +208,7 @@ quantities:
         self.assertIn(line, files[3].read_text())
 
     def test_zero_that_is_given(self):
-        """A constant given as zero counts as known, even in the written scene."""
+        """A constant given as zero must be treated as known, even in the written scene."""
         every = ", ".join("0" for _ in range(9))
         for more, told in (("", "shear, warping, wagner_torque"), (", Iw: 0", "shear, wagner_torque"),
                            (", wagner_torque: 0", "shear, warping"), (f", F: [{every}]", "warping, wagner_torque"),

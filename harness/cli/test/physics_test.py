@@ -42,7 +42,7 @@ members:
 
 
 def walls(points, lines, thickness):
-    """Returns points and walls in the form of a scene, with letters as names."""
+    """Returns points and walls as in a scene, with letters as names."""
     names = dict(zip("abcdefgh", points))
     return (f"points: {{{', '.join(f'{n}: [{y}, {z}]' for n, (y, z) in names.items())}}}, walls: ["
             + ", ".join(f"{{from: {one}, to: {two}, thickness: {thickness}}}"

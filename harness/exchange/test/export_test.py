@@ -145,7 +145,7 @@ class Decks(ExportTest):
 
 
 class Answers(ExportTest):
-    """Tests the reading of output in the form of CalculiX, without running CalculiX."""
+    """Tests the reading of output in the format of CalculiX, without running CalculiX."""
 
     def printed(self, *vectors):
         """Writes a deck and its .dat, in which every step prints the next pair (displacement, force)."""

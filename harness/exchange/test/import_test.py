@@ -226,7 +226,8 @@ class Import(ProgramTest):
                      "collocation", "--imported", self.folder / "theirs.h5", "--imported-must-pass")
 
     def test_quantities_on_their_own_meshes(self):
-        """A quantity given on fewer meshes is evaluated on those meshes, the finest of which counts as the finest mesh."""
+        """A quantity given on fewer meshes must be evaluated on those meshes, the finest of which is the finest mesh of
+        the quantity."""
         self.read("# beamwork-import: 1\n# program: mine\n# case: elastica\nquantity, unit, elements, value\n" +
                   "".join(f"w_over_L, 1, {n}, {v}\n" for n, v in ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))) +
                   "".join(f"theta, rad, {n}, {0.46135195119 + 0.04 / n**2}\n" for n in (2, 4, 8, 16)))

@@ -345,8 +345,8 @@ static void unobserved(void)
     }
 }
 
-/* Two outcomes, in one cell or (one_cell 0) in two cells, in either order. A cell counts as its
- * worst outcome. */
+/* Two outcomes, in one cell or (one_cell 0) in two cells, in either order. The outcome of a cell is
+ * its worst outcome. */
 static void cells(void)
 {
     for (int good = 0; good < OUTCOME_KINDS; good++)

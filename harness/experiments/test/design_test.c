@@ -221,8 +221,8 @@ static void cost_of_a_level(void)
     gsl_test(r.run != NULL, "a shorter step is not within it");
 }
 
-/* Returns 1 if the errors of a quantity, on successively finer runs, count as not converging. The
- * errors of positions converge. */
+/* Returns 1 if the errors of a quantity do not converge on successively finer runs. The errors of
+ * positions converge. */
 static int stands(const double error[RUNS], double floor)
 {
     pace p;

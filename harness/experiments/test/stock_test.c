@@ -48,7 +48,7 @@ static long size_of(const char *path)
     return stat(path, &there) == 0 ? (long)there.st_size : -1;
 }
 
-/* The damaged batch must count as missing, be named once, and be computed again. */
+/* The damaged batch must be missing, be named once, and be computed again. */
 static void is_done_again(filled *of, const char *what)
 {
     stock s;
@@ -314,7 +314,8 @@ static void dealt(void)
     gsl_test(most > 1.01 * least, "shards end together: %g to %g", least, most);
 }
 
-/* Rule: the most expensive remaining batch goes to the first of the shards with the lowest cost. */
+/* Rule: the most expensive remaining batch belongs to the first of the shards with the lowest
+ * cost. */
 static void dealt_by_the_rule(void)
 {
     enum { BATCHES = 300, MOST = 40 };

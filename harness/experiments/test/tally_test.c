@@ -305,7 +305,7 @@ static const parameter_type map_table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {
 static const case_type map_box = {.name = "box", .parameters = {map_table}};
 
 /* Fields with their marks in a sweep with reference values at some points only (mixed), and without
- * any (alike). */
+ * reference values (alike). */
 static const struct {
     tally_place place;
     const char *mixed, *alike;

@@ -376,7 +376,7 @@ static void force_many(int count, const element_data *const data[], const node_s
         outcome[i] = force(data[i], x + i * element_nodes(gather_source, gather_options), &out[i]);
 }
 
-/* One type completed twice, and elements of it. */
+/* One type that is completed twice, and elements of this type. */
 typedef struct both {
     element_type given[2], type[2];
     element_data *data[2];

@@ -1,5 +1,5 @@
-/* Initial elongation and shear strains (N Eq. 52). A free member takes them without stress. A held
- * member has the force EA g or GA g. */
+/* Initial elongation and shear strains (N Eq. 52). A free member has these strains without stress.
+ * A held member has the force EA g or GA g. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>

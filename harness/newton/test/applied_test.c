@@ -1,4 +1,4 @@
-/* Loads along members and at offsets must have the right total force and moment, in the axes of
+/* Loads along members and at offsets must have the correct total force and moment, in the axes of
  * members with any section. An offset acts as a rigid arm. */
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -328,7 +328,8 @@ static void long_steps(const model *m)
     gsl_test(!(beyond > 1e-3), "a much longer one starts where the last ended (%.1e)", beyond);
 }
 
-/* From two states after a kink, the path is extrapolated linearly, whatever came before. */
+/* From two states after a kink, the path must be extrapolated linearly, whatever precedes the
+ * kink. */
 static void kinks(const model *m)
 {
     static const double path[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};

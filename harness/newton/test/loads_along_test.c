@@ -1,4 +1,4 @@
-/* Loads along a member and centrifugal forces must have the right resultants at the vertices. */
+/* Loads along a member and centrifugal forces must have the correct resultants at the vertices. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 

@@ -163,8 +163,8 @@ class Compare(ProgramTest):
         self.assertRegex(done.stdout, r"(?m)^new      warping_torsion/default/beamw n=4: other$")
 
     def test_near_zero(self):
-        """A value without a reference value counts as changed if the change exceeds the floor, relative to the size of
-        the value, or to near_zero if the value may vanish."""
+        """A value without a reference value must be reported as changed if the change exceeds the floor, relative to
+        the size of the value, or to near_zero if the value may vanish."""
 
         def without_truth(near_zero):
 

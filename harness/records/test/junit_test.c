@@ -466,7 +466,7 @@ static void no_places(void)
     folder_remove(&of);
 }
 
-/* One target under many names: other spellings, links and hard links, even for files that do not
+/* One target with many names: different spellings, links and hard links, even for files that do not
  * exist yet. */
 static void same_places(void)
 {

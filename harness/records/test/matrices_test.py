@@ -434,7 +434,7 @@ class StateSpace(Matrices):
             self.assertFalse((self.folder/"new").exists())
 
     def test_modes_without_mass(self):
-        """An eccentric point mass has three modes with mass, whatever the quantity."""
+        """An eccentric point mass has three modes with mass, whichever quantity is requested."""
         (self.folder/"scene.yaml").write_text("""beamwork: 1
 sections: {bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8}}
 nodes: {root: {at: [0, 0, 0], hold: all}, mid: {at: [1, 0, 0]}, tip: {at: [2, 0, 0], mass: 2, centre: [0.1, 0.2, 0.3]}}

@@ -133,8 +133,8 @@ static void known_badly(void)
     finish(&b);
 }
 
-/* If two families agree on one limit and two on another, there is no agreement. With three against
- * two, the three decide. */
+/* If two families agree on one limit and two on another, there is no agreement. If three families
+ * agree on one limit and two on another, the limit of the three is the agreed limit. */
 static void disputes(void)
 {
     families_bench b;

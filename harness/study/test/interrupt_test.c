@@ -150,7 +150,7 @@ static int is_asked(const interrupt *i)
     return poll(&end, 1, 0) > 0;
 }
 
-/* An ignored signal (nohup) does not count as a request. The signal mask is restored at the end. */
+/* An ignored signal (nohup) is not a request. The signal mask is restored at the end. */
 static void requests(void)
 {
     interrupt i;

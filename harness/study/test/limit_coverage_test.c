@@ -366,8 +366,8 @@ static void worked(void)
     gsl_test_rel(of_changes(4, agreeing_by_accident, 0).limit_uncertainty,
                  1.25 * (1.0 / 3 - 0) / 16, 1e-9,
                  "a change of the limit that is small by accident");
-    /* ratios 4, 4, 4.1667: the limits are twice -21.3333, then -21.24 - 0.24/3.1667 = -21.31579, so
-     * they do not settle */
+    /* the ratios are 4, 4, 4.1667, and the limits are twice -21.3333, then -21.24 - 0.24/3.1667 =
+     * -21.31579, so they do not settle */
     const double change = 4.0 / 3 - 1 - 0.24 * (1 + 6.0 / 19);
     gsl_test_rel(of_changes(4, unsettled, 0).limit_uncertainty, 1.25 * change, 1e-9,
                  "the change of the limit");

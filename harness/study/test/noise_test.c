@@ -114,7 +114,7 @@ static double in_other_words(const case_type *type, const formulation *chosen, s
     return out;
 }
 
-/* The larger of the two differences counts, for either repetition. */
+/* The noise is the larger of the two differences, for either repetition. */
 static void larger_of_two(const case_type *type)
 {
     sweep s;

@@ -377,7 +377,7 @@ static void throw_errors(double error[MESHES])
 }
 
 /* Returns the index of the coarsest mesh for which the error on it and on all finer meshes is
- * within the level, by a test of each mesh in turn. */
+ * within the level, by a test of each mesh. */
 static int by_definition(const double error[MESHES], double level)
 {
     for (int first = 0; first < MESHES; first++) {
@@ -453,21 +453,22 @@ static void gate_tests(void)
     unreached();
 }
 
-/* Determines if a limit counts as the derived limit: at the edges given by the uncertainties, on
+/* Determines if a limit agrees with the derived limit: at the edges given by the uncertainties, on
  * either side of the reference value, and for any source of the uncertainty. */
 
 /* Distance inside or outside an edge, relative to the distance of the edge. */
 static const double just = 3e-3;
 
-/* Returns the verdict if the derived limit is at the distance `apart` above the limit (negative:
- * below). */
+/* Returns the verdict if the derived limit is at the distance `apart` above the limit (or below the
+ * limit if negative). */
 static verdict_kind judged(judge_bench *b, double limit, double apart)
 {
     b->row[1].value = limit + apart;
     return bench_judge(b)->kind;
 }
 
-/* A limit counts as the derived limit up to the distance `edge` between them, but not beyond. */
+/* A limit must agree with the derived limit up to the distance `edge` between them, but not
+ * beyond. */
 static void edges(judge_bench *b, double edge, verdict_kind beyond, const char *what)
 {
     const double limit = bench_judge(b)->fit.limit;
@@ -492,8 +493,8 @@ static void with_prediction(judge_bench *b, double limit)
     bench_add_prediction(b, limit);
 }
 
-/* For an accurately known limit, the uncertainty of the derived limit decides, for any size and
- * sign of the error. A distance of even a small fraction of the error is too large. */
+/* For an accurately known limit, the uncertainty of the derived limit determines the verdict, for
+ * any size and sign of the error. A distance of even a small fraction of the error is too large. */
 static void sharp_limits(void)
 {
     static const double error[] = {0.003, -0.003, 0.3, -0.03};
@@ -516,7 +517,7 @@ static void sharp_limits(void)
     }
 }
 
-/* For an uncertain limit, three times its uncertainty decides. */
+/* For an uncertain limit, three times its uncertainty determines the verdict. */
 static void uncertain_limits(void)
 {
     judge_bench b;
@@ -556,7 +557,8 @@ static void biases(void)
     }
 }
 
-/* A limit that has not settled does not count as the derived limit, even if both agree. */
+/* A limit that has not settled must not agree with the derived limit, even if the values are
+ * equal. */
 static void undecided(void)
 {
     judge_bench b;

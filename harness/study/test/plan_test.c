@@ -175,8 +175,8 @@ static void plan_tests(void)
 }
 
 /* Effect of omitted physics: bounds must agree with fine meshes, for beams of any thickness under
- * any load, and for every case at its defaults. If there is no bound, the model counts as another
- * model. */
+ * any load, and for every case at its defaults. If there is no bound, the scene must be treated as
+ * another model. */
 
 static const double length = 0.1, young = 2e11, shear_modulus = 8e10;
 

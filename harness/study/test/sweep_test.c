@@ -1,5 +1,5 @@
 /* Sweeps in several processes must give the same results for any number of jobs. Crashes and
- * endless cells count as results. END only stops a test that would never end. */
+ * endless cells are results. END only stops a test that would never end. */
 #include <gsl/gsl_test.h>
 #include <signal.h>
 #include <string.h>
@@ -33,7 +33,7 @@ static void crashes(int end, int jobs, const char *reason)
 }
 
 /* With `together`, a killed worker ends the process that requested the sweep. A worker that crashes
- * or exceeds the time limit counts as a result. */
+ * or exceeds the time limit gives a result. */
 static void together(int end, int dies)
 {
     static const int mesh[] = {1};

@@ -167,8 +167,9 @@ static void account_tests(void)
 }
 
 /* Strains from stresses: a member that is a million times stiffer in elongation than in bending
- * must get strains that match its stresses, even if Newton's method does not find them at once.
- * Elements that already agree keep all bits, and types with linear stresses do not change. */
+ * must have strains that match its stresses, even if Newton's method does not find them
+ * immediately. Elements that already agree keep all bits, and types with linear stresses do not
+ * change. */
 
 extern const element_type element_beamw_consistent, element_beamw, element_geometrically_exact,
     element_collocation;

@@ -1,6 +1,6 @@
 /* Motions with consistent mass. In free flights, momenta and energy must be conserved with the
  * order of the scheme. Reactions at a fixed or prescribed base must equal the rate of change of
- * momentum, with rigid offsets, bodies and released ends. Newton's method must take as many
+ * momentum, with rigid offsets, bodies and released ends. Newton's method must require as many
  * iterations as with lumped mass, even if members are stiff. Unsupported combinations must be
  * rejected by name. */
 #include <math.h>
@@ -220,7 +220,8 @@ static double iterations_of(double stiffening, scene_mass mass, scene_scheme sch
     return mean;
 }
 
-/* Newton's method takes as many iterations as with lumped mass, whichever stiffness is large. */
+/* Newton's method must require as many iterations as with lumped mass, whichever stiffness is
+ * large. */
 static void iterations(void)
 {
     for (int k = 0; k < 2; k++) {

@@ -59,7 +59,8 @@ WINDOWS = {"whole": (0, 2), "part": (0.333, 1.777), "step": (0.5003, 0.5007)}
 SCHEMES = (("radau", 0.01, 1e-7, {}), ("explicit", 0.02, 1e-7, {}),
            ("alpha", 0.005, 6e-4, {"jerk"}), ("conserving", 0.005, 6e-4, {"acceleration", "jerk"}))
 
-# A load jumps on a node that is held, with the reaction -1 N, or 2 N from 0.3 s on, and a mass on a spring follows.
+# A load on a fixed node jumps at 0.3 s, where the reaction changes from -1 N to 2 N. A second load moves a mass on a
+# spring.
 JUMP = """beamwork: 1
 sections: {bar: {constants: {A: 1, Iy: 1, Iz: 1, It: 1}, young: 100, shear_modulus: 100}}
 nodes:
@@ -146,7 +147,7 @@ class MeansTest(SceneCase):
                     self.assertAlmostEqual(one["value"]/exact, 1, delta=3*allowed, msg=(scheme, kind, take))
 
     def test_jump(self):
-        """A jump of a force counts as a crossing, and divides the mean."""
+        """A jump of a force must be counted as a crossing, and divide the mean."""
         def after(t):
             return 2 - (1 - math.cos(10*t))
         for scheme, step, most in (("radau", 0.01, 1e-8), ("explicit", 0.02, 1e-8), ("alpha", 1e-3, 2e-4),
@@ -162,7 +163,8 @@ class MeansTest(SceneCase):
             self.assertIn("crosses the level fewer times", got["gone"]["reason"])
 
     def test_instants(self):
-        """At the start and at a jump, stations read the loads that act from then on, extremes those on both sides."""
+        """At the start and at a jump, stations must read the loads that act afterwards, and extremes must include the
+        loads on both sides."""
         for scheme, *_ in SCHEMES:
             record, got = self.solve(INSTANTS % scheme)
             for value, exact in zip(record["curves"][0]["curve_value"], (-1, 2.7, 2.5)):

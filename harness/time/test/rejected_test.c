@@ -299,7 +299,7 @@ static void launch_there(const char *then, double least, double most)
     gsl_test(flying_begin(&s, &element_geometrically_exact, 4, &f) != STATUS_OK, "begins: %s",
              f.why.text);
     for (int i = 0; i < steps;
-         i++) /* ends exactly at the jump, because otherwise the load after it would act */
+         i++) /* ends exactly at the jump, because otherwise the load after the jump would act */
         gsl_test(flying_step(&f, (0.0205 - f.now.time) / (steps - i)) != STATUS_OK, "step %d: %s",
                  i, f.why.text);
     for (int k = 0; k < model_elements(f.m) * model_strains(f.m); k++)
@@ -406,8 +406,8 @@ static void damped_rates_tests(void)
 }
 
 /* Initial rates of a motion must be those of the requested velocity field about its centre, at all
- * frames. If the first angle of a sequence with oblique axes is prescribed, the other angles take
- * the remaining components. */
+ * frames. If the first angle of a sequence with oblique axes is prescribed, the other angles must
+ * represent the remaining components. */
 
 #define LAUNCH_SWUNG "harness/time/test/swung.yaml"
 

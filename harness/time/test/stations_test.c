@@ -134,8 +134,8 @@ static void halve(void)
     cell_result_free(&r);
 }
 
-/* Step sizes follow the order of the estimate: a tolerance that is smaller by the factor 2^order
- * takes twice the steps, and hardly any step is rejected. */
+/* Step sizes must follow the order of the estimate. A tolerance that is smaller by the factor
+ * 2^order requires twice the steps, and hardly any step is rejected. */
 static void follow(scene_scheme by, double order, double tolerance)
 {
     int steps[2], rejected = 0;
