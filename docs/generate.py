@@ -49,7 +49,7 @@ def literal(text):
 
 
 def table(head, rows):
-    """Returns rows of words in the form of a Markdown table."""
+    """Returns rows of words as a Markdown table."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(str(c).replace("|", r"\|") for c in line) + " |"
                      for line in lines)
@@ -104,7 +104,7 @@ def write_interfaces(site):
 
 
 def arguments(value):
-    """Returns the arguments of a callable in the form of a call, or '' for any other object."""
+    """Returns the arguments of a callable as in a call, or '' for any other object."""
     member = value.__func__ if isinstance(value, (classmethod, staticmethod)) else value
     if not callable(member) or inspect.isclass(member) and issubclass(member, Exception):
         return ""

@@ -11,7 +11,7 @@ NAVIGATION = [("certificates.html", "certificates")]
 STATES, LOCKING, ORDERS = "states", "locking", "orders"
 LINES = ("-", "--", ":", "-.")
 FLOOR = 1e-16  # smallest drawn value
-EXACT = 1e-9  # bound below which an error counts as exact, as in the program
+EXACT = 1e-9  # bound below which an error is exact, as in the program
 MARKS = {"holds": "✔", "broken": "✘", "not claimed": "–"}
 
 

@@ -96,7 +96,7 @@ LETTER = 6.7  # mean width of a letter of 11 pixels
 
 @functools.lru_cache(None)
 def marker_path(marker, size):
-    """Returns the corners of a marker in the form of a path about its centre."""
+    """Returns the corners of a marker as a path about its centre."""
     form = MarkerStyle(marker)
     path = form.get_path().transformed(form.get_transform().scale(size))
     lines = path.to_polygons(closed_only=False)
@@ -106,7 +106,7 @@ def marker_path(marker, size):
 
 
 def form(marker, size):
-    """Returns a marker in the form of an SVG element to which fill and stroke can be applied."""
+    """Returns a marker as an SVG element to which fill and stroke can be applied."""
     if marker == "o":
         return f'circle r="{number(0.5 * size, 2)}"'
     return f'path d="{marker_path(marker, size)}"'

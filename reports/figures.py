@@ -281,7 +281,7 @@ def short(svg, name):
 
 
 def alone(markup):
-    """Returns the SVG of a figure in the form of a separate file."""
+    """Returns the SVG of a figure as a separate file."""
     names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
     used = [MARKERS[m] for m in markers_in(markup)]
     markup = markup.replace("</svg>", f"<defs>{''.join(used)}</defs></svg>") if used else markup

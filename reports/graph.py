@@ -1,5 +1,5 @@
 """python -m reports.graph FORM draws curves for `beamwork plot`. FORM is a picture (png, svg, pdf), or a table with a
-column for each quantity (csv). The program reads a list of solutions in the form of `beamwork solve --format json`
+column for each quantity (csv). The program reads a list of solutions in the format of `beamwork solve --format json`
 from standard input and writes the picture to standard output. Exit status 4 means that nothing can be drawn; a line
 gives the reason.
 

@@ -44,7 +44,7 @@ def operator(sign, stretchy=False):
 
 
 def bold(letters):
-    """Returns the letters in the form of bold mathematical letters of Unicode."""
+    """Returns the letters as bold mathematical letters of Unicode."""
     first = {"A": 0x1D400, "a": 0x1D41A}
     return "".join(chr(first["A"] + ord(c) - ord("A")) if c.isupper() else chr(
         first["a"] + ord(c) - ord("a")) for c in letters)

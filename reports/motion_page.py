@@ -127,7 +127,7 @@ def truths_of(path, case, quantity, end):
 
 # Text about a motion: its integrator, steps and drift.
 
-ROUND_OFF = 1e-6  # relative change below which a momentum counts as conserved
+ROUND_OFF = 1e-6  # relative change below which a momentum is treated as conserved
 
 
 def scheme(how):

@@ -13,7 +13,7 @@ from reports import shapes
 from reports.shapes import CLAMPED, FRAME, bodies, distance, exaggeration, read, size_of, strips
 
 NAVIGATION = [("pictures.html", "pictures")]
-FLAT = 0.02  # ratio of extent to size below which a structure counts as plane
+FLAT = 0.02  # ratio of extent to size below which a structure is treated as plane
 FAR, NEARLY = 0.45, 0.9  # fractions of the largest distance, slightly below one half and one
 
 MEMBER, BODY, SUPPORT = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80, 0.62]), "#1c2430"

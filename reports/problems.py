@@ -88,7 +88,7 @@ def no_defect(verdict, level):
 
 def solved(problem, key, level, forbids=defect):
     """Returns the data.Mesh with which a formulation solves the problem, or None. `forbids` is a function that returns
-    True for a known defect, which counts as not solved."""
+    True for a known defect, which is treated as not solved."""
     if key not in problem.tries:
         return None
     series, verdict = problem.tries[key]

@@ -31,7 +31,7 @@ SCHEMES = {
     "radau": ("#009e73", "#2bc495", "D"), "explicit": ("#882255", "#d8639b", "^"),
     "hht": ("#56b4e9", "#8fd2fa", "v"), "trapezoidal": ("#000000", "#f4f6f9", "X"),
 }
-# Formulations that are not in the table get one of these colours, selected by their names.
+# Formulations that are not in the table have one of these colours, selected by their names.
 RESERVE = (("#6a51a3", "#a793dc"), ("#a6761d", "#dfb060"), ("#c51b7d", "#f06cb4"),
            ("#1b7837", "#5fc07c"), ("#5b6675", "#aab4c2"))
 RESERVE_MARKERS = "hpd8H"
@@ -127,7 +127,7 @@ class Styles:
 
     @staticmethod
     def shape(key):
-        """Returns the marker in the form of the path of an SVG picture of 12 by 12, with its centre at the origin."""
+        """Returns the marker as the path of an SVG picture of 12 by 12, with its centre at the origin."""
         path = MarkerStyle(look(key)[2])
         corners = path.get_path().transformed(path.get_transform()).to_polygons(closed_only=True)
         size = 5.4 / max(np.abs(c).max() for c in corners)
@@ -136,5 +136,5 @@ class Styles:
 
     @staticmethod
     def fill(key):
-        """Returns the colour of a formulation for a page, in the form of a variable that changes in dark mode."""
+        """Returns the colour of a formulation for a page, as a variable that changes in dark mode."""
         return VARIABLES[look(key)[0]]

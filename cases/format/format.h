@@ -17,7 +17,7 @@ typedef struct arena {
     int failed;         /* 1: out of memory, or above the limit for a file */
 } arena;
 
-/* Makes room for another entry in a list of `count` entries. Returns the list, or a copy with twice
+/* Makes room for another entry in a list of `count` entries. Returns the list, a copy with twice
  * the room, or NULL if out of memory. */
 void *arena_grow(arena *a, void *list, int count, size_t size);
 void arena_free(arena *a);
@@ -58,8 +58,7 @@ void mistakes_print(const mistakes *m, FILE *to);
  * Returns FAULT if out of memory. */
 status mistakes_json(const mistakes *m, FILE *to, fault *f);
 
-/* A YAML document in the form of a tree of maps, lists and strings, each with its position in the
- * file.
+/* A YAML document as a tree of maps, lists and strings, each with its position in the file.
  *
  * Every scalar is a string until a number or a word is read from it; there are no implicit types.
  * Anchors, aliases, tags, merge keys, several documents, duplicate keys, and documents that are too
@@ -182,13 +181,12 @@ status scene_file_truths(const scene_file *, const double value[], scene_truth_t
  * names. A value may be passed more than once. */
 status scene_file_truths_all(const scene_file *, scene_truth_taker *, void *to, fault *f);
 
-/* Writes the keys of scene files in the form of a JSON Schema, for completion and checks in
- * editors. */
+/* Writes the keys of scene files as a JSON Schema, for completion and checks in editors. */
 
 status schema_file_write(FILE *to, fault *f);
 
-/* Head of a scene that is written in the form of a scene file. Reading this file gives the same
- * scene, bit for bit. */
+/* Head of a scene that is written as a scene file. Reading this file gives the same scene, bit for
+ * bit. */
 
 typedef struct write_head {
     const char *name, *summary, *source;

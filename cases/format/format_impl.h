@@ -89,8 +89,8 @@ enum { PLACEMENT_LISTS = 4 };
 /* Lists of a part: "nodes", "members", "springs", "loads". */
 extern const char *const placement_list[PLACEMENT_LISTS];
 
-/* Appends the entries of all instances to each list[k] with its count[k]. The lists are in the
- * order of placement_list. */
+/* Appends the entries of all instances to each list[k], which has count[k] entries. The lists are
+ * in the order of placement_list. */
 void placement_unroll(const document_node *root, const scope *names, arena *a, mistakes *m,
                       unrolled *list[], int count[]);
 
@@ -161,8 +161,7 @@ int fields_have(const fields *f, const char *key);
 void fields_read(const fields *f, const entry_field *table, void *entry);
 double fields_number(const fields *f, const char *key, double otherwise);
 int fields_whole(const fields *f, const char *key, int otherwise, int least, int most);
-/* Reads a vector. Returns 1, or 0 if the key is missing; in this case out[count] does not
- * change. */
+/* Reads a vector. Returns 1. If the key is missing, returns 0 and leaves out[count] unchanged. */
 int fields_vector(const fields *f, const char *key, int count, double out[]);
 /* Reads a list or range. Returns the number of values, or 0 if the key is missing or after an
  * error. *out belongs to the arena. */

@@ -88,7 +88,7 @@ along_path_words along_path_end(const scene *s, int acting)
 }
 
 /* Returns 1 if the values at all stations between 0 and 1 lie on the straight line from the value
- * at 0 to that at 1. */
+ * at 0 to the value at 1. */
 static int is_straight(int stations, const double path[], const double value[])
 {
     for (int i = 0; i < stations; i++) {

@@ -139,7 +139,7 @@ typedef struct expression_function {
     double value;  /* value of a constant */
     double (*of_one)(double);
     double (*of_two)(double, double); /* for two or more arguments: applied repeatedly */
-    int kinked;                       /* 1: the function has slope discontinuities or jumps */
+    int kinked;                       /* 1 if the function has slope discontinuities or jumps */
     jet_operation in_time;            /* JET_NUMBER: arguments must not contain t */
 } expression_function;
 

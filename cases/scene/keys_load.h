@@ -1,4 +1,4 @@
-/* Keys of a load, in the form of keys_member.h. The first six keys select the kind of the load
+/* Keys of a load, in the format of keys_member.h. The first six keys select the kind of the load
  * (entry_of_load). */
 ROW("force", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
     .summary = "at a node, or at 'where' of a member")

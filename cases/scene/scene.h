@@ -695,8 +695,8 @@ void scene_set_at(scene_quantity *q, double at);
 /* Sets the quantity to a statistic over all times of a motion: SCENE_MAX, SCENE_MIN, or
  * SCENE_MAX_TIME to SCENE_RMS. */
 void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
-/* Finds the stations of a spectrum: *count stations from *first on, including the last. Returns
- * REFUSED if the stations are not evenly spaced. */
+/* Finds the stations of a spectrum: *count stations, the first of which has the index *first.
+ * Returns REFUSED if the stations are not evenly spaced. */
 status scene_spectrum_stations(const scene *, const scene_quantity *, int *first, int *count,
                                fault *);
 /* Returns 1 if the quantity is evaluated between the stations of a motion. */

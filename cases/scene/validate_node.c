@@ -150,8 +150,8 @@ status scene_validate_node(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Largest deviation, as a fraction of their size, of directions and positions that count as in the
- * plane. */
+/* Largest deviation from the plane, relative to the magnitude, of directions and positions that are
+ * treated as in the plane. */
 static const double within = 1e-9;
 
 static int is_across(const scene *s, const double v[3])

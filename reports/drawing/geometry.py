@@ -127,7 +127,7 @@ def prism(line, here, there):
 # View of a structure: normal to its plane if the structure is plane, otherwise from above at an angle.
 
 WIDTH, HEIGHT = 400, 230  # largest size of the structure on paper [pt]
-FLAT = 1e-6  # ratio to the whole below which an extent counts as zero
+FLAT = 1e-6  # ratio to the whole below which an extent is treated as zero
 AZIMUTHS, ELEVATIONS = (-72, -64, -56, -48, -40, -32), (18, 24, 31)  # [degrees]
 MOST_POINTS = 60  # largest number of points by which a view is rated
 

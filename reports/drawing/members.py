@@ -251,7 +251,7 @@ def put_plate(canvas, view, at, way, mark):
 
 
 def put_edge(canvas, view, at, way, mark):
-    """Draws a plate seen edge-on in the form of a hatched line behind the node."""
+    """Draws a plate seen edge-on as a hatched line behind the node."""
     flat = view(way)
     flat = flat / np.linalg.norm(flat) if np.linalg.norm(flat) > 0.1 * view.scale else \
         np.array([0, 1.0])

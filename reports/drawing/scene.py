@@ -121,7 +121,7 @@ def numbers(values):
 
 
 def words_of(said):
-    """Returns a word, or the words of a list, in the form of a list."""
+    """Returns a word, or the words of a list, as a list."""
     return said if isinstance(said, (list, tuple)) else [said]
 
 

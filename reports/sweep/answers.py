@@ -7,7 +7,7 @@ from reports.sweep.boxes import Box
 
 ENOUGH = 0.9  # share of the largest range that a range with fewer elements must reach to be listed first
 FEWER = 0.15  # share of the first range that a range with fewer elements must reach to be listed
-BEHIND = 0.95  # share of the points of the next quantity below which one quantity alone decides
+BEHIND = 0.95  # share of the points of the next quantity below which one quantity is the only deciding quantity
 WIDER = 1.01  # factor on the first range that a range with more elements must reach to be listed
 
 

@@ -1,9 +1,8 @@
 """Finds the largest box of a lattice in which nearly all points are within the tolerance. Simple boxes take precedence
 over large boxes.
 
-For each axis, a box has no condition, one bound, two bounds, or a set of words. Each bound counts as one condition,
-and a set of words counts as one condition. A box with more conditions is preferred only if it contains many more
-points."""
+For each axis, a box has no condition, one bound, two bounds, or a set of words. Each bound is one condition, and a set
+of words is one condition. A box with more conditions is preferred only if it contains many more points."""
 import functools
 import itertools
 from dataclasses import dataclass, field

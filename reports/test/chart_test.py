@@ -383,7 +383,8 @@ class Sizes(ProgramTest):
             self.assertEqual(len(markers), len(set(markers)), page.name)
 
     def test_verdicts(self):
-        """Verdicts occur once, in short rows, on the pages of cases. The pages of formulations only count them."""
+        """Verdicts occur once, in short rows, on the pages of cases. The pages of formulations only contain the number
+        of verdicts."""
         rows = 0
         for page in self.site.glob("*.html"):
             text = page.read_text(encoding="utf-8")

@@ -15,7 +15,7 @@ QUANTITIES = (("u", "m"), ("v", "m"))
 
 
 class Counts(ProgramTest):
-    """Every count must agree with that of a loop over the tables of the file."""
+    """Every count must agree with the result of a loop over the tables of the file."""
 
     def made(self, points=None, axes=(WIDTH, ANGLE), **more):
         draw = np.random.default_rng(7)
@@ -75,7 +75,8 @@ class Counts(ProgramTest):
         self.assertEqual(self.check(self.made()).shape, (10, 10))
 
     def test_costs_that_tie(self):
-        """The work of the second formulation is twice that of the first, and that of the third is three times."""
+        """The work of the second formulation is twice that of the first, and that of the third is three times that of
+        the first."""
         alone = self.check(self.made()).wins.sum(axis=0)
         tied = self.check(self.made(noise=2.5)).wins.sum(axis=0)
         self.assertGreater(tied[1], alone[1])

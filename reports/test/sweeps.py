@@ -1,4 +1,4 @@
-"""Sweeps of artificial errors, stored in the form of `beamwork sweep`, for tests of their page."""
+"""Sweeps of artificial errors, stored in the format of `beamwork sweep`, for tests of their page."""
 import itertools
 
 import h5py

@@ -382,7 +382,7 @@ class UnitsTest(SceneCase):
 
     def warned(self, text):
         done = run("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 1)
-        self.assertIn(done.returncode, (0, 1), done.stderr)  # large loads may not converge
+        self.assertIn(done.returncode, (0, 1), done.stderr)  # runs with large loads may fail to converge
         return "warning" in done.stderr
 
     def test_warnings(self):
