@@ -21,7 +21,8 @@ static status source_known(source *, const truths **out, fault *f);
 
 enum { STEPS_MOST = 1000000 };
 
-static status read_options(const char *json, solution_request *out, fault *f)
+/* Reads the options. *stop: the descriptor that ends the solution; 0: none. */
+static status read_options(const char *json, solution_request *out, int *stop, fault *f)
 {
     const call_option table[] = {
         {"all_dofs", OPTION_SWITCH, &out->keep_all, 0, 1},
@@ -29,6 +30,7 @@ static status read_options(const char *json, solution_request *out, fault *f)
         {"steps", OPTION_WHOLE, &out->steps, 1, STEPS_MOST},
         {"shapes", OPTION_WHOLE, &out->shapes, 0, SHAPES_ALL},
         {"threads", OPTION_WHOLE, &out->threads, 1, TEAM_MOST},
+        {"stop", OPTION_FILE, stop, 1, INT_MAX},
         {"error", OPTION_SHARE, &out->error, 0, 0},
         {.name = NULL}};
     json_t *kept;
@@ -110,6 +112,7 @@ static status solve(const bw_scene *from, const char *name, int elements, const 
                     bw_result **out, fault *f)
 {
     status solved = STATUS_OK;
+    int stop = 0;
     if (out != NULL)
         *out = NULL;
     if (from == NULL || out == NULL)
@@ -121,13 +124,17 @@ static status solve(const bw_scene *from, const char *name, int elements, const 
             elements, MESHES_FINEST);
     solution_request what = {
         .type = source_case(from->from), .parameter = from->parameter, .elements = elements};
-    TRY(read_options(options, &what, f));
+    TRY(read_options(options, &what, &stop, f));
     bw_result *r = calloc(1, sizeof *r);
     if (r == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a result");
     r->from = source_hold(from->from);
     solution_choice why = {.formulation = ""};
-    const status filled = fill(r, from, name, &what, &why, &solved, f);
+    stop_watch(stop);
+    status filled = fill(r, from, name, &what, &why, &solved, f);
+    if (filled == STATUS_FAULT && stop_check(NULL) != STATUS_OK)
+        filled = fault_set(f, STATUS_TIME_LIMIT, "stopped before the solution was finished");
+    stop_watch(0);
     solution_choice_free(&why);
     if (filled == STATUS_OK)
         *out = r;

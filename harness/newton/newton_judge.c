@@ -429,6 +429,7 @@ status newton_iterate(analysis_context *c, const newton_use *use, arrival *a, st
     watch w = {INFINITY, INFINITY, 0, 0};
     for (int iteration = 1;; iteration++) {
         newton_correction one = {.energy = NAN};
+        TRY(stop_check(f));
         TRY(use->correct(use->of, iteration, &one, record, f));
         c->run->counters.iterations++;
         arrival_take(one.size, &one.stress, iteration == 1, a);

@@ -234,6 +234,7 @@ static status integrate(motion_course *w, fault *f)
     TRY(abouts_here(&w->abouts, &w->now, f));
     while (w->now.time < end) {
         const double kink = kinks_next(w->c->model, w->now.time);
+        TRY(stop_check(f));
         TRY(take_step(w, fmin(end, kink), f));
         TRY(judge(w, end, f));
         w->quiet *= w->now.time != kink;

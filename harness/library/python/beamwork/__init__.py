@@ -25,7 +25,7 @@ folder of this module, in `lib` of the prefix or `build` of the clone that conta
 program, and in the search path of the system. beamwork.path is the path that was found.
 
 Other threads run while the library computes. A scene performs one computation at a time. Ctrl-C ends the processes of
-converge and verify, and raises KeyboardInterrupt. A solution is completed before the exception is raised.
+converge and verify, or a solution after its present iteration or step, and raises KeyboardInterrupt.
 """
 from __future__ import annotations as _annotations
 

@@ -203,17 +203,19 @@ class Scene:
         formulation: such as "beamw" or "beamw:mass=lumped"; None: a formulation that supports the physics of the scene.
         elements: number per member; None: the coarsest mesh on which no value changes by more than `error` (0.001) from
         the previous mesh. Raises NotConverged if the values still change on the finest mesh tried.
-        options: error, all_dofs, steps, shapes, threads, ... (see beamwork.h).
+        options: error, all_dofs, steps, shapes, threads, stop, ... (see beamwork.h).
 
-        Raises Refused, NotConverged, Singular or Fault; error.result is the partial result, or None. Ctrl-C raises
-        KeyboardInterrupt when the solution has ended."""
+        Raises Refused, NotConverged, Singular or Fault; error.result is the partial result, or None. Ctrl-C ends
+        the solution after its present iteration or step of a motion, and raises KeyboardInterrupt."""
         name = utf8(formulation, "formulation")
         count = 0 if elements is None else arguments.whole(elements, "elements")
-        asked = arguments.options(options)
+        arguments.options(options)  # checks them here
         with self._lock:
             try:
-                return Result(owned_by("result", "solve", self._ready().pointer, name, count, asked,
-                                       entries=self._lines))
+                handle = self._ready()
+                return Result(stoppable(
+                    lambda given: owned_by("result", "solve", handle.pointer, name, count, arguments.options(given),
+                                           entries=self._lines), options))
             except Error as error:
                 if error.partial is not None:
                     error.result, error.partial = Result(error.partial), None

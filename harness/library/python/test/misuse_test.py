@@ -262,10 +262,26 @@ class Processes(ModuleTest):
         for call in (lambda: many.converge(stop=readable), lambda: many.verify(stop=readable),
                      lambda: bw.verify(select=CASE, stop=readable)):
             self.one_line(bw.TimeLimit, "stopped before", call)
+        for alone in (scene, bw.Scene.case("free_flight_space")):
+            self.one_line(bw.TimeLimit, "stopped before", alone.solve, "collocation", 1, stop=readable)
         self.one_line(bw.Refused, "stop", scene.converge, stop=-1)
+        self.assertGreater(scene.solve("collocation", 1)["w_over_L"], 0)
+
+    def test_interrupted_solution(self):
+        """Ctrl-C ends a motion of many steps long before its end; the scene can be used again."""
+        scene = bw.Scene.case("free_flight_space")
+        expected = scene.solve("collocation", 1).values
+        scene.set(time=100, step=1e-4, tolerance=0)
+        threading.Timer(1, os.kill, (os.getpid(), signal.SIGINT)).start()
+        begun = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            scene.solve("collocation", 1)
+        self.assertLess(time.monotonic() - begun, 20)
+        again = bw.Scene.case("free_flight_space").solve("collocation", 1)
+        self.assertEqual(dict(again.values), dict(expected))
 
     def test_interrupt(self):
-        """Ctrl-C ends verify and converge with their processes. A solution runs to its end first."""
+        """Ctrl-C ends verify and converge with their processes, and solve."""
         for call in ("bw.verify(refine=3)", "while True: s.solve('collocation', 16)",
                      "bw.Scene.case('hexapod').converge(meshes=[16, 32, 64])"):
             code = ("import beamwork as bw\ns = bw.Scene.case('sheet_cantilever')\n"
