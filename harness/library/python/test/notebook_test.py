@@ -1,6 +1,5 @@
-"""The notebook on sheet flexures must run in Jupyter and as a script, and reproduce its statements."""
+"""The notebooks must run in Jupyter and as scripts, and reproduce their statements."""
 import importlib.util
-import json
 import os
 import subprocess
 import sys
@@ -9,9 +8,11 @@ import unittest
 from unittest import mock
 
 from harness.library.python.test.module import FOLDER, SETTINGS, ModuleTest
-from harness.tools.kit.program import environment
+from harness.tools.kit.program import environment, read_json
 
 NOTEBOOK = FOLDER / "sheet_flexures.ipynb"
+# What the scripts of the notebooks print, among other things.
+SAID = {NOTEBOOK: "for 1 % in every quantity", FOLDER / "own_mechanism.ipynb": "resonance 11.2"}
 NEEDS = [name for name in ("nbclient", "nbformat", "ipykernel", "matplotlib")
          if importlib.util.find_spec(name) is None]
 
@@ -28,10 +29,11 @@ def words_of(cell):
 class Notebook(ModuleTest):
 
     def test_stored_without_outputs(self):
-        stored = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
-        code = [cell for cell in stored["cells"] if cell["cell_type"] == "code"]
-        self.assertGreater(len(code), 5)
-        self.assertEqual([cell["outputs"] for cell in code], [[]] * len(code))
+        self.assertEqual(set(FOLDER.glob("*.ipynb")), set(SAID))
+        for path in SAID:
+            code = [cell for cell in read_json(path)["cells"] if cell["cell_type"] == "code"]
+            self.assertGreater(len(code), 5)
+            self.assertEqual([cell["outputs"] for cell in code], [[]] * len(code))
 
     @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
     def test_in_jupyter(self):
@@ -92,16 +94,16 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf("matplotlib" in NEEDS, "needs matplotlib")
     def test_as_a_script(self):
-        stored = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
-        path = self.folder / "sheet_flexures.py"
-        path.write_text("\n".join("".join(cell["source"]) for cell in stored["cells"]
-                                  if cell["cell_type"] == "code"), encoding="utf-8")
-        done = subprocess.run([sys.executable, path], text=True, check=False, cwd=self.folder,
-                              env=environment(**SETTINGS, MPLBACKEND="Agg",
-                                              MPLCONFIGDIR=str(self.folder)),
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("for 1 % in every quantity", done.stdout)
+        """The code of the cells of each notebook, one after the other, runs as a script."""
+        for notebook, words in SAID.items():
+            path = self.folder / "script.py"
+            path.write_text("\n".join("".join(cell["source"]) for cell in read_json(notebook)["cells"]
+                                      if cell["cell_type"] == "code"), encoding="utf-8")
+            done = subprocess.run([sys.executable, path], text=True, check=False, cwd=self.folder,
+                                  env=environment(**SETTINGS, MPLBACKEND="Agg", MPLCONFIGDIR=str(self.folder)),
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(words, done.stdout)
 
 
 if __name__ == "__main__":
