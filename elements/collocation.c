@@ -18,7 +18,7 @@ struct element_data {
     exact_stages stages;
     exact_along along;
     field_mass mass;
-    int prestressed; /* 1: the derivatives for the prestress have been computed */
+    int prestressed; /* 1 if the derivatives for the prestress have been computed */
     double prestress[OUTER][OUTER * OUTER];
 };
 

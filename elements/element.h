@@ -297,9 +297,9 @@ typedef struct element_type {
     int (*history)(const double options[]); /* number of doubles of each element; default: 0 */
     /* Computes the values in the undeformed state; default: zero. */
     void (*begin)(const element_data *, const node_state x[], double history[]);
-    /* Required with history: replaces the values by those of the state x, which was reached from
-     * them and is accepted. The strains of x must not change, and a second call at x must change
-     * nothing, both to round-off. */
+    /* Required with a history: replaces the values by those of the state x, which is accepted and
+     * was reached from the previous values. The strains of x must not change, and a second call at
+     * x must change nothing, both to round-off. */
     void (*commit)(const element_data *, const node_state x[], double history[]);
 } element_type;
 
@@ -364,7 +364,7 @@ static inline int element_memory(const element_type *t, const double options[])
     return t->memory ? t->memory(options) : 0;
 }
 
-/* Returns the number of values of the history of an element; 0: there is no history. */
+/* Returns the number of values of the history of an element, or 0 without a history. */
 static inline int element_history(const element_type *t, const double options[])
 {
     if (t->history)

@@ -17,7 +17,7 @@ typedef enum beamw_twist_kind { BEAMW_TWIST_CUBIC, BEAMW_TWIST_HYPERBOLIC } beam
 typedef struct beamw_twist {
     double uneven;   /* [N m^3] stiffness of hg_w, the even part of the warping */
     double opposite; /* [N/m] stiffness of A = (e7 - e8)/2, the odd part */
-    double lambda;   /* 0: cubic */
+    double lambda;   /* 0 for the cubic function */
     double excess;   /* the value lambda/2 coth(lambda/2) - 1 */
     double soft;     /* 1 + r */
     double lag[2];   /* G It (f_yw, f_zw) [m]: ratio by which the part of kx above its mean reduces
@@ -83,7 +83,8 @@ typedef struct beamw_spread {
     int points;                                  /* number of points of the consistent mass */
     double at[BEAMW_GAUSS], weight[BEAMW_GAUSS]; /* on [0, 1] */
     double field[BEAMW_GAUSS][BEAMW_FIELDS][BEAMW_FIELD_MODES]; /* functionals of e: inertia.c */
-    double share; /* fraction of consistent mass; 0: lumped, 1: consistent, 1/2: average of both */
+    double share; /* fraction of consistent mass: 0 for lumped mass, 1 for consistent mass, 1/2 for
+                     the average */
 } beamw_spread;
 
 status beamw_spread_inertia(const beamw_spread *, const node_state x[2],

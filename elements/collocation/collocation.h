@@ -45,7 +45,7 @@ typedef struct exact_stages {
     double rest_x[EXACT_STAGES_NODES][3], rest_kappa[EXACT_STAGES_MAX][3], rest_v[3];
     double rest_axis[EXACT_STAGES_MAX]
                     [3]; /* R (e_x + g) at the points of the stress-free element */
-    int warps;           /* 0: no warping energy */
+    int warps;           /* 0 without warping energy */
     double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX];
 } exact_stages;
 

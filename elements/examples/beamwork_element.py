@@ -119,8 +119,8 @@ def moved(kind, x, real, imag):
 
 
 def derivatives(kind, strain, x, s, h=()):
-    """Returns J [N, m, 7 n]. If s [N, m] is given, returns H [N, 7 n, 7 n], the second derivative of s times the strains.
-    h: (), or (history [N, q],)."""
+    """Returns J [N, m, 7 n]. If s [N, m] is given, returns H [N, 7 n, 7 n], the second derivative of s times the
+    strains. h is () or (history [N, q],)."""
     (N, n, _), (real, imag) = x.shape, steps(x.shape[1], s is not None)
     unit = np.tile(kind.length ** np.array([1, 1, 1, 0, 0, 0, -1]), n)
     h = [v.repeat(len(real), 0) for v in h]
@@ -374,9 +374,9 @@ def answer_all(requests, to, functions, said):
 
 
 def serve(*functions, **words):
-    """Answers requests until beamwork sends no more. Example: serve(prepare, strain, stress, family="..."). `words` are
-    keys of the first line of the protocol. Functions that are not needed may be omitted."""
+    """Answers requests until beamwork stops. Example: serve(prepare, strain, stress, family="..."). `words` are keys of
+    the first line of the protocol. Functions that are not needed may be omitted."""
     functions, said = taken(functions, words)
     requests, to = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # output of print goes to standard error
+    os.dup2(2, 1)  # print writes to standard error
     answer_all(requests, to, functions, said)

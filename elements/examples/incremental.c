@@ -1,6 +1,6 @@
 /* A beam whose rotations are updated: two nodes, one point, with rotation increments interpolated
  * between the nodes, as in A. Cardona, M. Geradin, Int. J. Numer. Meth. Eng. 26 (1988). Strains
- * depend on the path and on rigid rotations; both errors vanish with shorter elements (M. A.
+ * depend on the path and on rigid rotations. Both errors vanish with shorter elements (M. A.
  * Crisfield, G. Jelenic, Proc. R. Soc. A 455, 1999).
  *
  * The history of an element contains the rotations of both nodes in the last accepted state, and
@@ -21,7 +21,7 @@ struct element_data {
     double stiffness[STRAINS]; /* [N/m] */
 };
 
-/* The values of the history, in this order. Matrices are row-major. */
+/* The values of the history in the order of storage. Matrices are row-major. */
 typedef struct memory {
     double node[2][9], L[9], k[3];
 } memory;
@@ -39,7 +39,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     const section *c = request->section;
     const double l = request->length;
     (void)f;
-    /* Transverse: shear if requested, and the bending that a uniform curvature lacks. */
+    /* transverse stiffness: shear if requested, and the bending that a uniform curvature lacks */
     out->length = l;
     const double shear = request->features & FEATURE_SHEAR ? l / c->shear_modulus : 0;
     const double Fy = shear * c->F[0] + l * l * l / (12 * c->young * c->Iz);
@@ -82,7 +82,7 @@ static void series(const double t[3], double a, double b, double A[9])
             A[3 * i + j] = (i == j) * (1 - b * square) + a * skew[3 * i + j] + b * t[i] * t[j];
 }
 
-/* The rotation vector of R S^T, shorter than pi. */
+/* The rotation vector of R S^T, with a magnitude below pi. */
 static void increment(const double R[9], const double S[9], double t[3])
 {
     double A[9];

@@ -33,7 +33,7 @@ typedef struct field_rows {
 typedef struct displacement_field {
     int nodes;
     double l0, ys, zs; /* [m] */
-    int warps;         /* 0: uniform torsion, e7 and e8 equal e2 */
+    int warps;         /* 0 for uniform torsion, where e7 and e8 equal e2 */
     beamw_stiffness_fields linear;
     beamw_twist twist;
     field_rows whole; /* rows integrated over [0, 1] */

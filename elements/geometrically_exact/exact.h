@@ -121,7 +121,7 @@ enum {
 typedef struct exact_stiffness {
     int strains, points, field;
     double l0;
-    int modified;                                                        /* 0: ebar equals e */
+    int modified;                                                        /* 0 if ebar equals e */
     double S[EXACT_STIFFNESS_MAX_STRAINS * EXACT_STIFFNESS_MAX_STRAINS]; /* [N/m] */
     /* Number and indices of the strains on which the twist rate depends; position of a strain in
      * `place`, or -1. */

@@ -36,11 +36,11 @@ typedef struct section {
                     infinite) */
     double axes_angle;  /* angle beta [rad] from the y axis of the walls to the principal y axis */
     double centroid[2]; /* position in the coordinates of the walls [m] */
-    int matrices;       /* 1: a section given by matrices */
+    int matrices;       /* 1 for a section given by matrices */
     double stiffness[36], mass[36]; /* given matrices; zero for other sections */
     double asymmetry;     /* asymmetry of the given matrices relative to their diagonals; only the
                              symmetric part is used */
-    int rectangle;        /* 1: a solid rectangle with the sizes below */
+    int rectangle;        /* 1 for a solid rectangle with the sizes below */
     double width, height; /* size of the rectangle: `width` w along z, `height` t along y [m] */
     double expansion;     /* strain of a free fibre per temperature change [1/K] */
 } section;
@@ -84,14 +84,14 @@ typedef struct section_spec {
         double thickness;
     } wall[SECTION_MAX_WALLS]; /* thickness [m] */
     int thickness_terms;       /* 1 to add the t^3 terms, 0 for thin-walled theory */
-    double width, height;      /* rectangle: size along z and along y [m] */
+    double width, height;      /* size of a rectangle along z and along y [m] */
     double shear_factor[2];    /* k of a rectangle for Qy and Qz, or 0 for 5/6, from the thickness
                                   terms; if both are 0, the shear due to warping is included */
     int sheet_warping; /* 1 for Iw = w^3 t^3/144 of a rectangle; It is the exact Saint-Venant series
                           in either case */
     double expansion;  /* [1/K] */
-    double diameter, wall_thickness; /* tube: outer diameter, and wall thickness; a solid bar has a
-                                        thickness of half the diameter [m] */
+    double diameter, wall_thickness; /* outer diameter and wall thickness of a tube [m]; the
+                                        thickness of a solid bar is half its diameter */
     section constants; /* constants to be used for SECTION_CONSTANTS, where D or F is required, or
                           stiffness and mass for SECTION_MATRICES, without a material */
     /* Values that replace computed values, or NAN where the computed value is used. If Ip is not

@@ -39,7 +39,7 @@ typedef struct stress_resultants {
     double N, Qy, Qz, My, Mz, bimoment;
     double warping; /* torque due to restrained warping M_w [N m] */
     double twist;   /* twist rate kappa_x [1/m] */
-    int turned;     /* 1: the twist rotates the fibres (Wagner torque) */
+    int turned;     /* 1 if the twist rotates the fibres (Wagner torque) */
 } stress_resultants;
 
 typedef enum stress_measure {

@@ -23,7 +23,7 @@ enum { TIP_UY = 1, TIP_THZ = 5, TIP_WARP = 6 };
 typedef struct cantilever {
     const element_type *type;
     element_data *data;
-    int n, reversed; /* 1: node p of every element is towards the tip */
+    int n, reversed; /* 1 if node p of every element is towards the tip */
     node_state node[MOST + 1];
     double e[MOST][N], sigma[MOST][N]; /* unknowns condensed in each element */
 } cantilever;
