@@ -15,7 +15,7 @@ PHYSICS = frozenset(
 SCENE = ("beamwork", "name", "summary", "source", "sections", "nodes", "members", "motions",
          "loads", "analyses", "quantities", "omit", "shear_theory", "meshes")
 NODE = ("at", "hold", "drive", "part_of", "rotation", "fork", "mass", "centre", "inertia"
-        )  # inertia: scene_states.py
+        )  # scene_states.py uses the inertia
 MEMBER = ("from", "to", "section", "y", "warping", "curvature", "divisions", "release")
 LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on", "path", "factor",
         "at", "axes", "follower", "to_value")
