@@ -297,7 +297,7 @@ quantities:
             self.assertAlmostEqual(self.values(record)["most"]["value"]/most, 1, 6)
 
     def test_modes_of_open_loop(self):
-        """A structure that only its loop holds has a solution by modes."""
+        """A structure that is only supported by its loop must have a modal solution."""
         text = """beamwork: 1
 sections: {bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}}
 nodes:

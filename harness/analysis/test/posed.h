@@ -332,8 +332,8 @@ typedef struct posed {
     double grown; /* ... and of the loads that are not constant */
     double end;   /* end of the static path */
     double pull;  /* force at the tip along y, from the start of the path [N] */
-    int turns;    /* 1: the axes of the paths rotate */
-    int follows;  /* 1: a force at the tip follows the tip */
+    int turns;    /* 1 if the axes of the paths rotate */
+    int follows;  /* 1 if a force at the tip follows the tip */
 } posed;
 
 /* Returns 1 for loads without a potential, for which flutter is requested. */

@@ -18,7 +18,7 @@ BESIDE = BAR.replace(", b: {", ", c: {at: [0, 1, 0], hold: all}, d: {at: [1, 1, 
     "members: {", "members: {cd: {from: c, to: d, section: s, y: [0, 1, 0]}, ") % ", drive: {rx: turn}"
 TORQUE = "torque: {reaction: {analysis: run, node: b, component: rx, take: curve}, unit: N m}"
 TURN = "turn: {displacement: {analysis: run, node: b, component: rx, take: curve}, unit: rad}"
-# midpoint.c in Octave and Fortran: changes of timoshenko.m and timoshenko.f90
+# midpoint.c in Octave and Fortran, as changes of timoshenko.m and timoshenko.f90
 OCTAVE = (("function e = strain(kind, r, u, R, a)", "function e = linear(kind, r, u, R, a)"),
           ("function A = turned_back(R)", """function e = strain(kind, r, u, R, a, h)
 e = linear(kind, r, u, R, a);
@@ -63,7 +63,7 @@ FORTRAN = (("this%stress = c_funloc(stress)", """this%stress = c_funloc(stress)
   end subroutine"""),
            ("real(c_double), pointer :: e(:)\n    real(c_double) :: chord", """real(c_double), pointer :: e(:), h(:)
     real(c_double) :: chord"""))
-RIGIDITY = 292.712582272 / 0.8  # [N m^2]: the linear torsion of timoshenko.c
+RIGIDITY = 292.712582272 / 0.8  # torsional rigidity of timoshenko.c [N m^2]
 
 
 class Path:
@@ -116,7 +116,7 @@ class History(ProgramTest):
         return {c["quantity"]: dict(zip(c["curve_x"], c["curve_value"])) for c in record["curves"]}, record
 
     def follows(self, torque, steps, twist_of, n=1, close=2e-6):
-        """Requires the torques at stations to be those of the path with these accepted steps."""
+        """Checks that the torques at stations are those of the path with these accepted steps."""
         path, compared = Path(n), 0
         for at in steps:
             if at in torque:
@@ -238,7 +238,7 @@ class History(ProgramTest):
         self.follows(dict(zip(curve["curve_x"], curve["curve_value"])), curve["curve_x"][1:], lambda at: 0.8 * at, 2)
 
     def faults(self, *changes, file=ROOT / "harness/formulations/test/midpoint.c"):
-        """Returns the violated requirements of an element in C with changes, and its measures."""
+        """Returns the violated requirements of an element in C after changes, and the measures of the element."""
         text = file.read_text(encoding="utf-8")
         for before, after in changes:
             self.assertIn(before, text)
@@ -254,8 +254,8 @@ class History(ProgramTest):
         return " ".join(broken(record)), points
 
     def test_element_test(self):
-        """Defects that an element does not declare, and histories that are not continued, are violations; the error of
-        the midpoint rule is the same in every cycle."""
+        """Undeclared defects of an element, and histories that are not continued, must be violations. The error of the
+        midpoint rule must be equal in every cycle."""
         none, points = self.faults()
         self.assertEqual(none, "")
         one, ten, hundred = points["strains after closed cycles"]
@@ -286,7 +286,7 @@ class History(ProgramTest):
         self.assertEqual(broken(json.loads(done.stdout)), [])
 
     def test_refused(self):
-        """What requires strains of the state alone is refused, with a remedy."""
+        """Analyses that require strains of the state alone must be rejected with a remedy."""
         conserving = DRIVEN + ("motions: {turn: {unit: rad, time: t^2}}\n"
                                "analyses: {run: {motion: {stations: [1], integrator: conserving, step: 0.1}}}\n"
                                f"quantities: {{{TORQUE}}}\n")

@@ -249,8 +249,8 @@ static void shared_scene(void)
     bw_scene_free(s);
 }
 
-/* 1: the program has reached its end. A numerical library may end the program early with status 0,
- * as LAPACK does for a wrong argument. */
+/* 1 if the program has reached its end. A numerical library may end the program early with status
+ * 0, as LAPACK does for a wrong argument. */
 static int ended;
 
 static void mind_the_end(void)

@@ -17,7 +17,7 @@ enum { DEEPEST = 8, NAME = 32, HEADER = 3 };
 
 /* Contents of a document according to an XML reader. */
 typedef struct tree {
-    int bad;                                     /* 1: the document is not well-formed */
+    int bad;                                     /* 1 if the document is not well-formed */
     int tests, failures, skipped, both, outside; /* `both` counts failed and skipped tests */
     int header[HEADER];                          /* tests, failures and skipped of the suite */
     int depth;

@@ -112,7 +112,7 @@ typedef struct coverage_family {
     const char *name;
     error_function *error;
     mixture mixture;
-    double order;   /* 0: one of 1, 1.5, 2, 3, 4, at random */
+    double order;   /* 0 for an order that is randomly 1, 1.5, 2, 3 or 4 */
     double covered; /* fraction of the limits that must lie within their uncertainty */
 } coverage_family;
 

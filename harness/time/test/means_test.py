@@ -4,8 +4,8 @@ import unittest
 
 from cases.format.test.scene_case import SceneCase
 
-# A mass on a bar, which it stretches (10 rad/s) and bends between parallel ends (5 rad/s). The amplitudes are so small that
-# the two vibrations are independent.
+# A mass on a bar. The mass stretches the bar (10 rad/s) and bends it between parallel ends (5 rad/s). The amplitudes
+# are so small that the two vibrations are independent.
 BAR = """beamwork: 1
 sections: {bar: {rectangle: {width: 0.5, thickness: 0.5}, young: 400, shear_modulus: 150}}
 nodes:
@@ -81,7 +81,7 @@ quantities:
 omit: [shear, wagner_torque]
 """
 
-# The load on the held node is 1 + 5 N at the end of the path, then 1 N + 1 N/s. At 0.3 s another load jumps.
+# The load on the fixed node is 6 N at the end of the path, and then 1 N + 1 N/s. At 0.3 s, another load jumps.
 INSTANTS = """beamwork: 1
 sections: {bar: {constants: {A: 1, Iy: 1, Iz: 1, It: 1}, young: 100, shear_modulus: 100}}
 nodes:
@@ -103,7 +103,7 @@ omit: [shear, wagner_torque]
 
 
 def mean(f, begin, end, count=4000):
-    """The integral by the rule of midpoints, with the ends as corrections (order 4)."""
+    """Returns the mean by Gauss's rule with two points (order 4)."""
     h = (end - begin)/count
     nodes = (begin + (i + k)*h for i in range(count) for k in (0.5 - math.sqrt(1/12), 0.5 + math.sqrt(1/12)))
     return sum(map(f, nodes))/(2*count)
@@ -112,7 +112,7 @@ def mean(f, begin, end, count=4000):
 class MeansTest(SceneCase):
 
     def solve(self, text):
-        """Returns the record, with the quantities by their names."""
+        """Returns the record, and its quantities by name."""
         record = self.record("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 1)
         return record, {one["quantity"]: one for one in record["quantities"]}
 

@@ -323,13 +323,13 @@ class Tables(ModuleTest):
 class Drawn(ModuleTest):
 
     def lines(self, figure, axes=0):
-        """Returns the points of the lines of an axes, after drawing the figure."""
+        """Draws the figure and returns the points of the lines of its axes."""
         figure.savefig(self.folder / "figure.png")
         self.assertGreater((self.folder / "figure.png").stat().st_size, 1000)
         return [line.get_xydata() for line in figure.axes[axes].get_lines()]
 
     def test_result(self):
-        """Curves of paths and motions, and shapes."""
+        """Curves of paths and motions, and shapes of results."""
         result = bw.Scene.case("sheet_cantilever").solve("sheet_third", 1)
         line, = self.lines(result.plot("C_zz_curve"))
         self.assertTrue((line == numpy.transpose(result.curve("C_zz_curve"))).all())

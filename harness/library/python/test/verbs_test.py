@@ -1,4 +1,4 @@
-"""Every verb of the program has a function in Python, whose data are those that the program writes."""
+"""Every verb of the program must have a function in Python, which returns the data that the program writes."""
 import csv
 import io
 import json
@@ -16,7 +16,7 @@ from harness.library.python.test.module import ModuleTest, SETTINGS, bw, leaf
 from harness.tools.kit.program import PROGRAM, ROOT, environment, read_json, run
 
 RUNS = ("-f", "beamw", "-n", "1,2")
-# Differ from run to run.
+# columns that differ from run to run
 CLOCKS = re.compile(r"clock|seconds.*|spent|round_.*|keep_all_.*|repeats|kept|noise|work_spread")
 
 
@@ -46,7 +46,7 @@ class Verbs(ModuleTest):
         self.assertGreater(len(ours), 0)
 
     def same_rows(self, ours, theirs):
-        """Compares numbers of records with the texts of a CSV file, bit for bit."""
+        """Checks that numbers of records equal the texts of a CSV file, bit for bit."""
         self.assertGreater(len(ours), 0)
         self.assertEqual(len(ours), len(theirs))
         for mine, one in zip(timeless(list(ours)), timeless(theirs)):
@@ -56,7 +56,7 @@ class Verbs(ModuleTest):
                 self.assertEqual(value, type(value)(told) if value is not None else None, key)
                 self.assertEqual(value is None, told == "" and not isinstance(value, str), key)
 
-    # A test for each verb: list_ for 'list'.
+    # A test for each verb, where list_ is the function of 'list'.
     def test_list(self):
         self.same(bw.list_(), self.json("list"))
         self.same(bw.list_("beamw"), self.json("list", "beamw"))
@@ -172,7 +172,8 @@ class Verbs(ModuleTest):
         self.same(bw.schema(), self.json("schema"))
 
     def test_each_has_a_function(self):
-        """The verbs of `beamwork --help` are those tested above, and each has a documented function."""
+        """The verbs of `beamwork --help` must be those of the tests in this file, and each verb must have a documented
+        function."""
         verbs = re.findall(r"^  ([a-z-]+)  +\S", self.answered("--help").stdout.partition("to begin with")[0], re.M)
         self.assertGreater(len(verbs), 16)
         methods = {"solve": bw.Scene.solve, "converge": bw.Scene.converge, "scene": bw.Scene.write}
@@ -188,7 +189,7 @@ class Verbs(ModuleTest):
 class Running(ModuleTest):
 
     def test_scenes(self):
-        """A scene built in Python, one that was read, and values that were set reach the program."""
+        """The program must receive scenes built in Python, scenes that were read, and values that were set."""
         built = leaf()
         built.parameters["push"] = {"value": 1, "unit": "N"}
         built.loads["push"]["force"] = [0, "push", 0]
@@ -228,7 +229,7 @@ class Running(ModuleTest):
         self.assertTrue(bw.element_test("beamw_vlasov").passed)
 
     def test_loaded(self):
-        """A formulation that load() has loaded is used by the verbs, too."""
+        """The verbs must use a formulation that load() has loaded."""
         code = ("import beamwork as bw, sys; name = bw.load(sys.argv[1]);"
                 "print(name, bw.sweep('elastica', name, vary={'load': [1]}, elements=2)[0]['status'])")
         path = ROOT / "elements" / "examples" / "timoshenko.py"
