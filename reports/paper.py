@@ -60,7 +60,7 @@ class Paper:
 
 
 def try_latex():
-    """Selects a LaTeX program. Raises Impossible if none can measure text for PGF figures."""
+    """Selects a LaTeX program. Raises Impossible if no program can measure text for PGF figures."""
     remedy = "run: sudo apt-get install texlive-latex-recommended texlive-pictures"
     found = next((t for t in TEX if shutil.which(t)), None)
     if not found:
@@ -118,7 +118,7 @@ def figure_of(chart, sized):
 
 
 def put_legend(figure, lines, names):
-    """Puts a legend below a figure, with as many columns as fit its width."""
+    """Adds a legend below a figure, with as many columns as fit the width of the figure."""
     for columns in range(min(LEGEND, len(names)), 0, -1):
         legend = figure.legend(lines, names, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=columns)
         width = legend.get_window_extent(figure.canvas.get_renderer()).width
@@ -128,7 +128,7 @@ def put_legend(figure, lines, names):
 
 
 def legend_of(panels):
-    """Returns (lines, labels) of the curves of panels, without repetition, or None."""
+    """Returns (lines, labels) of the curves of panels without repetition, or None if there are no labels."""
     found = {}
     for axes in panels:
         for line, name in zip(*axes.get_legend_handles_labels()):
@@ -138,7 +138,7 @@ def legend_of(panels):
 
 
 def draw(axes, panel):
-    """Draws a panel (chart.Panel) whose axes are settled."""
+    """Draws a panel (chart.Panel) whose axes have their final limits."""
     scale(axes.xaxis, panel.x, axes.set_xscale, axes.set_xlim)
     scale(axes.yaxis, panel.y, axes.set_yscale, axes.set_ylim)
     if panel.shares:
@@ -162,7 +162,7 @@ def draw(axes, panel):
 
 
 def scale(axis, of, set_scale, set_limits):
-    """Gives an axis of matplotlib the limits and ticks of an axis of a chart."""
+    """Sets the limits and ticks of an axis of matplotlib to those of an axis of a chart."""
     set_scale("log" if of.log else "linear")
     set_limits(of.low, of.high)
     at, words = zip(*of.ticks()) if of.ticks() else ((), ())

@@ -14,7 +14,7 @@
 typedef struct arena {
     struct arena_block *block;
     size_t used, total; /* bytes used in the first block, and bytes in all blocks */
-    int failed;         /* 1: out of memory, or above the limit for a file */
+    int failed;         /* 1 after an error: out of memory, or above the limit for a file */
 } arena;
 
 /* Makes room for another entry in a list of `count` entries. Returns the list, a copy with twice
@@ -35,7 +35,7 @@ typedef struct mistakes {
     const char *file; /* name used in messages */
     int count;
     int more;                    /* number of errors that did not fit */
-    int out_of_memory;           /* 1: memory ran out before the end of the file was read */
+    int out_of_memory;           /* 1 if memory ran out before the end of the file was read */
     mistake list[MISTAKES_MOST]; /* ordered by position */
 } mistakes;
 

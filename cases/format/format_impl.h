@@ -79,7 +79,7 @@ const scope *unroll_let(const document_node *let, const scope *names, arena *a, 
 typedef struct placement {
     const char *name; /* name of the instance, whose entries have the names NAME.ENTRY */
     double origin[3]; /* [m] */
-    int turned;       /* 0: the axes of the instance are those of the scene */
+    int turned;       /* 0 if the axes of the instance are those of the scene */
     double R[9];      /* rotation matrix, row-major; its columns are the axes of the instance in the
                          scene */
     const document_node *connect; /* PORT: NODE, or NULL */
@@ -109,7 +109,7 @@ void units_check(const document_node *unit, mistakes *m);
 /* Units of a scene: length and force. The units of stress and mass (force s^2/length) follow from
  * both. */
 typedef struct unit_system {
-    int given;            /* 0: SI */
+    int given;            /* 0 for SI units */
     double length, force; /* size of one unit in m and in N */
     const char *name_of_length, *name_of_force;
     char name_of_stress[16];
@@ -137,7 +137,7 @@ typedef struct builder {
     struct {
         unrolled *entry;
         int count;
-        int incomplete;  /* 1: entries were omitted after errors */
+        int incomplete;  /* 1 if entries were omitted after errors */
     } list[SCENE_LISTS]; /* entries of each list, in the order of the indices of the scene */
     const char **shared; /* names of warping coordinates shared by members */
     int shares;
@@ -148,9 +148,9 @@ typedef struct builder {
 typedef struct fields {
     builder *b;
     const scope *names;
-    const document_node *map; /* NULL: the map is missing and is treated as empty */
+    const document_node *map; /* NULL if the map is missing and treated as empty */
     const document_node *place;
-    const placement *placed; /* NULL: the map is in the axes of the scene */
+    const placement *placed; /* NULL if the map is in the axes of the scene */
 } fields;
 
 fields fields_of(builder *b, const unrolled *entry);
@@ -237,7 +237,7 @@ const document_node *choose_value(const document_node *n, const scope *names, mi
  * name_context. */
 typedef struct name_context {
     const scope *names;
-    int in_time; /* 1: the expression is a function of time */
+    int in_time; /* 1 if the expression is a function of time */
 } name_context;
 int names_number(const void *context, const char *text, int *at, double *out, expression_mistake *);
 
@@ -337,8 +337,8 @@ int substitute_is_left(const char *text);
 typedef struct writer {
     FILE *to;
     const scene *scene;
-    int unwritable; /* 1: a number is not finite */
-    int begun;      /* 1: the map already contains a key */
+    int unwritable; /* 1 if a number is not finite */
+    int begun;      /* 1 if the map already contains a key */
 } writer;
 
 /* A function that writes a value in a special form, including its key. */

@@ -227,7 +227,7 @@ const char *scene_file_path(const case_type *type)
 
 /* A reference value at a point. */
 typedef struct file_truth {
-    int holds; /* 1: the reference value applies at the present point */
+    int holds; /* 1 if the reference value applies at the present point */
     scene_truth says;
 } file_truth;
 

@@ -225,7 +225,7 @@ typedef struct reader {
     const char *text;
     int at, end;       /* current position in the text, and end of the expression */
     int nested, depth; /* nesting depth of parentheses, signs and powers, and depth of the stack */
-    int in_time;       /* 1: t is the time */
+    int in_time;       /* 1 if t is the time */
     expression_name *find;
     const void *names;
     formula *to;

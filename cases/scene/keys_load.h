@@ -36,7 +36,7 @@ ROW("to", ENTRY_NUMBER, .summary = "its end, as a fraction of the length", .usua
 ROW("to_value", ENTRY_VECTOR, .count = 3,
     .summary = "distributed load at 'to', varying linearly from its value at 'from'",
     .left_out = "constant")
-/* 0: the load does work on the displacement field inside the elements */
+/* 0 if the load does work on the displacement field inside the elements */
 KEY(int, lumped, , "lumped", ENTRY_FLAG, .words = "no|yes|false|true",
     .summary = "distributed load or gravity: half of the load of an element on each of its nodes; "
                "second-order accurate",
@@ -47,7 +47,7 @@ KEY(double, at, [3], "at", ENTRY_VECTOR, .count = 3, .unit = "m",
 KEY(scene_load_axes, axes, , "axes", ENTRY_WORD, .words = "fixed|member",
     .summary = "axes of the load vector and of 'at': fixed, or those of the undeformed member",
     .usual = "fixed")
-/* 0: constant direction (dead) */
+/* 0 for a constant direction (dead load) */
 KEY(int, follower, , "follower", ENTRY_FLAG, .words = "false|true|no|yes",
     .summary = "true: the direction of the load rotates with the node or the sections",
     .usual = "false")
@@ -66,7 +66,7 @@ ROW("feedback", ENTRY_MAP, .below = feedback,
     .summary = "in motions, factor from a measured component; time, pieces or table are then its "
                "reference [m, rad]",
     .left_out = "none")
-/* SCENE_NONE: the scene has no load cases */
+/* SCENE_NONE if the scene has no load cases */
 KEY(int, load_case, , "case", ENTRY_NAME,
     .summary = "load case of the load: any name; give it for all loads or for none",
     .left_out = "none", .of = SCENE_CASES)

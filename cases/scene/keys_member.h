@@ -23,7 +23,7 @@ KEY(double, strain, [3], "strain", ENTRY_VECTOR, .group = 1, .count = 3, .unit =
 KEY(double, pretension, , "pretension", ENTRY_NUMBER, .group = 1, .unit = "N",
     .summary = "axial force with the nodes at their given positions, before equilibrium",
     .left_out = "none")
-/* 0: the length as drawn */
+/* 0 for the length as drawn */
 KEY(double, unstressed_length, , "unstressed_length", ENTRY_NUMBER, .group = 1, .unit = "m",
     .summary = "its length before it is mounted between its nodes",
     .left_out = "its length between the given positions", .most = INFINITY)
@@ -44,7 +44,7 @@ KEY(double, damping, , "damping", ENTRY_NUMBER, .unit = "s",
     .summary = "stiffness-proportional damping: adds this value times the "
                "undeformed stiffness times the strain rates to the stresses",
     .usual = "0", .most = INFINITY)
-/* 0: number set by the mesh */
+/* 0 for the number set by the mesh */
 KEY(int, divisions, , "divisions", ENTRY_WHOLE,
     .summary = "number of elements, independent of the mesh; of each piece if loads start, end or "
                "act within the member",

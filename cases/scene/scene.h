@@ -180,11 +180,11 @@ typedef struct scene_analysis {
     } of;
     scene_proportional
         damping;    /* damping of small vibrations, in addition to that of members and dashpots */
-    int damped;     /* 1: modes include damping */
-    int open_loops; /* 1: small vibrations do not include the feedback of loads */
-    int by_modes;   /* 1: a harmonic analysis is solved by superposition of modes */
+    int damped;     /* 1 if modes include damping */
+    int open_loops; /* 1 if small vibrations do not include the feedback of loads */
+    int by_modes;   /* 1 if a harmonic analysis is solved by superposition of modes */
     int modes;      /* number of modes, or 0 for all modes */
-    char name[SCENE_NAME]; /* "": none */
+    char name[SCENE_NAME]; /* "" for no name */
 } scene_analysis;
 
 int scene_add_linear(scene *s);
@@ -285,7 +285,7 @@ void formula_at(const formula *, double t, double out[3]);
 typedef struct scene_piece {
     double until; /* end of the piece [s]; the last piece has no end */
     char *text;
-    formula *is; /* NULL: the text is invalid, which function_check reports */
+    formula *is; /* NULL if the text is invalid, which function_check reports */
 } scene_piece;
 
 typedef struct scene_function {
@@ -380,7 +380,7 @@ static inline int scene_is_timed(scene_reduction how)
     return how > SCENE_CURVE && how < SCENE_MEAN;
 }
 
-/* Returns 1 for a largest or smallest value, and for its time. */
+/* Returns 1 for the largest or smallest value, and for the time of that value. */
 static inline int scene_is_extreme(scene_reduction how)
 {
     return how == SCENE_MAX || how == SCENE_MIN || how == SCENE_MAX_TIME || how == SCENE_MIN_TIME;
@@ -551,7 +551,7 @@ typedef struct scene_entry {
 } scene_entry;
 
 typedef struct scene_critical_load {
-    int sign;  /* 1: positive factors, -1: negative factors */
+    int sign;  /* 1 for positive factors, -1 for negative factors */
     int order; /* index among the factors of this sign in order of magnitude, from 0 */
 } scene_critical_load;
 
@@ -641,7 +641,7 @@ typedef struct scene_abscissa {
  * verdict. */
 typedef struct scene_prediction {
     double value;       /* [unit of the quantity] */
-    const char *source; /* NULL: no prediction */
+    const char *source; /* NULL without a prediction */
 } scene_prediction;
 
 /* Statistic over load cases or combinations. */
@@ -789,7 +789,7 @@ typedef struct scene_node {
     double axes[2][3]; /* x and y axes of the translations, of any length, or zero for the axes of
                           the scene */
     scene_body body;
-    char name[SCENE_NAME]; /* "": no name, as for every entry */
+    char name[SCENE_NAME]; /* "" for no name, as for every entry */
 } scene_node;
 
 /* Released components of a member end: rotations, in order, and translations that the end does not
@@ -846,8 +846,8 @@ typedef struct scene_spring {
                            N m s] */
     double asymmetry;   /* asymmetry of the given K relative to its diagonal if only the symmetric
                            part is used because the asymmetry is due to rounding, otherwise 0 */
-    double damping_asymmetry; /* the same for the damping matrix */
-    scene_table table[6];     /* tables of the components of d, in addition to K */
+    double damping_asymmetry; /* asymmetry of the given damping matrix, in the same way */
+    scene_table table[6];     /* tables of the components of d, which act in addition to K */
     char name[SCENE_NAME];
 } scene_spring;
 
@@ -919,7 +919,7 @@ typedef struct scene_feedback {
     int node, component; /* node and measured component, or SCENE_NONE without feedback */
     int from;            /* node whose component is subtracted, or SCENE_NONE */
     double proportional, derivative, integral; /* [1/m, s/m, 1/(m s)], or rad for m */
-    double limit;                              /* 0: none */
+    double limit;                              /* 0 for no limit */
 } scene_feedback;
 
 #define KEY(type, name, dimensions, ...) type name dimensions;
@@ -931,7 +931,7 @@ typedef struct scene_load {
     double vector[3]; /* vector in `axes` of the undeformed structure; if the load varies, the value
                          at range[0] */
     double last[3];   /* value at range[1] if the load varies linearly */
-    int varies;       /* 0: the load is constant over the range */
+    int varies;       /* 0 if the load is constant over the range */
     double range[2];  /* range on a member, as a fraction of the initial length from p. For a
                          distributed load, 0 and 1 are the whole member, as for gravity. For a force
                          or a moment inside a member, both are its position. For loads at nodes, both
@@ -1012,7 +1012,7 @@ struct scene {
     unsigned demands;  /* FEATURE_* bits required in addition to those that the data require, set by
                           scene_demand */
     scene_shear shear_theory;
-    int lumped; /* 1: the mass of members is lumped at nodes, except in motions that specify their
+    int lumped; /* 1 if the mass of members is lumped at nodes, except in motions that specify their
                    mass */
     int meshes; /* default -n values of verify and converge */
     int mesh[SCENE_MESHES];
@@ -1325,7 +1325,7 @@ struct quantity_type;
 typedef struct entry_field {
     const char *name; /* NULL ends the table */
     entry_kind kind;
-    int needed; /* 1: required */
+    int needed; /* 1 if required */
     int group;  /* keys with the same group > 0 exclude each other; if `needed` is set, one key of
                    the group is required */
     int count;
@@ -1541,7 +1541,7 @@ typedef struct quantity_type {
     scene_quantity_kind kind;
     const entry_field *field; /* keys of the map below the key of the quantity */
     unsigned analyses;        /* bits 1 << kind for all kinds of analysis that have the quantity */
-    int between; /* 1: extremes, crossings and means of a motion include times between stations */
+    int between; /* 1 if extremes, crossings and means of a motion include times between stations */
     /* Returns the default unit of the value. The powers of length and force in the unit determine
      * scaling. */
     const char *(*unit)(const scene *, const scene_quantity *);

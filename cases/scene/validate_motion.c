@@ -563,7 +563,7 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
     return scene_spectrum_stations(s, q, &first, &count, f);
 }
 
-/* Rejects a station of an analysis of one state. Names the state. */
+/* Rejects a station of an analysis of one state, and names the state. */
 static status refuse_station(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_analysis *a = &s->analysis[q->analysis];

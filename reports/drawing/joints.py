@@ -1,10 +1,10 @@
-"""Draws what joins members and nodes rigidly: arms of offset ends, and constraints."""
+"""Draws the rigid connections of members and nodes: arms of offset ends, and constraints."""
 import numpy as np
 
 from reports import shapes
 from reports.drawing.canvas import ROD, SOFT, number
 
-LINKED = 1.1  # width of the lines of constraints [pt]
+LINKED = 1.1  # line width of constraints [pt]
 
 
 def put_offsets(canvas, view, scene):
@@ -26,7 +26,7 @@ def words_of(one):
 
 
 def put_constraint(canvas, view, scene, one):
-    """Draws dashed lines from the first node to the others, and the outline of a diaphragm."""
+    """Draws dashed lines from the first node to the other nodes, and the outline of a diaphragm."""
     points = np.array([scene.nodes[name].position for name in one.nodes])
     seen = view(points)
     path = [p for other in seen[1:] for p in (seen[0], other, seen[0])]
