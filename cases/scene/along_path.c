@@ -469,7 +469,7 @@ const scene_input scene_inputs[] = {
     {"motion of a case", "uuxuu-uuu-uuu-uuu", no_drive, has_drive_of_case},
     {"motion of a node", "uuxuu-uuu-uuu-uuu", no_drive, has_drive},
     {"velocity at the start", "--------u---u---u", NULL, has_start},
-    {"rotating axes", "-uu-u--xu-uuu--xu", no_spin, has_spin},
+    {"rotating axes", "-uu-u--xu-uuu--uu", no_spin, has_spin},
     {"damping", "----i--iu---uuuuu", NULL, has_damping},
     {"dashpot", "----i--iu---uuuuu", NULL, has_dashpot},
     {"unsymmetric dashpot", "----i--iu---uuuuu", NULL, has_unsymmetric_dashpot},

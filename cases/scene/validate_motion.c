@@ -346,17 +346,40 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
     return STATUS_OK;
 }
 
+/* Checks small motions in rotating axes. Coriolis forces couple undamped modes, and masses have
+ * velocities in fixed axes that small motions do not contain. */
+static status check_about_rotation(const scene *s, const scene_analysis *a, int i, fault *f)
+{
+    const scene_words who = scene_called(s, SCENE_ANALYSES, i),
+                      axes = scene_name(s, SCENE_ANALYSES, a->follows);
+    if (a->by_modes || scene_has_ratios(a))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: modes without damping do not solve small motions in rotating axes "
+                         "(%s); remove %s",
+                         who.text, axes.text, a->by_modes ? "'solution'" : "the damping ratios");
+    if (a->damping.mass > 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: damping in proportion to the mass acts in fixed axes, but %s has "
+                         "rotating axes; remove mass, and give dashpots or damping: {stiffness: b}",
+                         who.text, axes.text);
+    return STATUS_OK;
+}
+
 /* Checks the state about which critical loads and frequencies are computed. */
 static status check_about(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_analysis_kind about = s->analysis[a->follows].kind;
-    if (about == SCENE_STATIC || (about == SCENE_LINEAR && a->kind != SCENE_BUCKLING))
+    if (a->kind == SCENE_HARMONIC && scene_rotates(&s->analysis[a->follows]))
+        return check_about_rotation(s, a, i, f);
+    if (about == SCENE_STATIC || (about == SCENE_LINEAR && a->kind != SCENE_BUCKLING) ||
+        (about == SCENE_ROTATION && a->kind == SCENE_HARMONIC))
         return STATUS_OK;
     if (a->kind == SCENE_HARMONIC)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: a harmonic analysis is about the last state of a static path, or about a linear "
-            "analysis, but %s is a %s analysis; name one of these, or remove 'about'",
+            "%s: a harmonic analysis is about the last state of a static path or a rotation, or "
+            "about "
+            "a linear analysis, but %s is a %s analysis; name one of these, or remove 'about'",
             scene_called(s, SCENE_ANALYSES, i).text, scene_name(s, SCENE_ANALYSES, a->follows).text,
             scene_analysis_name(about));
     return fault_set(f, STATUS_REFUSED,

@@ -389,6 +389,7 @@ typedef struct vibration {
     const outcome_about *about; /* state during a motion; NULL: a state at rest */
     sparse K, M, C, B;          /* matrices of all coordinates */
     int damped, inside;
+    int rotates; /* 1: small motions in rotating axes; C contains Coriolis forces */
     /* 1: the mass inside elements is neglected, and the extremes between frequencies are omitted */
     int plain;
     sparse D; /* [2 (free + border + loops)] dynamic stiffness in real form */

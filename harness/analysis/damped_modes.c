@@ -135,7 +135,8 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
     double growth = 0;
     for (int i = 0; i < s->springs; i++)
         circulates |= scene_spring_circulates(&s->spring[i]);
-    if (v->loops == 0 && ((!circulates && v->about == NULL) || s->analysis[v->analysis].by_modes))
+    if (v->loops == 0 &&
+        ((!circulates && v->about == NULL && !v->rotates) || s->analysis[v->analysis].by_modes))
         return STATUS_OK;
     m = calloc(1, sizeof *m);
     status outcome = m != NULL ? find_damped(v, m, below, &r, f) : no_memory(f);
@@ -166,13 +167,16 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
     return fault_set(f, STATUS_REFUSED,
                      "there are no steady vibrations, because a mode grows at %.4g 1/s: see modal: "
                      "{damped: yes}; add damping, or make %s smaller",
-                     growth, v->loops > 0 ? "gains of feedback" : "cross terms of springs");
+                     growth,
+                     v->loops > 0 ? "gains of feedback"
+                     : v->rotates ? "the angular velocity"
+                                  : "cross terms of springs");
 }
 
 static int is_unsymmetric(const vibration *v)
 {
     const scene *s = v->c->scene;
-    if (v->loops > 0 || v->about != NULL)
+    if (v->loops > 0 || v->about != NULL || v->rotates)
         return 1;
     for (int i = 0; i < s->springs; i++)
         if (scene_spring_circulates(&s->spring[i]) || scene_spring_gyrates(&s->spring[i]))

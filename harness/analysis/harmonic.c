@@ -247,6 +247,12 @@ static status check_outputs(const vibration *v, fault *f)
             continue;
         const scene_response *r = &s->quantity[i].what.of.response;
         TRY(harmonic_check_rates(v, r, f));
+        if (v->rotates && r->unbalanced != SCENE_NONE)
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: an unbalance rotates with the frequency in fixed axes, but the "
+                             "axes rotate; give %s a mass with 'centre', or a response about a "
+                             "state without rotation",
+                             s->quantity[i].name, scene_called(s, SCENE_NODES, r->unbalanced).text);
         if (r->of == SCENE_REACTING)
             TRY(harmonic_reacting(v, r, &c, f));
     }

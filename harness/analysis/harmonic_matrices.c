@@ -56,7 +56,7 @@ static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
     const double at = kinematics_state_path(v->state);
     const step_stability stands =
         history_stability_at(c->result, c->scene->analysis[v->analysis].follows, at);
-    if (stands == STEP_UNSTABLE || stands == STEP_GROWS)
+    if ((stands == STEP_UNSTABLE && !v->rotates) || stands == STEP_GROWS)
         return fault_set(f, STATUS_REFUSED,
                          "the state at path %g is unstable, so there are no steady vibrations "
                          "about it; end the path before this state",
@@ -112,6 +112,22 @@ static status instant_of(vibration *v, int whole, const analysis_outcome *o, fau
     return outcome;
 }
 
+/* Computes C of the damping. */
+static status damping_of(vibration *v, fault *f)
+{
+    analysis_context *c = v->c;
+    const scene_proportional *damping = &c->scene->analysis[v->analysis].damping;
+    v->damped = damping_acts(c->scene) || damping->mass > 0 || damping->stiffness > 0;
+    if (!v->damped) {
+        sparse_zero(&v->C);
+        return STATUS_OK;
+    }
+    TRY(damping_matrix(&c->eq, v->state, damping->stiffness, &v->C, f));
+    for (int i = 0; i < v->C.column[v->C.n]; i++)
+        v->C.value[i] += damping->mass * v->M.value[i];
+    return STATUS_OK;
+}
+
 status harmonic_matrices(vibration *v, int whole, fault *f)
 {
     analysis_context *c = v->c;
@@ -119,7 +135,9 @@ status harmonic_matrices(vibration *v, int whole, fault *f)
     const sparse *pattern;
     if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_MOTION)
         return instant_of(v, whole, &c->outcomes[follows], f);
-    TRY(follows != SCENE_NONE
+    v->rotates = follows != SCENE_NONE && scene_rotates(&c->scene->analysis[follows]);
+    TRY(v->rotates ? assemble_pattern_whole(c->model, c->run->patterns, whole, &pattern, f)
+        : follows != SCENE_NONE
             ? assemble_pattern_of_states(c->model, c->run->patterns, whole, &pattern, f)
             : assemble_pattern_at_rest(c->model, c->run->patterns, 1, whole, &pattern, f));
     TRY(sparse_alloc_like(pattern, &v->K, f));
@@ -138,16 +156,13 @@ status harmonic_matrices(vibration *v, int whole, fault *f)
     } else {
         TRY(tangent_of(v, &c->outcomes[follows], f));
     }
-    TRY(rotating_frame_inertia(&c->eq, v->state, kinematics_state_path(v->state), &v->M, NULL, f));
-    const scene_proportional *damping = &c->scene->analysis[v->analysis].damping;
-    v->damped = damping_acts(c->scene) || damping->mass > 0 || damping->stiffness > 0;
-    if (!v->damped) {
-        sparse_zero(&v->C);
-        return STATUS_OK;
-    }
-    TRY(damping_matrix(&c->eq, v->state, damping->stiffness, &v->C, f));
-    for (int i = 0; i < v->C.column[v->C.n]; i++)
-        v->C.value[i] += damping->mass * v->M.value[i];
+    /* B is not used about such a state, and stores the Coriolis forces meanwhile */
+    sparse *G = v->rotates ? &v->B : NULL;
+    TRY(rotating_frame_inertia(&c->eq, v->state, kinematics_state_path(v->state), &v->M, G, f));
+    TRY(damping_of(v, f));
+    for (int i = 0; i < v->C.column[v->C.n] && v->rotates; i++)
+        v->C.value[i] += v->B.value[i];
+    v->damped |= v->rotates;
     return STATUS_OK;
 }
 

@@ -72,7 +72,8 @@ static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
 status harmonic_modes_blocks(vibration *v, harmonic_modes *m, fault *f)
 {
     const sparse *pattern;
-    TRY(v->about != NULL ? assemble_pattern_whole(v->c->model, v->c->run->patterns, 0, &pattern, f)
+    TRY(v->about != NULL || v->rotates
+            ? assemble_pattern_whole(v->c->model, v->c->run->patterns, 0, &pattern, f)
         : v->c->scene->analysis[v->analysis].follows != SCENE_NONE
             ? assemble_pattern_of_states(v->c->model, v->c->run->patterns, 0, &pattern, f)
             : assemble_pattern_at_rest(v->c->model, v->c->run->patterns, 1, 0, &pattern, f));
