@@ -1326,7 +1326,8 @@ void quadratic_forms_product(quadratic_forms *p, const double x[], double y[]);
 void quantity_no_value(quantity_result *, status, const char *reason);
 /* Returns the value times the factor of the quantity, plus the offset of the quantity. */
 double quantity_scaled(const scene_quantity *, double value);
-/* Returns 1 when a value governs an envelope instead of the best one so far. */
+/* Returns 1 if a value governs an envelope instead of the value `best`, which has governed so far.
+ */
 int quantity_governs(scene_envelope, double value, double best);
 
 /* Like quantity_scaled, for the abscissa of the curve. */

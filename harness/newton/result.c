@@ -66,7 +66,7 @@ void quantity_no_value(quantity_result *r, status s, const char *reason)
 
 int quantity_governs(scene_envelope how, double value, double best)
 {
-    const double ties = 1e-9; /* of opposite values, the first one governs */
+    const double ties = 1e-9; /* if two values are opposite, the first governs */
     return how == SCENE_ENVELOPE_MIN       ? value < best
            : how == SCENE_ENVELOPE_LARGEST ? fabs(value) > (1 + ties) * fabs(best)
                                            : value > best;

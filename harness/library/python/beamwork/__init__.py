@@ -78,9 +78,9 @@ def load(element: str | _os.PathLike[str] | _Callable[..., _Any], *functions: _C
     loaded until the process ends. A shared object runs inside the process. If it crashes in solve, Python crashes as
     well.
 
-    Or loads functions of this process with arrays of numpy, as for serve(prepare, strain, ..., name="mine", strains=6) of
-    beamwork_element, which describes them: load(prepare, strain, name="mine", strains=6). Solutions, converge, verify
-    and every verb then use them while this process runs."""
+    Also loads functions of this process, with arrays of numpy: load(prepare, strain, name="mine", strains=6). The
+    arguments are those of beamwork_element.serve, which describes the functions. Solutions, converge, verify and every
+    verb then use the functions while this process runs."""
     if callable(element):
         element = _door((element, *functions), words)
     elif functions or words:

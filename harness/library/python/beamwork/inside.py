@@ -1,5 +1,5 @@
-"""Formulations whose functions are in this process. The library and the program start this file as the formulation's
-process; it passes the messages to a socket of this process, where threads answer them."""
+"""Formulations whose functions are in this process. The library and the program start this file as the process of the
+formulation. That process passes the messages to a socket of this process, in which threads answer them."""
 from __future__ import annotations
 
 import os
@@ -42,8 +42,8 @@ def _listen(place: str, functions: dict[str, Callable[..., Any]], said: dict[str
 
 
 def door(functions: tuple[Callable[..., Any], ...], words: dict[str, Any]) -> str:
-    """Returns the argument of load for functions and words of beamwork_element.serve, which are answered by threads of
-    this process until it ends."""
+    """Returns the argument of load() for functions and words of beamwork_element.serve. Threads of this process answer
+    requests until the process ends."""
     import atexit  # pylint: disable=import-outside-toplevel
     import shutil  # pylint: disable=import-outside-toplevel
     import tempfile  # pylint: disable=import-outside-toplevel
@@ -59,7 +59,7 @@ def door(functions: tuple[Callable[..., Any], ...], words: dict[str, Any]) -> st
 
 
 def relay(place: str) -> None:
-    """Passes standard input to the socket, and the socket to standard output, until one of them ends."""
+    """Passes data from standard input to the socket, and from the socket to standard output, until one of them ends."""
     with socket.socket(socket.AF_UNIX) as there:
         there.connect(place)
         while True:

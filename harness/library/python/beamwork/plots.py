@@ -1,4 +1,4 @@
-"""Figures of results, with matplotlib: each function returns a matplotlib Figure."""
+"""Figures of results. Each function returns a Figure of matplotlib."""
 from __future__ import annotations
 
 import math
@@ -9,7 +9,7 @@ from .display import of_unit
 
 
 def _panels(count: int, **options: Any) -> tuple[Any, list[Any]]:
-    """Returns a figure and its axes, at most three in a row."""
+    """Returns a figure with `count` axes, at most three in a row, and these axes."""
     try:
         from matplotlib.figure import Figure  # pylint: disable=import-outside-toplevel
     except ImportError:
