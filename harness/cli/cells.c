@@ -12,7 +12,7 @@ static int cells_runs(const sweep *s, int index)
            s->point[one->point].status == STATUS_OK;
 }
 
-/* Returns the cost of the cells of a series, in evaluations of an element. */
+/* Returns the estimated cost [s] of the cells of a series. */
 static double cells_expense(const sweep *s, int index)
 {
     double all = 0;
