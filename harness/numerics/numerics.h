@@ -167,9 +167,9 @@ void eigen_free(eigen_result *r);
 /* Returns the wall-clock time [s] from an arbitrary origin. */
 double clock_wall_seconds(void);
 
-/* Sets the file descriptor that asks this thread to stop: it becomes readable. 0: none. */
+/* Sets a file descriptor that becomes readable when this thread must stop; 0: none. */
 void stop_watch(int descriptor);
-/* Returns FAULT if this thread is asked to stop. Iterations and steps of motions call it. */
+/* Returns FAULT if this thread must stop. Iterations and steps of motions call this function. */
 status stop_check(fault *f);
 /* Returns the processor time [s] of this thread, which the load of other programs does not affect.
  * */

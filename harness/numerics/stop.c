@@ -1,4 +1,4 @@
-/* Requests to stop a solution. */
+/* Requests that a solution stops. */
 #include <poll.h>
 
 #include "harness/numerics/numerics.h"
