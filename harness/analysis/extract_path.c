@@ -114,11 +114,34 @@ static double at_station(const analysis_context *c, const scene_quantity *q,
     return quantity_scaled(q, extracted(c, q, o, i, r));
 }
 
-/* Returns an error bound of a response at a station, or 0 for other quantities. */
+/* Returns the rounding error of an acceleration or a jerk at a station. Accelerations at the ends
+ * of steps are those of the integrator. */
+static double rounding_at(const analysis_context *c, const scene_quantity *q,
+                          const analysis_outcome *o, int i)
+{
+    const outcome_motion *m = outcome_motion_of(o);
+    const double time = m->path.value[i];
+    int first = 0, last = m->steps - 1;
+    while (first < last) {
+        const int middle = (first + last) / 2;
+        if (m->step[middle].time < time)
+            first = middle + 1;
+        else
+            last = middle;
+    }
+    if (m->steps < 2 || (m->step[first].time == time && !reading_is_slope(q)))
+        return 0;
+    return fabs(q->factor) *
+           reading_rounding(c->model, q, m->path.state[i], m->step[first > 0 ? first : 1].step);
+}
+
+/* Returns an error bound of a response or of a rate at a station, or 0 for other quantities. */
 static double bound_at(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, int i)
 {
     const size_t stations = (size_t)outcome_path_of(o)->stations;
+    if (o->kind == SCENE_MOTION && q->what.kind == SCENE_RATE)
+        return rounding_at(c, q, o, i);
     return q->what.kind == SCENE_RESPONSE
                ? fabs(q->factor) *
                      o->left.harmonic.bound[(size_t)(q - c->scene->quantity) * stations + (size_t)i]
@@ -129,6 +152,23 @@ static double bound_at(const analysis_context *c, const scene_quantity *q,
 static double relative(double error, double value)
 {
     return value != 0 ? error / fabs(value) : 0;
+}
+
+/* Rejects a rate of which rounding leaves no digit. size: its magnitude, or the largest of
+ * its curve. */
+static void judge_rate(const scene_quantity *q, double size, quantity_result *r)
+{
+    const double most = 0.1;
+    char why[FAULT_TEXT];
+    if (q->what.kind != SCENE_RATE || r->status != STATUS_OK || !(r->rounding > most))
+        return;
+    snprintf(
+        why, sizeof why,
+        "no digit is known: its rounding error is up to %.1e %s, and grows as steps get shorter; "
+        "give a longer step",
+        r->rounding * size, q->unit);
+    quantity_no_value(r, STATUS_NO_VALUE, why);
+    r->curve.points = 0;
 }
 
 static void take_curve(const analysis_context *c, const scene_quantity *q,
@@ -146,6 +186,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
     }
     r->rounding = fmax(r->rounding, relative(bound, largest)); /* known for modes */
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
+    judge_rate(q, largest, r);
 }
 
 /* Computes the spectrum from the stations of a window. */
@@ -290,6 +331,8 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
         r->value = quantity_scaled(q, found->value);
         r->x = quantity_abscissa(q, found->time);
         r->rounding = r->value != 0 ? fabs(q->factor * found->error / r->value) : 0;
+        if (!scene_is_timed(q->reduction) && q->reduction != SCENE_MEAN)
+            judge_rate(q, fabs(r->value), r);
     }
 }
 
@@ -348,8 +391,10 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
         return;
     }
     if (q->reduction == SCENE_CURVE) {
-        if (q->transform == SCENE_HISTORY)
+        if (q->transform == SCENE_HISTORY) {
             take_curve(c, q, o, r);
+            judge_rate(q, fabs(r->value), r);
+        }
         if (!complete)
             path_ends(c, q, o, r);
         return;
@@ -360,6 +405,7 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
     }
     r->value = at_station(c, q, o, chosen, r);
     r->rounding = fmax(r->rounding, relative(bound_at(c, q, o, chosen), r->value));
+    judge_rate(q, fabs(r->value), r);
     r->x = quantity_abscissa(q, p->value[chosen]);
     if (q->what.kind == SCENE_RESPONSE)
         extract_peak(q, &o->left.harmonic.peak[q - c->scene->quantity], r);

@@ -87,7 +87,7 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
         fprintf(to, ", at %.6g Hz", v->x);
     if (v->rounding > 1e-9)
         fprintf(to, ", %s %.1e",
-                passed                           ? "between steps"
+                passed && !reading_is_slope(q)   ? "between steps"
                 : q->what.kind == SCENE_RESPONSE ? "omitted modes at most"
                                                  : "round-off",
                 v->rounding);
@@ -119,13 +119,15 @@ static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result
     }
 }
 
-/* Prints bounds of the contribution of omitted modes to curves. */
+/* Prints bounds of the contribution of omitted modes, or of rounding, to curves. */
 static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
 {
     for (int i = 0; i < r->quantities; i++)
         if (r->quantity[i].curve.points > 0 && r->quantity[i].rounding > 1e-9)
-            fprintf(to, "%-*s omitted modes at most %.1e of its largest\n", NAME,
-                    s->quantity[i].name, r->quantity[i].rounding);
+            fprintf(to, "%-*s %s %.1e of its largest\n", NAME, s->quantity[i].name,
+                    s->quantity[i].what.kind == SCENE_RESPONSE ? "omitted modes at most"
+                                                               : "round-off",
+                    r->quantity[i].rounding);
 }
 
 /* Prints the combinations if loads have load cases, for example "ULS = 1.35 dead + 1.5 wind; ...".

@@ -194,12 +194,14 @@ status means_add(watches *s, watched *one, const instant *from, double a, double
         TRY(check_inside(s, one, from, a, b, f));
     }
     one->span += b - a;
-    const double mean = one->sum / one->span, error = one->worst / one->span;
-    *one->out = (outcome_passing){1, mean, b, fmax(error, one->apart)};
+    one->blurred += one->blur * (b - a);
+    const double mean = one->sum / one->span, error = one->worst / one->span,
+                 apart = fmax(one->apart, one->blurred / one->span);
+    *one->out = (outcome_passing){1, mean, b, fmax(error, apart)};
     if (is_square(one)) {
         const double root = sqrt(fmax(mean, 0));
         one->out->value = one->largest * root;
-        one->out->error = fmax(one->apart, one->largest * (sqrt(fmax(mean, 0) + error) - root));
+        one->out->error = fmax(apart, one->largest * (sqrt(fmax(mean, 0) + error) - root));
     }
     return STATUS_OK;
 }

@@ -2,6 +2,7 @@
  * the state. */
 #include "harness/time/time_impl.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -251,6 +252,37 @@ int reading_is_kinematic(const scene_quantity *q)
 int reading_is_slope(const scene_quantity *q)
 {
     return q->what.kind == SCENE_RATE && q->what.of.rated.rate == SCENE_JERK;
+}
+
+/* Returns the size of the positions of a node whose rounding errors enter its rates: displacements
+ * [m], or rotations with the arm from the frame that moves the node. */
+static double place_size(const model *m, const model_state *s, int node, int turns)
+{
+    const int body = model_body(m, node);
+    const mesh_vertex *v = model_vertex(m, body);
+    double moved = 0, turned = 0, rho[3];
+    for (int k = 0; k < 3; k++) {
+        const int free[2] = {v->coordinate[k], v->coordinate[SCENE_RX + k]};
+        if (free[0] != NONE && free[0] < model_unknowns(m))
+            moved = hypot(moved, s->u[3 * body + k]);
+        if (free[1] != NONE && free[1] < model_unknowns(m))
+            turned = hypot(turned, v->angles > 0 ? s->angle[3 * body + k] : s->q[4 * body + 1 + k]);
+    }
+    if (turns)
+        return turned;
+    kinematics_offset(m, s, node, rho);
+    return moved + (node != body ? vec3_norm(rho) * turned : 0);
+}
+
+double reading_rounding(const model *m, const scene_quantity *q, const model_state *s, double h)
+{
+    const scene_component *of = &q->what.of.component;
+    if (q->what.kind != SCENE_RATE || q->what.of.rated.rate == SCENE_SPEED)
+        return 0;
+    const int third = q->what.of.rated.rate == SCENE_JERK;
+    /* derivatives of the polynomial by the increment: at most 6/h^2 and 60/h^3 */
+    return (third ? 60 : 6) * DBL_EPSILON * place_size(m, s, of->node, of->component >= SCENE_RX) /
+           pow(h, third ? 3 : 2);
 }
 
 static quantity_state places_of(const reading *from)

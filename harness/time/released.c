@@ -428,7 +428,8 @@ rotation_form forms_of(const model *m, int vertex)
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
 
-/* Returns 1 if at most one rotation axis is free. Fixed rotations whose rows are kept count as free. */
+/* Returns 1 if at most one rotation axis is free. Fixed rotations whose rows are kept count as
+ * free. */
 static int keeps_axis(const model *m, int vertex)
 {
     int moving = 0;

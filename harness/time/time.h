@@ -221,6 +221,10 @@ double reading_of(const model *, const scene_quantity *, const model_state *, co
                   const double a[]);
 /* Returns 1 if the quantity is the slope of a reading. Such a slope is known only inside steps. */
 int reading_is_slope(const scene_quantity *);
+/* Returns the rounding error of an acceleration or a jerk inside a step of h [s], before the
+ * factor; 0 for other quantities. Positions are rounded, and the polynomial of the step divides
+ * their increments by h^2 or h^3. */
+double reading_rounding(const model *, const scene_quantity *, const model_state *, double h);
 /* Computes the value, without factor and offset, of a quantity whose kind has a `read` function. */
 status reading_whole(const reading *, const scene_quantity *, double *out, fault *);
 

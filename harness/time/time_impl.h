@@ -1268,6 +1268,8 @@ typedef struct watched {
     double first, last; /* [s] first and last crossing */
     double error;       /* [s] error of the first and of the last crossing */
     int aside;          /* 1: values come from side steps */
+    double blur;        /* rounding error of a rate in the present step */
+    double blurred;     /* its time integral, for a mean */
     double sum, span; /* time integral of values, or of squares relative to `largest`; length of the
                          interval [s] */
     double largest;   /* largest magnitude so far */

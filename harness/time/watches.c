@@ -115,6 +115,7 @@ static status crossed(watches *s, watched *one, const instant *from, double time
 {
     double error = 0;
     TRY(watched_disagreement(s, one, from, time, &error, f));
+    error += one->blur;
     const double slope = fabs(slope_at(s, one, time));
     error = slope > 0 ? error / slope : 0;
     if (one->q->reduction == SCENE_CROSSING && one->crossings == one->q->passing.order)
@@ -177,7 +178,7 @@ static status watch_level(watches *s, watched *one, const instant *from, const d
 static void take_extreme(watched *one, double sign, double value, double time, double error)
 {
     if (!one->out->known || sign * value > sign * one->out->value)
-        *one->out = (outcome_passing){1, value, time, error};
+        *one->out = (outcome_passing){1, value, time, fmax(error, one->blur)};
 }
 
 static status watch_extreme(watches *s, watched *one, const instant *from, double sign,
@@ -230,6 +231,8 @@ static status watch_step(watches *s, watched *one, const instant *from, fault *f
         return STATUS_OK;
     if (one->out->known > 1)
         return STATUS_OK;
+    one->blur = reading_rounding(s->c->model, one->q, s->inside.to->state,
+                                 s->inside.to->time - s->inside.from->time);
     if (one->q->reduction >= SCENE_MEAN) {
         TRY(means_add(s, one, from, a, b, f));
         if (isnan(one->sum))

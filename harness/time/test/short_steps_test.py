@@ -32,6 +32,14 @@ quantities:
   a: {rate: {analysis: go, node: n, component: ux, of: acceleration}}
   greatest: {rate: {analysis: go, node: n, component: ux, of: acceleration, take: max}}
 """
+# A jerk and an acceleration inside a step, after some steps.
+SHORT = HEAD + """analyses: {go: {motion: {stations: [0.001234567, 0.002], start: {velocity: [1, 0, 0]}, integrator: %s, step: %s}}}
+quantities:
+  a: {rate: {analysis: go, node: n, component: ux, of: acceleration, at: 0.001234567}}
+  j: {rate: {analysis: go, node: n, component: ux, of: jerk, at: 0.001234567}}
+  curve: {rate: {analysis: go, node: n, component: ux, of: jerk, take: curve}}
+  largest: {rate: {analysis: go, node: n, component: ux, of: jerk, take: min}}
+"""
 SCHEMES = (("radau", 1e-6), ("explicit", 1e-6), ("alpha", 2e-4))
 
 
@@ -74,6 +82,24 @@ class ShortStepsTest(SceneCase):
                 self.assertGreater(min(steps), 0.00999, (scheme, end))
                 self.assertAlmostEqual(got["a"], 60*math.cos(8), delta=most, msg=(scheme, end))
                 self.assertAlmostEqual(got["greatest"], 60, delta=most, msg=(scheme, end))
+
+    def test_rounding(self):
+        """Errors of rates with short steps are within their stated round-off; a rate of which no digit is left has no value."""
+        time = 0.001234567
+        exact = {"a": -10*math.sin(10*time), "j": -100*math.cos(10*time), "largest": -100}
+        for scheme in ("radau", "explicit"):
+            for step, most in (("1e-4", 1e-5), ("1e-5", 1e-2), ("3e-7", math.inf)):
+                record = self.record("solve", "--scene", self.scene(SHORT % (scheme, step)), "-f", "collocation", "-n", 1)
+                got = {one["quantity"]: one for one in record["quantities"]}
+                for name, value in exact.items():
+                    one, why = got[name], (scheme, step, name)
+                    if most < math.inf or name == "a":
+                        self.assertLess(abs(one["value"]/value - 1), one["rounding"] + 1e-7, why)
+                        self.assertLess(one["rounding"], min(most, 1e-2), why)
+                    else:
+                        self.assertEqual(one["status"], "no_value", why)
+                        self.assertIn("its rounding error is up to", one["reason"], why)
+                self.assertEqual(got["curve"]["status"], "no_value" if most == math.inf else "ok")
 
 
 if __name__ == "__main__":
