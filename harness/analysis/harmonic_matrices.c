@@ -112,7 +112,7 @@ static status instant_of(vibration *v, int whole, const analysis_outcome *o, fau
     return outcome;
 }
 
-/* Computes C of the damping. */
+/* Computes the damping matrix C. */
 static status damping_of(vibration *v, fault *f)
 {
     analysis_context *c = v->c;
@@ -156,7 +156,7 @@ status harmonic_matrices(vibration *v, int whole, fault *f)
     } else {
         TRY(tangent_of(v, &c->outcomes[follows], f));
     }
-    /* B is not used about such a state, and stores the Coriolis forces meanwhile */
+    /* about such a state, B is not needed and temporarily contains the Coriolis forces */
     sparse *G = v->rotates ? &v->B : NULL;
     TRY(rotating_frame_inertia(&c->eq, v->state, kinematics_state_path(v->state), &v->M, G, f));
     TRY(damping_of(v, f));
