@@ -47,6 +47,9 @@ static int answer(const command_line *l, void *request)
         return r->of.refusal;
     if (r->error != NULL || r->solver.keep_all)
         return message_fail(STATUS_REFUSED, "--error and --all-dofs require --against");
+    if (strcmp(r->format, "json") == 0)
+        return message_fail(STATUS_REFUSED,
+                            "--format json requires --against; without it, give text or csv");
     if (!is_named(r) && (r->of.set.count > 0 || r->meshes.count > 0))
         return message_fail(STATUS_REFUSED, "--set and -n require a case; name it");
     const status outcome = measure(r, &b, &f);

@@ -154,6 +154,7 @@ extern const option_group options_output;  /* member const char *: -o FILE, text
 extern const option_group options_results; /* member const char *: -o FILE, text or HDF5 results */
 extern const option_group options_format;  /* member const char *: text, json or csv */
 extern const option_group options_record;  /* member const char *: text or json */
+extern const option_group options_table;   /* member const char *: text or csv */
 extern const option_group options_select;  /* const char * */
 extern const option_group options_jobs;    /* member int, initially the number of processors */
 extern const option_group options_json;    /* const char * */

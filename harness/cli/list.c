@@ -349,8 +349,6 @@ static int answer(const command_line *l, void *request)
             return r->of.refusal;
     } else if (list_subject_find(r->of.name, &what, &f) != STATUS_OK)
         return message_fail(STATUS_REFUSED, f.text);
-    if (strcmp(r->format, "csv") == 0)
-        return message_fail(STATUS_REFUSED, "list: --format text or json");
     return strcmp(r->format, "json") == 0 ? show_json(r, &what) : show(r, &what);
 }
 
@@ -358,7 +356,7 @@ static int answer(const command_line *l, void *request)
 static const verb_group shared[] = {SHARED(scene, of),
                                     SHARED(element, chosen),
                                     SHARED(truths, truths),
-                                    SHARED(format, format),
+                                    SHARED(record, format),
                                     {NULL, 0}};
 const verb verb_list = {
     "list",

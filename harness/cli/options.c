@@ -265,13 +265,20 @@ static status read_format(const verb_option *o, void *member, const char *value,
     *(const char **)member = value;
     return strcmp(value, "text") == 0 || strcmp(value, "json") == 0 || strcmp(value, "csv") == 0
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED, "--format: give text, json or csv");
+               : fault_set(f, STATUS_REFUSED, "--format %.40s: give text, json or csv", value);
 }
 
 static status read_record(const verb_option *o, void *member, const char *value, fault *f)
 {
     if (strcmp(value, "text") != 0 && strcmp(value, "json") != 0)
-        return fault_set(f, STATUS_REFUSED, "--format: give text or json");
+        return fault_set(f, STATUS_REFUSED, "--format %.40s: give text or json", value);
+    return read_format(o, member, value, f);
+}
+
+static status read_table(const verb_option *o, void *member, const char *value, fault *f)
+{
+    if (strcmp(value, "text") != 0 && strcmp(value, "csv") != 0)
+        return fault_set(f, STATUS_REFUSED, "--format %.40s: give text or csv", value);
     return read_format(o, member, value, f);
 }
 
@@ -311,6 +318,9 @@ static const verb_option record[] = {{"format", 0, "text|json",
                                       "format of the output (default text)", .traits = OPTION_ASIDE,
                                       .read = read_record},
                                      {0}};
+static const verb_option table[] = {{"format", 0, "text|csv", "format of the output (default text)",
+                                     .traits = OPTION_ASIDE, .read = read_table},
+                                    {0}};
 static const verb_option selection[] = {
     {"select", 'k', "EXPRESSION",
      "words joined by and, or, not and brackets; each is matched against "
@@ -348,6 +358,7 @@ const option_group options_output = {output_option, NULL, NULL, NULL};
 const option_group options_results = {cli_options_results, NULL, NULL, NULL};
 const option_group options_format = {format, begin_format, NULL, NULL};
 const option_group options_record = {record, begin_format, NULL, NULL};
+const option_group options_table = {table, begin_format, NULL, NULL};
 const option_group options_select = {selection, NULL, NULL, NULL};
 const option_group options_jobs = {jobs, begin_jobs, NULL, NULL};
 const option_group options_json = {json, NULL, NULL, NULL};

@@ -61,7 +61,7 @@ static const verb_option own[] = {
     {"keys", 0, NULL, "list all keys of scene files", IN(keys)},
     {0}};
 static const verb_group shared[] = {
-    SHARED(case, of), SHARED(output, output), SHARED(format, format), {NULL, 0}};
+    SHARED(case, of), SHARED(output, output), SHARED(record, format), {NULL, 0}};
 const verb verb_scene = {
     "scene",
     "[CASE]",

@@ -126,8 +126,6 @@ static int answer(const command_line *l, void *request)
         return message_fail(STATUS_REFUSED, "schema takes no case; it describes the files of all");
     if (r->format[0] == 'j')
         return message_exit(write_json(l->verbs, &f), &f);
-    if (r->format[0] == 'c')
-        return message_fail(STATUS_REFUSED, "schema is written as text or json");
     printf("%s, version %d\n", SCHEMA_NAME, SCHEMA_VERSION);
     for (int i = 0; results_about[i] != NULL; i++)
         paragraph_write(stdout, 0, 0, results_about[i]);
@@ -137,7 +135,7 @@ static int answer(const command_line *l, void *request)
 }
 
 #define IN(at) .member = offsetof(schema_request, at)
-static const verb_group shared[] = {SHARED(format, format), {NULL, 0}};
+static const verb_group shared[] = {SHARED(record, format), {NULL, 0}};
 const verb verb_schema = {"schema",
                           "",
                           "what the result file consists of: tables, columns, units",

@@ -98,8 +98,6 @@ static status prepare(sweep_options *r, const case_type *type, sweeping *s, faul
                           .select = r->select,
                           .tolerance = r->error > 0 ? r->error : 0.01,
                           .time_limit = r->chosen.time_limit};
-    if (strcmp(r->format, "json") == 0)
-        return fault_set(f, STATUS_REFUSED, "sweep writes text, csv, and HDF5 with -o FILE");
     TRY(read_design(r, q, f));
     TRY(files_check_results(r->of.line, 1, own_tables_packed(&r->truths), f));
     if (r->of.scene == NULL) {
@@ -202,7 +200,7 @@ static const verb_group shared[] = {SHARED(case, of),
                                     SHARED(time_limit, chosen),
                                     SHARED(truths, truths),
                                     SHARED(output, output),
-                                    SHARED(format, format),
+                                    SHARED(table, format),
                                     SHARED(jobs, shards.jobs),
                                     SHARED(shards, shards),
                                     {NULL, 0}};

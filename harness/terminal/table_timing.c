@@ -181,13 +181,22 @@ static void parts(FILE *to, const sweep *s, int at)
             parts_of(to, &s->series[i], k);
 }
 
+/* Returns 1 if the point contains a selected cell. */
+static int is_selected(const sweep *s, int at)
+{
+    int found = 0;
+    for (int i = 0; i < s->seriess; i++)
+        found |= s->series[i].point == at;
+    return found;
+}
+
 void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
 {
     reached *list = calloc((size_t)s->seriess + 1, sizeof *list);
     char *done = calloc((size_t)s->seriess + 1, 1);
     for (int p = 0; p < s->points && list != NULL && done != NULL; p++) {
         const sweep_point *here = &s->point[p];
-        if (!every_mesh && strcmp(here->name, "default") != 0)
+        if (!is_selected(s, p) || (!every_mesh && strcmp(here->name, "default") != 0))
             continue;
         fprintf(to, "%s%s%s\n", here->type->name, here->text[0] != '\0' ? " " : "", here->text);
         if (here->status == STATUS_OK)

@@ -318,7 +318,7 @@ class Going(ProgramTest):
                 (("elastica", "--vary", "load=1..2/3", "--seed", "3"), "--seed requires"),
                 (("elastica", "--vary", "load=1..2", "--design", "halton"), "--points N"),
                 (("elastica", "--vary", "load=1..2/3", "--error", "2"), "error"),
-                (("elastica", "--vary", "load=1..2/3", "--format", "json"), "text, csv"),
+                (("elastica", "--vary", "load=1..2/3", "--format", "json"), "--format json: give text or csv"),
                 (("coupled_beam", "--vary", "coupling=0.1,0.2", "-f", "beamw_vlasov"),
                  "does not support coupled section"),
                 (("c_column", "--vary", "height=0.4,0.5", "--set", "section_data=printed"),
