@@ -167,8 +167,7 @@ typedef struct element_type {
     const char *source;  /* paper and equations */
     const char *family; /* one word. Types of one family share code or theory, so their agreement is
                            weak evidence */
-    unsigned
-        offers; /* supported features as element_feature; these must agree with shear_theories */
+    unsigned offers;    /* supported features (element_feature), which agree with shear_theories */
     /* Returns the size of element_data [bytes]. */
     size_t (*data_size)(const element_request *);
     /* Prepares the data, once per kind of element. Rejects an unsupported request and states the

@@ -1,5 +1,4 @@
-/* A shear-deformable beam with two nodes in one file. The strains [m] are uniform along the
- * element:
+/* A shear-deformable beam with two nodes. The strains [m] are uniform along the element:
  *   d = Rm^T (rq - rp) - (l, 0, 0), where Rm is halfway from Rp to Rq, and l log(Rp^T Rq).
  * The derivatives of the strains are computed by finite differences.
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK timoshenko.c -o timoshenko.so
@@ -27,8 +26,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     const section *c = request->section;
     const double l = request->length;
     (void)f;
-    /* Transverse flexibility: shear if requested, and the bending that a uniform curvature does not
-     * represent. */
+    /* Transverse flexibility: shear, if requested, and bending that uniform curvature lacks. */
     out->length = l;
     const double shear = request->features & FEATURE_SHEAR ? l / c->shear_modulus : 0;
     const double Fy = shear * c->F[0] + l * l * l / (12 * c->young * c->Iz);

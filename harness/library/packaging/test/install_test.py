@@ -307,14 +307,14 @@ class Pages(ProgramTest):
         page = (self.folder / "api" / "beamwork_8h.html").read_text(encoding="utf-8")
         for name in re.findall(r"\b(bw_\w+)\(", LIBRARY.read_text(encoding="utf-8")):
             self.assertTrue(f">{name}</a>" in page or f"<b>{name}</b>" in page, name)
-        for words in ("<code>beamwork list --format json</code>", "as for --element: "):
+        for words in ("<code>beamwork list --format json</code>", "in the form of the option --element: "):
             self.assertTrue(words in page, words)
 
     def test_members_stand_in_their_groups(self):
         self.drawn()
         page = (self.folder / "api" / "structelement__type.html").read_text(encoding="utf-8")
-        self.assertTrue("Required: these two functions, or force instead" in page)
-        self.assertLess(page.index("Required: these two"), page.index("Optional: properties for"))
+        self.assertTrue("Either the next two functions or" in page)
+        self.assertLess(page.index("Either the next two"), page.index("Optional: properties for"))
         bits = (self.folder / "api" / "feature_8h.html").read_text(encoding="utf-8")
         self.assertTrue("initial curvature: initial curvature and strain" in bits)
 
