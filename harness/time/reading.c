@@ -276,9 +276,9 @@ static double place_size(const model *m, const model_state *s, int node, int tur
 
 double reading_rounding(const model *m, const scene_quantity *q, const model_state *s, double h)
 {
-    const scene_component *of = &q->what.of.component;
     if (q->what.kind != SCENE_RATE || q->what.of.rated.rate == SCENE_SPEED)
         return 0;
+    const scene_component *of = scene_component_of(q);
     const int third = q->what.of.rated.rate == SCENE_JERK;
     /* derivatives of the polynomial by the increment: at most 6/h^2 and 60/h^3 */
     return (third ? 60 : 6) * DBL_EPSILON * place_size(m, s, of->node, of->component >= SCENE_RX) /
