@@ -5,11 +5,11 @@ and the strains g, k in the axes of the section as unknowns, without displacemen
 rest, e = t + g, and the forces F and moments M of the strains, the equations are
   m v' + w x m v = F_s + k x F,  J w' + w x J w = M_s + k x M + e x F,
   g' = v_s + k x v + e x w,      k' = w_s + k x w.
-At rest, the section axes are the space axes. Velocities are polynomials with values at the Lobatto points, whose
-quadrature makes the mass diagonal. Strains are values at the Gauss points, of which there is one fewer. Products that
-cancel in the power cancel at each point, so the energy of the rod changes only by the work of the loads. Positions and
-quaternions of nodes are integrated in time. The time integration uses the explicit Runge-Kutta method of order 8 by
-Dormand and Prince, restarted at slope discontinuities of the load.
+At rest, the section axes are the space axes. In each element, velocities are polynomials defined by their values at the
+Lobatto points. Lobatto quadrature makes the mass matrix diagonal. Strains are defined by their values at the Gauss
+points, one fewer. Products that cancel in the power cancel at each point, so the energy of the rod changes only by the
+work of the loads. Positions and quaternions of nodes are integrated in time. The time integration uses the explicit
+Runge-Kutta method of order 8 by Dormand and Prince, restarted at slope discontinuities of the load.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
