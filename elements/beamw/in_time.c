@@ -145,7 +145,7 @@ static void set_point(const moving_line *c, int g, double mass, const double a[3
                       line_point *p)
 {
     const double *acceleration = place ? c->out->acceleration : NULL;
-    p->mass = 2 * c->d->weight[g] * mass; /* the mass is that of half of the element */
+    p->mass = 2 * c->d->weight[g] * mass; /* `mass` belongs to half of the element */
     p->part[0] = 1 - c->d->at[g];
     p->part[1] = c->d->at[g];
     p->shift = place;
