@@ -156,8 +156,9 @@ def of_speed(compared, rows):
 
 
 def of_trust(cases, rows):
-    """Returns the formulations that never have a wrong limit, the formulation with the most wrong limits, the cases of
-    these limits, and the number of derived limits."""
+    """Returns the formulations without a wrong limit or a failure, the formulation with the most wrong limits and up to
+    NAMED cases in which it has them, and the numbers of wrong, predicted and unexpected verdicts. Returns None without
+    rows."""
     if not rows:
         return None
     worst = max(rows, key=lambda r: (r.wrong, r.key))

@@ -319,7 +319,8 @@ static const char *elsewhere(const entry_field *table, const char *name)
     return NULL;
 }
 
-/* Returns the remedy for an unknown key: the nearest known key, or where all keys are listed. */
+/* Returns the remedy for an unknown key: what to write instead of a key of another program or in
+ * another place, the nearest known key, or otherwise the command that lists all keys. */
 static const char *remedy_of(const known_keys *known, const char *name, char text[FAULT_TEXT])
 {
     const char *other = elsewhere(known->table, name);

@@ -143,8 +143,8 @@ static int list_pages(void)
     return EXIT_AS_EXPECTED;
 }
 
-/* Writes the page with a name such as "beamwork.1", "beamwork-scene.5", "beamwork-solve.1" or
- * "solve". */
+/* Writes the manual page `name`: "beamwork.1", "beamwork-scene.5", "beamwork-results.5", or the
+ * page of a verb, such as "beamwork-solve.1" or "solve". */
 static int write_page(const char *name)
 {
     char bare[80];

@@ -163,8 +163,8 @@ static void check_one(const specimen *s, claims *c)
                  claims_open(c, "inertia forces rotate with the element", 1e-11));
 }
 
-/* Makes the checks, and repeats them without rotary inertia. In this case only the twist has a
- * moment of inertia. */
+/* Runs the checks. Unless the section is given by matrices or the formulation has no rotary
+ * inertia, the checks are repeated without it, so that only the twist has a moment of inertia. */
 static void check(const specimen *s, claims *c)
 {
     specimen_request what = s->made;

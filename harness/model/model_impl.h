@@ -137,7 +137,8 @@ struct model {
 };
 _Static_assert(offsetof(struct model, mesh) == 0, "model_mesh_of finds it by the model's address");
 
-/* Displacement and rotation of members between their ends, which are linear between the points. */
+/* Initial imperfections: displacements and rotations at points of members, interpolated linearly
+ * between the points. */
 struct model_imperfect {
     scene own;   /* scene with copies of nodes, members and loads */
     scene lines; /* copy of the scene in which only nodes are shifted, for the lines of members */

@@ -45,7 +45,7 @@ static json_t *truths_of(const subject *s, const truths *t)
     return list;
 }
 
-/* Adds the records of one kind of the first cell as a list with the name of their table. */
+/* Adds the first cell's records of one type to `root`, as a list under the name of their table. */
 static void add_list(json_t *root, const gathering *g, const record_type *type)
 {
     subjects list = {0};

@@ -382,9 +382,9 @@ typedef struct follow_walk {
 status follow_solve(follow_walk *, double value, const follow_shapes *before, follow_shapes *out,
                     double *least, fault *);
 
-/* Finds crossings in the last step. *least: the worst match found. Shapes that are exchanged within
- * one step (veering) do not match at the value where the frequencies would be equal. See
- * follow_match.c. */
+/* Finds crossings in the last step. *least: the worst match found. If modes veer within one step,
+ * they appear to cross. At the apparent crossing, however, their shapes do not match those of the
+ * previous sample, so *least falls below follow_sure and the step must be halved. */
 status follow_events_step(follow_walk *, double *least, fault *);
 /* Adds crossings at samples, and veerings, in the order of their parameter values. */
 status follow_events_rest(follow_walk *, fault *);

@@ -99,13 +99,14 @@ static void place_nodes(const conserving *s, const instant *from, const model_st
     place_turn(m, at, from, now, v);
 }
 
-/* Returns the nodes for which strains are evaluated. At the end of the step (point
- * DEFORMABLE_POINTS), e and J are needed. At the points before the end, J and H are needed. */
+/* Returns the nodes for which strains are evaluated. */
 static const node_state *nodes_of(const evaluation *v, int point)
 {
     return point < DEFORMABLE_POINTS ? v->point[point].x : v->last;
 }
 
+/* Returns the outputs to be computed at a point: e and J at the end of the step (point
+ * DEFORMABLE_POINTS), and J and H at the points before it. */
 static strain_output wanted(evaluation *v, int point)
 {
     return point < DEFORMABLE_POINTS

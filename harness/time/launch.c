@@ -1,5 +1,5 @@
-/* Initial accelerations are those of a stage with a very small compliance of positions. See
- * time_impl.h for coordinates without inertia. */
+/* Computes initial accelerations as a stage in which accelerations change while positions hardly
+ * move. See time_impl.h for coordinates without inertia. */
 #include "harness/time/time_impl.h"
 
 #include <float.h>
@@ -12,7 +12,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* compliance of positions, relative to the square of a step */
+/* 1/(b h^2), where a = a0 + b inc (stage_rates): change of position per unit change of
+ * acceleration, relative to h^2; so small that the positions hardly move */
 static const double softness = 1e-12;
 
 /* Sets the rates of the angles of a sequence such that their sum is the angular velocity. Fixed and

@@ -195,7 +195,7 @@ class KeysTest(SceneCase):
         self.assertEqual({one for one in wanted - tried if one[0][:1] != ("parts",)}, set())
 
 
-# Units, one length unit in metres and one force unit in newtons, and the names of the units of values.
+# Units, with one length unit in metres and one force unit in newtons.
 SYSTEMS = (("mm, N, MPa", 1e-3, 1), ("[mm, N]", 1e-3, 1), ("m, kN, kPa", 1, 1e3), ("in, lbf, psi", 0.0254, 4.4482216152605),
            ("cm, kN", 1e-2, 1e3), ("m, N, Pa", 1, 1))
 

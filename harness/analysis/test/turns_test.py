@@ -124,8 +124,8 @@ quantities:
                     self.assertEqual(found[q]["value"], value["value"], (formulation, name, q))
 
     def test_bent_column(self):
-        """A column that bends from the start loses no stiffness. Other equilibria that Newton's method finds beyond
-        Euler's load must not be reported as critical loads."""
+        """The stiffness of a column that bends from the start does not become singular. Other equilibria that Newton's
+        method finds beyond Euler's load must not be reported as critical loads."""
         scene = BAR + """loads: {p: {force: [-200, 0.5, 0], on: b}}
 analyses: {path: {static: {stations: [1]}}, b: {buckling: {about: path}}}
 quantities: {P: {critical_factor: {analysis: b}}}

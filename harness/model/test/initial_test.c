@@ -75,8 +75,8 @@ static void elongation(const char *name)
     gsl_test_rel(F[0], -EA * 1e-3, 1e-12, "%s: held at both ends it pushes with EA g", name);
 }
 
-/* The cross-sections slide against each other: the axis is inclined to the cross-sections, which do
- * not rotate. */
+/* The cross-sections slide relative to each other without rotating, so the axis is no longer normal
+ * to them. */
 static void shear(const char *name, int direction)
 {
     double g[3] = {0}, u[6] = {0}, F[6] = {0};
